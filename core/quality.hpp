@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/pslg.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+// The three angles of abc in degrees, at a, b and c. REQUIRES: no two corners equal.
+std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c);
+
+double signedArea(const Point& a, const Point& b, const Point& c);
+
+struct MeshQuality {
+  std::uint64_t vertices = 0;  // those that a triangle uses
+  std::uint64_t triangles = 0;
+  double area = 0.0;  // plane units squared
+  double min_angle_deg = 180.0;
+  double max_angle_deg = 0.0;
+  double shortest_edge = 0.0;  // plane units
+  double longest_edge = 0.0;
+  std::uint64_t below_bound = 0;            // triangles with an angle below `min_angle_deg` or above `max_angle_deg`
+  std::uint64_t below_bound_explained = 0;  // of them, those that lie at an input angle too small for the bound
+  std::array<std::uint64_t, 36> angle_histogram{};  // all angles of all triangles, in classes of five degrees
+
+  void add(const MeshQuality& other);
+};
+
+// `pslg` may be null: then nothing is explained.
+MeshQuality measureQuality(const TriMesh& mesh, const Pslg* pslg, double min_angle_deg, double max_angle_deg = 180.0);
+
+}  // namespace coastmesh

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "core/pslg.hpp"
+#include "core/run_control.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+// Where the point goes that mends a bad triangle.
+enum class Algorithm {
+  Circumcenter,  // Ruppert 1993: the triangle's circumcentre
+  Offcenter,     // Üngör 2004: the circumcentre, or nearer to the shortest edge
+  Optimal,       // Erten & Üngör 2007, Algorithm 1: the place in the petal furthest from every vertex
+  Relocate,      // Erten & Üngör 2007, Algorithm 2: move a vertex where that is enough, else as Optimal
+};
+
+struct RefineOptions {
+  double min_angle_deg = 33.0;                                // degrees, 0 to 45
+  double max_angle_deg = 180.0;                               // degrees, 60 to 180; 180 sets no bound
+  double size_max = std::numeric_limits<double>::infinity();  // longest edge, plane units, above 0
+  Algorithm algorithm = Algorithm::Relocate;
+  std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  // vertices in all, input included
+};
+
+// A triangle that falls short of what was asked, with no input angle to explain it.
+struct Shortfall {
+  Point place;           // the triangle's centroid
+  double min_angle_deg;  // its smallest angle
+  double max_angle_deg;
+};
+
+struct RefineStats {
+  std::uint64_t steiner_points = 0;        // vertices out minus vertices in
+  std::array<std::uint64_t, 4> by_type{};  // points inserted as types I to IV of the paper, Section 3
+  std::uint64_t segment_splits = 0;
+  std::uint64_t relocations = 0;
+  std::uint64_t removals = 0;  // vertices taken out again, by shrinking or on the way of a split
+  std::uint64_t merges = 0;    // two vertices replaced by one
+  bool budget_reached = false;
+  std::vector<Shortfall> unresolved;
+
+  void add(const RefineStats& other);
+};
+
+// Refines a mesh made by `constrainedDelaunay(pslg)` until every triangle that no input angle explains holds the
+// bounds, or until no further point helps. The result is valid, constrained Delaunay and compact in every case; what
+// falls short is in `unresolved`. Ends by itself: every vertex inserted keeps a distance that the input's own spacing
+// bounds from below. Throws Cancelled.
+RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
+
+// Takes out and merges vertices that the bounds do not need. REQUIRES: `mesh` as `refine` left it, with the same
+// options. `unresolved` in the result replaces that of `refine`. Throws Cancelled.
+RefineStats shrink(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
+
+}  // namespace coastmesh

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/pslg.hpp"
+#include "core/tri_mesh.hpp"
+#include "gis/clean.hpp"
+#include "gis/crs.hpp"
+
+namespace coastmesh {
+
+enum class BoundaryRole { Land, Island, Open };
+std::string_view toString(BoundaryRole role);
+
+// A chain of nodes on the rim with the mesh to the left; closed loops do not repeat their first node.
+struct Boundary {
+  BoundaryRole role = BoundaryRole::Land;
+  bool closed = true;
+  std::vector<std::uint32_t> nodes;
+};
+
+// Where a triangle came from.
+struct GridFeature {
+  std::int64_t fid = 0;
+  std::string source;
+  std::vector<std::pair<std::string, std::string>> attributes;
+};
+
+// A mesh as models and GIS know it: what writers write and readers read.
+struct Grid {
+  std::string title;
+  Crs crs;
+  std::vector<Point> nodes;                             // in `crs`; every node belongs to a triangle
+  std::vector<double> z;                                // metres, positive up; empty or one a node
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
+  std::vector<std::uint32_t> feature_of;                // empty or one a triangle: index into `features`
+  std::vector<double> min_angle_deg;                    // empty or one a triangle, measured in the working plane
+  std::vector<double> area_m2;                          // empty or one a triangle, on the ellipsoid
+  std::vector<GridFeature> features;
+  std::vector<Boundary> boundaries;
+};
+
+// The grid of several meshed domains, in their order. `coastline.features` gives names; nodes of the PSLG come back
+// with the input's own bits, Steiner points through the domain's inverse projection.
+struct MeshedDomain {
+  const Domain* domain = nullptr;
+  const TriMesh* mesh = nullptr;
+};
+Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline);
+
+// Rim loops as boundaries: the loop that goes counter-clockwise round each connected piece is land, the others islands.
+std::vector<Boundary> findBoundaries(const TriMesh& mesh);
+
+// The grid as a mesh in the plane of `projection` (for checks, figures and plots).
+TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts);
+
+}  // namespace coastmesh

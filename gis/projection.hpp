@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/point.hpp"
+#include "gis/coastline.hpp"
+#include "gis/crs.hpp"
+
+namespace coastmesh {
+
+// A map between the input's coordinates and the working plane, in metres where the input lies on Earth. Conformal
+// unless the user chose a CRS that is not. Cheap to copy; usable from several threads at once.
+class Projection {
+ public:
+  // The identity: coordinates are plane already (a CRS-less input, `--crs plane`).
+  static Projection plane();
+  // A conformal projection fitted to the extent of `features[members]`, on the ellipsoid of `crs`: transverse Mercator,
+  // Lambert conformal conic, polar or oblique stereographic. Crosses the antimeridian and the poles unharmed.
+  static Projection fitted(const Coastline& coastline, const std::vector<std::size_t>& members);
+  // The CRS of the user's choice. Throws InputError where no transformation exists.
+  static Projection to(const Crs& input, const Crs& working);
+
+  Point forward(const Point& input) const;
+  Point inverse(const Point& plane) const;
+  // Plane length over true length on the ellipsoid at a place of the plane. 1 for `plane()`.
+  double scaleAt(const Point& plane) const;
+  const std::string& description() const;  // for people: "transverse Mercator, central meridian -87.5°"
+
+  struct Impl;
+
+ private:
+  explicit Projection(std::shared_ptr<const Impl> impl);
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace coastmesh
