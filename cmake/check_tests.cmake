@@ -1,0 +1,12 @@
+# Tests that are scripts: that the checks fail where they must, and that an installed coastmesh can be used by others.
+add_test(NAME scripts.check-rooms COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-rooms --self-test)
+add_test(NAME scripts.check-words COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-words --self-test)
+add_test(NAME scripts.check-format COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-format --self-test)
+# Compiling a consumer with sanitizers would only test the same again.
+if(NOT COASTMESH_SANITIZE)
+  add_test(NAME package.consumer COMMAND ${CMAKE_COMMAND}
+    -DBUILD_DIR=${PROJECT_BINARY_DIR} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DGENERATOR=${CMAKE_GENERATOR}
+    -DCXX=${CMAKE_CXX_COMPILER} -DBUILD_TYPE=${CMAKE_BUILD_TYPE}
+    -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
+  set_tests_properties(package.consumer PROPERTIES TIMEOUT 300)
+endif()

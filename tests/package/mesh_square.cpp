@@ -1,0 +1,25 @@
+// Meshes a square with the core alone; exit code 1 where the mesh is not what was asked for.
+#include <cstdio>
+
+#include "core/check.hpp"
+#include "core/delaunay.hpp"
+#include "core/quality.hpp"
+#include "core/refine.hpp"
+
+int main() {
+  using namespace coastmesh;
+  Pslg square;
+  square.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 2}};
+  square.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  RefineOptions options;
+  options.min_angle_deg = 30;
+  TriMesh mesh = constrainedDelaunay(square);
+  const RefineStats stats = refine(mesh, square, options);
+  const MeshQuality quality = measureQuality(mesh, &square, options.min_angle_deg);
+  CheckOptions checks;
+  checks.min_angle_deg = options.min_angle_deg;
+  const bool sound = checkMesh(mesh, &square, checks).empty();
+  std::printf("%zu triangles, smallest angle %.3f degrees, %zu unresolved\n", mesh.triangles.size(),
+              quality.min_angle_deg, stats.unresolved.size());
+  return sound && quality.area == 16.0 && quality.min_angle_deg >= 30.0 && stats.unresolved.empty() ? 0 : 1;
+}
