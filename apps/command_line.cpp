@@ -1,0 +1,181 @@
+#include "apps/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace coastmesh {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string shortNumber(double value) {
+  std::string text = Json(value).dump();
+  if (text.ends_with(".0")) text.resize(text.size() - 2);
+  return text;
+}
+
+std::string rangeText(const NumberRange& range) {
+  const bool low = std::isfinite(range.low);
+  const bool high = std::isfinite(range.high);
+  if (low && high) return shortNumber(range.low) + " to " + shortNumber(range.high);
+  if (low) return range.low_open ? "above " + shortNumber(range.low) : shortNumber(range.low) + " or more";
+  if (high) return shortNumber(range.high) + " or less";
+  return {};
+}
+
+// "--shrink,!--no-shrink" as the names that a user may type.
+std::vector<std::string> splitNames(const std::string& names) {
+  std::vector<std::string> parts;
+  for (std::string name : CLI::detail::split(names, ',')) {
+    if (name.starts_with('!')) name.erase(0, 1);
+    parts.push_back(name);
+  }
+  return parts;
+}
+
+CLI::Validator rangeCheck(const NumberRange& range) {
+  return CLI::Validator(
+      [range](const std::string& text) -> std::string {
+        double value = 0.0;
+        const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        if (number && value <= range.high && (range.low_open ? value > range.low : value >= range.low)) return {};
+        const std::string wanted = rangeText(range);
+        return "'" + text + "' is not a number" + (wanted.empty() ? "" : " in the range " + wanted);
+      },
+      "");
+}
+
+}  // namespace
+
+struct CommandLine::Impl {
+  CLI::App* app = nullptr;
+  Json arguments = Json::array();
+  Json options = Json::array();
+
+  Json usage() const {
+    return {
+        {"command", app->get_name()}, {"help", app->get_description()}, {"arguments", arguments}, {"options", options}};
+  }
+
+  Json& record(const std::string& names, const std::string& type, const std::string& unit, const std::string& help) {
+    Json entry{{"name", splitNames(names).back()}, {"names", splitNames(names)}, {"type", type}, {"help", help}};
+    if (!unit.empty()) entry["unit"] = unit;
+    options.push_back(std::move(entry));
+    return options.back();
+  }
+};
+
+CommandLine::CommandLine(CLI::App& root, const std::string& name, const std::string& help)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->app = root.add_subcommand(name, help);
+  const Impl* impl = impl_.get();
+  impl_->app
+      ->add_flag_callback(
+          "--json-usage", [impl] { throw UsageText{impl->usage().dump(2) + "\n"}; }, "print this usage as JSON")
+      ->trigger_on_parse();
+}
+
+CommandLine::~CommandLine() = default;
+CommandLine::CommandLine(CommandLine&&) noexcept = default;
+
+void CommandLine::argument(const std::string& name, std::string& value, const std::string& help) {
+  impl_->app->add_option(name, value, help)->type_name("FILE")->required();
+  impl_->arguments.push_back({{"name", name}, {"type", "file"}, {"multiple", false}, {"help", help}});
+}
+
+void CommandLine::arguments(const std::string& name, std::vector<std::string>& values, const std::string& help) {
+  impl_->app->add_option(name, values, help)->type_name("FILE")->required();
+  impl_->arguments.push_back({{"name", name}, {"type", "file"}, {"multiple", true}, {"help", help}});
+}
+
+void CommandLine::number(const std::string& names, double& value, const std::string& unit, const NumberRange& range,
+                         const std::string& help, bool* given) {
+  const bool has_default = std::isfinite(value);
+  const std::string wanted = rangeText(range);
+  const auto store = [&value, given](double number) {
+    value = number;
+    if (given != nullptr) *given = true;
+  };
+  impl_->app->add_option_function<double>(names, store, help + (wanted.empty() ? "" : " (" + wanted + ")"))
+      ->type_name(unit)
+      ->check(rangeCheck(range))
+      ->default_str(has_default ? shortNumber(value) : "none");
+  Json& entry = impl_->record(names, "number", unit, help);
+  entry["default"] = has_default ? Json(value) : Json(nullptr);
+  if (std::isfinite(range.low)) entry[range.low_open ? "exclusive_minimum" : "minimum"] = range.low;
+  if (std::isfinite(range.high)) entry["maximum"] = range.high;
+}
+
+void CommandLine::integer(const std::string& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
+                          const std::string& help) {
+  const bool has_default = value != std::numeric_limits<std::uint64_t>::max();
+  const auto check = [low](const std::string& text) -> std::string {
+    std::uint64_t number = 0;
+    if (!text.starts_with('-') && CLI::detail::lexical_cast(text, number) && number >= low) return {};
+    return "'" + text + "' is not a whole number of " + std::to_string(low) + " or more";
+  };
+  impl_->app->add_option(names, value, help + " (" + std::to_string(low) + " or more)")
+      ->type_name(unit)
+      ->check(CLI::Validator(check, ""))
+      ->default_str(has_default ? std::to_string(value) : "none");
+  Json& entry = impl_->record(names, "integer", unit, help);
+  entry["default"] = has_default ? Json(value) : Json(nullptr);
+  entry["minimum"] = low;
+}
+
+void CommandLine::text(const std::string& names, std::string& value, const std::string& unit, const std::string& help) {
+  impl_->app->add_option(names, value, help)->type_name(unit)->default_str(value);
+  Json& entry = impl_->record(names, unit == "FILE" ? "file" : "text", unit, help);
+  entry["default"] = value.empty() ? Json(nullptr) : Json(value);
+}
+
+void CommandLine::requiredText(const std::string& names, std::string& value, const std::string& unit,
+                               const std::string& help) {
+  impl_->app->add_option(names, value, help)->type_name(unit)->required();
+  impl_->record(names, unit == "FILE" ? "file" : "text", unit, help)["required"] = true;
+}
+
+void CommandLine::texts(const std::string& names, std::vector<std::string>& values, const std::string& unit,
+                        bool required, const std::string& help) {
+  // One value a flag, so that `-o a.gpkg INPUT` does not take the input for an output.
+  impl_->app->add_option(names, values, help)->type_name(unit)->allow_extra_args(false)->required(required);
+  Json& entry = impl_->record(names, unit == "FILE" ? "file" : "text", unit, help);
+  entry["multiple"] = true;
+  entry["required"] = required;
+}
+
+void CommandLine::choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
+                         const std::string& help) {
+  const auto check = [choices](const std::string& text) -> std::string {
+    for (const std::string& choice : choices) {
+      if (text == choice) return {};
+    }
+    return "'" + text + "' is none of " + CLI::detail::join(choices, ", ");
+  };
+  impl_->app->add_option(names, value, help)
+      ->type_name(CLI::detail::join(choices, "|"))
+      ->check(CLI::Validator(check, ""))
+      ->default_str(value);
+  Json& entry = impl_->record(names, "choice", {}, help);
+  entry["default"] = value;
+  entry["choices"] = choices;
+}
+
+void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
+  const std::string shown = names.find('!') == std::string::npos ? help : help + (value ? " (on)" : " (off)");
+  impl_->app->add_flag(names, value, shown);
+  Json& entry = impl_->record(names, "flag", {}, help);
+  entry["name"] = names.find('!') == std::string::npos ? splitNames(names).back() : splitNames(names).front();
+  entry["default"] = value;
+}
+
+const std::string& CommandLine::name() const { return impl_->app->get_name(); }
+
+bool CommandLine::chosen() const { return impl_->app->parsed(); }
+
+std::string CommandLine::jsonUsage() const { return impl_->usage().dump(2) + "\n"; }
+
+}  // namespace coastmesh

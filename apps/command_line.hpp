@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace coastmesh {
+
+// The command line asks for what cannot be (exit code 2).
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Not an error: the text that --help, --version or --json-usage asked for, to be printed before the program ends.
+struct UsageText {
+  std::string text;
+};
+
+struct NumberRange {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;  // `low` itself is out
+};
+
+// The options of one command. Each is declared once, by one call: that declaration parses it, checks it, and is what
+// --help and --json-usage print. An option's default is what its variable holds when it is declared; the variables must
+// outlive the parsing.
+class CommandLine {
+ public:
+  CommandLine(CLI::App& root, const std::string& name, const std::string& help);
+  ~CommandLine();
+  CommandLine(CommandLine&&) noexcept;
+
+  // Arguments told by their place. Names are as the help shows them: "INPUT".
+  void argument(const std::string& name, std::string& value, const std::string& help);
+  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
+
+  // Options. Names are as CLI11 takes them: "-o,--output". `unit` is what the value is counted in ("DEG", "M"), or what
+  // it is ("FILE"). Numbers must be finite and within their range; an infinite default means none. `given`, where there
+  // is one, becomes true when the user gives the option.
+  void number(const std::string& names, double& value, const std::string& unit, const NumberRange& range,
+              const std::string& help, bool* given = nullptr);
+  void integer(const std::string& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
+               const std::string& help);
+  void text(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
+  void texts(const std::string& names, std::vector<std::string>& values, const std::string& unit, bool required,
+             const std::string& help);
+  void requiredText(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
+  void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
+              const std::string& help);
+  // "--shrink,!--no-shrink" declares a flag and its opposite.
+  void flag(const std::string& names, bool& value, const std::string& help);
+
+  const std::string& name() const;
+  bool chosen() const;  // whether this command is the one that was called
+
+  // The declarations as a JSON object, indented.
+  std::string jsonUsage() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,42 @@
+#include <memory>
+
+#include "apps/commands.hpp"
+#include "apps/exit_codes.hpp"
+#include "apps/grid_outputs.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct ConvertUsage {
+  std::string mesh;
+  std::vector<std::string> outputs;
+  std::string format;
+  bool overwrite = false;
+};
+
+int runConvert(const ConvertUsage& usage, Interrupt& interrupt) {
+  GridOutputs outputs(usage.outputs, usage.format, usage.overwrite, {usage.mesh}, interrupt);
+  const Grid grid = readGrid(usage.mesh);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    interrupt.check();
+    outputs.write(i, grid);
+  }
+  interrupt.close();
+  outputs.commit();
+  return kExitDone;
+}
+
+}  // namespace
+
+Command declareConvert(CLI::App& root) {
+  auto usage = std::make_shared<ConvertUsage>();
+  CommandLine line(root, "convert", "Write a mesh in other formats");
+  line.argument("MESH", usage->mesh, "mesh to read");
+  line.texts("-o,--output", usage->outputs, "FILE", true, "mesh to write; repeat it for several");
+  line.text("--format", usage->format, "NAME", "format of the output, where its ending does not tell");
+  line.flag("--overwrite", usage->overwrite, "replace files that exist");
+  return {std::move(line), [usage](Interrupt& interrupt) { return runConvert(*usage, interrupt); }};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/interrupt.hpp"
+#include "gis/grid_io.hpp"
+
+namespace coastmesh {
+
+// The mesh files that a command makes: all of them come into place together, once all are written.
+class GridOutputs {
+ public:
+  // `format` names the format of the one path there is then; empty takes every path's ending. Refuses two outputs of
+  // the same path and an output that is one of `inputs` (UsageError), existing targets unless `overwrite`
+  // (OutputError).
+  GridOutputs(const std::vector<std::string>& paths, const std::string& format, bool overwrite,
+              const std::vector<std::string>& inputs, Interrupt& interrupt);
+
+  std::size_t size() const { return outputs_.size(); }
+  void write(std::size_t index, const Grid& grid);  // throws OutputError
+  // Moves all into place. After Interrupt::close().
+  void commit();
+
+ private:
+  std::vector<StagedOutput> outputs_;
+};
+
+}  // namespace coastmesh

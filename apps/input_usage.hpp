@@ -1,0 +1,12 @@
+#pragma once
+
+#include "apps/command_line.hpp"
+#include "apps/job_input.hpp"
+
+namespace coastmesh {
+
+// Declares the options that say how an input becomes domains of the plane: --crs, --snap, --simplify,
+// --min-island-area.
+void declareInputOptions(CommandLine& line, InputOptions& options);
+
+}  // namespace coastmesh

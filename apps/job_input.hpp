@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gis/clean.hpp"
+#include "gis/coastline.hpp"
+#include "gis/crs.hpp"
+#include "gis/read_coastline.hpp"
+
+namespace coastmesh {
+
+// What to read, and how it becomes domains of the plane.
+struct InputOptions {
+  std::vector<std::string> files;   // vector files, or one .poly
+  std::string crs = "auto";         // the working plane: "auto", "plane" or anything that PROJ knows
+  double snap_m = 0.001;            // metres, 0 or more
+  bool snap_in_plane = false;       // `snap_m` holds for a plane input too, where else nothing is snapped
+  double simplify_m = 0.0;          // metres, 0 or more
+  double min_island_area_m2 = 0.0;  // square metres, 0 or more
+};
+
+// An input that was read and split into groups of features, each of which is meshed apart. A .poly is one group.
+class JobInput {
+ public:
+  explicit JobInput(const InputOptions& options);  // throws InputError
+
+  const Coastline& coastline() const { return coastline_; }
+  const ReadReport& report() const { return report_; }
+  bool isPoly() const { return poly_.has_value(); }
+  std::size_t groups() const { return groups_.size(); }
+  const std::vector<std::size_t>& members(std::size_t group) const { return groups_[group]; }
+  std::size_t pointsOf(std::size_t group) const;
+
+  // Projects and cleans a group. Throws InputError where nothing of it can be meshed. May be called from several
+  // threads at once.
+  Domain domain(std::size_t group, CleanReport& report) const;
+  // Square metres on the ellipsoid; none for a .poly, which says only with its holes what is inside.
+  std::optional<double> area(std::size_t group) const;
+
+ private:
+  void readPolyFile(const std::string& path);
+  Projection projectionOf(std::size_t group) const;
+
+  InputOptions options_;
+  Coastline coastline_;
+  ReadReport report_;
+  std::vector<std::vector<std::size_t>> groups_;
+  std::optional<Pslg> poly_;
+  std::optional<Crs> working_;  // where the user chose one
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/job_input.hpp"
+#include "core/quality.hpp"
+#include "core/refine.hpp"
+#include "gis/grid.hpp"
+#include "parallel/mesh_regions.hpp"
+
+namespace coastmesh {
+
+// What to mesh, and how.
+struct MeshJob {
+  InputOptions input;
+  MeshOptions mesh;  // `refine.max_vertices` holds for the whole; `refine.size_max` is set from `size_max_m`
+  double size_max_m = std::numeric_limits<double>::infinity();  // longest edge, metres on the ellipsoid, above 0
+  ParallelOptions parallel;
+};
+
+// How a job talks to whoever started it. Either function may be empty; `progress` is called from one thread at a time,
+// with the phases "read" and "refine" and the share of the phase that is done.
+struct JobControl {
+  std::function<bool()> cancelled;
+  std::function<void(std::string_view, double)> progress;
+};
+
+// A group of features that could not be meshed; the others were.
+struct Refusal {
+  std::string source;
+  std::vector<std::int64_t> fids;
+  std::string reason;
+};
+
+// A triangle short of the bounds that no input angle explains.
+struct ShortfallPlace {
+  Point place;  // in the input's CRS
+  double min_angle_deg = 0.0;
+  double max_angle_deg = 0.0;
+};
+inline constexpr std::size_t kShortfallPlaces = 1000;  // those past it are counted, not listed
+
+// Seconds; clean, triangulate, refine, shrink and check are summed over threads, the others are what a clock shows.
+struct PhaseSeconds {
+  double read = 0.0;
+  double clean = 0.0;
+  double triangulate = 0.0;
+  double refine = 0.0;
+  double shrink = 0.0;
+  double stitch = 0.0;
+  double check = 0.0;
+  double write = 0.0;
+  double total = 0.0;
+};
+
+struct MeshJobResult {
+  Grid grid;  // without a triangle where every feature was refused
+  ReadReport read;
+  Crs crs;
+  std::array<std::uint64_t, kEditKinds> edits{};
+  std::map<std::string, std::uint64_t> projections;  // description, and how many regions used it
+  std::uint64_t regions = 0;                         // groups of features that were meshed
+  RefineStats refine;                                // `unresolved` is empty: see below
+  std::uint64_t unresolved = 0;
+  std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them
+  std::vector<Refusal> refusals;
+  MeshQuality quality;
+  std::optional<double> input_area_m2;  // of what was meshed; none for a .poly
+  double mesh_area_m2 = 0.0;
+  std::uint64_t digest = 0;
+  PhaseSeconds seconds;
+
+  bool complete() const { return unresolved == 0 && !refine.budget_reached && refusals.empty(); }
+};
+
+// A mesh failed its own check: a bug of coastmesh.
+struct BadMesh : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+// Reads, projects, cleans, meshes and checks. Nothing but `seconds` depends on the number of threads. Throws
+// InputError, Cancelled, BadMesh.
+MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control = {});
+
+}  // namespace coastmesh

@@ -1,0 +1,152 @@
+#include "apps/mesh_report.hpp"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace coastmesh {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json inputSection(const MeshJob& job, const MeshJobResult& result) {
+  Json projections = Json::object();
+  for (const auto& [description, count] : result.projections) projections[description] = count;
+  Json refused = Json::array();
+  for (const Refusal& refusal : result.refusals) {
+    refused.push_back({{"source", refusal.source}, {"fids", refusal.fids}, {"reason", refusal.reason}});
+  }
+  return {{"files", job.input.files},
+          {"features", result.read.features},
+          {"rings", result.read.rings},
+          {"points", result.read.points},
+          {"skipped_empty", result.read.skipped_empty},
+          {"skipped_points", result.read.skipped_points},
+          {"crs", result.crs.authority.empty() ? result.crs.wkt : result.crs.authority},
+          {"projections", std::move(projections)},
+          {"area_m2", orNull(result.input_area_m2)},
+          {"refused", std::move(refused)},
+          {"warnings", result.read.warnings}};
+}
+
+Json cleanSection(const MeshJobResult& result) {
+  Json section = Json::object();
+  for (std::size_t kind = 0; kind < kEditKinds; ++kind) {
+    section[std::string(toString(static_cast<EditKind>(kind)))] = result.edits[kind];
+  }
+  return section;
+}
+
+Json unresolvedSection(const MeshJobResult& result) {
+  const char* x = result.crs.geographic ? "lon" : "x";
+  const char* y = result.crs.geographic ? "lat" : "y";
+  Json places = Json::array();
+  for (const ShortfallPlace& shortfall : result.unresolved_places) {
+    places.push_back({{x, shortfall.place.x},
+                      {y, shortfall.place.y},
+                      {"min_angle_deg", shortfall.min_angle_deg},
+                      {"max_angle_deg", shortfall.max_angle_deg}});
+  }
+  return {{"count", result.unresolved}, {"places", std::move(places)}};
+}
+
+Json refineSection(const MeshJob& job, const MeshJobResult& result) {
+  const RefineOptions& options = job.mesh.refine;
+  const RefineStats& stats = result.refine;
+  return {{"algorithm", kAlgorithmNames[static_cast<std::size_t>(options.algorithm)]},
+          {"min_angle_deg", options.min_angle_deg},
+          {"max_angle_deg", options.max_angle_deg},
+          {"size_max_m", finiteOrNull(job.size_max_m)},
+          {"shrink", job.mesh.shrink},
+          {"steiner_points", stats.steiner_points},
+          {"by_type",
+           {{"I", stats.by_type[0]}, {"II", stats.by_type[1]}, {"III", stats.by_type[2]}, {"IV", stats.by_type[3]}}},
+          {"segment_splits", stats.segment_splits},
+          {"relocations", stats.relocations},
+          {"removals", stats.removals},
+          {"merges", stats.merges},
+          {"regions", result.regions},
+          {"budget_reached", stats.budget_reached},
+          {"unresolved", unresolvedSection(result)}};
+}
+
+Json meshSection(const MeshJobResult& result) {
+  const MeshQuality& quality = result.quality;
+  const bool any = quality.triangles > 0;
+  return {{"vertices", quality.vertices},
+          {"triangles", quality.triangles},
+          {"area_m2", result.mesh_area_m2},
+          {"min_angle_deg", any ? Json(quality.min_angle_deg) : Json(nullptr)},
+          {"max_angle_deg", any ? Json(quality.max_angle_deg) : Json(nullptr)},
+          {"below_bound", quality.below_bound},
+          {"below_bound_explained", quality.below_bound_explained},
+          {"angle_histogram", quality.angle_histogram},
+          {"digest", digestText(result.digest)}};
+}
+
+Json timeSection(const PhaseSeconds& seconds) {
+  return {{"read", seconds.read},     {"clean", seconds.clean},   {"triangulate", seconds.triangulate},
+          {"refine", seconds.refine}, {"shrink", seconds.shrink}, {"stitch", seconds.stitch},
+          {"check", seconds.check},   {"write", seconds.write},   {"total", seconds.total}};
+}
+
+// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3;) {
+    at -= 3;
+    text.insert(at, ",");
+  }
+  return text;
+}
+
+}  // namespace
+
+double peakMemoryMib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+std::string digestText(std::uint64_t digest) {
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(digest));
+  return text;
+}
+
+std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads) {
+  const Json report{{"coastmesh", COASTMESH_VERSION},     {"input", inputSection(job, result)},
+                    {"clean", cleanSection(result)},      {"refine", refineSection(job, result)},
+                    {"mesh", meshSection(result)},        {"time_s", timeSection(result.seconds)},
+                    {"peak_memory_mib", peakMemoryMib()}, {"threads", threads}};
+  // Names in the input need not be UTF-8.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
+  const MeshQuality& quality = result.quality;
+  char figures[200];
+  std::snprintf(figures, sizeof figures, "smallest angle %.2f, largest %.2f degrees; %.2f s, %.0f MiB",
+                quality.min_angle_deg, quality.max_angle_deg, result.seconds.total, peakMemoryMib());
+  std::string text = grouped(quality.vertices) + " vertices, " + grouped(quality.triangles) + " triangles, " +
+                     grouped(result.refine.steiner_points) + " Steiner points\n" + figures + "\n";
+  if (quality.below_bound_explained > 0) {
+    text += grouped(quality.below_bound_explained) + " triangles at input angles too small for the bound\n";
+  }
+  if (result.unresolved > 0) {
+    char bound[40];
+    std::snprintf(bound, sizeof bound, "%g", job.mesh.refine.min_angle_deg);
+    text += grouped(result.unresolved) + " triangles fall short of what was asked (at least " + bound + " degrees)\n";
+  }
+  if (result.refine.budget_reached) text += "the vertex budget was reached before all angles were good\n";
+  return text;
+}
+
+}  // namespace coastmesh

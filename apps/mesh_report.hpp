@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "apps/mesh_job.hpp"
+
+namespace coastmesh {
+
+// The names that --algorithm takes, in the order of `Algorithm`.
+inline constexpr const char* kAlgorithmNames[] = {"circumcenter", "offcenter", "optimal", "relocate"};
+
+// The report of a job as JSON text, its keys as apps/README.md documents them. `threads` is what the job ran on.
+std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads);
+
+// A few lines for people.
+std::string meshSummary(const MeshJob& job, const MeshJobResult& result);
+
+// The most memory that the process has held, in MiB.
+double peakMemoryMib();
+
+std::string digestText(std::uint64_t digest);  // 16 hexadecimal digits
+
+}  // namespace coastmesh

@@ -1,0 +1,57 @@
+#include "apps/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/commands.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+std::string wholeUsage(const std::vector<Command>& commands) {
+  using Json = nlohmann::ordered_json;
+  Json usage{{"coastmesh", COASTMESH_VERSION}, {"commands", Json::array()}};
+  for (const Command& command : commands) usage["commands"].push_back(Json::parse(command.line.jsonUsage()));
+  return usage.dump(2) + "\n";
+}
+
+// CLI11's messages may take several lines; ours are one sentence.
+std::string oneLine(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+int runProgram(int argc, char** argv, Interrupt& interrupt) {
+  CLI::App app("Turns coastlines and lakes into triangle meshes for ocean and lake models", "coastmesh");
+  app.set_version_flag("--version", std::string("coastmesh ") + COASTMESH_VERSION);
+  app.require_subcommand(1);
+  std::vector<Command> commands;
+  app.add_flag_callback(
+         "--json-usage", [&commands] { throw UsageText{wholeUsage(commands)}; }, "print all commands' usage as JSON")
+      ->trigger_on_parse();
+  for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareClean}) {
+    commands.push_back(declare(app));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(oneLine(error.what()) + "; coastmesh VERB --help shows what there is");
+  }
+  for (Command& command : commands) {
+    if (command.line.chosen()) return command.run(interrupt);
+  }
+  throw std::logic_error("a command was parsed that was never declared");
+}
+
+}  // namespace coastmesh
