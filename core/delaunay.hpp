@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "core/pslg.hpp"

@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
-#include "core/pslg.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -19,7 +19,7 @@ struct MeshQuality {
   double area = 0.0;  // plane units squared
   double min_angle_deg = 180.0;
   double max_angle_deg = 0.0;
-  double shortest_edge = 0.0;  // plane units
+  double shortest_edge = std::numeric_limits<double>::infinity();  // plane units
   double longest_edge = 0.0;
   std::uint64_t below_bound = 0;            // triangles with an angle below `min_angle_deg` or above `max_angle_deg`
   std::uint64_t below_bound_explained = 0;  // of them, those that lie at an input angle too small for the bound
@@ -28,7 +28,8 @@ struct MeshQuality {
   void add(const MeshQuality& other);
 };
 
-// `pslg` may be null: then nothing is explained.
-MeshQuality measureQuality(const TriMesh& mesh, const Pslg* pslg, double min_angle_deg, double max_angle_deg = 180.0);
+// What an input angle explains is told from the mesh itself: its rim, its constraints, and which vertices are input
+// (`TriMesh::input_vertices`; where that is 0, every vertex of the rim may be).
+MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg = 180.0);
 
 }  // namespace coastmesh

@@ -102,9 +102,8 @@ std::vector<std::vector<VertexId>> rimLoops(const TriMesh& mesh) {
       loops.push_back(std::move(loop));
     }
   }
-  std::ranges::stable_sort(loops, [&](const auto& a, const auto& b) {
-    return lexLess(mesh.points[a.front()], mesh.points[b.front()]);
-  });
+  std::ranges::stable_sort(
+      loops, [&](const auto& a, const auto& b) { return lexLess(mesh.points[a.front()], mesh.points[b.front()]); });
   return loops;
 }
 

@@ -40,6 +40,8 @@ struct TriMesh {
   std::vector<RegionId> regions;  // one a triangle: the feature it belongs to
   VertexId input_vertices = 0;
 
+  const Point& point(VertexId v) const { return points[v]; }
+  const Triangle& triangle(TriId t) const { return triangles[t]; }
   VertexId origin(EdgeRef e) const { return triangles[triOf(e)].v[next3(indexOf(e))]; }
   VertexId target(EdgeRef e) const { return triangles[triOf(e)].v[prev3(indexOf(e))]; }
   VertexId apex(EdgeRef e) const { return triangles[triOf(e)].v[indexOf(e)]; }

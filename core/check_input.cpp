@@ -1,0 +1,202 @@
+#include "core/check_input.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "core/delaunay.hpp"
+#include "core/metric.hpp"
+#include "core/quality.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// What of the PSLG has to be in the mesh.
+struct Expected {
+  std::vector<bool> vertices;
+  std::vector<bool> segments;
+  double area = 0.0;
+};
+
+bool isLabelled(const Pslg& pslg) {
+  return std::ranges::any_of(pslg.segments,
+                             [](const Segment& s) { return s.left != kUnlabelled || s.right != kUnlabelled; });
+}
+
+Expected expectFromLabels(const Pslg& pslg) {
+  Expected expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
+  // Relative to a point of the domain, lest large coordinates drown the area.
+  const Point o = pslg.points.front();
+  for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
+    const Segment& seg = pslg.segments[s];
+    // A segment without labels is an open line inside the domain.
+    const bool inside = seg.left >= 0 || seg.right >= 0 || (seg.left == kUnlabelled && seg.right == kUnlabelled);
+    if (!inside) continue;
+    expected.segments[s] = expected.vertices[seg.a] = expected.vertices[seg.b] = true;
+    const double swept = 0.5 * cross(pslg.points[seg.a] - o, pslg.points[seg.b] - o);
+    if (seg.left >= 0) expected.area += swept;
+    if (seg.right >= 0) expected.area -= swept;
+  }
+  return expected;
+}
+
+double totalArea(const TriMesh& mesh) {
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    area += signedArea(mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]);
+  return area;
+}
+
+Expected expectFromTriangulation(const Pslg& pslg) {
+  Expected expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
+  const TriMesh coarse = constrainedDelaunay(pslg);
+  for (const Triangle& t : coarse.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      expected.vertices[t.v[i]] = true;
+      if (t.seg[i] != kNone) expected.segments[t.seg[i]] = true;
+    }
+  }
+  expected.area = totalArea(coarse);
+  return expected;
+}
+
+void checkArea(const TriMesh& mesh, double expected, double tolerance, std::vector<MeshDefect>& defects) {
+  const double error = std::abs(totalArea(mesh) - expected) / expected;
+  if (!(error <= tolerance)) defects.push_back({DefectKind::WrongArea, mesh.points.front(), kNone, error});
+}
+
+struct Piece {
+  double from;  // share of the way along the segment
+  double to;
+  VertexId a;
+  VertexId b;
+};
+
+// The pieces are one chain from one end to the other that does not leave the segment but for rounding.
+bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::vector<Piece>& pieces) {
+  std::ranges::sort(pieces, {}, &Piece::from);
+  if (pieces.empty() || pieces.front().a != seg.a || pieces.back().b != seg.b) return false;
+  const Point &a = pslg.points[seg.a], &b = pslg.points[seg.b];
+  const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+  const double room = 8.0 * std::numeric_limits<double>::epsilon() * magnitude * distance(a, b);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (i > 0 && pieces[i].a != pieces[i - 1].b) return false;
+    if (std::abs(cross(b - a, mesh.points[pieces[i].b] - a)) > room) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects) {
+  const Expected expected = isLabelled(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
+  std::vector<bool> used(mesh.points.size(), false);
+  std::vector<std::vector<Piece>> pieces(pslg.segments.size());
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      used[mesh.triangles[t].v[i]] = true;
+      const EdgeRef e = edgeRef(t, i);
+      const SegmentId s = mesh.segment(e);
+      if (s == kNone || (mesh.twin(e) != kNone && mesh.twin(e) < e)) continue;
+      if (s >= pslg.segments.size()) {
+        defects.push_back({DefectKind::BrokenTopology, mesh.points[mesh.origin(e)], t});
+        continue;
+      }
+      const Point &a = pslg.points[pslg.segments[s].a], &b = pslg.points[pslg.segments[s].b];
+      const auto share = [&](VertexId v) { return dot(mesh.points[v] - a, b - a) / squaredDistance(a, b); };
+      Piece piece{share(mesh.origin(e)), share(mesh.target(e)), mesh.origin(e), mesh.target(e)};
+      if (piece.from > piece.to) piece = {piece.to, piece.from, piece.b, piece.a};
+      pieces[s].push_back(piece);
+    }
+  }
+  for (VertexId v = 0; v < pslg.points.size(); ++v) {
+    const bool same =
+        v < mesh.points.size() &&
+        std::bit_cast<std::uint64_t>(mesh.points[v].x) == std::bit_cast<std::uint64_t>(pslg.points[v].x) &&
+        std::bit_cast<std::uint64_t>(mesh.points[v].y) == std::bit_cast<std::uint64_t>(pslg.points[v].y);
+    if (expected.vertices[v] && !(same && used[v])) defects.push_back({DefectKind::MissingVertex, pslg.points[v]});
+  }
+  for (SegmentId s = 0; s < pslg.segments.size(); ++s)
+    if (expected.segments[s] && !isChain(mesh, pslg, pslg.segments[s], pieces[s]))
+      defects.push_back(
+          {DefectKind::MissingSegment, midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b])});
+  checkArea(mesh, expected.area, 1e-9, defects);
+}
+
+namespace {
+
+struct PointHash {
+  std::size_t operator()(const Point& p) const {
+    const std::uint64_t x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
+    return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15ull) ^ std::rotl(y * 0xC90FDAA22168C235ull, 31));
+  }
+};
+
+// Marks the edges on the way from one vertex straight to another. Answers false where the edges leave the straight way.
+bool markChain(TriMesh& mesh, const std::vector<std::vector<EdgeRef>>& around, VertexId from, VertexId to,
+               SegmentId seg) {
+  constexpr double kDirectionRounding = 1e-6;
+  VertexId at = from;
+  // Every step comes nearer to the end, so no vertex is met twice.
+  while (at != to) {
+    const Point way = mesh.points[to] - mesh.points[at];
+    const double left = std::sqrt(squaredLength(way));
+    EdgeRef best = kNone;
+    double best_sine = kDirectionRounding;
+    for (const EdgeRef e : around[at]) {
+      const VertexId other = mesh.origin(e) == at ? mesh.target(e) : mesh.origin(e);
+      const Point step = mesh.points[other] - mesh.points[at];
+      const double length = std::sqrt(squaredLength(step));
+      if (dot(step, way) <= 0.0 || (other != to && length >= left)) continue;
+      const double sine = other == to ? 0.0 : std::abs(cross(step, way)) / (length * left);
+      if (sine > best_sine || (best != kNone && sine == best_sine)) continue;
+      best_sine = sine;
+      best = e;
+    }
+    if (best == kNone) return false;
+    mesh.triangles[triOf(best)].seg[indexOf(best)] = seg;
+    if (const EdgeRef twin = mesh.twin(best); twin != kNone) mesh.triangles[triOf(twin)].seg[indexOf(twin)] = seg;
+    at = mesh.origin(best) == at ? mesh.target(best) : mesh.origin(best);
+  }
+  return true;
+}
+
+}  // namespace
+
+void checkAgainstInputByPlace(TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects) {
+  const Expected expected = isLabelled(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
+  std::unordered_map<Point, VertexId, PointHash> at;
+  for (VertexId v = 0; v < mesh.points.size(); ++v) at.emplace(mesh.points[v], v);
+  std::vector<VertexId> vertex(pslg.points.size(), kNone);
+  for (VertexId v = 0; v < pslg.points.size(); ++v) {
+    if (!expected.vertices[v]) continue;
+    const auto found = at.find(pslg.points[v]);
+    if (found != at.end()) {
+      vertex[v] = found->second;
+    } else {
+      defects.push_back({DefectKind::MissingVertex, pslg.points[v]});
+    }
+  }
+  std::vector<std::vector<EdgeRef>> around(mesh.points.size());
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;
+      around[mesh.origin(e)].push_back(e);
+      around[mesh.target(e)].push_back(e);
+    }
+  }
+  for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
+    if (!expected.segments[s]) continue;
+    const VertexId a = vertex[pslg.segments[s].a], b = vertex[pslg.segments[s].b];
+    if (a == kNone || b == kNone || !markChain(mesh, around, a, b, s))
+      defects.push_back(
+          {DefectKind::MissingSegment, midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b])});
+  }
+  checkArea(mesh, expected.area, 1e-6, defects);
+}
+
+}  // namespace coastmesh

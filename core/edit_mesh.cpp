@@ -1,0 +1,385 @@
+#include "core/edit_mesh.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+EditMesh::EditMesh(TriMesh&& mesh)
+    : points_(std::move(mesh.points)),
+      triangles_(std::move(mesh.triangles)),
+      kinds_(points_.size(), VertexKind::Free),
+      triangle_of_(points_.size(), kNone),
+      input_vertices_(mesh.input_vertices) {
+  std::fill_n(kinds_.begin(), input_vertices_, VertexKind::Input);
+  for (TriId t = 0; t < triangles_.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      triangle_of_[triangles_[t].v[i]] = t;
+      if (triangles_[t].seg[i] == kNone) continue;
+      for (const VertexId v : {origin(edgeRef(t, i)), target(edgeRef(t, i))})
+        if (v >= input_vertices_) kinds_[v] = VertexKind::Segment;
+    }
+  }
+}
+
+std::vector<VertexId> EditMesh::numbering() const {
+  std::vector<VertexId> number(points_.size(), kNone);
+  VertexId next = 0;
+  for (VertexId v = 0; v < points_.size(); ++v)
+    if (v < input_vertices_ || isLiveVertex(v)) number[v] = next++;
+  return number;
+}
+
+TriMesh EditMesh::release() {
+  const std::vector<VertexId> vertex_number = numbering();
+  std::vector<TriId> triangle_number(triangles_.size(), kNone);
+  TriId count = 0;
+  for (TriId t = 0; t < triangles_.size(); ++t)
+    if (isLive(t)) triangle_number[t] = count++;
+
+  TriMesh mesh;
+  mesh.input_vertices = input_vertices_;
+  for (VertexId v = 0; v < points_.size(); ++v)
+    if (vertex_number[v] != kNone) points_[vertex_number[v]] = points_[v];
+  points_.resize(vertex_number.empty() ? 0 : vertexCount());
+  mesh.points = std::move(points_);
+  for (TriId t = 0; t < triangles_.size(); ++t) {
+    if (triangle_number[t] == kNone) continue;
+    Triangle moved = triangles_[t];
+    for (unsigned i = 0; i < 3; ++i) {
+      moved.v[i] = vertex_number[moved.v[i]];
+      if (moved.adj[i] != kNone) moved.adj[i] = edgeRef(triangle_number[triOf(moved.adj[i])], indexOf(moved.adj[i]));
+    }
+    triangles_[triangle_number[t]] = moved;
+  }
+  triangles_.resize(count);
+  mesh.triangles = std::move(triangles_);
+  return mesh;
+}
+
+bool EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite) const {
+  opposite.clear();
+  // Clockwise to the rim, or once round.
+  const TriId home = triangle_of_[v];
+  TriId t = home;
+  bool closed = false;
+  while (true) {
+    const EdgeRef before = triangles_[t].adj[prev3(cornerOf(t, v))];
+    if (before == kNone) break;
+    t = triOf(before);
+    if (t == home) {
+      closed = true;
+      break;
+    }
+  }
+  const TriId first = t;
+  while (true) {
+    const unsigned i = cornerOf(t, v);
+    opposite.push_back(edgeRef(t, i));
+    const EdgeRef after = triangles_[t].adj[next3(i)];
+    if (after == kNone) return closed;
+    t = triOf(after);
+    if (t == first) return true;
+  }
+}
+
+bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) const {
+  patch.triangles.clear();
+  patch.rim.clear();
+  const auto isGone = [&](VertexId v) { return std::ranges::find(vertices, v) != vertices.end(); };
+  for (const VertexId v : vertices) {
+    const TriId home = triangle_of_[v];
+    TriId t = home;
+    do {
+      const unsigned i = cornerOf(t, v);
+      const EdgeRef opposite = edgeRef(t, i);
+      const bool known = vertices.size() > 1 && std::ranges::find(patch.triangles, t) != patch.triangles.end();
+      if (!known) patch.triangles.push_back(t);
+      if (!isGone(origin(opposite)) && !isGone(target(opposite)))
+        patch.rim.push_back({origin(opposite), target(opposite), twin(opposite), segment(opposite)});
+      const EdgeRef after = triangles_[t].adj[next3(i)];
+      if (after == kNone) return false;
+      t = triOf(after);
+    } while (t != home);
+  }
+  if (vertices.size() == 1) return true;
+  // An edge between two triangles of the patch is no rim (three vertices in a ring can have that); chain the rest.
+  for (std::size_t i = 0; i < patch.rim.size(); ++i) {
+    if (patch.rim[i].beyond != kNone &&
+        std::ranges::find(patch.triangles, triOf(patch.rim[i].beyond)) != patch.triangles.end())
+      return false;
+    if (i + 1 == patch.rim.size()) break;
+    const auto follower = std::find_if(patch.rim.begin() + i + 1, patch.rim.end(),
+                                       [&](const RimEdge& r) { return r.a == patch.rim[i].b; });
+    if (follower == patch.rim.end()) return false;
+    std::iter_swap(patch.rim.begin() + i + 1, follower);
+  }
+  if (patch.rim.back().b != patch.rim.front().a) return false;
+  // A vertex that the loop passes twice pinches the patch.
+  for (std::size_t i = 0; i < patch.rim.size(); ++i)
+    for (std::size_t j = i + 1; j < patch.rim.size(); ++j)
+      if (patch.rim[i].a == patch.rim[j].a) return false;
+  return true;
+}
+
+EditMesh::Place EditMesh::locate(const Point& x, TriId from) const {
+  TriId t = from;
+  EdgeRef came = kNone;
+  for (TriId steps = 0; steps <= triangleSlots(); ++steps) {
+    EdgeRef onward = kNone, blocked = kNone;
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (e == came || orient2d(points_[origin(e)], points_[target(e)], x) >= 0) continue;
+      if (isConstrained(e)) {
+        blocked = e;
+      } else {
+        onward = e;
+        break;
+      }
+    }
+    if (onward != kNone) {
+      came = twin(onward);
+      t = triOf(came);
+    } else if (blocked != kNone) {
+      return {kNone, blocked};
+    } else {
+      return {t, kNone};
+    }
+  }
+  return {};
+}
+
+// Goes through the triangles beyond the edges on the stack, last one first, so that the rim comes out in order.
+void EditMesh::collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const {
+  stack_.assign(across.rbegin(), across.rend());
+  while (!stack_.empty()) {
+    const EdgeRef e = stack_.back();
+    stack_.pop_back();
+    const EdgeRef beyond = twin(e);
+    if (!isConstrained(e)) {
+      const TriId n = triOf(beyond);
+      const Triangle& other = triangles_[n];
+      if (inCircle(points_[other.v[0]], points_[other.v[1]], points_[other.v[2]], x) > 0) {
+        cavity.triangles.push_back(n);
+        stack_.push_back(edgeRef(n, prev3(indexOf(beyond))));
+        stack_.push_back(edgeRef(n, next3(indexOf(beyond))));
+        continue;
+      }
+    }
+    cavity.rim.push_back({origin(e), target(e), beyond, segment(e)});
+  }
+}
+
+bool EditMesh::findCavity(const Point& x, TriId start, Patch& cavity) const {
+  cavity.triangles.assign(1, start);
+  cavity.rim.clear();
+  const EdgeRef all[3] = {edgeRef(start, 0), edgeRef(start, 1), edgeRef(start, 2)};
+  collectConflicts(x, all, cavity);
+  return std::ranges::all_of(cavity.rim, [&](const RimEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
+}
+
+TriId EditMesh::newTriangle() {
+  if (free_triangles_.empty()) {
+    triangles_.emplace_back();
+    return static_cast<TriId>(triangles_.size() - 1);
+  }
+  const TriId t = free_triangles_.back();
+  free_triangles_.pop_back();
+  return t;
+}
+
+VertexId EditMesh::addVertex(const Point& x, VertexKind kind) {
+  VertexId v;
+  if (free_vertices_.empty()) {
+    v = static_cast<VertexId>(points_.size());
+    points_.push_back(x);
+    kinds_.push_back(kind);
+    triangle_of_.push_back(kNone);
+  } else {
+    v = free_vertices_.back();
+    free_vertices_.pop_back();
+    points_[v] = x;
+    kinds_[v] = kind;
+  }
+  return v;
+}
+
+void EditMesh::kill(TriId t) {
+  triangles_[t].v[0] = kNone;
+  free_triangles_.push_back(t);
+}
+
+void EditMesh::write(TriId t, const Corners& corners) {
+  assert(corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]);
+  triangles_[t].v = corners;
+  for (const VertexId v : corners) triangle_of_[v] = t;
+}
+
+void EditMesh::link(EdgeRef e, EdgeRef f, SegmentId seg) {
+  assert(e != kNone);
+  triangles_[triOf(e)].adj[indexOf(e)] = f;
+  triangles_[triOf(e)].seg[indexOf(e)] = seg;
+  if (f == kNone) return;
+  assert(origin(e) == target(f) && target(e) == origin(f));
+  triangles_[triOf(f)].adj[indexOf(f)] = e;
+  triangles_[triOf(f)].seg[indexOf(f)] = seg;
+}
+
+// Triangles (x, a, b) over the rim edges a -> b, linked to what lies beyond and to one another, but not first to last.
+void EditMesh::fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan) {
+  fan.clear();
+  for (std::size_t i = 0; i < cavity.rim.size(); ++i)
+    fan.push_back(i < cavity.triangles.size() ? cavity.triangles[i] : newTriangle());
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    const RimEdge& r = cavity.rim[i];
+    write(fan[i], {x, r.a, r.b});
+    link(edgeRef(fan[i], 0), r.beyond, r.seg);
+    if (i > 0) link(edgeRef(fan[i], 2), edgeRef(fan[i - 1], 1), kNone);
+  }
+}
+
+VertexId EditMesh::insertInCavity(const Point& x, const Patch& cavity, std::vector<TriId>& touched) {
+  const VertexId v = addVertex(x, VertexKind::Free);
+  fillFan(v, cavity, fan_[0]);
+  link(edgeRef(fan_[0].front(), 2), edgeRef(fan_[0].back(), 1), kNone);
+  touched.insert(touched.end(), fan_[0].begin(), fan_[0].end());
+  return v;
+}
+
+VertexId EditMesh::splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>& touched) {
+  const SegmentId seg = segment(edge);
+  const EdgeRef sides[2] = {edge, twin(edge)};
+  for (int s = 0; s < 2; ++s) {
+    side_[s].triangles.clear();
+    side_[s].rim.clear();
+    if (sides[s] == kNone) continue;
+    const TriId t = triOf(sides[s]);
+    const unsigned i = indexOf(sides[s]);
+    side_[s].triangles.push_back(t);
+    const EdgeRef others[2] = {edgeRef(t, next3(i)), edgeRef(t, prev3(i))};
+    collectConflicts(x, others, side_[s]);
+    for (const RimEdge& r : side_[s].rim)
+      if (orient2d(points_[r.a], points_[r.b], x) <= 0) return kNone;
+  }
+  const VertexId v = addVertex(x, VertexKind::Segment);
+  for (int s = 0; s < 2; ++s) {
+    if (sides[s] == kNone) continue;
+    fillFan(v, side_[s], fan_[s]);
+    touched.insert(touched.end(), fan_[s].begin(), fan_[s].end());
+  }
+  const bool two_sided = sides[1] != kNone;
+  link(edgeRef(fan_[0].front(), 2), two_sided ? edgeRef(fan_[1].back(), 1) : kNone, seg);
+  link(edgeRef(fan_[0].back(), 1), two_sided ? edgeRef(fan_[1].front(), 2) : kNone, seg);
+  return v;
+}
+
+void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::span<const VertexId> gone,
+                       std::vector<TriId>& touched, const RimEdge* inner) {
+  std::vector<TriId>& slots = fan_[0];
+  slots.clear();
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    slots.push_back(i < patch.triangles.size() ? patch.triangles[i] : newTriangle());
+    write(slots[i], fresh[i]);
+    triangles_[slots[i]].adj = {kNone, kNone, kNone};
+    triangles_[slots[i]].seg = {kNone, kNone, kNone};
+  }
+  for (std::size_t i = fresh.size(); i < patch.triangles.size(); ++i) kill(patch.triangles[i]);
+  // An edge finds its other side either on the rim or among the fresh edges that still wait for theirs.
+  std::vector<EdgeRef>& waiting = stack_;
+  waiting.clear();
+  for (const TriId t : slots) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      const VertexId a = origin(e), b = target(e);
+      const auto rim = std::ranges::find_if(patch.rim, [&](const RimEdge& r) { return r.a == a && r.b == b; });
+      if (rim != patch.rim.end()) {
+        link(e, rim->beyond, rim->seg);
+        continue;
+      }
+      const auto other = std::ranges::find_if(waiting, [&](EdgeRef f) { return origin(f) == b && target(f) == a; });
+      if (other == waiting.end()) {
+        waiting.push_back(e);
+        continue;
+      }
+      const bool is_inner = inner && ((inner->a == a && inner->b == b) || (inner->a == b && inner->b == a));
+      link(e, *other, is_inner ? inner->seg : kNone);
+      *other = waiting.back();
+      waiting.pop_back();
+    }
+  }
+  assert(waiting.empty());
+  for (const VertexId v : gone) {
+    triangle_of_[v] = kNone;
+    free_vertices_.push_back(v);
+  }
+  touched.insert(touched.end(), slots.begin(), slots.end());
+}
+
+bool EditMesh::flip(EdgeRef e) {
+  const EdgeRef f = twin(e);
+  const TriId t = triOf(e), n = triOf(f);
+  const VertexId a = apex(e), b = origin(e), c = target(e), d = apex(f);
+  if (inCircle(points_[a], points_[b], points_[c], points_[d]) <= 0) return false;
+  if (orient2d(points_[a], points_[b], points_[d]) <= 0 || orient2d(points_[a], points_[d], points_[c]) <= 0)
+    return false;
+  const auto outer = [this](TriId s, unsigned i) {
+    return RimEdge{kNone, kNone, triangles_[s].adj[i], triangles_[s].seg[i]};
+  };
+  const RimEdge ab = outer(t, prev3(indexOf(e))), ca = outer(t, next3(indexOf(e)));
+  const RimEdge bd = outer(n, next3(indexOf(f))), dc = outer(n, prev3(indexOf(f)));
+  write(t, {a, b, d});
+  write(n, {a, d, c});
+  link(edgeRef(t, 0), bd.beyond, bd.seg);
+  link(edgeRef(t, 2), ab.beyond, ab.seg);
+  link(edgeRef(n, 0), dc.beyond, dc.seg);
+  link(edgeRef(n, 1), ca.beyond, ca.seg);
+  link(edgeRef(t, 1), edgeRef(n, 2), kNone);
+  return true;
+}
+
+void EditMesh::restoreDelaunay(std::vector<TriId>& touched) {
+  stack_.clear();
+  for (const TriId t : touched)
+    for (unsigned i = 0; i < 3; ++i) stack_.push_back(edgeRef(t, i));
+  while (!stack_.empty()) {
+    const EdgeRef e = stack_.back();
+    stack_.pop_back();
+    if (isConstrained(e)) continue;
+    const TriId t = triOf(e), n = triOf(twin(e));
+    if (!flip(e)) continue;
+    touched.push_back(t);
+    touched.push_back(n);
+    for (const EdgeRef f : {edgeRef(t, 0), edgeRef(t, 2), edgeRef(n, 0), edgeRef(n, 1)}) stack_.push_back(f);
+  }
+}
+
+namespace {
+
+// Triangulates the chain polygon[first..last], closed by the edge from its last point to its first.
+bool triangulateChain(const EditMesh& mesh, std::span<const VertexId> chain, std::vector<Corners>& triangles) {
+  if (chain.size() < 3) return true;
+  const Point& a = mesh.point(chain.front());
+  const Point& b = mesh.point(chain.back());
+  std::size_t best = 0;
+  for (std::size_t k = 1; k + 1 < chain.size(); ++k) {
+    const Point& c = mesh.point(chain[k]);
+    if (orient2d(a, c, b) <= 0) continue;
+    if (best == 0 || inCircle(a, mesh.point(chain[best]), b, c) > 0) best = k;
+  }
+  if (best == 0) return false;
+  triangles.push_back({chain.front(), chain[best], chain.back()});
+  return triangulateChain(mesh, chain.subspan(0, best + 1), triangles) &&
+         triangulateChain(mesh, chain.subspan(best), triangles);
+}
+
+}  // namespace
+
+bool triangulatePolygon(const EditMesh& mesh, std::span<const VertexId> polygon, std::vector<Corners>& triangles) {
+  triangles.clear();
+  return triangulateChain(mesh, polygon, triangles);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+enum class VertexKind : std::uint8_t {
+  Input,    // never moved, never removed
+  Segment,  // lies inside an input segment: slides along it at most
+  Free,
+};
+
+using Corners = std::array<VertexId, 3>;
+
+// One edge of the rim of a patch of triangles, the patch to its left.
+struct RimEdge {
+  VertexId a = kNone;
+  VertexId b = kNone;
+  EdgeRef beyond = kNone;  // the same edge seen from outside the patch; kNone where there is nothing
+  SegmentId seg = kNone;
+};
+
+// Some triangles and their rim. For a patch without holes the rim is one loop, in order, counter-clockwise.
+struct Patch {
+  std::vector<TriId> triangles;
+  std::vector<RimEdge> rim;
+};
+
+// A triangulation under change: compact arrays with free lists. All writes of topology go through this class.
+// Operations that change it append the triangles they made or changed to `touched`.
+class EditMesh {
+ public:
+  explicit EditMesh(TriMesh&& mesh);
+
+  // The mesh without dead entries; vertices keep their order. Leaves `regions` empty and this object unusable.
+  TriMesh release();
+
+  const Point& point(VertexId v) const { return points_[v]; }
+  const Triangle& triangle(TriId t) const { return triangles_[t]; }
+  const Point& corner(TriId t, unsigned i) const { return points_[triangles_[t].v[i]]; }
+  bool isLive(TriId t) const { return triangles_[t].v[0] != kNone; }
+  bool isLiveVertex(VertexId v) const { return triangle_of_[v] != kNone; }
+  VertexKind kind(VertexId v) const { return kinds_[v]; }
+  TriId triangleOf(VertexId v) const { return triangle_of_[v]; }
+  TriId triangleSlots() const { return static_cast<TriId>(triangles_.size()); }
+  VertexId vertexSlots() const { return static_cast<VertexId>(points_.size()); }
+  std::size_t vertexCount() const { return points_.size() - free_vertices_.size(); }
+  VertexId inputVertices() const { return input_vertices_; }
+
+  VertexId origin(EdgeRef e) const { return triangles_[triOf(e)].v[next3(indexOf(e))]; }
+  VertexId target(EdgeRef e) const { return triangles_[triOf(e)].v[prev3(indexOf(e))]; }
+  VertexId apex(EdgeRef e) const { return triangles_[triOf(e)].v[indexOf(e)]; }
+  EdgeRef twin(EdgeRef e) const { return triangles_[triOf(e)].adj[indexOf(e)]; }
+  SegmentId segment(EdgeRef e) const { return triangles_[triOf(e)].seg[indexOf(e)]; }
+  bool isConstrained(EdgeRef e) const { return segment(e) != kNone || twin(e) == kNone; }
+
+  // The index of v in t. REQUIRES: v is a corner of t.
+  unsigned cornerOf(TriId t, VertexId v) const {
+    const auto& c = triangles_[t].v;
+    return c[0] == v ? 0 : c[1] == v ? 1 : 2;
+  }
+
+  // The edges opposite v in the triangles round it, counter-clockwise; from rim to rim where v is on the rim (then
+  // answers false), else full circle. At a pinched vertex: the fan that holds triangleOf(v).
+  bool star(VertexId v, std::vector<EdgeRef>& opposite) const;
+
+  // The triangles round the given vertices and their rim. REQUIRES: the vertices are connected by edges, none is on the
+  // rim of the mesh. Answers false where the patch is not a disk.
+  bool gatherPatch(std::span<const VertexId> vertices, Patch& patch) const;
+
+  struct Place {
+    TriId triangle = kNone;   // holds the point, where nothing is in the way
+    EdgeRef blocked = kNone;  // else the subsegment that is
+  };
+  // Walks towards x, not across segments or the rim. Both answers are kNone where the walk does not end.
+  Place locate(const Point& x, TriId from) const;
+
+  // The triangles whose circumcircles hold x, as far as x sees them. REQUIRES: x lies in `start`. The rim is in order.
+  // Answers false where rounding leaves x on or beyond the rim.
+  bool findCavity(const Point& x, TriId start, Patch& cavity) const;
+
+  // Fills a cavity with a fan round a new free vertex.
+  VertexId insertInCavity(const Point& x, const Patch& cavity, std::vector<TriId>& touched);
+
+  // Splits a subsegment with a new vertex at x, on it as well as doubles allow. Answers kNone, and changes nothing,
+  // where rounding would turn a triangle over.
+  VertexId splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>& touched);
+
+  // Puts other triangles into a patch. `fresh` covers it with the same rim; edges of `fresh` equal to `inner` become
+  // subsegments. Vertices in `gone` die. Does not restore the Delaunay property.
+  void replace(const Patch& patch, std::span<const Corners> fresh, std::span<const VertexId> gone,
+               std::vector<TriId>& touched, const RimEdge* inner = nullptr);
+
+  VertexId addVertex(const Point& x, VertexKind kind);
+
+  // Moves a vertex. REQUIRES: every triangle of its star stays counter-clockwise. Does not restore the Delaunay
+  // property.
+  void setPoint(VertexId v, const Point& to) { points_[v] = to; }
+
+  // Lawson's flips, from all edges of the triangles in `touched` on; appends the triangles they change.
+  void restoreDelaunay(std::vector<TriId>& touched);
+
+  // The live vertices among the slots get the numbers that release() gives them; kNone for the others.
+  std::vector<VertexId> numbering() const;
+
+ private:
+  TriId newTriangle();
+  void kill(TriId t);
+  void write(TriId t, const Corners& corners);
+  void link(EdgeRef e, EdgeRef f, SegmentId seg);
+  bool flip(EdgeRef e);
+  void collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const;
+  void fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan);
+
+  std::vector<Point> points_;
+  std::vector<Triangle> triangles_;
+  std::vector<VertexKind> kinds_;
+  std::vector<TriId> triangle_of_;  // one of the triangles round a vertex
+  std::vector<TriId> free_triangles_;
+  std::vector<VertexId> free_vertices_;
+  VertexId input_vertices_ = 0;
+
+  // Scratch.
+  mutable std::vector<EdgeRef> stack_;
+  std::vector<TriId> fan_[2];
+  Patch side_[2];
+};
+
+// The Delaunay triangulation of a simple polygon given counter-clockwise: k - 2 triangles. Answers false where it has
+// none without a turned triangle.
+bool triangulatePolygon(const EditMesh& mesh, std::span<const VertexId> polygon, std::vector<Corners>& triangles);
+
+}  // namespace coastmesh

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/metric.hpp"
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+// An edge of a vertex's link; the vertex lies to the left of x -> y.
+struct LinkEdge {
+  Point x;
+  Point y;
+};
+
+// Where a vertex may lie so that, its link fixed, all triangles of its star hold the bounds (Erten & Üngör 2007,
+// Section 5). That set is an intersection of convex ones: for every link edge the petal (the angle at the vertex), two
+// half-planes (the angles at the ends), and disks round the ends where edges may not be longer than a size. The petals
+// are cut off by tangents, one at a time, where they matter. We differ from the paper, which samples points between two
+// petals. Only a bound on the largest angle at the vertex itself is not convex: it is for the caller to test.
+class FeasibleRegion {
+ public:
+  // A point well inside the region, or nothing where there is none (or one thinner than rounding).
+  std::optional<Point> findPoint(std::span<const LinkEdge> link, const TriangleBound& bound);
+
+  // The same on the line from a to b: the point in the middle of what is feasible there.
+  static std::optional<Point> findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link,
+                                               const TriangleBound& bound);
+
+ private:
+  // Keeps what lies to the left of the line through `on` along `direction`. Answers false where nothing is left.
+  bool clip(const Point& on, const Point& direction);
+  Point centre() const;
+
+  std::vector<Point> polygon_;
+  std::vector<Point> clipped_;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include "core/metric.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+// The domain round a vertex between two constraints (segments or the rim).
+struct Sector {
+  double angle = 0.0;      // radians; of a vertex without constraints 2 pi
+  unsigned triangles = 0;  // that fill it
+  EdgeRef right =
+      kNone;  // the constrained edge that leaves the vertex, the sector to its left; kNone without constraints
+  EdgeRef left = kNone;  // the constrained edge that enters the vertex, the sector to its left
+};
+
+// The sector that corner `i` of triangle `t` lies in. Works on TriMesh and EditMesh.
+template <typename Mesh>
+Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
+  const auto& home = mesh.triangle(t);
+  const VertexId v = home.v[i];
+  const auto corner = [&](TriId s) {
+    const auto& c = mesh.triangle(s).v;
+    return c[0] == v ? 0u : c[1] == v ? 1u : 2u;
+  };
+  const auto closed = [&](EdgeRef e) {
+    const Triangle& s = mesh.triangle(triOf(e));
+    return s.seg[indexOf(e)] != kNone || s.adj[indexOf(e)] == kNone;
+  };
+  Sector sector;
+  // Clockwise to the constraint.
+  TriId first = t;
+  bool round = false;
+  while (true) {
+    const EdgeRef out = edgeRef(first, prev3(corner(first)));
+    if (closed(out)) {
+      sector.right = out;
+      break;
+    }
+    first = triOf(mesh.triangle(first).adj[indexOf(out)]);
+    if (first == t) {
+      round = true;
+      break;
+    }
+  }
+  for (TriId s = first;;) {
+    const unsigned c = corner(s);
+    const Triangle& tri = mesh.triangle(s);
+    sector.angle += angleAt(mesh.point(v), mesh.point(tri.v[next3(c)]), mesh.point(tri.v[prev3(c)]));
+    ++sector.triangles;
+    const EdgeRef in = edgeRef(s, next3(c));
+    if (!round && closed(in)) {
+      sector.left = in;
+      break;
+    }
+    s = triOf(tri.adj[indexOf(in)]);
+    if (round && s == first) break;
+  }
+  return sector;
+}
+
+// The triangles whose shortfall an input angle explains: those in a sector too small for the bounds, and those that
+// share an edge with them which is no constraint.
+std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound);
+
+}  // namespace coastmesh

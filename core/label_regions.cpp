@@ -1,0 +1,39 @@
+#include "core/label_regions.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace coastmesh {
+
+void labelRegions(TriMesh& mesh, const Pslg& pslg) {
+  mesh.regions.assign(mesh.triangles.size(), kUnlabelled);
+  std::vector<TriId> stack;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.regions[t] != kUnlabelled) continue;
+    for (unsigned i = 0; i < 3 && mesh.regions[t] == kUnlabelled; ++i) {
+      const SegmentId s = mesh.triangles[t].seg[i];
+      if (s == kNone) continue;
+      const Segment& segment = pslg.segments[s];
+      // Pieces of a segment run with it or against it.
+      const Point &a = pslg.points[segment.a], &b = pslg.points[segment.b];
+      const Point &from = mesh.points[mesh.origin(edgeRef(t, i))], &to = mesh.points[mesh.target(edgeRef(t, i))];
+      const bool along = (b.x - a.x) * (to.x - from.x) + (b.y - a.y) * (to.y - from.y) > 0.0;
+      mesh.regions[t] = along ? segment.left : segment.right;
+    }
+    if (mesh.regions[t] == kUnlabelled) continue;
+    stack.push_back(t);
+    while (!stack.empty()) {
+      const TriId here = stack.back();
+      stack.pop_back();
+      for (unsigned i = 0; i < 3; ++i) {
+        const Triangle& tri = mesh.triangles[here];
+        if (tri.seg[i] != kNone || tri.adj[i] == kNone || mesh.regions[triOf(tri.adj[i])] != kUnlabelled) continue;
+        mesh.regions[triOf(tri.adj[i])] = mesh.regions[here];
+        stack.push_back(triOf(tri.adj[i]));
+      }
+    }
+  }
+  std::ranges::replace(mesh.regions, kUnlabelled, 0);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+// The quality measure of the plane. Topology tests (core/predicates.hpp) never use it: a mesh on a curved surface has
+// another measure and the same tests in its parameter plane.
+
+inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y}; }
+inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
+inline Point operator*(double s, const Point& a) { return {s * a.x, s * a.y}; }
+inline double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
+inline double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
+inline double squaredLength(const Point& a) { return dot(a, a); }
+inline double squaredDistance(const Point& a, const Point& b) { return squaredLength(b - a); }
+inline double distance(const Point& a, const Point& b) { return std::sqrt(squaredDistance(a, b)); }
+inline Point midpoint(const Point& a, const Point& b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
+
+// The angle at b on the way a, b, c, in radians, 0 to pi.
+inline double angleAt(const Point& b, const Point& a, const Point& c) {
+  return std::atan2(std::abs(cross(a - b, c - b)), dot(a - b, c - b));
+}
+
+// Circumcentre of abc relative to a.
+inline Point circumcenterOffset(const Point& a, const Point& b, const Point& c) {
+  const Point ab = b - a, ac = c - a;
+  const double bb = squaredLength(ab), cc = squaredLength(ac);
+  const double scale = 0.5 / cross(ab, ac);
+  return {scale * (ac.y * bb - ab.y * cc), scale * (ab.x * cc - ac.x * bb)};
+}
+
+constexpr double toRadians(double deg) { return deg * std::numbers::pi / 180.0; }
+constexpr double toDegrees(double rad) { return rad * 180.0 / std::numbers::pi; }
+
+// What is asked of every triangle, in the forms that tests need. The bounds are a ten-millionth of a degree stricter
+// than asked, so that rounding a coordinate, once projected, does not break them.
+struct TriangleBound {
+  double min_angle;  // radians
+  double max_angle;  // radians; pi where nothing is asked
+  double cos_min;
+  double sin_min;
+  double cos_max;
+  double squared_size;  // longest edge, squared; infinite where nothing is asked
+
+  TriangleBound(double min_angle_deg, double max_angle_deg, double size_max)
+      : min_angle(min_angle_deg <= 0.0 ? 0.0 : toRadians(min_angle_deg + kMarginDeg)),
+        max_angle(max_angle_deg >= 180.0 ? std::numbers::pi : toRadians(max_angle_deg - kMarginDeg)),
+        cos_min(std::cos(min_angle)),
+        sin_min(std::sin(min_angle)),
+        cos_max(std::cos(max_angle)),
+        squared_size(size_max * size_max) {}
+
+  static constexpr double kMarginDeg = 1e-7;
+
+  // Whether an input angle (radians) can be cut into angles within the bounds.
+  bool canDivide(double angle) const {
+    const double largest = std::min(max_angle, std::numbers::pi - 2.0 * min_angle);
+    const double pieces = std::ceil(angle / largest - 1e-9);
+    return angle >= pieces * min_angle - 1e-9;
+  }
+};
+
+struct TriangleShape {
+  double squared[3];  // of edge i, opposite corner i
+  unsigned shortest;  // index of the shortest edge; of equal ones the first
+  unsigned longest;
+
+  TriangleShape(const Point& a, const Point& b, const Point& c)
+      : squared{squaredDistance(b, c), squaredDistance(c, a), squaredDistance(a, b)} {
+    shortest = squared[0] <= squared[1] ? (squared[0] <= squared[2] ? 0 : 2) : (squared[1] <= squared[2] ? 1 : 2);
+    longest = squared[0] >= squared[1] ? (squared[0] >= squared[2] ? 0 : 2) : (squared[1] >= squared[2] ? 1 : 2);
+  }
+
+  // The cosine of the angle at corner i.
+  double cosAt(unsigned i) const {
+    const unsigned j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+    return (squared[j] + squared[k] - squared[i]) / (2.0 * std::sqrt(squared[j] * squared[k]));
+  }
+};
+
+// cos(smallest angle) exceeds the bound; free of square roots and divisions.
+inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c, double cos_min) {
+  const Point ab = b - a, bc = c - b, ca = a - c;
+  const double la = squaredLength(bc), lb = squaredLength(ca), lc = squaredLength(ab);
+  // The angle opposite the shortest edge: the product of the other two edges from that corner.
+  double d, others;
+  if (la <= lb && la <= lc) {
+    d = -dot(ab, ca);
+    others = lb * lc;
+  } else if (lb <= lc) {
+    d = -dot(ab, bc);
+    others = la * lc;
+  } else {
+    d = -dot(bc, ca);
+    others = la * lb;
+  }
+  return d > 0.0 && d * d > cos_min * cos_min * others;
+}
+
+inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, double cos_max) {
+  const TriangleShape shape(a, b, c);
+  return shape.cosAt(shape.longest) < cos_max;
+}
+
+// Whether a triangle falls short of what is asked.
+inline bool isBad(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
+  if (isSmallestAngleBelow(a, b, c, bound.cos_min)) return true;
+  if (bound.max_angle < std::numbers::pi && isLargestAngleAbove(a, b, c, bound.cos_max)) return true;
+  if (std::isinf(bound.squared_size)) return false;
+  return std::max({squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)}) > bound.squared_size;
+}
+
+}  // namespace coastmesh

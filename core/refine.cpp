@@ -1,0 +1,341 @@
+#include "core/refine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/input_angle.hpp"
+#include "core/label_regions.hpp"
+#include "core/predicates.hpp"
+#include "core/refiner.hpp"
+#include "core/shortfalls.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A vertex may come this much nearer to others than the spacing that its parents inherited.
+constexpr double kFloorShare = 0.5;
+// Relocations never bring a vertex more often than this: a bound on the run, not a setting.
+constexpr std::uint8_t kMostMoves = 32;
+// Sectors below this angle are split on shells (Ruppert 1995, Section 5).
+constexpr double kShellAngle = std::numbers::pi / 3.0;
+
+}  // namespace
+
+Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
+    : pslg_(pslg),
+      options_(options),
+      bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
+      mesh_(std::move(mesh)),
+      search_(options.algorithm, bound_),
+      cos_lens_(-std::cos(2.0 * bound_.min_angle)),
+      moves_(mesh_.vertexSlots(), 0) {
+  findInputAngles();
+  findSpacing();
+}
+
+void Refiner::findInputAngles() {
+  shell_unit_.assign(mesh_.inputVertices(), 0.0);
+  small_angle_.assign(mesh_.inputVertices(), false);
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef right = edgeRef(t, prev3(i));
+      const VertexId v = mesh_.triangle(t).v[i];
+      if (!mesh_.isConstrained(right) || v >= mesh_.inputVertices()) continue;
+      const Sector sector = sectorAt(mesh_, t, i);
+      if (!bound_.canDivide(sector.angle)) small_angle_[v] = true;
+      if (sector.angle >= kShellAngle) continue;
+      const double nearer = std::min(distance(mesh_.point(v), mesh_.point(mesh_.target(sector.right))),
+                                     distance(mesh_.point(v), mesh_.point(mesh_.origin(sector.left))));
+      shell_unit_[v] = shell_unit_[v] == 0.0 ? nearer : std::min(shell_unit_[v], nearer);
+    }
+  }
+}
+
+// The distance to the nearest vertex or segment that a vertex sees, from the triangles round it.
+void Refiner::findSpacing() {
+  floor_.assign(mesh_.vertexSlots(), std::numeric_limits<double>::infinity());
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    const Triangle& tri = mesh_.triangle(t);
+    for (unsigned i = 0; i < 3; ++i) {
+      const VertexId a = tri.v[next3(i)], b = tri.v[prev3(i)];
+      const Point ab = mesh_.point(b) - mesh_.point(a);
+      const double length = std::sqrt(squaredLength(ab));
+      floor_[a] = std::min(floor_[a], length);
+      floor_[b] = std::min(floor_[b], length);
+      if (!mesh_.isConstrained(edgeRef(t, i))) continue;
+      const Point av = mesh_.point(tri.v[i]) - mesh_.point(a);
+      const double along = dot(av, ab);
+      if (along > 0.0 && along < length * length)
+        floor_[tri.v[i]] = std::min(floor_[tri.v[i]], std::abs(cross(ab, av)) / length);
+    }
+  }
+}
+
+void Refiner::enqueueIfBad(TriId t) {
+  const Triangle& tri = mesh_.triangle(t);
+  const Point &a = mesh_.point(tri.v[0]), &b = mesh_.point(tri.v[1]), &c = mesh_.point(tri.v[2]);
+  if (!isBad(a, b, c, bound_)) return;
+  const TriangleShape shape(a, b, c);
+  // Shortest edge first; the worst angle first for circumcentres (Erten & Üngör 2007, Section 2.1).
+  const double key =
+      options_.algorithm == Algorithm::Circumcenter ? -shape.cosAt(shape.shortest) : shape.squared[shape.shortest];
+  queue_.push({key, sequence_++, t, tri.v});
+}
+
+void Refiner::enqueueTouched() {
+  for (const TriId t : touched_)
+    if (mesh_.isLive(t)) enqueueIfBad(t);
+  touched_.clear();
+}
+
+void Refiner::run(const RunControl& control) {
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) enqueueIfBad(t);
+  std::uint64_t steps = 0;
+  while (!queue_.empty()) {
+    if (++steps % 1024 == 0)
+      control.checkpoint(static_cast<double>(steps) / static_cast<double>(steps + queue_.size()));
+    if (mesh_.vertexCount() >= options_.max_vertices) {
+      stats_.budget_reached = true;
+      return;
+    }
+    const BadTriangle bad = queue_.top();
+    queue_.pop();
+    if (mesh_.triangle(bad.triangle).v == bad.corners) mend(bad.triangle);
+  }
+}
+
+void Refiner::mend(TriId t) {
+  const TriangleShape shape(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
+  if (!isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_) || isLeftAlone(t, shape)) return;
+  if (options_.algorithm == Algorithm::Relocate && relocateCorner(t)) return;
+  insertPoint(t, shape.shortest);
+}
+
+// A triangle that fills a sector too small for the bounds, its smallest angle there, cannot be mended.
+bool Refiner::isLeftAlone(TriId t, const TriangleShape& shape) const {
+  return isFan(t, mesh_.triangle(t).v[shape.shortest]);
+}
+
+bool Refiner::isFan(TriId t, VertexId apex) const {
+  if (apex >= mesh_.inputVertices() || !small_angle_[apex]) return false;
+  const unsigned i = mesh_.cornerOf(t, apex);
+  if (!mesh_.isConstrained(edgeRef(t, next3(i))) || !mesh_.isConstrained(edgeRef(t, prev3(i)))) return false;
+  const Triangle& tri = mesh_.triangle(t);
+  return !bound_.canDivide(angleAt(mesh_.point(apex), mesh_.point(tri.v[next3(i)]), mesh_.point(tri.v[prev3(i)])));
+}
+
+// The apex of the small input angle whose fan lies behind the shortest edge of t; kNone where there is none.
+VertexId Refiner::fanApexBehind(TriId t, unsigned apex) const {
+  const EdgeRef shortest = edgeRef(t, apex);
+  if (mesh_.isConstrained(shortest)) return kNone;
+  const EdgeRef beyond = mesh_.twin(shortest);
+  const VertexId v = mesh_.apex(beyond);
+  return isFan(triOf(beyond), v) ? v : kNone;
+}
+
+bool Refiner::relocateCorner(TriId t) {
+  const Corners corners = mesh_.triangle(t).v;
+  for (const VertexId v : corners)
+    if (mesh_.kind(v) != VertexKind::Input && moves_[v] < kMostMoves && relocate(v)) return true;
+  return false;
+}
+
+// Algorithm 2, the loop over free vertices. We differ from the paper: the region of good places is found exactly, and a
+// vertex on a segment slides along it.
+bool Refiner::relocate(VertexId v) {
+  const bool closed = mesh_.star(v, star_);
+  link_.clear();
+  for (const EdgeRef e : star_) link_.push_back({mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.target(e))});
+  std::optional<Point> place;
+  if (mesh_.kind(v) == VertexKind::Free) {
+    place = region_.findPoint(link_, bound_);
+  } else {
+    // The two neighbours along the segment.
+    VertexId ends[2] = {kNone, kNone};
+    SegmentId seg = kNone;
+    for (const EdgeRef e : star_) {
+      const EdgeRef spoke = edgeRef(triOf(e), prev3(indexOf(e)));
+      if (mesh_.segment(spoke) == kNone) continue;
+      seg = mesh_.segment(spoke);
+      (ends[0] == kNone ? ends[0] : ends[1]) = mesh_.target(spoke);
+    }
+    if (!closed) {
+      const EdgeRef last = edgeRef(triOf(star_.back()), next3(indexOf(star_.back())));
+      ends[1] = mesh_.origin(last);
+    }
+    if (ends[0] == kNone || ends[1] == kNone) return false;
+    place = FeasibleRegion::findPointBetween(mesh_.point(ends[0]), mesh_.point(ends[1]), link_, bound_);
+    if (place) {
+      const Point &a = pslg_.points[pslg_.segments[seg].a], &b = pslg_.points[pslg_.segments[seg].b];
+      place = a + (dot(*place - a, b - a) / squaredDistance(a, b)) * (b - a);
+    }
+  }
+  if (!place) return false;
+  for (const LinkEdge& e : link_)
+    if (orient2d(e.x, e.y, *place) <= 0 || isBad(e.x, e.y, *place, bound_)) return false;
+  mesh_.setPoint(v, *place);
+  ++moves_[v];
+  ++stats_.relocations;
+  for (const EdgeRef e : star_) touched_.push_back(triOf(e));
+  mesh_.restoreDelaunay(touched_);
+  enqueueTouched();
+  return true;
+}
+
+// Whether x sees the subsegment under 180° - 2 alpha or more: the diametral lens of Chew (1993) and Shewchuk (1997) for
+// 30°, wider with alpha. A triangle with such an angle is bad, so a subsegment that a vertex encroaches upon always has
+// one.
+bool Refiner::isEncroached(const Point& x, const Point& a, const Point& b) const {
+  const double d = dot(a - x, b - x);
+  if (d >= 0.0) return false;
+  if (cos_lens_ >= 0.0) return true;
+  return d * d >= cos_lens_ * cos_lens_ * squaredDistance(x, a) * squaredDistance(x, b);
+}
+
+bool Refiner::insertPoint(TriId t, unsigned apex) {
+  const Triangle& bad = mesh_.triangle(t);
+  const double floor = std::min(floor_[bad.v[next3(apex)]], floor_[bad.v[prev3(apex)]]);
+  const SteinerPoint candidate = search_.find(mesh_, t, apex);
+  if (!std::isfinite(candidate.place.x) || !std::isfinite(candidate.place.y)) return false;
+  const EditMesh::Place where = mesh_.locate(candidate.place, candidate.near);
+  if (where.blocked != kNone) return splitFor(where.blocked, t, apex, floor);
+  if (where.triangle == kNone) return false;
+  const bool inside = mesh_.findCavity(candidate.place, where.triangle, patch_);
+  EdgeRef hit = kNone;
+  double widest = 0.0;
+  for (const RimEdge& r : patch_.rim) {
+    if (r.seg == kNone && r.beyond != kNone) continue;
+    const Point &a = mesh_.point(r.a), &b = mesh_.point(r.b);
+    const bool behind = orient2d(a, b, candidate.place) <= 0;
+    if (!behind && !isEncroached(candidate.place, a, b)) continue;
+    const double angle = behind ? std::numbers::pi : angleAt(candidate.place, a, b);
+    if (angle <= widest) continue;
+    widest = angle;
+    // The edge as the cavity has it.
+    for (const TriId c : patch_.triangles)
+      for (unsigned i = 0; i < 3; ++i)
+        if (mesh_.origin(edgeRef(c, i)) == r.a && mesh_.target(edgeRef(c, i)) == r.b) hit = edgeRef(c, i);
+  }
+  if (hit != kNone) return splitFor(hit, t, apex, floor);
+  if (!inside || candidate.squared_clearance < kFloorShare * kFloorShare * floor * floor) return false;
+  const VertexId fan = fanApexBehind(t, apex);
+  if (fan != kNone)
+    for (const TriId c : patch_.triangles)
+      if (isFan(c, fan)) return false;
+
+  const VertexId v = mesh_.insertInCavity(candidate.place, patch_, touched_);
+  floor_.resize(mesh_.vertexSlots());
+  moves_.resize(mesh_.vertexSlots());
+  floor_[v] = floor;
+  moves_[v] = 0;
+  ++stats_.by_type[static_cast<unsigned>(candidate.type)];
+  enqueueTouched();
+  return true;
+}
+
+Point Refiner::splitPlace(VertexId a, VertexId b, SegmentId seg) const {
+  const auto unit = [&](VertexId v) { return v < mesh_.inputVertices() ? shell_unit_[v] : 0.0; };
+  const Point &pa = mesh_.point(a), &pb = mesh_.point(b);
+  double share = 0.5;
+  if ((unit(a) > 0.0) != (unit(b) > 0.0)) {
+    // On the shell round the small angle whose radius, the unit times a power of two, is nearest to the middle.
+    const double length = distance(pa, pb);
+    const double radius_unit = std::max(unit(a), unit(b));
+    const double radius = radius_unit * std::exp2(std::round(std::log2(0.5 * length / radius_unit)));
+    const double from = std::clamp(radius / length, 0.25, 0.75);
+    share = unit(a) > 0.0 ? from : 1.0 - from;
+  }
+  const Point &sa = pslg_.points[pslg_.segments[seg].a], &sb = pslg_.points[pslg_.segments[seg].b];
+  const Point place = pa + share * (pb - pa);
+  return sa + (dot(place - sa, sb - sa) / squaredDistance(sa, sb)) * (sb - sa);
+}
+
+// Takes out the free vertices in the subsegment's diametral circle (Chew 1993). Answers the subsegment, which may have
+// come to lie in another triangle.
+EdgeRef Refiner::clearDiametralCircle(EdgeRef edge) {
+  const VertexId a = mesh_.origin(edge), b = mesh_.target(edge);
+  for (int side = 0; side < 2; ++side) {
+    // Every round takes a vertex out.
+    while (edge != kNone) {
+      const VertexId v = mesh_.apex(edge);
+      if (mesh_.kind(v) != VertexKind::Free ||
+          dot(mesh_.point(a) - mesh_.point(v), mesh_.point(b) - mesh_.point(v)) >= 0.0)
+        break;
+      if (!mesh_.gatherPatch({&v, 1}, patch_)) break;
+      polygon_.clear();
+      for (const RimEdge& r : patch_.rim) polygon_.push_back(r.a);
+      if (!triangulatePolygon(mesh_, polygon_, fresh_)) break;
+      const VertexId from = mesh_.origin(edge);
+      mesh_.replace(patch_, fresh_, {&v, 1}, touched_);
+      mesh_.restoreDelaunay(touched_);
+      ++stats_.removals;
+      edge = kNone;
+      for (const TriId t : touched_) {
+        if (!mesh_.isLive(t)) continue;
+        for (unsigned i = 0; i < 3; ++i)
+          if (mesh_.segment(edgeRef(t, i)) != kNone && mesh_.origin(edgeRef(t, i)) == from &&
+              mesh_.target(edgeRef(t, i)) == (from == a ? b : a))
+            edge = edgeRef(t, i);
+      }
+    }
+    if (side == 0 && edge != kNone && mesh_.twin(edge) != kNone) edge = mesh_.twin(edge);
+  }
+  return edge;
+}
+
+bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex, double floor) {
+  const SegmentId seg = mesh_.segment(edge);
+  if (seg == kNone) return false;  // the rim of a mesh without segments
+  const VertexId a = mesh_.origin(edge), b = mesh_.target(edge);
+  const VertexId fan = fanApexBehind(t, apex);
+  if (fan != kNone && (a == fan || b == fan)) return false;
+  const double least = std::min({floor, floor_[a], floor_[b]});
+  const Point place = splitPlace(a, b, seg);
+  const double nearer = std::min(squaredDistance(place, mesh_.point(a)), squaredDistance(place, mesh_.point(b)));
+  if (nearer < kFloorShare * kFloorShare * least * least) return false;
+  const EdgeRef cleared = clearDiametralCircle(edge);
+  const VertexId v = cleared == kNone ? kNone : mesh_.splitSegment(cleared, place, touched_);
+  if (v != kNone) {
+    floor_.resize(mesh_.vertexSlots());
+    moves_.resize(mesh_.vertexSlots());
+    floor_[v] = least;
+    moves_[v] = 0;
+    ++stats_.segment_splits;
+    // The triangle that asked for the split may still be there, and bad.
+    touched_.push_back(t);
+  }
+  std::ranges::sort(touched_);
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  enqueueTouched();
+  return v != kNone;
+}
+
+TriMesh Refiner::release() {
+  stats_.steiner_points = mesh_.vertexCount() - mesh_.inputVertices();
+  return mesh_.release();
+}
+
+void RefineStats::add(const RefineStats& other) {
+  steiner_points += other.steiner_points;
+  for (std::size_t i = 0; i < by_type.size(); ++i) by_type[i] += other.by_type[i];
+  segment_splits += other.segment_splits;
+  relocations += other.relocations;
+  removals += other.removals;
+  merges += other.merges;
+  budget_reached |= other.budget_reached;
+  unresolved.insert(unresolved.end(), other.unresolved.begin(), other.unresolved.end());
+}
+
+RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  Refiner refiner(std::move(mesh), pslg, options);
+  refiner.run(control);
+  mesh = refiner.release();
+  labelRegions(mesh, pslg);
+  RefineStats stats = std::move(refiner.stats());
+  stats.unresolved = findShortfalls(mesh, options);
+  return stats;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/feasible_region.hpp"
+#include "core/metric.hpp"
+#include "core/pslg.hpp"
+#include "core/refine.hpp"
+#include "core/steiner.hpp"
+
+namespace coastmesh {
+
+// A bad triangle that waits. It carries its corners, so that it is known to be stale once the slot holds another
+// triangle.
+struct BadTriangle {
+  double key;              // least first
+  std::uint64_t sequence;  // among equal keys the older first
+  TriId triangle;
+  Corners corners;
+
+  friend bool operator<(const BadTriangle& a, const BadTriangle& b) {
+    return a.key != b.key ? a.key > b.key : a.sequence > b.sequence;
+  }
+};
+
+// The state of one refinement run.
+class Refiner {
+ public:
+  Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options);
+
+  void run(const RunControl& control);
+  TriMesh release();
+  RefineStats& stats() { return stats_; }
+
+ private:
+  void findInputAngles();
+  void findSpacing();
+  void enqueueIfBad(TriId t);
+  void enqueueTouched();
+  void mend(TriId t);
+  bool isLeftAlone(TriId t, const TriangleShape& shape) const;
+  bool isFan(TriId t, VertexId apex) const;
+  bool relocateCorner(TriId t);
+  bool relocate(VertexId v);
+  bool insertPoint(TriId t, unsigned apex);
+  bool splitFor(EdgeRef edge, TriId t, unsigned apex, double floor);
+  Point splitPlace(VertexId a, VertexId b, SegmentId seg) const;
+  bool isEncroached(const Point& x, const Point& a, const Point& b) const;
+  EdgeRef clearDiametralCircle(EdgeRef edge);
+  VertexId fanApexBehind(TriId t, unsigned apex) const;
+
+  const Pslg& pslg_;
+  const RefineOptions& options_;
+  TriangleBound bound_;
+  EditMesh mesh_;
+  RefineStats stats_;
+  SteinerSearch search_;
+  FeasibleRegion region_;
+  double cos_lens_;
+
+  std::vector<double> floor_;  // one a vertex: no vertex is put nearer than half of it to another because of this one
+  std::vector<double> shell_unit_;   // one an input vertex: radius of a shell round it; 0 where no small angle is there
+  std::vector<bool> small_angle_;    // one an input vertex: some sector of it is too small for the bounds
+  std::vector<std::uint8_t> moves_;  // one a vertex: relocations so far
+
+  std::priority_queue<BadTriangle> queue_;
+  std::uint64_t sequence_ = 0;
+
+  // Scratch.
+  std::vector<TriId> touched_;
+  std::vector<EdgeRef> star_;
+  std::vector<LinkEdge> link_;
+  std::vector<VertexId> polygon_;
+  std::vector<Corners> fresh_;
+  Patch patch_;
+};
+
+}  // namespace coastmesh

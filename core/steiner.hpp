@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/metric.hpp"
+#include "core/refine.hpp"
+
+namespace coastmesh {
+
+// The paper's four types, Section 3.
+enum class SteinerType : unsigned {
+  DualOfShortestEdge = 0,  // I: the off-centre
+  OtherVoronoiEdge = 1,    // II
+  OtherCircumcenter = 2,   // III
+  OwnCircumcenter = 3,     // IV
+};
+
+struct SteinerPoint {
+  Point place;
+  SteinerType type = SteinerType::OwnCircumcenter;
+  TriId near = kNone;              // a triangle whose circumcircle holds the place
+  double squared_clearance = 0.0;  // to the nearest visible vertex
+};
+
+// Finds the place where a vertex mends a bad triangle.
+class SteinerSearch {
+ public:
+  SteinerSearch(Algorithm algorithm, const TriangleBound& bound) : algorithm_(algorithm), bound_(bound) {}
+
+  // `t` is bad and its shortest edge is opposite its corner `apex`.
+  SteinerPoint find(const EditMesh& mesh, TriId t, unsigned apex);
+
+ private:
+  struct Step {
+    EdgeRef edge;  // the Voronoi edge to follow is dual to it
+    Point from;    // where that edge starts: a circumcentre inside the petal, relative to the origin
+  };
+
+  Algorithm algorithm_;
+  const TriangleBound& bound_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace coastmesh
