@@ -13,9 +13,17 @@ struct Crs {
   bool isPlane() const { return wkt.empty(); }
 };
 
-// `text` is "plane" or anything that PROJ knows: "EPSG:32616", WKT, a PROJ string. Throws InputError.
+// `text` is "plane" or anything that PROJ knows: "EPSG:32616", WKT, a PROJ string. Vertical axes are dropped; a local
+// (engineering) CRS is a plane. Throws InputError, also for geocentric CRS and for geographic ones that do not measure
+// in degrees.
 Crs parseCrs(const std::string& text);
 
 Crs wgs84();
+
+// True iff coordinates mean the same place in both.
+bool sameCrs(const Crs& a, const Crs& b);
+
+// For people: "EPSG:32616", else the name that the CRS gives itself, else "plane".
+std::string nameOf(const Crs& crs);
 
 }  // namespace coastmesh

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,23 +8,32 @@
 
 namespace coastmesh {
 
-// Reads every vector layer of every source that OGR opens. Polygons become polygons; lines are joined end to end
-// (bit-equal ends) over all sources, closed ones become polygons by even-odd nesting, open ones stay lines. All sources
-// are brought to the CRS of the first. Empty and null geometries are skipped and counted. Throws InputError: no such
-// file, empty file, no vector file, no polygon or line in it, a coordinate that is not finite (with fid and position),
-// CRS that do not go together.
 struct ReadReport {
-  std::uint64_t features = 0;
-  std::uint64_t points = 0;
-  std::uint64_t rings = 0;
-  std::uint64_t skipped_empty = 0;
-  std::uint64_t skipped_points = 0;  // point features: nothing to mesh in them
+  std::uint64_t features = 0;        // in the coastline
+  std::uint64_t points = 0;          // coordinates, as the files count them
+  std::uint64_t rings = 0;           // of polygons, those made of lines included
+  std::uint64_t skipped_empty = 0;   // features without a geometry, or with an empty one
+  std::uint64_t skipped_points = 0;  // point geometries: nothing to mesh in them
+  std::uint64_t unclosed_rings = 0;  // rings of polygons whose last point is not the first: closed
   std::vector<std::string> warnings;
 };
+
+// Reads every vector layer of every source that OGR opens, in their order. Z and M are dropped, curves become straight
+// pieces. A file that is one bare geometry (a GeoJSON GeometryCollection, say) is taken apart into a feature a polygon,
+// numbered from 0.
+// Lines are joined end to end over all sources (see `joinLines`): closed ones become polygons by even-odd nesting, each
+// a feature with the name and attributes of the first line in it, open ones become features with a line; they come
+// after all polygons.
+// Sources in another CRS than the first are brought to its CRS; where all are in one CRS, coordinates stay bit for bit.
+// A source without a CRS is taken to be in that of the first; a first one without a CRS is taken for WGS 84 where all
+// its coordinates lie within ±180, ±90, else for a plane. Either is warned of.
+// Throws InputError: no such file, empty file, no vector file, no polygon or line in it, a coordinate that is not
+// finite (with feature and vertex), CRS that do not go together.
 Coastline readCoastline(const std::vector<std::string>& sources, ReadReport& report);
 
-// Features that touch, cross or contain one another have to be meshed as one. Every feature is in one group; members
-// ascend, groups are ordered by their first member.
+// Features that touch, cross or contain one another have to be meshed as one; one that lies in a hole of another does
+// not. Every feature is in one group; members ascend, groups are ordered by their first member. Longitudes are taken as
+// given. Cost O(n log n) for features that lie apart.
 std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline);
 
 }  // namespace coastmesh

@@ -1,0 +1,129 @@
+#include <memory>
+
+#include "gis/chain_index.hpp"
+#include "gis/read_coastline.hpp"
+#include "gis/union_find.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A feature's rings and lines with an index each.
+struct FeatureIndex {
+  ChainIndex rings{ChainIndex::Kind::Rings};
+  ChainIndex lines{ChainIndex::Kind::OpenLines};
+
+  explicit FeatureIndex(const Feature& feature) {
+    for (const Polygon& polygon : feature.polygons) {
+      rings.add(polygon.outer);
+      for (const Ring& hole : polygon.holes) rings.add(hole);
+    }
+    for (const auto& line : feature.lines) lines.add(line);
+    rings.build();
+    lines.build();
+  }
+  std::size_t edgeCount() const { return rings.edgeCount() + lines.edgeCount(); }
+};
+
+// True iff an edge of `a` and one of `b` share a point.
+bool edgesMeet(const ChainIndex& a, const ChainIndex& b) {
+  bool meet = false;
+  const Box common = b.bounds();
+  a.visit(common, [&](std::uint32_t i) {
+    if (meet) return;
+    const Point &p = a.start(i), &q = a.end(i);
+    b.visit(Box::of(p, q), [&](std::uint32_t j) { meet = meet || segmentsMeet(p, q, b.start(j), b.end(j)); });
+  });
+  return meet;
+}
+
+// True iff a chain of `chains` lies inside `rings`. REQUIRES: no edge of the two meets another.
+bool liesIn(const ChainIndex& chains, const ChainIndex& rings) {
+  if (rings.edgeCount() == 0) return false;
+  for (std::size_t chain = 0; chain < chains.chainCount(); ++chain) {
+    if (rings.locate(chains.chainStart(chain)) == Location::Inside) return true;
+  }
+  return false;
+}
+
+// True iff `small` and `large` touch, cross, or one holds a part of the other.
+bool belongTogether(const FeatureIndex& small, const FeatureIndex& large) {
+  Box box = small.rings.bounds();
+  box.add(small.lines.bounds());
+  bool near = false;
+  const auto found = [&](std::uint32_t) { near = true; };
+  large.rings.visit(box, found);
+  large.lines.visit(box, found);
+  if (!near) {  // the whole of `small` lies in one face of `large`: any of its points tells
+    if (large.rings.edgeCount() == 0) return false;
+    const ChainIndex& any = small.rings.edgeCount() > 0 ? small.rings : small.lines;
+    return large.rings.locate(any.chainStart(0)) == Location::Inside;
+  }
+  return edgesMeet(small.rings, large.rings) || edgesMeet(small.rings, large.lines) ||
+         edgesMeet(small.lines, large.rings) || edgesMeet(small.lines, large.lines) ||
+         liesIn(small.rings, large.rings) || liesIn(small.lines, large.rings) || liesIn(large.rings, small.rings) ||
+         liesIn(large.lines, small.rings);
+}
+
+Box boundsOf(const Feature& feature) {
+  Box box;
+  for (const Polygon& polygon : feature.polygons) {
+    for (const Point& p : polygon.outer) box.add(p);
+    for (const Ring& hole : polygon.holes) {
+      for (const Point& p : hole) box.add(p);
+    }
+  }
+  for (const auto& line : feature.lines) {
+    for (const Point& p : line) box.add(p);
+  }
+  return box;
+}
+
+std::vector<std::vector<std::size_t>> setsOf(UnionFind& sets, std::size_t n) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<std::uint32_t> group_of(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t root = sets.find(i);  // never above i: its group is there already
+    if (root == i) {
+      group_of[i] = static_cast<std::uint32_t>(groups.size());
+      groups.emplace_back();
+    }
+    groups[group_of[root]].push_back(i);
+  }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline) {
+  // Indices of features of this many edges are kept; those of smaller ones are made when needed.
+  constexpr std::size_t kLarge = 64;
+  const auto& features = coastline.features;
+  std::vector<Box> boxes(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) boxes[i] = boundsOf(features[i]);
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+
+  UnionFind sets(features.size());
+  std::vector<std::unique_ptr<FeatureIndex>> kept(features.size());
+  for (std::uint32_t i = 0; i < features.size(); ++i) {
+    std::unique_ptr<FeatureIndex> own;
+    const auto indexOf = [&](std::size_t f, std::unique_ptr<FeatureIndex>& scratch) -> const FeatureIndex& {
+      if (kept[f]) return *kept[f];
+      if (!scratch) scratch = std::make_unique<FeatureIndex>(features[f]);
+      if (scratch->edgeCount() < kLarge) return *scratch;
+      kept[f] = std::move(scratch);
+      return *kept[f];
+    };
+    tree.visit(boxes[i], [&](std::uint32_t j) {
+      if (j <= i || sets.find(i) == sets.find(j)) return;
+      std::unique_ptr<FeatureIndex> other;
+      const FeatureIndex& a = indexOf(i, own);
+      const FeatureIndex& b = indexOf(j, other);
+      const bool a_smaller = a.edgeCount() <= b.edgeCount();
+      if (belongTogether(a_smaller ? a : b, a_smaller ? b : a)) sets.unite(i, j);
+    });
+  }
+  return setsOf(sets, features.size());
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,184 @@
+#include "gis/read_layers.hpp"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "gis/error.hpp"
+#include "gis/ogr_geometry.hpp"
+#include "gis/ogr_support.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using Dataset = std::unique_ptr<GDALDataset>;
+
+Dataset open(const std::string& source, const OgrErrors& errors) {
+  GDALAllRegister();
+  Dataset dataset(GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (dataset) return dataset;
+  VSIStatBufL stat;
+  if (VSIStatL(source.c_str(), &stat) != 0) {
+    throw InputError(source + ": no such file; check the path, or name a source that OGR can open");
+  }
+  if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(source + ": the file is empty");
+  throw InputError(source + ": not a vector file that GDAL can read" +
+                   (errors.text().empty() ? "" : " (" + errors.text() + ")"));
+}
+
+// OGR gives coordinates in the order that the layer's axis mapping says: true where that is y, x.
+bool axesSwapped(const OGRSpatialReference& srs) {
+  OGRSpatialReference traditional(srs);
+  traditional.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return srs.GetDataAxisToSRSAxisMapping() != traditional.GetDataAxisToSRSAxisMapping();
+}
+
+std::vector<std::pair<std::string, std::string>> attributesOf(OGRFeature& feature) {
+  std::vector<std::pair<std::string, std::string>> attributes;
+  for (int i = 0; i < feature.GetFieldCount(); ++i) {
+    if (!feature.IsFieldSetAndNotNull(i)) continue;
+    attributes.emplace_back(feature.GetFieldDefnRef(i)->GetNameRef(), feature.GetFieldAsString(i));
+  }
+  return attributes;
+}
+
+template <typename Act>
+void forEachChain(GeometryParts& parts, Act&& act) {
+  for (Polygon& polygon : parts.polygons) {
+    act(polygon.outer);
+    for (Ring& hole : polygon.holes) act(hole);
+  }
+  for (auto& line : parts.lines) act(line);
+}
+
+std::string placeInWords(const Point& p) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.10g, %.10g", p.x, p.y);
+  return text;
+}
+
+// One layer while it is read.
+class LayerReader {
+ public:
+  LayerReader(OGRLayer& layer, std::string source) {
+    raw_.source = std::move(source);
+    const OGRSpatialReference* srs = layer.GetSpatialRef();
+    if (!srs || srs->IsEmpty()) return;
+    try {
+      raw_.crs = fromOgr(srs);
+    } catch (const InputError& error) {
+      throw InputError(raw_.source + ": " + error.what());
+    }
+    swap_axes_ = axesSwapped(*srs);
+  }
+
+  void add(OGRFeature& given, ReadReport& report) {
+    const OGRGeometry* geometry = given.GetGeometryRef();
+    if (!geometry || geometry->IsEmpty()) {
+      ++report.skipped_empty;
+      return;
+    }
+    Feature feature;
+    feature.fid = given.GetFID() == OGRNullFID ? count_ : given.GetFID();
+    feature.source = raw_.source;
+    ++count_;
+    const std::string what = raw_.source + ", feature " + std::to_string(feature.fid);
+    GeometryParts parts;
+    takeApart(*geometry, what, parts);
+    tally(parts, what, report);
+    if (parts.empty()) return;
+    forEachChain(parts, [&](std::vector<Point>& chain) {
+      for (Point& p : chain) {
+        if (swap_axes_) std::swap(p.x, p.y);
+        raw_.bounds.add(p);
+      }
+    });
+    feature.attributes = attributesOf(given);
+    if (!parts.lines.empty()) {
+      for (auto& line : parts.lines) raw_.lines.push_back({std::move(line), raw_.line_features.size()});
+      raw_.line_features.push_back(feature);
+    }
+    if (!parts.polygons.empty()) {
+      feature.polygons = std::move(parts.polygons);
+      raw_.features.push_back(std::move(feature));
+    }
+  }
+
+  RawLayer finish() {
+    if (count_ == 1 && raw_.features.size() == 1 && raw_.features.front().attributes.empty()) takeBareApart();
+    return std::move(raw_);
+  }
+
+ private:
+  void tally(const GeometryParts& parts, const std::string& what, ReadReport& report) {
+    report.points += parts.coordinates;
+    report.rings += parts.rings;
+    report.skipped_points += parts.points;
+    if (parts.unclosed_rings > 0 && report.unclosed_rings == 0) {
+      report.warnings.push_back(what + ": a ring of a polygon is not closed (it ends at " +
+                                placeInWords(*parts.unclosed_place) + "): such rings are closed");
+    }
+    report.unclosed_rings += parts.unclosed_rings;
+  }
+
+  // A lone geometry that no table row goes with: its polygons are features of their own.
+  void takeBareApart() {
+    Feature whole = std::move(raw_.features.front());
+    raw_.features.clear();
+    raw_.features.reserve(whole.polygons.size());
+    for (Polygon& polygon : whole.polygons) {
+      Feature& feature = raw_.features.emplace_back();
+      feature.fid = whole.polygons.size() > 1 ? static_cast<std::int64_t>(raw_.features.size()) - 1 : whole.fid;
+      feature.source = whole.source;
+      feature.polygons.push_back(std::move(polygon));
+    }
+  }
+
+  RawLayer raw_;
+  std::int64_t count_ = 0;  // features with a geometry
+  bool swap_axes_ = false;
+};
+
+void refuseEmpty(const std::string& source, std::uint64_t points) {
+  throw InputError(source + (points > 0 ? ": holds points only" : ": holds no feature with a geometry") +
+                   "; polygons or lines are needed");
+}
+
+}  // namespace
+
+std::vector<RawLayer> readLayers(const std::string& source, ReadReport& report) {
+  OgrErrors errors;
+  const OgrOption any_size("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
+  const Dataset dataset = open(source, errors);
+  const std::uint64_t points_before = report.skipped_points;
+
+  std::vector<OGRLayer*> layers;
+  std::vector<LayerReader> readers;
+  for (OGRLayer* layer : dataset->GetLayers()) {
+    const bool only = dataset->GetLayerCount() == 1;
+    layers.push_back(layer);
+    readers.emplace_back(*layer, only ? source : source + "|" + layer->GetName());
+  }
+  // Through the dataset, not layer by layer: OpenStreetMap files come interleaved.
+  dataset->ResetReading();
+  OGRLayer* layer = nullptr;
+  while (const std::unique_ptr<OGRFeature> feature{dataset->GetNextFeature(&layer, nullptr, nullptr, nullptr)}) {
+    const auto at = std::find(layers.begin(), layers.end(), layer);
+    readers[static_cast<std::size_t>(at - layers.begin())].add(*feature, report);
+  }
+  if (errors.failed()) throw InputError(source + ": cannot be read to its end (" + errors.text() + ")");
+  if (!errors.text().empty()) report.warnings.push_back(source + ": " + errors.text());
+
+  std::vector<RawLayer> raw;
+  for (LayerReader& reader : readers) {
+    RawLayer finished = reader.finish();
+    if (!finished.empty()) raw.push_back(std::move(finished));
+  }
+  if (raw.empty()) refuseEmpty(source, report.skipped_points - points_before);
+  return raw;
+}
+
+}  // namespace coastmesh

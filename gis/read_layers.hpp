@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gis/box.hpp"
+#include "gis/coastline.hpp"
+#include "gis/read_coastline.hpp"
+
+namespace coastmesh {
+
+// A layer as OGR gives it, in its own CRS; private to gis.
+struct RawLayer {
+  struct Line {
+    std::vector<Point> points;
+    std::size_t feature = 0;  // index into `line_features`
+  };
+  std::string source;                  // "file" or "file|layer"
+  std::optional<Crs> crs;              // none: the file does not say
+  std::vector<Feature> features;       // those with polygons
+  std::vector<Feature> line_features;  // those with lines: name and attributes
+  std::vector<Line> lines;
+  Box bounds;
+
+  bool empty() const { return features.empty() && lines.empty(); }
+};
+
+// Layers of one source that hold polygons or lines, in the file's order; at least one. Counts go to `report`.
+std::vector<RawLayer> readLayers(const std::string& source, ReadReport& report);
+
+}  // namespace coastmesh
