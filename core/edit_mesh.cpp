@@ -342,8 +342,10 @@ bool EditMesh::flip(EdgeRef e) {
 
 void EditMesh::restoreDelaunay(std::vector<TriId>& touched) {
   stack_.clear();
-  for (const TriId t : touched)
+  for (const TriId t : touched) {
+    if (!isLive(t)) continue;
     for (unsigned i = 0; i < 3; ++i) stack_.push_back(edgeRef(t, i));
+  }
   while (!stack_.empty()) {
     const EdgeRef e = stack_.back();
     stack_.pop_back();

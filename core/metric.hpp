@@ -45,6 +45,7 @@ struct TriangleBound {
   double max_angle;  // radians; pi where nothing is asked
   double cos_min;
   double sin_min;
+  double sin_place;  // of the smallest angle that new points aim at
   double cos_max;
   double squared_size;  // longest edge, squared; infinite where nothing is asked
 
@@ -53,10 +54,11 @@ struct TriangleBound {
         max_angle(max_angle_deg >= 180.0 ? std::numbers::pi : toRadians(max_angle_deg - kMarginDeg)),
         cos_min(std::cos(min_angle)),
         sin_min(std::sin(min_angle)),
+        sin_place(std::sin(min_angle + toRadians(kMarginDeg))),
         cos_max(std::cos(max_angle)),
         squared_size(size_max * size_max) {}
 
-  static constexpr double kMarginDeg = 1e-7;
+  static constexpr double kMarginDeg = 1e-6;
 
   // Whether an input angle (radians) can be cut into angles within the bounds.
   bool canDivide(double angle) const {

@@ -11,7 +11,7 @@ namespace {
 // the triangle is bad for its size, the disk in which an equilateral triangle of that size fits.
 double petalRadius(double length, const TriangleBound& bound, bool bad_angle) {
   const double by_angle =
-      bound.min_angle > 0.0 ? 0.5 * length / bound.sin_min : std::numeric_limits<double>::infinity();
+      bound.min_angle > 0.0 ? 0.5 * length / bound.sin_place : std::numeric_limits<double>::infinity();
   if (bad_angle || std::isinf(bound.squared_size)) return by_angle;
   constexpr double kInverseRoot3 = 0.57735026918962576;
   return std::clamp(kInverseRoot3 * std::sqrt(bound.squared_size), 0.5 * length, by_angle);
