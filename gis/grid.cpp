@@ -1,0 +1,143 @@
+#include "gis/grid.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/quality.hpp"
+#include "gis/boundary_chains.hpp"
+#include "gis/geodesy.hpp"
+
+namespace coastmesh {
+namespace {
+
+// Where the longitudes of a group are to lie: a whole turn that holds those of its input.
+struct LongitudeRange {
+  double west = -180.0;
+
+  double bring(double longitude) const {
+    if (longitude >= west && longitude <= west + 360.0) return longitude;
+    return longitude - 360.0 * std::floor((longitude - west) / 360.0);
+  }
+};
+
+LongitudeRange rangeOf(const std::vector<Point>& input) {
+  const auto [least, greatest] = std::ranges::minmax(input, {}, &Point::x);
+  if (least.x >= -180.0 && greatest.x <= 180.0) return {-180.0};
+  if (least.x >= 0.0 && greatest.x <= 360.0) return {0.0};
+  return {(least.x + greatest.x) / 2.0 - 180.0};
+}
+
+// Appends the used points of `part` and returns the new index of each, kNone for the unused.
+std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic, std::vector<Point>& nodes) {
+  const Domain& domain = *part.domain;
+  const TriMesh& mesh = *part.mesh;
+  assert(domain.input_points.size() == mesh.input_vertices);
+  const LongitudeRange range =
+      geographic && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
+  std::vector<std::uint32_t> index_of(mesh.points.size(), kNone);
+  for (const Triangle& triangle : mesh.triangles)
+    for (VertexId v : triangle.v) index_of[v] = 0;
+  for (VertexId v = 0; v < mesh.points.size(); ++v) {
+    if (index_of[v] == kNone) continue;
+    index_of[v] = static_cast<std::uint32_t>(nodes.size());
+    if (v < mesh.input_vertices) {
+      nodes.push_back(domain.input_points[v]);
+    } else {
+      Point place = domain.projection.inverse(mesh.points[v]);
+      if (geographic) place.x = range.bring(place.x);
+      nodes.push_back(place);
+    }
+  }
+  return index_of;
+}
+
+void appendTriangles(const TriMesh& mesh, const std::vector<std::uint32_t>& index_of,
+                     const std::vector<std::uint32_t>& feature_index, Grid& grid) {
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t].v;
+    grid.triangles.push_back({index_of[a], index_of[b], index_of[c]});
+    if (!feature_index.empty()) grid.feature_of.push_back(feature_index[static_cast<std::size_t>(mesh.regions[t])]);
+    grid.min_angle_deg.push_back(std::ranges::min(anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c])));
+  }
+}
+
+// The features that triangles belong to, in the coastline's order; the answer is the new index of each of the
+// coastline's, and empty where it has none (a .poly).
+std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
+                                          std::vector<GridFeature>& features) {
+  std::vector<std::uint32_t> index_of(coastline.features.size(), kNone);
+  if (index_of.empty()) return index_of;
+  for (const MeshedDomain& part : parts) {
+    for (RegionId region : part.mesh->regions) {
+      assert(region >= 0 && static_cast<std::size_t>(region) < index_of.size());
+      index_of[static_cast<std::size_t>(region)] = 0;
+    }
+  }
+  for (std::size_t i = 0; i < index_of.size(); ++i) {
+    if (index_of[i] == kNone) continue;
+    index_of[i] = static_cast<std::uint32_t>(features.size());
+    const Feature& feature = coastline.features[i];
+    features.push_back({feature.fid, feature.source, feature.attributes});
+  }
+  return index_of;
+}
+
+}  // namespace
+
+std::string_view toString(BoundaryRole role) {
+  switch (role) {
+    case BoundaryRole::Land:
+      return "land";
+    case BoundaryRole::Island:
+      return "island";
+    case BoundaryRole::Open:
+      return "open";
+  }
+  assert(false);
+  return {};
+}
+
+Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline) {
+  Grid grid;
+  grid.crs = coastline.crs;
+  std::size_t triangle_count = 0, point_count = 0;
+  for (const MeshedDomain& part : parts) {
+    triangle_count += part.mesh->triangles.size();
+    point_count += part.mesh->points.size();
+  }
+  grid.nodes.reserve(point_count);
+  grid.triangles.reserve(triangle_count);
+  grid.min_angle_deg.reserve(triangle_count);
+  const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, grid.features);
+  if (!feature_index.empty()) grid.feature_of.reserve(triangle_count);
+  for (const MeshedDomain& part : parts) {
+    const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, grid.nodes);
+    appendTriangles(*part.mesh, index_of, feature_index, grid);
+    for (Boundary& boundary : findBoundaries(*part.mesh)) {
+      for (std::uint32_t& node : boundary.nodes) node = index_of[node];
+      grid.boundaries.push_back(std::move(boundary));
+    }
+  }
+  grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs);
+  return grid;
+}
+
+std::vector<Boundary> findBoundaries(const TriMesh& mesh) {
+  std::vector<Boundary> boundaries;
+  for (std::vector<VertexId>& loop : rimLoops(mesh)) {
+    const BoundaryRole role = roleOfLoop(mesh.points, loop);
+    boundaries.push_back({role, true, std::move(loop)});
+  }
+  return boundaries;
+}
+
+TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts) {
+  std::vector<Point> points(grid.nodes.size());
+  std::ranges::transform(grid.nodes, points.begin(), [&](const Point& p) { return projection.forward(p); });
+  TriMesh mesh = linkTriangles(std::move(points), grid.triangles, conflicts);
+  if (!grid.feature_of.empty()) std::ranges::copy(grid.feature_of, mesh.regions.begin());
+  return mesh;
+}
+
+}  // namespace coastmesh

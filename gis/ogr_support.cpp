@@ -1,0 +1,71 @@
+#include "gis/ogr_support.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+
+#include <cassert>
+#include <memory>
+
+namespace coastmesh {
+
+OgrErrors::OgrErrors() {
+  CPLPushErrorHandlerEx(
+      [](CPLErr severity, CPLErrorNum code, const char* message) { collect(severity, code, message); }, this);
+}
+
+OgrErrors::~OgrErrors() { CPLPopErrorHandler(); }
+
+void OgrErrors::collect(int severity, int, const char* message) {
+  auto* self = static_cast<OgrErrors*>(CPLGetErrorHandlerUserData());
+  if (severity < CE_Warning) return;
+  const bool error = severity >= CE_Failure;
+  if (self->text_.empty() || (error && !self->failed_)) self->text_ = message;
+  self->failed_ = self->failed_ || error;
+}
+
+void OgrErrors::clear() {
+  failed_ = false;
+  text_.clear();
+}
+
+OgrOption::OgrOption(const char* name, const char* value) : name_(name) {
+  const char* before = CPLGetThreadLocalConfigOption(name, nullptr);
+  was_set_ = before != nullptr;
+  if (was_set_) before_ = before;
+  CPLSetThreadLocalConfigOption(name, value);
+}
+
+OgrOption::~OgrOption() { CPLSetThreadLocalConfigOption(name_, was_set_ ? before_.c_str() : nullptr); }
+
+OGRSpatialReference toOgr(const Crs& crs) {
+  assert(!crs.isPlane());
+  OGRSpatialReference srs;
+  srs.SetFromUserInput(crs.authority.empty() ? crs.wkt.c_str() : crs.authority.c_str());
+  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return srs;
+}
+
+Crs fromOgr(const OGRSpatialReference* srs) {
+  if (srs == nullptr || srs->IsEmpty() || srs->IsLocal()) return {};
+  const auto codeOf = [](const OGRSpatialReference& of) {
+    const char* name = of.GetAuthorityName(nullptr);
+    const char* code = of.GetAuthorityCode(nullptr);
+    return name && code ? std::string(name) + ":" + code : std::string();
+  };
+  std::string code = codeOf(*srs);
+  if (code.empty()) {
+    const std::unique_ptr<OGRSpatialReference, void (*)(OGRSpatialReference*)> match(
+        srs->FindBestMatch(90, "EPSG", nullptr), [](OGRSpatialReference* found) {
+          if (found) found->Release();
+        });
+    if (match) code = codeOf(*match);
+  }
+  if (!code.empty()) return parseCrs(code);
+  const char* const options[] = {"FORMAT=WKT2", nullptr};
+  char* wkt = nullptr;
+  srs->exportToWkt(&wkt, options);
+  const std::unique_ptr<char, void (*)(void*)> owner(wkt, CPLFree);
+  return parseCrs(wkt);
+}
+
+}  // namespace coastmesh

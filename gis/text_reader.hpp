@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace coastmesh {
+
+// A text file, line by line and word by word; words are set apart by blanks, tabs and commas. What does not fit throws
+// InputError with the file and the line.
+class TextReader {
+ public:
+  // `comment`: from there on a line is ignored; '\0' for none.
+  explicit TextReader(std::string path, char comment = '\0');
+
+  bool nextLine();  // goes to the next line that is not blank; false at the end of the file
+  void needLine();  // the same, for a line that has to be there
+  std::string_view line() const { return line_; }
+
+  bool hasWord();           // whether there is another word in the line
+  std::string_view word();  // the next word of the line; empty at its end
+  double number();          // the next word as a finite number
+  std::int64_t integer();
+  std::uint64_t count();  // an integer that is not negative
+
+  [[noreturn]] void fail(const std::string& what) const;
+  const std::string& path() const { return path_; }
+  std::size_t size() const { return text_.size(); }  // bytes in the file: bounds any count that the file claims
+
+ private:
+  std::string path_;
+  char comment_;
+  std::string text_;
+  std::size_t next_ = 0;  // where the next line starts
+  std::size_t line_number_ = 0;
+  std::string_view line_;
+  std::size_t at_ = 0;  // in the line
+};
+
+// Numbers of nodes or elements in a file (any, in any order) to indices by their order.
+class IdMap {
+ public:
+  // `ids` in the file's order; throws through `file.fail` where one repeats.
+  IdMap(std::vector<std::int64_t> ids, const TextReader& file, std::string_view what);
+
+  // kNone for an id that does not exist.
+  std::uint32_t indexOf(std::int64_t id) const;
+
+ private:
+  // Wraps around for ids below the base, and so is too large for any index.
+  std::uint64_t fromBase(std::int64_t id) const {
+    return static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(base_);
+  }
+
+  std::int64_t base_ = 0;
+  std::size_t count_ = 0;
+  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // empty where the ids are base, base + 1, ...
+};
+
+}  // namespace coastmesh

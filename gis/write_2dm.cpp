@@ -1,0 +1,43 @@
+#include "gis/write_2dm.hpp"
+
+#include "gis/boundary_chains.hpp"
+#include "gis/prj_file.hpp"
+#include "gis/text_writer.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr std::size_t kNodesPerLine = 10;
+
+void writeNodeString(TextWriter& file, std::vector<std::uint32_t> nodes, bool closed, std::int64_t id) {
+  if (closed) nodes.push_back(nodes.front());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i % kNodesPerLine == 0) file << (i == 0 ? "NS" : "\nNS");
+    file << (i + 1 == nodes.size() ? " -" : " ") << nodes[i] + 1;
+  }
+  file << ' ' << id << '\n';
+}
+
+}  // namespace
+
+void write2dm(const Grid& grid, const std::string& path) {
+  TextWriter file(path);
+  file << "MESH2D\n";
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    const std::uint32_t material = grid.feature_of.empty() ? 1 : grid.feature_of[t] + 1;
+    file << "E3T " << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << ' ' << material << '\n';
+  }
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    file << "ND " << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' '
+         << (grid.z.empty() ? 0.0 : grid.z[i]) << '\n';
+  }
+  for (std::size_t b = 0; b < grid.boundaries.size(); ++b) {
+    const Boundary& boundary = grid.boundaries[b];
+    writeNodeString(file, boundary.nodes, boundary.closed, boundaryMarker(b, boundary.role));
+  }
+  file.close();
+  writePrjBeside(path, grid.crs);
+}
+
+}  // namespace coastmesh
