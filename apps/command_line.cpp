@@ -110,20 +110,23 @@ void CommandLine::number(const std::string& names, double& value, const std::str
 }
 
 void CommandLine::integer(const std::string& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
-                          const std::string& help) {
-  const bool has_default = value != std::numeric_limits<std::uint64_t>::max();
-  const auto check = [low](const std::string& text) -> std::string {
+                          std::uint64_t high, const std::string& help) {
+  constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+  const bool has_default = value != kNoLimit;
+  const std::string wanted = std::to_string(low) + (high == kNoLimit ? " or more" : " to " + std::to_string(high));
+  const auto check = [low, high, wanted](const std::string& text) -> std::string {
     std::uint64_t number = 0;
-    if (!text.starts_with('-') && CLI::detail::lexical_cast(text, number) && number >= low) return {};
-    return "'" + text + "' is not a whole number of " + std::to_string(low) + " or more";
+    if (!text.starts_with('-') && CLI::detail::lexical_cast(text, number) && number >= low && number <= high) return {};
+    return "'" + text + "' is not a whole number in the range " + wanted;
   };
-  impl_->app->add_option(names, value, help + " (" + std::to_string(low) + " or more)")
+  impl_->app->add_option(names, value, help + " (" + wanted + ")")
       ->type_name(unit)
       ->check(CLI::Validator(check, ""))
       ->default_str(has_default ? std::to_string(value) : "none");
   Json& entry = impl_->record(names, "integer", unit, help);
   entry["default"] = has_default ? Json(value) : Json(nullptr);
   entry["minimum"] = low;
+  if (high != kNoLimit) entry["maximum"] = high;
 }
 
 void CommandLine::text(const std::string& names, std::string& value, const std::string& unit, const std::string& help) {

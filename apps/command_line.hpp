@@ -43,12 +43,13 @@ class CommandLine {
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
 
   // Options. Names are as CLI11 takes them: "-o,--output". `unit` is what the value is counted in ("DEG", "M"), or what
-  // it is ("FILE"). Numbers must be finite and within their range; an infinite default means none. `given`, where there
+  // it is ("FILE"). Numbers must be finite and within their range; an infinite default, or
+  // the greatest of integers, means none. `given`, where there
   // is one, becomes true when the user gives the option.
   void number(const std::string& names, double& value, const std::string& unit, const NumberRange& range,
               const std::string& help, bool* given = nullptr);
   void integer(const std::string& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
-               const std::string& help);
+               std::uint64_t high, const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
   void texts(const std::string& names, std::vector<std::string>& values, const std::string& unit, bool required,
              const std::string& help);

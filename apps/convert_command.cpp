@@ -3,21 +3,22 @@
 #include "apps/commands.hpp"
 #include "apps/exit_codes.hpp"
 #include "apps/grid_outputs.hpp"
+#include "apps/mesh_file.hpp"
 
 namespace coastmesh {
 
 namespace {
 
 struct ConvertUsage {
-  std::string mesh;
+  MeshFile mesh;
   std::vector<std::string> outputs;
   std::string format;
   bool overwrite = false;
 };
 
 int runConvert(const ConvertUsage& usage, Interrupt& interrupt) {
-  GridOutputs outputs(usage.outputs, usage.format, usage.overwrite, {usage.mesh}, interrupt);
-  const Grid grid = readGrid(usage.mesh);
+  GridOutputs outputs(usage.outputs, usage.format, usage.overwrite, {usage.mesh.path}, interrupt);
+  const Grid grid = readMeshFile(usage.mesh);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     interrupt.check();
     outputs.write(i, grid);
@@ -32,7 +33,7 @@ int runConvert(const ConvertUsage& usage, Interrupt& interrupt) {
 Command declareConvert(CLI::App& root) {
   auto usage = std::make_shared<ConvertUsage>();
   CommandLine line(root, "convert", "Write a mesh in other formats");
-  line.argument("MESH", usage->mesh, "mesh to read");
+  declareMeshFile(line, "MESH", "mesh to read", usage->mesh);
   line.texts("-o,--output", usage->outputs, "FILE", true, "mesh to write; repeat it for several");
   line.text("--format", usage->format, "NAME", "format of the output, where its ending does not tell");
   line.flag("--overwrite", usage->overwrite, "replace files that exist");

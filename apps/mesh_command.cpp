@@ -147,8 +147,10 @@ Command declareMesh(CLI::App& root) {
   line.number("--size-max", usage->job.size_max_m, "M", {0.0, std::numeric_limits<double>::infinity(), true},
               "longest edge");
   declareInputOptions(line, usage->job.input);
-  line.integer("--max-vertices", refine.max_vertices, "N", 3, "stop refining at so many vertices, with exit code 1");
-  line.integer("--threads", usage->threads, "N", 0, "threads to work on, 0 for all cores; never changes the result");
+  line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
+               "stop refining at so many vertices, with exit code 1");
+  line.integer("--threads", usage->threads, "N", 0, 1024,
+               "threads to work on, 0 for all cores; never changes the result");
   line.text("--report", usage->report, "FILE", "write a report as JSON");
   line.choice("--progress", usage->progress, {"auto", "bar", "json", "none"},
               "how to show progress: a bar on stderr, or JSON lines on stdout");
@@ -158,7 +160,7 @@ Command declareMesh(CLI::App& root) {
   Command command{std::move(line), {}};
   command.run = [usage](Interrupt& interrupt) {
     usage->job.mesh.refine.algorithm = algorithmNamed(usage->algorithm);
-    usage->job.parallel.threads = static_cast<int>(std::min<std::uint64_t>(usage->threads, 1024));
+    usage->job.parallel.threads = static_cast<int>(usage->threads);
     return runMesh(*usage, interrupt);
   };
   return command;

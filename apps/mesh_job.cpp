@@ -167,8 +167,7 @@ void meshGroup(const MeshJob& job, const JobInput& input, std::size_t group, std
 
   const Stopwatch checking;
   requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()]);
-  result.quality =
-      measureQuality(region.mesh, &domain.pslg, options.refine.min_angle_deg, options.refine.max_angle_deg);
+  result.quality = measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg);
   result.digest = digestOf(region.mesh);
   result.check_s = checking.seconds();
   result.grid = groupGrid(input, group, domain, region.mesh);

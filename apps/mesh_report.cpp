@@ -29,7 +29,7 @@ Json inputSection(const MeshJob& job, const MeshJobResult& result) {
           {"points", result.read.points},
           {"skipped_empty", result.read.skipped_empty},
           {"skipped_points", result.read.skipped_points},
-          {"crs", result.crs.authority.empty() ? result.crs.wkt : result.crs.authority},
+          {"crs", nameOf(result.crs)},
           {"projections", std::move(projections)},
           {"area_m2", orNull(result.input_area_m2)},
           {"refused", std::move(refused)},

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cairo.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+struct Color {
+  double red = 0.0;  // 0 to 1
+  double green = 0.0;
+  double blue = 0.0;
+};
+
+Color mix(const Color& a, const Color& b, double share_of_b);
+
+// A window of the plane drawn into a picture: coordinates below are pixels, y down, unless they say plane.
+class PlotCanvas {
+ public:
+  // The window fills `size_px` on its longer side, with `strip_px` below it. Throws OutputError.
+  PlotCanvas(const std::string& path, const Point& low, const Point& high, double size_px, double strip_px);
+
+  double width() const { return width_; }
+  double mapHeight() const { return map_height_; }
+  double pixelsPerUnit() const { return scale_; }
+  Point toPixel(const Point& plane) const { return {(plane.x - low_.x) * scale_, (high_.y - plane.y) * scale_}; }
+  // Whether the box round the pixels meets the map.
+  bool showsAny(const Point* pixels, std::size_t count) const;
+
+  void fillRectangle(const Point& corner, double width, double height, const Color& color);
+  // Areas that meet edge to edge are drawn without a gap between them.
+  void fillTriangle(const std::array<Point, 3>& corners, const Color& color);
+  // Even-odd over all loops together.
+  void fillLoops(const std::vector<std::vector<Point>>& loops, const Color& color);
+  void strokeLine(const Point& a, const Point& b, double width, const Color& color);
+  void strokeCircle(const Point& centre, double radius, double width, const Color& color);
+  // Many lines of one width and colour.
+  void strokeLines(const std::vector<std::array<Point, 2>>& lines, double width, const Color& color);
+  void text(const Point& baseline, const std::string& text, double height, const Color& color);
+  void clipToMap();
+  void unclip();
+
+  // Writes the picture. Throws OutputError.
+  void finish();
+
+ private:
+  struct DestroySurface {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  };
+  struct DestroyContext {
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+  };
+
+  void setColor(const Color& color);
+  void require(cairo_status_t status) const;
+
+  std::string path_;
+  bool vector_;
+  Point low_;
+  Point high_;
+  double scale_ = 1.0;
+  double width_ = 0.0;
+  double map_height_ = 0.0;
+  std::unique_ptr<cairo_surface_t, DestroySurface> surface_;
+  std::unique_ptr<cairo_t, DestroyContext> context_;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,71 @@
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "apps/commands.hpp"
+#include "apps/exit_codes.hpp"
+#include "apps/mesh_file.hpp"
+#include "apps/plot_mesh.hpp"
+#include "apps/staged_file.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+const std::vector<std::string> kColorNames = {"none", "angle", "feature", "size"};  // as in PlotColor
+
+struct PlotUsage {
+  MeshFile mesh;
+  std::string output;
+  std::string bbox;
+  std::string color = "none";
+  PlotOptions plot;
+  bool overwrite = false;
+};
+
+std::array<double, 4> parseBox(const std::string& text) {
+  std::array<double, 4> box{};
+  int length = 0;
+  const int read = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &box[0], &box[1], &box[2], &box[3], &length);
+  const bool whole = read == 4 && static_cast<std::size_t>(length) == text.size();
+  bool finite = true;
+  for (double side : box) finite = finite && std::isfinite(side);
+  if (!whole || !finite || box[0] >= box[2] || box[1] >= box[3]) {
+    throw UsageError("--bbox: '" + text + "' is not W,S,E,N with W below E and S below N");
+  }
+  return box;
+}
+
+int runPlot(PlotUsage& usage, Interrupt& interrupt) {
+  if (!usage.bbox.empty()) usage.plot.bbox = parseBox(usage.bbox);
+  while (usage.color != kColorNames[static_cast<std::size_t>(usage.plot.color)]) {
+    usage.plot.color = static_cast<PlotColor>(static_cast<int>(usage.plot.color) + 1);
+  }
+  requirePlotFormat(usage.output);
+  StagedFile output(usage.output, usage.overwrite, interrupt);
+  const Grid grid = readMeshFile(usage.mesh);
+  interrupt.check();
+  plotMesh(grid, usage.plot, output.path());
+  interrupt.close();
+  output.commit();
+  return kExitDone;
+}
+
+}  // namespace
+
+Command declarePlot(CLI::App& root) {
+  auto usage = std::make_shared<PlotUsage>();
+  CommandLine line(root, "plot", "Draw a mesh");
+  declareMeshFile(line, "MESH", "mesh to draw", usage->mesh);
+  line.requiredText("-o,--output", usage->output, "FILE", "picture to write: .svg or .png");
+  line.integer("--size", usage->plot.size_px, "PX", 16, 20000, "longer side of the map");
+  line.text("--bbox", usage->bbox, "W,S,E,N", "what to show, in the mesh's CRS; all of it by default");
+  line.choice("--color", usage->color, kColorNames, "what the triangles' colour tells");
+  line.flag("--edges,!--no-edges", usage->plot.edges, "draw the triangles' edges");
+  line.number("--min-angle", usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
+              "show triangles with a smaller angle in red");
+  line.flag("--overwrite", usage->overwrite, "replace a file that exists");
+  return {std::move(line), [usage](Interrupt& interrupt) { return runPlot(*usage, interrupt); }};
+}
+
+}  // namespace coastmesh

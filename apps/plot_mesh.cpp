@@ -1,0 +1,320 @@
+#include "apps/plot_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "apps/grid_pieces.hpp"
+#include "apps/plot_canvas.hpp"
+#include "core/quality.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr Color kLand{0.955, 0.950, 0.935};
+constexpr Color kWater{0.865, 0.925, 0.965};
+constexpr Color kEdge{0.32, 0.52, 0.68};
+constexpr Color kShore{0.10, 0.20, 0.32};
+constexpr Color kBad{0.88, 0.10, 0.10};
+constexpr Color kPaper{1.0, 1.0, 1.0};
+constexpr Color kInk{0.15, 0.15, 0.15};
+
+constexpr double kMargin = 0.03;      // of the window, around what is drawn
+constexpr double kStripPx = 44.0;     // below the map: scale bar and legend
+constexpr double kEdgeShare = 0.075;  // an edge's width over its length, up to the widest
+constexpr double kWidestEdgePx = 0.8;
+constexpr double kBlurPx = 1.2;  // triangles smaller than this show as a tint, not as lines
+// Lines of kEdgeShare of the length of an equilateral triangle's edges cover this share of it.
+constexpr double kEdgeCover = 3.46 * kEdgeShare;
+
+struct Window {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void add(const Point& p) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) return;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  double longerSide() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
+Window windowOf(const GridPiece& piece, const PlotOptions& options) {
+  Window window;
+  if (options.bbox) {
+    // The box's sides are curves in the plane.
+    const auto& [west, south, east, north] = *options.bbox;
+    constexpr int kSteps = 32;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double share = static_cast<double>(i) / kSteps;
+      const double x = west + (east - west) * share;
+      const double y = south + (north - south) * share;
+      for (const Point& p : {Point{x, south}, Point{x, north}, Point{west, y}, Point{east, y}}) {
+        window.add(piece.projection.forward(p));
+      }
+    }
+  } else {
+    for (const Point& p : piece.mesh.points) window.add(p);
+  }
+  const double margin = options.bbox ? 0.0 : kMargin * window.longerSide();
+  window.low = {window.low.x - margin, window.low.y - margin};
+  window.high = {window.high.x + margin, window.high.y + margin};
+  if (!(window.longerSide() > 0.0) || !std::isfinite(window.longerSide())) {
+    throw InputError("there is nothing to draw in the box asked for");
+  }
+  return window;
+}
+
+// From bad to good: red, sand, blue.
+Color rampColor(double share) {
+  constexpr Color kLow{0.84, 0.30, 0.20};
+  constexpr Color kMiddle{0.98, 0.90, 0.62};
+  constexpr Color kHigh{0.25, 0.52, 0.74};
+  return share < 0.5 ? mix(kLow, kMiddle, 2.0 * share) : mix(kMiddle, kHigh, 2.0 * share - 1.0);
+}
+
+// Colours far apart for neighbours in number: hues turned by the golden section.
+Color featureColor(std::size_t feature) {
+  const double hue = std::fmod(static_cast<double>(feature) * 0.6180339887498949, 1.0);
+  const auto channel = [hue](double shift) { return 0.80 + 0.14 * std::cos(2.0 * std::numbers::pi * (hue + shift)); };
+  return {channel(0.0), channel(1.0 / 3.0), channel(2.0 / 3.0)};
+}
+
+// "12.5 km" of a length in metres; bare numbers in a plane without a place on Earth.
+std::string lengthText(double length, bool plane) {
+  char text[40];
+  if (plane) {
+    std::snprintf(text, sizeof text, "%g", length);
+  } else if (length >= 1000.0) {
+    std::snprintf(text, sizeof text, "%g km", length / 1000.0);
+  } else {
+    std::snprintf(text, sizeof text, "%g m", length);
+  }
+  return text;
+}
+
+class MeshPlot {
+ public:
+  MeshPlot(const Grid& grid, const GridPiece& piece, const PlotOptions& options, const Window& window,
+           const std::string& path)
+      : grid_(grid),
+        piece_(piece),
+        mesh_(piece.mesh),
+        options_(options),
+        canvas_(path, window.low, window.high, static_cast<double>(options.size_px), kStripPx) {
+    pixels_.reserve(mesh_.points.size());
+    for (const Point& p : mesh_.points) pixels_.push_back(canvas_.toPixel(p));
+    centre_ = {(window.low.x + window.high.x) / 2, (window.low.y + window.high.y) / 2};
+  }
+
+  void draw() {
+    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight() + kStripPx, kPaper);
+    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight(), kLand);
+    canvas_.clipToMap();
+    drawWater();
+    drawTriangles();
+    if (options_.edges) drawEdges();
+    drawShore();
+    markBad();
+    canvas_.unclip();
+    drawScaleBar();
+    drawLegend();
+    canvas_.finish();
+  }
+
+ private:
+  std::array<Point, 3> corners(TriId t) const {
+    const auto& v = mesh_.triangles[t].v;
+    return {pixels_[v[0]], pixels_[v[1]], pixels_[v[2]]};
+  }
+  bool shows(TriId t) const { return canvas_.showsAny(corners(t).data(), 3); }
+  double smallestAngle(TriId t) const {
+    const auto& v = mesh_.triangles[t].v;
+    return std::ranges::min(anglesDeg(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
+  }
+  double area(TriId t) const {
+    const auto& v = mesh_.triangles[t].v;
+    return std::abs(signedArea(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
+  }
+  double longestEdgePx(TriId t) const {
+    const std::array<Point, 3> c = corners(t);
+    const auto length = [](const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); };
+    return std::max({length(c[0], c[1]), length(c[1], c[2]), length(c[2], c[0])});
+  }
+
+  void drawWater() {
+    std::vector<std::vector<Point>> loops;
+    for (const auto& loop : rimLoops(mesh_)) {
+      std::vector<Point>& drawn = loops.emplace_back();
+      for (VertexId v : loop) drawn.push_back(pixels_[v]);
+    }
+    canvas_.fillLoops(loops, kWater);
+  }
+
+  Color colorOf(TriId t) const {
+    switch (options_.color) {
+      case PlotColor::Angle:
+        return rampColor(smallestAngle(t) / 60.0);
+      case PlotColor::Feature:
+        return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
+      case PlotColor::Size:
+        return rampColor((std::log(area(t)) - least_log_area_) / std::max(1e-12, most_log_area_ - least_log_area_));
+      case PlotColor::None:
+        break;
+    }
+    return kWater;
+  }
+
+  void findAreas() {
+    least_log_area_ = std::numeric_limits<double>::infinity();
+    most_log_area_ = -least_log_area_;
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      const double log_area = std::log(area(t));
+      if (!std::isfinite(log_area)) continue;
+      least_log_area_ = std::min(least_log_area_, log_area);
+      most_log_area_ = std::max(most_log_area_, log_area);
+    }
+  }
+
+  void drawTriangles() {
+    if (options_.color == PlotColor::Size) findAreas();
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      const bool blurred = options_.edges && longestEdgePx(t) < kBlurPx;
+      const bool bad = smallestAngle(t) < options_.min_angle_deg;
+      if (!blurred && !bad && options_.color == PlotColor::None) continue;
+      if (!shows(t)) continue;
+      const Color color = bad ? kBad : colorOf(t);
+      canvas_.fillTriangle(corners(t), blurred && !bad ? mix(color, kEdge, kEdgeCover) : color);
+    }
+  }
+
+  // Lines get thinner with the triangles, so that dense places keep the tint of the others.
+  void drawEdges() {
+    std::map<int, std::vector<std::array<Point, 2>>> by_width;  // in quarter octaves below the widest
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      if (longestEdgePx(t) < kBlurPx || !shows(t)) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        const EdgeRef twin = mesh_.twin(e);
+        if (twin == kNone || (twin < e && longestEdgePx(triOf(twin)) >= kBlurPx)) continue;
+        const Point& a = pixels_[mesh_.origin(e)];
+        const Point& b = pixels_[mesh_.target(e)];
+        const double width = std::min(kWidestEdgePx, kEdgeShare * std::hypot(b.x - a.x, b.y - a.y));
+        const int level = static_cast<int>(std::floor(4.0 * std::log2(kWidestEdgePx / std::max(width, 1e-3))));
+        by_width[level].push_back({a, b});
+      }
+    }
+    for (const auto& [level, lines] : by_width) {
+      canvas_.strokeLines(lines, kWidestEdgePx * std::exp2(-level / 4.0), kEdge);
+    }
+  }
+
+  void drawShore() {
+    std::vector<std::array<Point, 2>> shore;
+    std::vector<std::array<Point, 2>> borders;
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        const EdgeRef twin = mesh_.twin(e);
+        const bool rim = twin == kNone;
+        if (!rim && (twin < e || mesh_.regions[t] == mesh_.regions[triOf(twin)])) continue;
+        const std::array<Point, 2> line{pixels_[mesh_.origin(e)], pixels_[mesh_.target(e)]};
+        if (canvas_.showsAny(line.data(), 2)) (rim ? shore : borders).push_back(line);
+      }
+    }
+    canvas_.strokeLines(borders, 0.9, mix(kShore, kEdge, 0.5));
+    canvas_.strokeLines(shore, 1.1, kShore);
+  }
+
+  // A bad triangle of a pixel would go unseen: a circle tells where it is.
+  void markBad() {
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!(smallestAngle(t) < options_.min_angle_deg) || longestEdgePx(t) > 8.0 || !shows(t)) continue;
+      const std::array<Point, 3> c = corners(t);
+      canvas_.strokeCircle({(c[0].x + c[1].x + c[2].x) / 3, (c[0].y + c[1].y + c[2].y) / 3}, 5.0, 1.2, kBad);
+    }
+  }
+
+  void drawScaleBar() {
+    const double units_per_metre = piece_.projection.scaleAt(centre_);
+    const double pixels_per_metre = canvas_.pixelsPerUnit() * units_per_metre;
+    const double wanted = 0.2 * canvas_.width() / pixels_per_metre;
+    const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+    double length = power;
+    for (double digit : {2.0, 5.0}) {
+      if (digit * power <= wanted) length = digit * power;
+    }
+    const double y = canvas_.mapHeight() + 20.0;
+    const double end = 12.0 + length * pixels_per_metre;
+    canvas_.strokeLine({12.0, y}, {end, y}, 1.5, kInk);
+    canvas_.strokeLine({12.0, y - 4.0}, {12.0, y + 4.0}, 1.5, kInk);
+    canvas_.strokeLine({end, y - 4.0}, {end, y + 4.0}, 1.5, kInk);
+    canvas_.text({12.0, y + 18.0}, lengthText(length, grid_.crs.isPlane()), 13.0, kInk);
+  }
+
+  void drawLegend() {
+    if (options_.color != PlotColor::Angle && options_.color != PlotColor::Size) return;
+    constexpr int kSteps = 60;
+    constexpr double kStep = 3.0;
+    const double left = canvas_.width() - kSteps * kStep - 12.0;
+    if (left < canvas_.width() / 2) return;  // no room for it beside the scale bar
+    const double top = canvas_.mapHeight() + 12.0;
+    for (int i = 0; i < kSteps; ++i) {
+      canvas_.fillRectangle({left + i * kStep, top}, kStep + 0.5, 10.0, rampColor((i + 0.5) / kSteps));
+    }
+    std::string low = "0\u00b0";
+    std::string high = "60\u00b0 smallest angle";
+    if (options_.color == PlotColor::Size) {
+      const double scale = piece_.projection.scaleAt(centre_);
+      const auto sideOf = [scale](double log_area) { return std::sqrt(std::exp(log_area) * 2.309) / scale; };
+      const auto rounded = [](double value) {
+        const double power = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+        return std::round(value / power) * power;
+      };
+      low = lengthText(rounded(sideOf(least_log_area_)), grid_.crs.isPlane());
+      high = lengthText(rounded(sideOf(most_log_area_)), grid_.crs.isPlane()) + " edge";
+    }
+    canvas_.text({left, top + 26.0}, low, 13.0, kInk);
+    canvas_.text({left + kSteps * kStep - 7.0 * static_cast<double>(high.size()), top + 26.0}, high, 13.0, kInk);
+  }
+
+  const Grid& grid_;
+  const GridPiece& piece_;
+  const TriMesh& mesh_;
+  const PlotOptions& options_;
+  PlotCanvas canvas_;
+  std::vector<Point> pixels_;  // one a point of the mesh
+  Point centre_;               // of the window, in the plane
+  double least_log_area_ = 0.0;
+  double most_log_area_ = 0.0;
+};
+
+}  // namespace
+
+void requirePlotFormat(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".svg" && ending != ".png") {
+    throw OutputError("cannot draw '" + path + "': give it one of the endings .svg, .png");
+  }
+}
+
+void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path) {
+  requirePlotFormat(path);
+  std::vector<std::uint32_t> all(grid.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const Projection projection = fitProjection(grid, all);
+  const GridPiece piece = makePiece(grid, std::move(all), projection);
+  const Window window = windowOf(piece, options);
+  MeshPlot(grid, piece, options, window, path).draw();
+}
+
+}  // namespace coastmesh

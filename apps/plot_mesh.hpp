@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "gis/grid.hpp"
+
+namespace coastmesh {
+
+enum class PlotColor { None, Angle, Feature, Size };
+
+struct PlotOptions {
+  std::uint64_t size_px = 1600;               // longer side of the map, 16 to 20000
+  std::optional<std::array<double, 4>> bbox;  // west, south, east, north in the grid's CRS
+  PlotColor color = PlotColor::None;
+  bool edges = true;
+  double min_angle_deg = 0.0;  // degrees; triangles with a smaller angle are red
+};
+
+// Draws the grid in a conformal plane fitted to it, with a scale bar, as .svg or .png by the ending of `path`. Throws
+// OutputError, and InputError where the box holds nothing of the plane.
+void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path);
+
+// Throws OutputError where `path` ends neither in .svg nor in .png.
+void requirePlotFormat(const std::string& path);
+
+}  // namespace coastmesh
