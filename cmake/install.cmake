@@ -3,6 +3,11 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# The interface of each room; its other headers are its own affair.
+set(core_headers check delaunay ids point pslg quality refine run_control tri_mesh)
+set(gis_headers clean coastline crs error grid grid_io poly_io projection read_coastline)
+set(parallel_headers mesh_regions)
+
 set(coastmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/coastmesh)
 foreach(room core gis parallel)
   set_target_properties(coastmesh_${room} PROPERTIES EXPORT_NAME ${room})
@@ -11,8 +16,8 @@ foreach(room core gis parallel)
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh
-    FILES_MATCHING PATTERN "*.hpp")
+  list(TRANSFORM ${room}_headers REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/${room}/\\1.hpp" OUTPUT_VARIABLE headers)
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh/${room})
 endforeach()
 install(TARGETS coastmesh EXPORT coastmesh-program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(part core gis parallel program)

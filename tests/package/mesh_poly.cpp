@@ -16,7 +16,7 @@ int main() {
 
   MeshedRegion region;
   forEachRegion(1, ParallelOptions{}, RunControl{}, [&](std::size_t) { region = meshRegion(read, MeshOptions{}); });
-  const MeshQuality quality = measureQuality(region.mesh, &read, MeshOptions{}.refine.min_angle_deg);
+  const MeshQuality quality = measureQuality(region.mesh, MeshOptions{}.refine.min_angle_deg);
   std::printf("%zu triangles, smallest angle %.3f degrees\n", region.mesh.triangles.size(), quality.min_angle_deg);
   return quality.below_bound == 0 && quality.triangles > 0 ? 0 : 1;
 }
