@@ -84,10 +84,8 @@ Command declareCheck(CLI::App& root) {
   auto usage = std::make_shared<CheckUsage>();
   CommandLine line(root, "check", "Look for defects in a mesh; exit code 1 where there are any");
   declareMeshFile(line, "MESH", "mesh to check", usage->mesh);
-  line.texts(
-      "--input", usage->input.files, "FILE", false,
-      "what the mesh was made from: its points and edges have to be there, its small angles explain those of the "
-      "mesh; repeat it for several");
+  line.texts("--input", usage->input.files, "FILE", false,
+             "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
   line.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
   line.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
   line.flag("--delaunay", usage->check.delaunay,

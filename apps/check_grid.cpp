@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -36,14 +37,26 @@ double delaunayExcess(const TriMesh& mesh, EdgeRef e) {
   return angleAtApex(e) + angleAtApex(mesh.twin(e)) - 180.0;
 }
 
-// A triangle with an edge that is not Delaunay for another reason than rounding, or a border between features.
-bool isClearlyNotDelaunay(const TriMesh& mesh, TriId t) {
-  for (unsigned i = 0; i < 3; ++i) {
-    const EdgeRef twin = mesh.triangles[t].adj[i];
-    if (twin == kNone || mesh.regions[t] != mesh.regions[triOf(twin)]) continue;
-    if (delaunayExcess(mesh, edgeRef(t, i)) > kAngleSlackDeg) return true;
+// The triangle's edge whose middle lies at `place`.
+EdgeRef edgeAt(const TriMesh& mesh, TriId t, const Point& place) {
+  const auto distanceTo = [&](unsigned i) {
+    const Point& a = mesh.points[mesh.origin(edgeRef(t, i))];
+    const Point& b = mesh.points[mesh.target(edgeRef(t, i))];
+    return std::hypot((a.x + b.x) / 2 - place.x, (a.y + b.y) / 2 - place.y);
+  };
+  unsigned nearest = 0;
+  for (unsigned i : {1u, 2u}) {
+    if (distanceTo(i) < distanceTo(nearest)) nearest = i;
   }
-  return false;
+  return edgeRef(t, nearest);
+}
+
+// Rounding, or a border between features, does not account for it.
+bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
+  const EdgeRef e = edgeAt(mesh, defect.triangle, defect.place);
+  const EdgeRef twin = mesh.twin(e);
+  if (twin == kNone || mesh.regions[triOf(e)] != mesh.regions[triOf(twin)]) return false;
+  return delaunayExcess(mesh, e) > kAngleSlackDeg;
 }
 
 void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options,
@@ -60,11 +73,8 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
   check.delaunay = options.delaunay;
   check.pinches = options.pinches;
   for (const MeshDefect& defect : checkMesh(piece.mesh, pslg, check)) {
-    const bool of_triangle = defect.triangle != kNone;
-    if (defect.kind == DefectKind::NotDelaunay && !(of_triangle && isClearlyNotDelaunay(piece.mesh, defect.triangle))) {
-      continue;
-    }
-    const std::int64_t triangle = of_triangle ? std::int64_t{piece.triangles[defect.triangle]} : -1;
+    if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, defect)) continue;
+    const std::int64_t triangle = defect.triangle == kNone ? -1 : std::int64_t{piece.triangles[defect.triangle]};
     defects.push_back({defect.kind, inverse(defect.place), triangle, defect.value});
   }
 }

@@ -36,10 +36,19 @@ Json inputSection(const MeshJob& job, const MeshJobResult& result) {
           {"warnings", result.read.warnings}};
 }
 
+// "touching ring" as "touching_ring".
+std::string keyOf(std::string_view words) {
+  std::string key(words);
+  for (char& c : key) {
+    if (c == ' ' || c == '-') c = '_';
+  }
+  return key;
+}
+
 Json cleanSection(const MeshJobResult& result) {
   Json section = Json::object();
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) {
-    section[std::string(toString(static_cast<EditKind>(kind)))] = result.edits[kind];
+    section[keyOf(toString(static_cast<EditKind>(kind)))] = result.edits[kind];
   }
   return section;
 }

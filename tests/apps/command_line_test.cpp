@@ -1,0 +1,126 @@
+#include "apps/command_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace coastmesh {
+
+namespace {
+
+using Json = nlohmann::json;
+
+struct Values {
+  double angle = 33.0;
+  bool angle_given = false;
+  double size = std::numeric_limits<double>::infinity();
+  std::uint64_t count = 4;
+  bool shrink = true;
+  std::string name = "b";
+  std::string path;
+  std::vector<std::string> inputs;
+  std::vector<std::string> outputs;
+};
+
+class CommandLineTest : public testing::Test {
+ protected:
+  CommandLineTest() : line_(app_, "knit", "Knit a sock") {
+    line_.arguments("INPUT", values_.inputs, "wool");
+    line_.number("--angle", values_.angle, "DEG", {0.0, 45.0}, "angle", &values_.angle_given);
+    line_.number("--size", values_.size, "M", {0.0, std::numeric_limits<double>::infinity(), true}, "size");
+    line_.integer("--count", values_.count, "N", 2, 9, "count");
+    line_.flag("--shrink,!--no-shrink", values_.shrink, "shrink");
+    line_.choice("--name", values_.name, {"a", "b"}, "name");
+    line_.text("--path", values_.path, "FILE", "path");
+    line_.texts("-o,--output", values_.outputs, "FILE", true, "output");
+  }
+
+  void parse(std::vector<std::string> words) {
+    std::reverse(words.begin(), words.end());
+    app_.parse(words);
+  }
+
+  CLI::App app_;
+  Values values_;
+  CommandLine line_;
+};
+
+TEST_F(CommandLineTest, DefaultsStayWhereNothingIsGiven) {
+  parse({"knit", "wool", "-o", "sock"});
+  EXPECT_TRUE(line_.chosen());
+  EXPECT_EQ(values_.angle, 33.0);
+  EXPECT_FALSE(values_.angle_given);
+  EXPECT_TRUE(std::isinf(values_.size));
+  EXPECT_EQ(values_.count, 4u);
+  EXPECT_TRUE(values_.shrink);
+  EXPECT_EQ(values_.name, "b");
+}
+
+TEST_F(CommandLineTest, ValuesAreTaken) {
+  parse({"knit", "-o", "sock", "wool", "yarn", "--angle", "45", "--size", "1e-3", "--count", "9", "--no-shrink",
+         "--name", "a", "--output", "hat"});
+  EXPECT_EQ(values_.inputs, (std::vector<std::string>{"wool", "yarn"}));
+  EXPECT_EQ(values_.outputs, (std::vector<std::string>{"sock", "hat"}));
+  EXPECT_EQ(values_.angle, 45.0);
+  EXPECT_TRUE(values_.angle_given);
+  EXPECT_EQ(values_.size, 1e-3);
+  EXPECT_EQ(values_.count, 9u);
+  EXPECT_FALSE(values_.shrink);
+  EXPECT_EQ(values_.name, "a");
+}
+
+TEST_F(CommandLineTest, WhatIsOutOfRangeIsRefused) {
+  for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"--angle", "45.1"},
+                                                                                      {"--angle", "-0.1"},
+                                                                                      {"--angle", "nan"},
+                                                                                      {"--angle", "inf"},
+                                                                                      {"--angle", "3x"},
+                                                                                      {"--size", "0"},
+                                                                                      {"--size", "-1"},
+                                                                                      {"--size", "inf"},
+                                                                                      {"--count", "1"},
+                                                                                      {"--count", "10"},
+                                                                                      {"--count", "2.5"},
+                                                                                      {"--count", "-3"},
+                                                                                      {"--name", "c"}}) {
+    EXPECT_THROW(parse({"knit", "wool", "-o", "sock", option + "=" + value}), CLI::ParseError) << option << value;
+  }
+  EXPECT_THROW(parse({"knit", "wool"}), CLI::ParseError);
+  EXPECT_THROW(parse({"knit", "-o", "sock"}), CLI::ParseError);
+}
+
+TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
+  std::string text;
+  try {
+    parse({"knit", "--json-usage"});
+  } catch (const UsageText& asked) {
+    text = asked.text;
+  }
+  EXPECT_EQ(text, line_.jsonUsage());
+  const Json usage = Json::parse(text);
+  EXPECT_EQ(usage["command"], "knit");
+  EXPECT_EQ(usage["arguments"].size(), 1u);
+  ASSERT_EQ(usage["options"].size(), 7u);
+  const Json& angle = usage["options"][0];
+  EXPECT_EQ(angle, (Json{{"name", "--angle"},
+                         {"names", {"--angle"}},
+                         {"type", "number"},
+                         {"help", "angle"},
+                         {"unit", "DEG"},
+                         {"default", 33.0},
+                         {"minimum", 0.0},
+                         {"maximum", 45.0}}));
+  EXPECT_EQ(usage["options"][3]["names"], (Json{"--shrink", "--no-shrink"}));
+}
+
+TEST_F(CommandLineTest, HelpShowsUnitDefaultAndRange) {
+  const std::string help = app_.get_subcommand("knit")->help();
+  for (const char* part : {"DEG", "33", "0 to 45", "above 0", "2 to 9", "--no-shrink", "a|b"}) {
+    EXPECT_NE(help.find(part), std::string::npos) << part << help;
+  }
+}
+
+}  // namespace
+
+}  // namespace coastmesh

@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+using Json = nlohmann::json;
+
+class Commands : public ProgramTest {
+ protected:
+  // Meshes the lake and answers the mesh's path.
+  std::string meshed(const std::string& name) const {
+    const ProgramRun run = runProgram({"mesh", lake(), "-o", file(name), "--quiet", "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return file(name);
+  }
+  Json info(const std::string& path) const {
+    const ProgramRun run = runProgram({"info", path, "--json", "--assume-crs", "EPSG:4326"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return Json::parse(run.output);
+  }
+};
+
+TEST_F(Commands, EveryOptionOfTheJsonUsageIsInTheHelp) {
+  const ProgramRun run = runProgram({"--json-usage"});
+  ASSERT_EQ(run.code, 0);
+  const Json usage = Json::parse(run.output);
+  std::set<std::string> verbs;
+  for (const Json& command : usage["commands"]) {
+    const std::string verb = command["command"];
+    verbs.insert(verb);
+    const ProgramRun own = runProgram({verb, "--json-usage"});
+    EXPECT_EQ(own.code, 0);
+    EXPECT_EQ(Json::parse(own.output), command);
+    const ProgramRun help = runProgram({verb, "--help"});
+    EXPECT_EQ(help.code, 0);
+    for (const Json& option : command["options"]) {
+      EXPECT_FALSE(option["help"].get<std::string>().empty());
+      for (const std::string name : option["names"]) EXPECT_NE(help.output.find(name), std::string::npos) << name;
+    }
+  }
+  EXPECT_EQ(verbs, (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "clean"}));
+}
+
+TEST_F(Commands, UsageTellsDefaultAndRange) {
+  const Json usage = Json::parse(runProgram({"mesh", "--json-usage"}).output);
+  const auto option = [&usage](const std::string& name) {
+    for (const Json& entry : usage["options"]) {
+      if (entry["name"] == name) return entry;
+    }
+    return Json();
+  };
+  EXPECT_EQ(option("--min-angle")["default"], 33.0);
+  EXPECT_EQ(option("--min-angle")["minimum"], 0.0);
+  EXPECT_EQ(option("--min-angle")["maximum"], 45.0);
+  EXPECT_EQ(option("--min-angle")["unit"], "DEG");
+  EXPECT_EQ(option("--size-max")["exclusive_minimum"], 0.0);
+  EXPECT_TRUE(option("--size-max")["default"].is_null());
+  EXPECT_EQ(option("--shrink")["default"], true);
+  EXPECT_EQ(option("--algorithm")["choices"].size(), 4u);
+  EXPECT_EQ(option("--output")["required"], true);
+}
+
+TEST_F(Commands, VersionIsPrinted) {
+  const ProgramRun run = runProgram({"--version"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_TRUE(run.output.starts_with("coastmesh ")) << run.output;
+}
+
+TEST_F(Commands, CheckFindsNothingInOurOwnMeshes) {
+  for (const char* name : {"a.2dm", "a.msh", "a.nc", "a.gpkg"}) {
+    const std::string mesh = meshed(name);
+    const ProgramRun alone =
+        runProgram({"check", mesh, "--min-angle", "33", "--delaunay", "--pinches", "--assume-crs", "EPSG:4326"});
+    EXPECT_EQ(alone.code, 0) << name << alone.output << alone.errors;
+    const ProgramRun against = runProgram({"check", mesh, "--input", lake(), "--min-angle", "33"});
+    EXPECT_EQ(against.code, 0) << name << against.output << against.errors;
+  }
+}
+
+TEST_F(Commands, CheckFindsDefectsAndPlacesThem) {
+  const std::string mesh = meshed("a.2dm");
+  const ProgramRun angles = runProgram({"check", mesh, "--min-angle", "45", "-o", file("defects.geojson")});
+  EXPECT_EQ(angles.code, 1) << angles.errors;
+  EXPECT_FALSE(Json::parse(readText(file("defects.geojson")))["features"].empty());
+
+  // Of another lake.
+  const std::string other = write("other.geojson", geoJsonPolygons({{{{0, 0}, {0.1, 0}, {0.1, 0.1}}}}));
+  EXPECT_EQ(runProgram({"check", mesh, "--input", other}).code, 1);
+
+  // One triangle turned round.
+  std::string text = readText(mesh);
+  const std::size_t line = text.find("E3T 1 ");
+  std::istringstream words(text.substr(line, text.find('\n', line) - line));
+  std::string tag, id, a, b, c, material;
+  words >> tag >> id >> a >> b >> c >> material;
+  text.replace(line, text.find('\n', line) - line, "E3T 1 " + b + " " + a + " " + c + " " + material);
+  const ProgramRun turned = runProgram({"check", write("turned.2dm", text)});
+  EXPECT_NE(turned.code, 0) << turned.output;
+}
+
+TEST_F(Commands, ConvertKeepsTheMesh) {
+  const std::string mesh = meshed("a.nc");
+  const Json first = info(mesh);
+  EXPECT_EQ(runProgram({"convert", mesh, "-o", file("b.msh"), "-o", file("b.gpkg")}).code, 0);
+  EXPECT_EQ(runProgram({"convert", file("b.msh"), "-o", file("c.2dm")}).code, 0);
+  EXPECT_EQ(runProgram({"convert", file("c.2dm"), "-o", file("d.nc")}).code, 0);
+  for (const char* name : {"b.msh", "b.gpkg", "c.2dm", "d.nc"}) {
+    const Json last = info(file(name));
+    EXPECT_EQ(last["nodes"], first["nodes"]) << name;
+    EXPECT_EQ(last["triangles"], first["triangles"]) << name;
+    EXPECT_EQ(last["extent"], first["extent"]) << name;
+    EXPECT_NEAR(last["min_angle_deg"].get<double>(), first["min_angle_deg"].get<double>(), 1e-9) << name;
+  }
+}
+
+TEST_F(Commands, InfoTellsACoastlineFromAMesh) {
+  const Json lake_info = info(lake());
+  EXPECT_EQ(lake_info["kind"], "coastline");
+  EXPECT_EQ(lake_info["features"], 1);
+  EXPECT_EQ(lake_info["rings"], 2);
+  EXPECT_EQ(lake_info["holes"], 1);
+  const Json mesh_info = info(meshed("a.gpkg"));
+  EXPECT_EQ(mesh_info["kind"], "mesh");
+  EXPECT_EQ(mesh_info["boundaries"], (Json{{"land", 1}, {"island", 1}}));
+  EXPECT_EQ(runProgram({"info", file("nowhere.nc")}).code, 3);
+}
+
+TEST_F(Commands, CleanWritesItsLayers) {
+  const LonLatRing bow_tie{{0, 0}, {0.1, 0.1}, {0.1, 0}, {0, 0.1}};
+  const std::string input = write("bow.geojson", geoJsonPolygons({{bow_tie}}));
+  const ProgramRun run = runProgram({"clean", input, "-o", file("clean.gpkg")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_NE(run.output.find("crossing: 1"), std::string::npos) << run.output;
+  EXPECT_EQ(runProgram({"clean", input, "-o", file("clean.poly")}).code, 0);
+  EXPECT_EQ(info(file("clean.poly"))["kind"], "poly");
+  EXPECT_EQ(info(file("clean.poly"))["points"], 5);
+  EXPECT_EQ(runProgram({"clean", input, "-o", file("clean.geojson")}).code, 4);
+}
+
+TEST_F(Commands, PlotDraws) {
+  const std::string mesh = meshed("a.nc");
+  EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.png"), "--size", "300"}).code, 0);
+  EXPECT_TRUE(readText(file("a.png")).starts_with("\x89PNG"));
+  for (const char* color : {"none", "angle", "feature", "size"}) {
+    EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.svg"), "--color", color, "--overwrite"}).code, 0);
+    EXPECT_NE(readText(file("a.svg")).find("</svg>"), std::string::npos);
+  }
+  EXPECT_EQ(runProgram({"plot", mesh, "-o", file("b.svg"), "--bbox", "-87.49,41.60,-87.48,41.61"}).code, 0);
+  EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.jpg")}).code, 4);
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test

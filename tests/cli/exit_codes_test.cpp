@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+class ExitCodes : public ProgramTest {
+ protected:
+  // The program refuses the input and leaves nothing in the folder but what was there.
+  void expectRefused(const std::string& input, int code) {
+    const std::set<std::string> before = names();
+    const ProgramRun run = runProgram({"mesh", input, "-o", file("out.2dm")});
+    EXPECT_EQ(run.code, code) << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors));
+    EXPECT_EQ(run.output, "");
+    EXPECT_EQ(names(), before);
+  }
+};
+
+TEST_F(ExitCodes, InputThatDoesNotExist) { expectRefused(file("nowhere.gpkg"), 3); }
+
+TEST_F(ExitCodes, PolyThatDoesNotExist) { expectRefused(file("nowhere.poly"), 3); }
+
+TEST_F(ExitCodes, EmptyInput) { expectRefused(write("empty.geojson", ""), 3); }
+
+TEST_F(ExitCodes, NoVectorFile) { expectRefused(write("letter.gpkg", "Dear reader,\nall is well.\n"), 3); }
+
+TEST_F(ExitCodes, OnlyPoints) {
+  expectRefused(write("points.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},
+      "geometry":{"type":"Point","coordinates":[1,2]}}]})"),
+                3);
+}
+
+TEST_F(ExitCodes, NoFeature) {
+  expectRefused(write("none.geojson", R"({"type":"FeatureCollection","features":[]})"), 3);
+}
+
+TEST_F(ExitCodes, OnlyNotANumber) {
+  expectRefused(write("nan.csv", "WKT,name\n\"POLYGON ((nan nan, nan nan, nan nan, nan nan))\",a\n"), 3);
+}
+
+TEST_F(ExitCodes, PolygonWithoutArea) {
+  expectRefused(write("flat.geojson", geoJsonPolygons({{{{0, 0}, {1, 0}, {2, 0}}}})), 3);
+}
+
+TEST_F(ExitCodes, FolderThatDoesNotExist) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("nowhere/out.2dm")});
+  EXPECT_EQ(run.code, 4);
+  EXPECT_TRUE(isOneErrorLine(run.errors));
+}
+
+TEST_F(ExitCodes, EndingThatNoFormatHas) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("out.xyzzy")});
+  EXPECT_EQ(run.code, 4);
+  EXPECT_TRUE(isOneErrorLine(run.errors));
+}
+
+TEST_F(ExitCodes, ExistingOutputIsKept) {
+  const std::string out = write("out.2dm", "precious");
+  const std::string input = lake();
+  const ProgramRun refused = runProgram({"mesh", input, "-o", out});
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(isOneErrorLine(refused.errors));
+  EXPECT_NE(refused.errors.find("--overwrite"), std::string::npos);
+  EXPECT_EQ(readText(out), "precious");
+
+  EXPECT_EQ(runProgram({"mesh", input, "-o", out, "--overwrite"}).code, 0);
+  EXPECT_TRUE(readText(out).starts_with("MESH2D"));
+}
+
+TEST_F(ExitCodes, ExistingOutputIsKeptWhenTheInputIsRefused) {
+  const std::string out = write("out.2dm", "precious");
+  EXPECT_EQ(runProgram({"mesh", write("empty.geojson", ""), "-o", out, "--overwrite"}).code, 3);
+  EXPECT_EQ(readText(out), "precious");
+}
+
+TEST_F(ExitCodes, WrongUsage) {
+  const std::string input = lake();
+  const std::string out = file("out.2dm");
+  const std::vector<std::vector<std::string>> wrong{
+      {},
+      {"knit"},
+      {"mesh"},
+      {"mesh", input},
+      {"mesh", "-o", out},
+      {"mesh", input, "-o", out, "--no-such-option"},
+      {"mesh", input, "-o", out, "--min-angle", "46"},
+      {"mesh", input, "-o", out, "--min-angle", "-1"},
+      {"mesh", input, "-o", out, "--min-angle", "nan"},
+      {"mesh", input, "-o", out, "--min-angle", "many"},
+      {"mesh", input, "-o", out, "--max-angle", "59"},
+      {"mesh", input, "-o", out, "--size-max", "0"},
+      {"mesh", input, "-o", out, "--max-vertices", "-5"},
+      {"mesh", input, "-o", out, "--algorithm", "guess"},
+      {"mesh", input, "-o", out, "--progress", "loud"},
+      {"mesh", input, "-o", out, "-o", out},
+      {"mesh", input, "-o", input, "--overwrite"},
+      {"mesh", input, "-o", out, "-o", file("out.msh"), "--format", "2dm"},
+      {"plot", input, "-o", file("map.png"), "--bbox", "1,2,3"},
+  };
+  for (const std::vector<std::string>& arguments : wrong) {
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 2) << testing::PrintToString(arguments) << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors));
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
+}
+
+TEST_F(ExitCodes, VertexBudgetGivesAMeshAndExitOne) {
+  const ProgramRun run =
+      runProgram({"mesh", lake(), "-o", file("out.2dm"), "--size-max", "20", "--max-vertices", "200"});
+  EXPECT_EQ(run.code, 1) << run.errors;
+  EXPECT_EQ(runProgram({"check", file("out.2dm"), "--assume-crs", "EPSG:4326"}).code, 0);
+}
+
+TEST_F(ExitCodes, WhatCannotBeMeshedIsLeftOutAndTheRestMeshed) {
+  const std::string input =
+      write("parts.geojson", geoJsonPolygons({{{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}}, {{{5, 5}, {6, 5}, {7, 5}}}}));
+  const ProgramRun run = runProgram({"mesh", input, "-o", file("out.2dm")});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.errors.find("feature 1"), std::string::npos) << run.errors;
+  EXPECT_TRUE(readText(file("out.2dm")).starts_with("MESH2D"));
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test

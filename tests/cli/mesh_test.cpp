@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+using Json = nlohmann::json;
+
+class MeshRun : public ProgramTest {
+ protected:
+  Json report(const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> arguments{"mesh",       lake(), "-o", file("report.2dm"), "--report", file("report.json"),
+                                       "--overwrite"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return Json::parse(readText(file("report.json")));
+  }
+};
+
+std::set<std::string> keysOf(const Json& object) {
+  std::set<std::string> keys;
+  for (const auto& item : object.items()) keys.insert(item.key());
+  return keys;
+}
+
+TEST_F(MeshRun, WritesEveryOutputAndNothingElse) {
+  const std::string input = lake();
+  const ProgramRun run = runProgram({"mesh", input, "-o", file("a.2dm"), "-o", file("a.msh"), "-o", file("a.nc"), "-o",
+                                     file("a.gpkg"), "-o", file("a.geojson"), "--report", file("a.json")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_EQ(run.errors, "");
+  EXPECT_NE(run.output.find("Steiner points"), std::string::npos) << run.output;
+  std::set<std::string> found = names();
+  found.erase("a.prj");  // goes with the .2dm, which holds no CRS
+  EXPECT_EQ(found, (std::set<std::string>{"lake.geojson", "a.2dm", "a.msh", "a.nc", "a.gpkg", "a.geojson", "a.json"}));
+}
+
+TEST_F(MeshRun, QuietPrintsNothing) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("a.2dm"), "--quiet"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.output + run.errors, "");
+}
+
+TEST_F(MeshRun, FormatIsTakenWhereTheEndingDoesNotTell) {
+  EXPECT_EQ(runProgram({"mesh", lake(), "-o", file("grid.dat"), "--format", "2dm"}).code, 0);
+  EXPECT_TRUE(readText(file("grid.dat")).starts_with("MESH2D"));
+}
+
+TEST_F(MeshRun, ReportHasItsKeys) {
+  const Json json = report();
+  EXPECT_EQ(keysOf(json), (std::set<std::string>{"coastmesh", "input", "clean", "refine", "mesh", "time_s",
+                                                 "peak_memory_mib", "threads"}));
+  EXPECT_EQ(keysOf(json["input"]),
+            (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
+                                   "projections", "area_m2", "refused", "warnings"}));
+  EXPECT_EQ(keysOf(json["refine"]),
+            (std::set<std::string>{"algorithm", "min_angle_deg", "max_angle_deg", "size_max_m", "shrink",
+                                   "steiner_points", "by_type", "segment_splits", "relocations", "removals", "merges",
+                                   "regions", "budget_reached", "unresolved"}));
+  EXPECT_EQ(keysOf(json["refine"]["by_type"]), (std::set<std::string>{"I", "II", "III", "IV"}));
+  EXPECT_EQ(keysOf(json["refine"]["unresolved"]), (std::set<std::string>{"count", "places"}));
+  EXPECT_EQ(keysOf(json["mesh"]),
+            (std::set<std::string>{"vertices", "triangles", "area_m2", "min_angle_deg", "max_angle_deg", "below_bound",
+                                   "below_bound_explained", "angle_histogram", "digest"}));
+  EXPECT_EQ(keysOf(json["time_s"]), (std::set<std::string>{"read", "clean", "triangulate", "refine", "shrink", "stitch",
+                                                           "check", "write", "total"}));
+}
+
+TEST_F(MeshRun, ReportAgreesWithItself) {
+  const Json json = report({"--min-angle", "30"});
+  EXPECT_EQ(json["input"]["features"], 1);
+  EXPECT_EQ(json["input"]["rings"], 2);
+  EXPECT_EQ(json["refine"]["regions"], 1);
+  EXPECT_EQ(json["refine"]["min_angle_deg"], 30.0);
+  EXPECT_EQ(json["mesh"]["vertices"].get<int>(), 10 + json["refine"]["steiner_points"].get<int>());
+  EXPECT_GE(json["mesh"]["min_angle_deg"].get<double>(), 30.0 - 1e-6);
+  EXPECT_EQ(json["mesh"]["angle_histogram"].size(), 36u);
+  int angles = 0;
+  for (const Json& count : json["mesh"]["angle_histogram"]) angles += count.get<int>();
+  EXPECT_EQ(angles, 3 * json["mesh"]["triangles"].get<int>());
+  const double area = json["input"]["area_m2"].get<double>();
+  EXPECT_NEAR(json["mesh"]["area_m2"].get<double>() / area, 1.0, 1e-6);
+}
+
+TEST_F(MeshRun, SizeBoundIsInMetres) {
+  const Json json = report({"--size-max", "100"});
+  const double area = json["mesh"]["area_m2"].get<double>();
+  // No triangle with edges of 100 m is larger than the equilateral one.
+  EXPECT_GE(json["mesh"]["triangles"].get<double>(), area / (0.4331 * 100 * 100));
+  const Json info = Json::parse(runProgram({"info", file("report.2dm"), "--assume-crs", "EPSG:4326", "--json"}).output);
+  EXPECT_LE(info["longest_edge_m"].get<double>(), 100.0 * 1.001);
+}
+
+TEST_F(MeshRun, ThreadsChangeNothing) {
+  const std::string input =
+      write("parts.geojson", geoJsonPolygons({{{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}},
+                                              {{{1, 0}, {1.1, 0}, {1.1, 0.1}, {1.03, 0.13}}},
+                                              {{{2, 50}, {2.1, 50}, {2.1, 50.1}, {2.03, 50.2}, {2.0, 50.1}}}}));
+  std::set<std::string> digests;
+  std::set<std::string> bytes;
+  for (const char* threads : {"1", "2", "3"}) {
+    const ProgramRun run = runProgram({"mesh", input, "-o", file("a.gpkg"), "-o", file("a.2dm"), "--report",
+                                       file("a.json"), "--threads", threads, "--overwrite", "--min-angle", "36"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    const Json json = Json::parse(readText(file("a.json")));
+    EXPECT_EQ(json["refine"]["regions"], 3);
+    EXPECT_EQ(json["threads"], std::stoi(threads));
+    digests.insert(json["mesh"]["digest"].get<std::string>());
+    bytes.insert(readText(file("a.gpkg")) + readText(file("a.2dm")));
+  }
+  EXPECT_EQ(digests.size(), 1u);
+  EXPECT_EQ(bytes.size(), 1u);
+}
+
+TEST_F(MeshRun, OptionsChangeTheMesh) {
+  const std::string plain = report()["mesh"]["digest"];
+  EXPECT_NE(report({"--min-angle", "38"})["mesh"]["digest"], plain);
+  EXPECT_NE(report({"--size-max", "200"})["mesh"]["digest"], plain);
+  EXPECT_NE(report({"--algorithm", "circumcenter", "--no-shrink"})["mesh"]["digest"], plain);
+}
+
+TEST_F(MeshRun, PolyIsMeshedInThePlane) {
+  const std::string input = write("square.poly",
+                                  "8 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n5 1 1\n6 3 1\n7 3 3\n8 1 3\n"
+                                  "8 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n5 5 6\n6 6 7\n7 7 8\n8 8 5\n1\n1 2 2\n");
+  const ProgramRun run = runProgram({"mesh", input, "-o", file("a.2dm"), "--report", file("a.json")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  const Json json = Json::parse(readText(file("a.json")));
+  EXPECT_NEAR(json["mesh"]["area_m2"].get<double>(), 12.0, 1e-9);
+  EXPECT_TRUE(json["input"]["area_m2"].is_null());
+  EXPECT_EQ(runProgram({"check", file("a.2dm"), "--input", input, "--min-angle", "33"}).code, 0);
+}
+
+TEST_F(MeshRun, ProgressIsJsonLines) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("a.2dm"), "--progress", "json"});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  std::istringstream lines(run.output);
+  std::string line;
+  std::set<std::string> phases;
+  std::string last;
+  double share = 0.0;
+  while (std::getline(lines, line)) {
+    const Json json = Json::parse(line);
+    EXPECT_EQ(keysOf(json), (std::set<std::string>{"phase", "share"}));
+    if (json["phase"] != last) share = 0.0;
+    EXPECT_GE(json["share"].get<double>(), share);
+    EXPECT_LE(json["share"].get<double>(), 1.0);
+    share = json["share"];
+    last = json["phase"];
+    phases.insert(last);
+  }
+  EXPECT_EQ(phases, (std::set<std::string>{"read", "refine", "write", "done"}));
+  EXPECT_EQ(last, "done");
+}
+
+TEST_F(MeshRun, AllRefusedStillReports) {
+  const std::string input = write("flat.geojson", geoJsonPolygons({{{{0, 0}, {1, 0}, {2, 0}}}}));
+  EXPECT_EQ(runProgram({"mesh", input, "-o", file("a.2dm"), "--report", file("a.json")}).code, 3);
+  const Json json = Json::parse(readText(file("a.json")));
+  ASSERT_EQ(json["input"]["refused"].size(), 1u);
+  EXPECT_EQ(json["input"]["refused"][0]["fids"], Json::array({0}));
+  EXPECT_EQ(json["mesh"]["triangles"], 0);
+  EXPECT_EQ(names(), (std::set<std::string>{"flat.geojson", "a.json"}));
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test

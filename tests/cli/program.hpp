@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace coastmesh::test {
+
+// What a run of the program left behind.
+struct ProgramRun {
+  int code = -1;       // exit code; 128 + the signal's number where one killed it
+  std::string output;  // standard output
+  std::string errors;  // standard error
+};
+
+// Runs the coastmesh program to its end.
+ProgramRun runProgram(const std::vector<std::string>& arguments);
+
+// Starts the program, sends `signal_number` once its standard output holds `awaited`, and waits for its end.
+ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::string& awaited, int signal_number);
+
+std::string readText(const std::filesystem::path& path);
+void writeText(const std::filesystem::path& path, const std::string& text);
+
+// A polygon layer in longitudes and latitudes; each ring closes itself.
+using LonLatRing = std::vector<std::pair<double, double>>;
+std::string geoJsonPolygons(const std::vector<std::vector<LonLatRing>>& polygons);
+
+// A test with a folder of its own, which goes with it.
+class ProgramTest : public testing::Test {
+ protected:
+  ProgramTest();
+  ~ProgramTest() override;
+
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const;
+  // All that lies in the folder, hidden files too.
+  std::set<std::string> names() const;
+
+  // A lake of some 2 km with an island.
+  std::string lake() const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// One sentence on standard error, as every error is told.
+testing::AssertionResult isOneErrorLine(const std::string& errors);
+
+}  // namespace coastmesh::test
