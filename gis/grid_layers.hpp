@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "gis/grid.hpp"
+
+namespace coastmesh {
+
+// What the GIS layers of a grid hold, whatever file they go to. Columns and shapes refer to the grid they were made of.
+
+struct LayerColumn {
+  using Flag = std::function<bool(std::size_t row)>;
+  using Whole = std::function<std::int64_t(std::size_t row)>;
+  using Real = std::function<double(std::size_t row)>;
+  using Text = std::function<std::string_view(std::size_t row)>;  // empty is null
+
+  std::string name;  // ten letters at most, for the .dbf of a shapefile
+  std::variant<Flag, Whole, Real, Text> value;
+  std::size_t longest = 0;  // bytes, of a text
+};
+
+struct GridLayer {
+  enum class Shape { Polygon, Point, Line };
+
+  std::string name;
+  Shape shape = Shape::Point;
+  std::size_t rows = 0;
+  std::vector<LayerColumn> columns;
+  // The nodes of the row's shape in `nodes`; what is closed ends where it starts.
+  std::function<void(std::size_t row, std::vector<std::uint32_t>& nodes)> shapeOf;
+};
+
+inline constexpr std::string_view kTriangleLayer = "triangles", kNodeLayer = "nodes", kBoundaryLayer = "boundaries";
+
+// The layers in this order: triangles (id, min_angle in degrees, area_m2, src_fid, source, name), nodes (id, z),
+// boundaries (id, role, closed, length_m), ids from 1. Columns that the grid has nothing for are left out; `name` is
+// the first attribute of the source feature that is called so, or like it. REQUIRES: `grid` outlives the answer.
+std::vector<GridLayer> layersOf(const Grid& grid);
+
+// Files that hold one layer each: "lake.shp" goes with "lake_nodes.shp" and "lake_boundaries.shp".
+std::string pathOfLayer(const std::string& path, std::string_view layer);
+
+}  // namespace coastmesh

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace coastmesh {
+
+// Every edge of the triangles once, the lesser node first, in lexicographic order.
+std::vector<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes,
+                                                      std::span<const std::array<std::uint32_t, 3>> triangles);
+
+}  // namespace coastmesh

@@ -1,0 +1,306 @@
+#include "gis/read_ogr_grid.hpp"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <regex>
+#include <tuple>
+#include <unordered_map>
+
+#include "core/predicates.hpp"
+#include "gis/boundary_chains.hpp"
+#include "gis/error.hpp"
+#include "gis/grid_layers.hpp"
+#include "gis/ogr_support.hpp"
+
+namespace coastmesh {
+namespace {
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
+
+struct PointHash {
+  std::size_t operator()(const Point& p) const {
+    // 0.0 and -0.0 are equal and so need the same hash.
+    const std::uint64_t x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
+    const std::uint64_t mixed = (x ^ std::rotl(y, 32)) * 0x9E3779B97F4A7C15ull;
+    return static_cast<std::size_t>(mixed ^ mixed >> 29);
+  }
+};
+
+using NodeIndex = std::unordered_map<Point, std::uint32_t, PointHash>;
+
+class LayerReader {
+ public:
+  LayerReader(OGRLayer& layer, std::string path, const OgrErrors& errors)
+      : layer_(layer), path_(std::move(path)), errors_(errors) {
+    layer_.ResetReading();
+  }
+
+  const OGRFeature* next() {
+    feature_.reset(layer_.GetNextFeature());
+    if (!feature_ && errors_.failed()) throw InputError("cannot read '" + path_ + "': " + errors_.text());
+    return feature_.get();
+  }
+
+  // -1 where there is none.
+  int field(std::string_view name) const { return layer_.GetLayerDefn()->GetFieldIndex(std::string(name).c_str()); }
+  std::uint64_t expected() const { return static_cast<std::uint64_t>(std::max<GIntBig>(layer_.GetFeatureCount(), 0)); }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError("'" + path_ + "', layer \"" + layer_.GetName() + "\", feature " +
+                     std::to_string(feature_ ? feature_->GetFID() : 0) + ": " + what);
+  }
+
+ private:
+  OGRLayer& layer_;
+  std::string path_;
+  const OgrErrors& errors_;
+  OGRFeatureUniquePtr feature_;
+};
+
+DatasetPtr open(const std::string& path, const OgrErrors& errors) {
+  GDALAllRegister();
+  DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  if (!dataset) throw InputError("cannot read '" + path + "'" + (errors.text().empty() ? "" : ": " + errors.text()));
+  return dataset;
+}
+
+OGRLayer& triangleLayer(GDALDataset& dataset, const std::string& path) {
+  if (OGRLayer* const layer = dataset.GetLayerByName(std::string(kTriangleLayer).c_str())) return *layer;
+  std::vector<OGRLayer*> polygons;
+  for (OGRLayer* const layer : dataset.GetLayers()) {
+    const OGRwkbGeometryType type = wkbFlatten(layer->GetGeomType());
+    if (type == wkbPolygon || type == wkbMultiPolygon || type == wkbTriangle || type == wkbTIN || type == wkbUnknown)
+      polygons.push_back(layer);
+  }
+  if (polygons.size() != 1)
+    throw InputError("'" + path + "' has " +
+                     (polygons.empty() ? "no layer" : std::to_string(polygons.size()) + " layers") +
+                     " of polygons and none is called \"" + std::string(kTriangleLayer) + "\"");
+  return *polygons.front();
+}
+
+// A layer that goes with the triangles: in the same file, or in one of its own beside it.
+struct Companion {
+  DatasetPtr dataset;  // null where it is the triangles' own
+  OGRLayer* layer = nullptr;
+  std::string path;
+};
+
+Companion findCompanion(GDALDataset& dataset, const std::string& path, std::string_view name, const OgrErrors& errors) {
+  if (OGRLayer* const layer = dataset.GetLayerByName(std::string(name).c_str())) return {nullptr, layer, path};
+  const std::string beside = pathOfLayer(path, name);
+  if (!std::filesystem::exists(beside)) return {};
+  DatasetPtr other = open(beside, errors);
+  OGRLayer* const layer = other->GetLayerCount() > 0 ? other->GetLayer(0) : nullptr;
+  return {std::move(other), layer, beside};
+}
+
+Point placeOf(const OGRSimpleCurve& chain, int i) { return {chain.getX(i), chain.getY(i)}; }
+
+std::array<Point, 3> cornersOf(const OGRFeature& feature, const LayerReader& reader) {
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (geometry == nullptr || geometry->IsEmpty()) reader.fail("it has no geometry");
+  if (wkbFlatten(geometry->getGeometryType()) == wkbMultiPolygon) {
+    const OGRMultiPolygon& parts = *geometry->toMultiPolygon();
+    if (parts.getNumGeometries() != 1) reader.fail("it has several parts; only triangles can be read");
+    geometry = parts.getGeometryRef(0);
+  }
+  const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
+  if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is no polygon; only triangles can be read");
+  const OGRPolygon& polygon = *geometry->toPolygon();
+  const OGRLinearRing& ring = *polygon.getExteriorRing();
+  const int points = ring.getNumPoints();
+  if (polygon.getNumInteriorRings() != 0 || points != 4 || placeOf(ring, 0) != placeOf(ring, 3))
+    reader.fail("a polygon of " + std::to_string(points - 1) + " corners; only triangles can be read");
+  std::array<Point, 3> corners{placeOf(ring, 0), placeOf(ring, 1), placeOf(ring, 2)};
+  for (const Point& p : corners)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) reader.fail("a coordinate is not finite");
+  if (orient2d(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
+  return corners;
+}
+
+// The order of `ids`, which are a layer's; empty where they repeat, and then the file's order is as good.
+std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
+  std::vector<std::uint32_t> order(ids.size());
+  std::iota(order.begin(), order.end(), 0u);
+  if (std::ranges::is_sorted(ids)) return order;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return ids[i]; });
+  return order;
+}
+
+template <typename T>
+void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
+  if (values.empty()) return;
+  std::vector<T> sorted;
+  sorted.reserve(values.size());
+  for (const std::uint32_t i : order) sorted.push_back(std::move(values[i]));
+  values = std::move(sorted);
+}
+
+void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid, NodeIndex& index) {
+  if (companion.layer == nullptr) return;
+  LayerReader reader(*companion.layer, companion.path, errors);
+  const int id_field = reader.field("id"), z_field = reader.field("z");
+  if (id_field < 0) return;
+  std::vector<std::int64_t> ids;
+  bool has_z = false;
+  while (const OGRFeature* feature = reader.next()) {
+    const OGRGeometry* geometry = feature->GetGeometryRef();
+    if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbPoint || geometry->IsEmpty())
+      reader.fail("it is no point");
+    const OGRPoint& point = *geometry->toPoint();
+    ids.push_back(feature->GetFieldAsInteger64(id_field));
+    grid.nodes.push_back({point.getX(), point.getY()});
+    const bool in_field = z_field >= 0 && feature->IsFieldSetAndNotNull(z_field);
+    has_z = has_z || in_field || point.Is3D();
+    grid.z.push_back(point.Is3D() ? point.getZ()
+                     : in_field   ? feature->GetFieldAsDouble(z_field)
+                                  : std::numeric_limits<double>::quiet_NaN());
+  }
+  if (!has_z) grid.z.clear();
+  const std::vector<std::uint32_t> order = orderOf(ids);
+  reorder(grid.nodes, order);
+  reorder(grid.z, order);
+  for (std::uint32_t i = 0; i < grid.nodes.size(); ++i) index.emplace(grid.nodes[i], i);
+}
+
+// Equal features of several triangles become one.
+class FeatureTable {
+ public:
+  FeatureTable(const LayerReader& reader)
+      : fid_(reader.field("src_fid")), source_(reader.field("source")), name_(reader.field("name")) {}
+
+  bool exists() const { return fid_ >= 0; }
+
+  std::uint32_t indexOf(const OGRFeature& feature, std::vector<GridFeature>& features) {
+    const auto text = [&](int field) {
+      return std::string(field >= 0 && feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsString(field) : "");
+    };
+    auto key =
+        std::make_tuple(static_cast<std::int64_t>(feature.GetFieldAsInteger64(fid_)), text(source_), text(name_));
+    const auto [at, added] = index_.emplace(std::move(key), static_cast<std::uint32_t>(features.size()));
+    if (added) {
+      const auto& [fid, source, name] = at->first;
+      GridFeature& made = features.emplace_back(GridFeature{fid, source, {}});
+      if (!name.empty()) made.attributes.emplace_back("name", name);
+    }
+    return at->second;
+  }
+
+ private:
+  int fid_, source_, name_;
+  std::map<std::tuple<std::int64_t, std::string, std::string>, std::uint32_t> index_;
+};
+
+void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
+  const int id_field = reader.field("id"), angle_field = reader.field("min_angle"),
+            area_field = reader.field("area_m2");
+  FeatureTable features(reader);
+  std::vector<std::int64_t> ids;
+  std::vector<std::array<Point, 3>> corners;
+  while (const OGRFeature* feature = reader.next()) {
+    corners.push_back(cornersOf(*feature, reader));
+    if (id_field >= 0) ids.push_back(feature->GetFieldAsInteger64(id_field));
+    if (angle_field >= 0) grid.min_angle_deg.push_back(feature->GetFieldAsDouble(angle_field));
+    if (area_field >= 0) grid.area_m2.push_back(feature->GetFieldAsDouble(area_field));
+    if (features.exists()) grid.feature_of.push_back(features.indexOf(*feature, grid.features));
+  }
+  if (!ids.empty()) {
+    const std::vector<std::uint32_t> order = orderOf(ids);
+    reorder(corners, order);
+    reorder(grid.min_angle_deg, order);
+    reorder(grid.area_m2, order);
+    reorder(grid.feature_of, order);
+  }
+  const bool has_z = !grid.z.empty();
+  for (const auto& places : corners) {
+    auto& triangle = grid.triangles.emplace_back();
+    for (unsigned i = 0; i < 3; ++i) {
+      const auto [at, added] = index.emplace(places[i], static_cast<std::uint32_t>(grid.nodes.size()));
+      if (added) {
+        grid.nodes.push_back(places[i]);
+        if (has_z) grid.z.push_back(std::numeric_limits<double>::quiet_NaN());
+      }
+      triangle[i] = at->second;
+    }
+  }
+}
+
+void readBoundaries(const Companion& companion, const OgrErrors& errors, const NodeIndex& index, Grid& grid) {
+  if (companion.layer == nullptr) return;
+  LayerReader reader(*companion.layer, companion.path, errors);
+  const int id_field = reader.field("id"), role_field = reader.field("role");
+  if (id_field < 0 || role_field < 0) return;
+  std::vector<std::int64_t> ids;
+  while (const OGRFeature* feature = reader.next()) {
+    const OGRGeometry* geometry = feature->GetGeometryRef();
+    if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is no line");
+    const OGRLineString& line = *geometry->toLineString();
+    Boundary boundary;
+    const std::string role = feature->GetFieldAsString(role_field);
+    std::optional<BoundaryRole> known;
+    for (const BoundaryRole candidate : {BoundaryRole::Land, BoundaryRole::Island, BoundaryRole::Open})
+      if (role == toString(candidate)) known = candidate;
+    if (!known) reader.fail("its role is \"" + role + "\", not land, island or open");
+    boundary.role = *known;
+    for (int i = 0; i < line.getNumPoints(); ++i) {
+      const auto node = index.find(placeOf(line, i));
+      if (node == index.end())
+        reader.fail("point " + std::to_string(i + 1) + " of the line is no corner of a triangle");
+      boundary.nodes.push_back(node->second);
+    }
+    boundary.closed = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
+    if (boundary.closed) boundary.nodes.pop_back();
+    ids.push_back(feature->GetFieldAsInteger64(id_field));
+    grid.boundaries.push_back(std::move(boundary));
+  }
+  reorder(grid.boundaries, orderOf(ids));
+}
+
+// OGR takes a GeoJSON file that says "crs": null for WGS 84.
+bool saysNullCrs(const std::string& path) {
+  constexpr std::streamsize kHead = 4096;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kHead, '\0');
+  file.read(head.data(), kHead);
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  static const std::regex pattern(R"("crs"\s*:\s*null)");
+  return std::regex_search(head.substr(0, head.find("\"features\"")), pattern);
+}
+
+Crs readCrs(GDALDataset& dataset, OGRLayer& layer, const std::string& path) {
+  const std::string_view driver = dataset.GetDriverName();
+  if (driver == "GeoJSON" && saysNullCrs(path)) return {};
+  return fromOgr(layer.GetSpatialRef());
+}
+
+}  // namespace
+
+Grid readOgrGrid(const std::string& path) {
+  const OgrErrors errors;
+  const DatasetPtr dataset = open(path, errors);
+  OGRLayer& layer = triangleLayer(*dataset, path);
+  Grid grid;
+  NodeIndex index;
+  readNodeLayer(findCompanion(*dataset, path, kNodeLayer, errors), errors, grid, index);
+  LayerReader reader(layer, path, errors);
+  readTriangles(reader, grid, index);
+  readBoundaries(findCompanion(*dataset, path, kBoundaryLayer, errors), errors, index, grid);
+  grid.crs = readCrs(*dataset, layer, path);
+  return grid;
+}
+
+}  // namespace coastmesh
