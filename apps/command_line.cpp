@@ -48,6 +48,14 @@ CLI::Validator rangeCheck(const NumberRange& range) {
       "");
 }
 
+// CLI11 shows "--shrink,--no-shrink{false}"; which of the two is on is said in the description.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
+  }
+};
+
 }  // namespace
 
 struct CommandLine::Impl {
@@ -71,6 +79,7 @@ struct CommandLine::Impl {
 CommandLine::CommandLine(CLI::App& root, const std::string& name, const std::string& help)
     : impl_(std::make_unique<Impl>()) {
   impl_->app = root.add_subcommand(name, help);
+  impl_->app->formatter(std::make_shared<HelpFormatter>());
   const Impl* impl = impl_.get();
   impl_->app
       ->add_flag_callback(

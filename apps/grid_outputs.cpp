@@ -35,6 +35,7 @@ GridOutputs::GridOutputs(const std::vector<std::string>& paths, const std::strin
   requireApart(paths, inputs);
   for (const std::string& path : paths) {
     outputs_.emplace_back(path, gridFormatFor(path, format), overwrite);
+    interrupt.guard(outputs_.back().stagingFolder());
   }
 }
 

@@ -75,9 +75,7 @@ class MeshOutputs {
     grids_written_ = true;
   }
 
-  void writeReport(const std::string& text) {
-    if (report_) report_->write(text);
-  }
+  void writeReport(const std::string& text) { report_->write(text); }
 
   void commit() {
     interrupt_.close();
@@ -110,7 +108,7 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   if (any) outputs.writeGrids(result.grid, display);
   result.seconds.write = secondsSince(write_start);
   result.seconds.total = secondsSince(start);
-  outputs.writeReport(meshReport(usage.job, result, threadCount(usage.job.parallel)));
+  if (!usage.report.empty()) outputs.writeReport(meshReport(usage.job, result, threadCount(usage.job.parallel)));
   outputs.commit();
   if (!any) {
     throw InputError(result.refusals.size() == 1 ? result.refusals.front().reason

@@ -118,6 +118,14 @@ void PlotCanvas::text(const Point& baseline, const std::string& text, double hei
   cairo_show_text(context, text.c_str());
 }
 
+void PlotCanvas::textEndingAt(const Point& baseline, const std::string& content, double height, const Color& color) {
+  cairo_text_extents_t extents;
+  cairo_select_font_face(context_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context_.get(), height);
+  cairo_text_extents(context_.get(), content.c_str(), &extents);
+  text({baseline.x - extents.x_advance, baseline.y}, content, height, color);
+}
+
 void PlotCanvas::clipToMap() {
   cairo_save(context_.get());
   cairo_rectangle(context_.get(), 0.0, 0.0, width_, map_height_);

@@ -42,6 +42,7 @@ class PlotCanvas {
   // Many lines of one width and colour.
   void strokeLines(const std::vector<std::array<Point, 2>>& lines, double width, const Color& color);
   void text(const Point& baseline, const std::string& text, double height, const Color& color);
+  void textEndingAt(const Point& baseline, const std::string& text, double height, const Color& color);
   void clipToMap();
   void unclip();
 

@@ -23,6 +23,7 @@ namespace {
 constexpr Color kLand{0.955, 0.950, 0.935};
 constexpr Color kWater{0.865, 0.925, 0.965};
 constexpr Color kEdge{0.32, 0.52, 0.68};
+constexpr Color kEdgeOnColor{0.16, 0.27, 0.36};
 constexpr Color kShore{0.10, 0.20, 0.32};
 constexpr Color kBad{0.88, 0.10, 0.10};
 constexpr Color kPaper{1.0, 1.0, 1.0};
@@ -74,12 +75,13 @@ Window windowOf(const GridPiece& piece, const PlotOptions& options) {
   return window;
 }
 
-// From bad to good: red, sand, blue.
+// From bad to good: red, sand, pale green, blue.
 Color rampColor(double share) {
-  constexpr Color kLow{0.84, 0.30, 0.20};
-  constexpr Color kMiddle{0.98, 0.90, 0.62};
-  constexpr Color kHigh{0.25, 0.52, 0.74};
-  return share < 0.5 ? mix(kLow, kMiddle, 2.0 * share) : mix(kMiddle, kHigh, 2.0 * share - 1.0);
+  constexpr std::array<Color, 4> kStops{
+      {{0.80, 0.25, 0.18}, {0.97, 0.78, 0.47}, {0.90, 0.94, 0.80}, {0.18, 0.49, 0.66}}};
+  const double at = std::clamp(share, 0.0, 1.0) * 3.0;
+  const auto stop = std::min<std::size_t>(2, static_cast<std::size_t>(at));
+  return mix(kStops[stop], kStops[stop + 1], at - static_cast<double>(stop));
 }
 
 // Colours far apart for neighbours in number: hues turned by the golden section.
@@ -151,6 +153,8 @@ class MeshPlot {
     return std::max({length(c[0], c[1]), length(c[1], c[2]), length(c[2], c[0])});
   }
 
+  Color edgeColor() const { return options_.color == PlotColor::None ? kEdge : kEdgeOnColor; }
+
   void drawWater() {
     std::vector<std::vector<Point>> loops;
     for (const auto& loop : rimLoops(mesh_)) {
@@ -193,7 +197,7 @@ class MeshPlot {
       if (!blurred && !bad && options_.color == PlotColor::None) continue;
       if (!shows(t)) continue;
       const Color color = bad ? kBad : colorOf(t);
-      canvas_.fillTriangle(corners(t), blurred && !bad ? mix(color, kEdge, kEdgeCover) : color);
+      canvas_.fillTriangle(corners(t), blurred && !bad ? mix(color, edgeColor(), kEdgeCover) : color);
     }
   }
 
@@ -214,7 +218,7 @@ class MeshPlot {
       }
     }
     for (const auto& [level, lines] : by_width) {
-      canvas_.strokeLines(lines, kWidestEdgePx * std::exp2(-level / 4.0), kEdge);
+      canvas_.strokeLines(lines, kWidestEdgePx * std::exp2(-level / 4.0), edgeColor());
     }
   }
 
@@ -284,7 +288,7 @@ class MeshPlot {
       high = lengthText(rounded(sideOf(most_log_area_)), grid_.crs.isPlane()) + " edge";
     }
     canvas_.text({left, top + 26.0}, low, 13.0, kInk);
-    canvas_.text({left + kSteps * kStep - 7.0 * static_cast<double>(high.size()), top + 26.0}, high, 13.0, kInk);
+    canvas_.textEndingAt({left + kSteps * kStep, top + 26.0}, high, 13.0, kInk);
   }
 
   const Grid& grid_;
