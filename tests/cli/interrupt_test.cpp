@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include "tests/cli/program.hpp"
 
@@ -39,6 +40,17 @@ TEST_F(Interrupted, ExistingOutputsStayAsTheyWere) {
   EXPECT_EQ(runAndSignal(arguments, R"("phase":"refine")", SIGTERM).code, 5);
   EXPECT_EQ(readText(file("out.gpkg")), "precious");
   EXPECT_EQ(names(), (std::set<std::string>{"lake.geojson", "out.gpkg"}));
+}
+
+// Opening a pipe that nobody writes to does not come back: nothing but the watcher can end the program then.
+TEST_F(Interrupted, WhileALibraryCallHangs) {
+  ASSERT_EQ(mkfifo(file("pipe.geojson").c_str(), 0600), 0);
+  const ProgramRun run = runAndSignal({"mesh", file("pipe.geojson"), "-o", file("out.gpkg"), "-o", file("out.nc"),
+                                       "--report", file("report.json"), "--progress", "json"},
+                                      R"("phase":"read")", SIGTERM);
+  EXPECT_EQ(run.code, 5) << run.errors;
+  EXPECT_TRUE(isOneErrorLine(run.errors));
+  EXPECT_EQ(names(), std::set<std::string>{"pipe.geojson"});
 }
 
 }  // namespace
