@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/pslg.hpp"
@@ -14,23 +14,25 @@ namespace coastmesh {
 
 struct CleanOptions {
   double snap_m = 0.001;            // metres, 0 or more: points nearer than this become one (0 for a plane input)
-  double simplify_m = 0.0;          // metres, 0 or more: Douglas-Peucker that keeps the topology
+  double simplify_m = 0.0;          // metres, 0 or more: no shore is moved further than this; see `simplifyEdges`
   double min_island_area_m2 = 0.0;  // square metres, 0 or more: smaller holes are filled
 };
 
 enum class EditKind {
-  RepeatedPoint,    // a point that repeats the one before it, or comes nearer to it than the snap distance
+  RepeatedPoint,    // a point that repeats the one before it, or comes nearer to another than the snap distance
   Spike,            // an edge that runs out and back along itself
   SelfCrossing,     // two edges of a feature cross: a vertex was put there
-  FeaturesCross,    // edges of two features cross
-  TouchingRing,     // a ring meets another, or itself, in a vertex
-  OverlappingEdge,  // two edges run along one another
+  FeaturesCross,    // edges of two features cross: a vertex was put there
+  TouchingRing,     // a ring meets another, or itself, in a vertex: the domain is pinched there (nothing was changed)
+  OverlappingEdge,  // two edges run along one another, or a vertex lies on an edge: made to meet in vertices
   DegenerateRing,   // a ring without area was dropped
   SmallIsland,      // dropped for `min_island_area_m2`
   SimplifiedPoint,  // dropped for `simplify_m`
+  FeaturesOverlap,  // a place lies in two features: the first of them keeps it; the edit names the other
+  MisplacedRing,    // a hole outside its outer ring, or an outer ring inside another: taken by the even-odd rule
 };
-inline constexpr std::size_t kEditKinds = 9;
-std::string_view toString(EditKind kind);
+inline constexpr std::size_t kEditKinds = 11;
+std::string_view toString(EditKind kind);  // "repeated point"
 
 // One change made to the input.
 struct Edit {
@@ -42,6 +44,11 @@ struct Edit {
 struct CleanReport {
   std::vector<Edit> edits;
   std::array<std::uint64_t, kEditKinds> counts{};
+
+  void add(EditKind kind, const Point& place, std::int64_t fid) {
+    edits.push_back({kind, place, fid});
+    ++counts[static_cast<std::size_t>(kind)];
+  }
 };
 
 // A group of features as a valid PSLG in the working plane.
@@ -52,8 +59,11 @@ struct Domain {
 };
 
 // Projects and cleans `coastline.features[members]`. A polygon's inside is even-odd over the rings of its feature;
-// where two features overlap, the one that comes first keeps the place. Throws InputError for a group that encloses no
-// area.
+// where two features overlap, the one that comes first keeps the place. Open lines inside become segments with the same
+// label on both sides; those outside vanish. Where longitudes span exactly 360 degrees and the projection brings the
+// first and the last meridian together, the cut along them is healed. Points of the PSLG come in the order of the
+// input, new ones last. Throws InputError for a group that encloses no area, and for a point that the projection cannot
+// map.
 Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
                      const CleanOptions& options, CleanReport& report);
 

@@ -58,6 +58,9 @@ Crs parseCrs(const std::string& text) {
   if (crs.geographic && std::abs(srs.GetAngularUnits() * 180.0 / std::numbers::pi - 1.0) > 1e-9) {
     throw InputError("the CRS " + quotedName(srs) + " does not measure in degrees: bring the data to EPSG:4326 first");
   }
+  crs.semi_major_m = srs.GetSemiMajor();
+  const double inverse_flattening = srs.GetInvFlattening();
+  crs.flattening = inverse_flattening > 0 ? 1 / inverse_flattening : 0.0;
   crs.authority = authorityOf(srs);
   crs.wkt = wktOf(srs);
   return crs;

@@ -25,6 +25,7 @@ class Projection {
   Point inverse(const Point& plane) const;
   // Plane length over true length on the ellipsoid at a place of the plane. 1 for `plane()`.
   double scaleAt(const Point& plane) const;
+  bool isIdentity() const;                 // of `plane()`
   const std::string& description() const;  // for people: "transverse Mercator, central meridian -87.5°"
 
   struct Impl;

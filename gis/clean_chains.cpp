@@ -1,0 +1,183 @@
+#include "gis/clean_chains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "gis/clean_touches.hpp"
+#include "gis/error.hpp"
+#include "gis/geodesic_area.hpp"
+#include "gis/point_grid.hpp"
+#include "gis/seam.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A chain of the input that takes part.
+struct InputChain {
+  CleanChain::Role role;
+  std::uint32_t feature;
+  std::vector<Point> points;
+};
+
+std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std::size_t>& members,
+                               const CleanOptions& options, CleanReport& report) {
+  using Role = CleanChain::Role;
+  std::vector<InputChain> chains;
+  std::optional<RingArea> area;
+  if (options.min_island_area_m2 > 0) area.emplace(coastline.crs);
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    const auto index = static_cast<std::uint32_t>(member);
+    for (const Polygon& polygon : feature.polygons) {
+      if (!polygon.outer.empty()) chains.push_back({Role::Outer, index, polygon.outer});
+      for (const Ring& hole : polygon.holes) {
+        if (hole.empty()) continue;
+        if (area && area->of(hole) < options.min_island_area_m2) {
+          report.add(EditKind::SmallIsland, hole.front(), feature.fid);
+        } else {
+          chains.push_back({Role::Hole, index, hole});
+        }
+      }
+    }
+    for (const auto& line : feature.lines) {
+      if (!line.empty()) chains.push_back({Role::Line, index, line});
+    }
+  }
+  return chains;
+}
+
+void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, CleanReport& report) {
+  std::vector<TouchChain> touching;
+  for (InputChain& chain : chains) touching.push_back({&chain.points, chain.role != CleanChain::Role::Line});
+  for (const Touch& touch : insertTouchingPoints(touching)) {
+    report.add(EditKind::OverlappingEdge, touch.place, coastline.features[chains[touch.chain].feature].fid);
+  }
+}
+
+Point project(const Point& input, const Feature& feature, const Projection& projection) {
+  const Point plane = projection.forward(input);
+  if (std::isfinite(plane.x) && std::isfinite(plane.y)) return plane;
+  throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the point " +
+                   std::to_string(input.x) + ", " + std::to_string(input.y) + " has no place in the working plane (" +
+                   projection.description() + "): check the coordinates and their CRS");
+}
+
+// Turns input points into vertices.
+class VertexMaker {
+ public:
+  VertexMaker(CleanVertices& vertices, double snap, std::size_t expected)
+      : vertices_(vertices), grid_(vertices.plane, snap, expected) {}
+
+  // The vertex for a point; `snapped` tells whether it is another point nearby.
+  VertexId make(const Point& plane, const Point& input, bool& snapped) {
+    const VertexId found = grid_.find(plane);
+    if (found != kNone) {
+      snapped = !(vertices_.plane[found] == plane);
+      return found;
+    }
+    const auto v = static_cast<VertexId>(vertices_.plane.size());
+    vertices_.plane.push_back(plane);
+    vertices_.input.push_back(input);
+    grid_.add(v);
+    return v;
+  }
+
+ private:
+  CleanVertices& vertices_;
+  PointGrid grid_;
+};
+
+// Takes spikes out of a ring without repeated vertices: a, b, a becomes a. Calls `spike(b)`.
+template <typename Spike>
+std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& spike) {
+  std::vector<VertexId> kept;
+  for (const VertexId v : ring) {
+    if (kept.size() >= 2 && kept[kept.size() - 2] == v) {
+      spike(kept.back());
+      kept.pop_back();
+    } else {
+      kept.push_back(v);
+    }
+  }
+  // And where the ring closes.
+  std::size_t first = 0, last = kept.size();
+  while (last - first > 2) {
+    if (kept[first] == kept[last - 1]) {
+      --last;
+    } else if (kept[first] == kept[last - 2]) {
+      spike(kept[last - 1]);
+      last -= 2;
+    } else if (kept[first + 1] == kept[last - 1]) {
+      spike(kept[first]);
+      ++first;
+      --last;
+    } else {
+      break;
+    }
+  }
+  return {kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+// The snap distance in plane units, by the scale at the first point; 0 where it drowns in the coordinates' own grain.
+double snapInPlane(const std::vector<InputChain>& chains, const Coastline& coastline, const Projection& projection,
+                   double snap_m) {
+  if (snap_m <= 0 || chains.empty()) return 0;
+  const Point first = project(chains.front().points.front(), coastline.features[chains.front().feature], projection);
+  const double snap = snap_m * projection.scaleAt(first);
+  const double grain = std::ldexp(std::max(std::abs(first.x), std::abs(first.y)), -46);
+  return snap > grain ? snap : 0;
+}
+
+}  // namespace
+
+CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t>& members,
+                       const Projection& projection, const CleanOptions& options, CleanReport& report) {
+  std::vector<InputChain> input = gather(coastline, members, options, report);
+  std::vector<Ring*> rings;
+  for (InputChain& chain : input) {
+    if (chain.role != CleanChain::Role::Line) rings.push_back(&chain.points);
+  }
+  if (!projection.isIdentity()) keepTouches(input, coastline, report);
+  const std::optional<Seam> seam = healSeam(rings, coastline.crs, projection);
+  std::size_t count = 0;
+  for (const InputChain& chain : input) count += chain.points.size();
+
+  CleanChains result;
+  result.seam = seam;
+  result.snap = snapInPlane(input, coastline, projection, options.snap_m);
+  VertexMaker maker(result.vertices, result.snap, count);
+  for (InputChain& chain : input) {
+    const Feature& feature = coastline.features[chain.feature];
+    const bool closed = chain.role != CleanChain::Role::Line;
+    CleanChain made{chain.role, chain.feature, {}};
+    made.walk.reserve(chain.points.size());
+    bool snapped = false;
+    for (const Point& point : chain.points) {
+      snapped = false;
+      const VertexId v = maker.make(project(point, feature, projection), point, snapped);
+      const bool repeated = !made.walk.empty() && made.walk.back() == v;
+      if (snapped || repeated) report.add(EditKind::RepeatedPoint, point, feature.fid);
+      if (!repeated) made.walk.push_back(v);
+    }
+    while (closed && made.walk.size() > 1 && made.walk.front() == made.walk.back()) {
+      if (!snapped) report.add(EditKind::RepeatedPoint, chain.points.back(), feature.fid);
+      made.walk.pop_back();
+    }
+    if (closed) {
+      made.walk = withoutSpikes(
+          made.walk, [&](VertexId v) { report.add(EditKind::Spike, result.vertices.input[v], feature.fid); });
+    }
+    if (made.walk.size() < (closed ? 3u : 2u)) {
+      report.add(EditKind::DegenerateRing, chain.points.front(), feature.fid);
+      continue;
+    }
+    std::vector<Point>().swap(chain.points);
+    result.chains.push_back(std::move(made));
+  }
+  result.vertices.is_new.assign(result.vertices.plane.size(), 0);
+  return result;
+}
+
+}  // namespace coastmesh

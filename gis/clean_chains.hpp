@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "gis/clean.hpp"
+#include "gis/seam.hpp"
+
+namespace coastmesh {
+
+// A vertex of the input, or one made where edges cross.
+struct CleanVertices {
+  std::vector<Point> plane;
+  std::vector<Point> input;  // the input's own bits
+  std::vector<char> is_new;  // made by us: `input` is computed
+};
+
+// A ring or an open line over vertices. Private to gis.
+struct CleanChain {
+  enum class Role { Outer, Hole, Line };
+  Role role = Role::Outer;
+  std::uint32_t feature = 0;   // index into Coastline::features
+  std::vector<VertexId> walk;  // a ring's first vertex is not repeated
+};
+
+// The first stage of cleaning: features as chains over distinct vertices.
+struct CleanChains {
+  CleanVertices vertices;
+  std::vector<CleanChain> chains;
+  double snap = 0;  // the snap distance in the plane; 0 where it is too small to matter
+  std::optional<Seam> seam;
+};
+
+// Projects the members' points, makes one vertex of those equal or nearer than the snap distance (the first stays),
+// takes repeated points and spikes out of chains and drops chains without area and islands too small. Throws InputError
+// for a point that cannot be projected.
+CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t>& members,
+                       const Projection& projection, const CleanOptions& options, CleanReport& report);
+
+}  // namespace coastmesh

@@ -1,0 +1,284 @@
+#include "gis/clean_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "core/predicates.hpp"
+#include "gis/box_tree.hpp"
+#include "gis/error.hpp"
+#include "gis/point_grid.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Rounds of splitting; from kPatience on, each doubles the distance within which points become one.
+constexpr int kMostRounds = 48, kPatience = 8;
+
+// An edge and its uses, [first_use, last_use).
+struct Edge {
+  VertexId low, high;
+  std::size_t first_use, last_use;
+};
+
+struct Split {
+  std::uint32_t edge;
+  VertexId vertex;
+
+  friend auto operator<=>(const Split&, const Split&) = default;
+};
+
+struct Crossing {
+  std::uint32_t e, f;
+};
+
+// True iff v lies inside the edge ab, exactly, or nearer to it than `tolerance` and between its ends.
+bool liesOnEdge(const Point& a, const Point& b, const Point& v, double tolerance) {
+  const double dx = b.x - a.x, dy = b.y - a.y, wx = v.x - a.x, wy = v.y - a.y;
+  if (tolerance > 0) {
+    const double along = wx * dx + wy * dy, across = wx * dy - wy * dx, square = dx * dx + dy * dy;
+    if (along > 0 && along < square && across * across <= tolerance * tolerance * square) return true;
+  }
+  return Box::of(a, b).meets({v.x, v.y, v.x, v.y}) && orient2d(a, b, v) == 0;
+}
+
+// Where ab and cd cross, rounded. REQUIRES: they cross properly.
+Point crossingPoint(const Point& a, const Point& b, const Point& c, const Point& d) {
+  using Real = long double;
+  const Real ux = Real(b.x) - a.x, uy = Real(b.y) - a.y, vx = Real(d.x) - c.x, vy = Real(d.y) - c.y;
+  const Real wx = Real(c.x) - a.x, wy = Real(c.y) - a.y;
+  const Real determinant = ux * vy - uy * vx;
+  if (determinant == 0) return b;  // parallel to the last bit
+  const Real t = std::clamp((wx * vy - wy * vx) / determinant, Real(0), Real(1));
+  return {static_cast<double>(a.x + t * ux), static_cast<double>(a.y + t * uy)};
+}
+
+class Noder {
+ public:
+  Noder(CleanChains& chains, const Coastline& coastline, const Projection& projection, CleanReport& report)
+      : chains_(chains), coastline_(coastline), projection_(projection), report_(report) {
+    crossed_.assign(chains.chains.size(), 0);
+    double largest = 0;
+    for (const Point& p : chains.vertices.plane) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    grain_ = std::ldexp(largest, -44);
+  }
+
+  NodedEdges run() {
+    for (std::uint32_t c = 0; c < chains_.chains.size(); ++c) addUses(c);
+    collapse(true);
+    active_.assign(edges_.size(), 1);
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (!splitOnce(round)) return {std::move(uses_), std::move(crossed_)};
+    }
+    const Point place = chains_.vertices.input[edges_[splits_.front().edge].low];
+    throw InputError("feature " + std::to_string(fidOf(splits_.front().edge)) + ": the edges near " +
+                     std::to_string(place.x) + ", " + std::to_string(place.y) +
+                     " cannot be untangled: simplify the feature there, or give a larger snap distance");
+  }
+
+ private:
+  const Point& at(VertexId v) const { return chains_.vertices.plane[v]; }
+  std::uint32_t featureOf(const EdgeUse& use) const { return chains_.chains[use.chain].feature; }
+  bool isLine(const EdgeUse& use) const { return chains_.chains[use.chain].role == CleanChain::Role::Line; }
+  std::int64_t fidOf(std::uint32_t edge) const {
+    return coastline_.features[featureOf(uses_[edges_[edge].first_use])].fid;
+  }
+
+  void addUses(std::uint32_t c) {
+    const CleanChain& chain = chains_.chains[c];
+    const std::size_t n = chain.walk.size();
+    const std::size_t edges = chain.role == CleanChain::Role::Line ? n - 1 : n;
+    for (std::size_t i = 0; i < edges; ++i) uses_.push_back({chain.walk[i], chain.walk[(i + 1) % n], c});
+  }
+
+  // Sorts the uses, lets those of one feature cancel in pairs, and lists the edges.
+  void collapse(bool tell) {
+    const auto key = [&](const EdgeUse& use) {
+      return std::tuple(use.low(), use.high(), isLine(use), featureOf(use), use.chain, use.a);
+    };
+    std::sort(uses_.begin(), uses_.end(), [&](const EdgeUse& p, const EdgeUse& q) { return key(p) < key(q); });
+    std::size_t kept = 0;
+    edges_.clear();
+    for (std::size_t i = 0; i < uses_.size();) {
+      const VertexId low = uses_[i].low(), high = uses_[i].high();
+      const std::size_t first = kept;
+      while (i < uses_.size() && uses_[i].low() == low && uses_[i].high() == high) {
+        const EdgeUse use = uses_[i];
+        std::size_t same = 0;
+        for (; i < uses_.size() && uses_[i].low() == low && uses_[i].high() == high &&
+               isLine(uses_[i]) == isLine(use) && (isLine(use) || featureOf(uses_[i]) == featureOf(use));
+             ++i)
+          ++same;
+        if (isLine(use) || same % 2 == 1) uses_[kept++] = use;
+        if (tell && same > 1 && !onSeam(low, high)) {
+          report_.add(EditKind::OverlappingEdge, chains_.vertices.input[low], coastline_.features[featureOf(use)].fid);
+        }
+      }
+      if (kept > first) edges_.push_back({low, high, first, kept});
+    }
+    uses_.resize(kept);
+  }
+
+  bool onSeam(VertexId u, VertexId v) const {
+    const CleanVertices& vertices = chains_.vertices;
+    return chains_.seam && chains_.seam->holds(vertices.input[u]) && chains_.seam->holds(vertices.input[v]);
+  }
+
+  // False where nothing is left to do.
+  bool splitOnce(int round) {
+    const double growth = std::ldexp(1.0, std::max(0, round - kPatience));
+    // The first round takes the input exactly, but for the snap distance asked for; what rounding made comes after.
+    const double near = round == 0 ? chains_.snap : std::max(chains_.snap, grain_) * growth;
+    find(near);
+    if (splits_.empty() && crossings_.empty()) return false;
+    if (round == 0) tellSplits();
+    if (!crossings_.empty()) putCrossings(std::max(chains_.snap, grain_) * growth, round == 0);
+    apply();
+    return true;
+  }
+
+  void find(double tolerance) {
+    splits_.clear();
+    crossings_.clear();
+    std::vector<Box> boxes;
+    boxes.reserve(edges_.size());
+    for (const Edge& edge : edges_) boxes.push_back(Box::of(at(edge.low), at(edge.high)));
+    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      if (!active_[e]) continue;
+      tree.visit(boxes[e].grownBy(tolerance), [&](std::uint32_t f) {
+        if (f == e || (active_[f] && f < e)) return;
+        testPair(e, f, tolerance);
+      });
+    }
+    std::sort(splits_.begin(), splits_.end());
+    splits_.erase(std::unique(splits_.begin(), splits_.end()), splits_.end());
+  }
+
+  void testPair(std::uint32_t e, std::uint32_t f, double tolerance) {
+    const auto [a, b] = std::pair(edges_[e].low, edges_[e].high);
+    const auto [c, d] = std::pair(edges_[f].low, edges_[f].high);
+    const std::size_t before = splits_.size();
+    for (const VertexId v : {c, d}) {
+      if (v != a && v != b && liesOnEdge(at(a), at(b), at(v), tolerance)) splits_.push_back({e, v});
+    }
+    for (const VertexId v : {a, b}) {
+      if (v != c && v != d && liesOnEdge(at(c), at(d), at(v), tolerance)) splits_.push_back({f, v});
+    }
+    if (splits_.size() > before || a == c || a == d || b == c || b == d) return;
+    if (orient2d(at(a), at(b), at(c)) * orient2d(at(a), at(b), at(d)) < 0 &&
+        orient2d(at(c), at(d), at(a)) * orient2d(at(c), at(d), at(b)) < 0) {
+      crossings_.push_back({e, f});
+    }
+  }
+
+  void tellSplits() {
+    for (const Split& split : splits_) {
+      report_.add(EditKind::OverlappingEdge, chains_.vertices.input[split.vertex], fidOf(split.edge));
+    }
+  }
+
+  void putCrossings(double tolerance, bool tell) {
+    CleanVertices& vertices = chains_.vertices;
+    PointGrid grid(vertices.plane, tolerance, vertices.plane.size() + crossings_.size());
+    for (VertexId v = 0; v < vertices.plane.size(); ++v) grid.add(v);
+    for (const Crossing& crossing : crossings_) {
+      const Edge &e = edges_[crossing.e], &f = edges_[crossing.f];
+      const Point place = crossingPoint(at(e.low), at(e.high), at(f.low), at(f.high));
+      VertexId v = grid.find(place);
+      if (v == kNone) {
+        v = static_cast<VertexId>(vertices.plane.size());
+        vertices.plane.push_back(place);
+        vertices.input.push_back(projection_.inverse(place));
+        vertices.is_new.push_back(1);
+        grid.add(v);
+      }
+      if (v != e.low && v != e.high) splits_.push_back({crossing.e, v});
+      if (v != f.low && v != f.high) splits_.push_back({crossing.f, v});
+      markCrossed(e, f, vertices.input[v], tell);
+    }
+    std::sort(splits_.begin(), splits_.end());
+    splits_.erase(std::unique(splits_.begin(), splits_.end()), splits_.end());
+  }
+
+  void markCrossed(const Edge& e, const Edge& f, const Point& place, bool tell) {
+    for (const Edge& edge : {e, f}) {
+      for (std::size_t u = edge.first_use; u < edge.last_use; ++u) crossed_[uses_[u].chain] = 1;
+    }
+    if (!tell) return;
+    const std::uint32_t first = featureOf(uses_[e.first_use]), second = featureOf(uses_[f.first_use]);
+    report_.add(first == second ? EditKind::SelfCrossing : EditKind::FeaturesCross, place,
+                coastline_.features[std::max(first, second)].fid);
+  }
+
+  // Makes every split edge a chain through the vertices found on it. What is new is active in the next round.
+  void apply() {
+    std::vector<EdgeUse> uses;
+    uses.reserve(uses_.size() + 2 * splits_.size());
+    std::vector<std::pair<VertexId, VertexId>> fresh;
+    auto split = splits_.begin();
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      const Edge& edge = edges_[e];
+      const auto first = split;
+      while (split != splits_.end() && split->edge == e) ++split;
+      if (first == split) {
+        uses.insert(uses.end(), uses_.begin() + static_cast<std::ptrdiff_t>(edge.first_use),
+                    uses_.begin() + static_cast<std::ptrdiff_t>(edge.last_use));
+        continue;
+      }
+      const std::vector<VertexId> path = pathThrough(edge, first, split);
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        fresh.push_back(std::minmax(path[i - 1], path[i]));
+        for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
+          const bool upward = uses_[u].a == edge.low;
+          uses.push_back({upward ? path[i - 1] : path[i], upward ? path[i] : path[i - 1], uses_[u].chain});
+        }
+      }
+    }
+    uses_ = std::move(uses);
+    collapse(false);
+    std::sort(fresh.begin(), fresh.end());
+    active_.assign(edges_.size(), 0);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      active_[e] = std::binary_search(fresh.begin(), fresh.end(), std::pair(edges_[e].low, edges_[e].high));
+    }
+  }
+
+  std::vector<VertexId> pathThrough(const Edge& edge, std::vector<Split>::const_iterator first,
+                                    std::vector<Split>::const_iterator last) const {
+    const Point &a = at(edge.low), &b = at(edge.high);
+    std::vector<std::pair<double, VertexId>> between;
+    for (auto split = first; split != last; ++split) {
+      const Point& v = at(split->vertex);
+      between.emplace_back((v.x - a.x) * (b.x - a.x) + (v.y - a.y) * (b.y - a.y), split->vertex);
+    }
+    std::sort(between.begin(), between.end());
+    std::vector<VertexId> path{edge.low};
+    for (const auto& [along, v] : between) path.push_back(v);
+    path.push_back(edge.high);
+    return path;
+  }
+
+  CleanChains& chains_;
+  const Coastline& coastline_;
+  const Projection& projection_;
+  CleanReport& report_;
+  double grain_ = 0;  // distance below which rounding makes what it likes of points
+  std::vector<EdgeUse> uses_;
+  std::vector<Edge> edges_;
+  std::vector<char> active_;  // by edge: not yet tested against all others
+  std::vector<Split> splits_;
+  std::vector<Crossing> crossings_;
+  std::vector<char> crossed_;
+};
+
+}  // namespace
+
+NodedEdges nodeChains(CleanChains& chains, const Coastline& coastline, const Projection& projection,
+                      CleanReport& report) {
+  return Noder(chains, coastline, projection, report).run();
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "gis/clean_chains.hpp"
+
+namespace coastmesh {
+
+// One pass of a chain along an edge, in the chain's direction.
+struct EdgeUse {
+  VertexId a = kNone, b = kNone;
+  std::uint32_t chain = 0;
+
+  VertexId low() const { return std::min(a, b); }
+  VertexId high() const { return std::max(a, b); }
+};
+
+// Edges that meet in common end points only.
+struct NodedEdges {
+  // Sorted by low end, high end, feature. A feature's rings use an edge once at most (two uses cancel: even-odd), lines
+  // once at most.
+  std::vector<EdgeUse> uses;
+  std::vector<char> crossed;  // by chain: whether one of its edges crossed another edge
+};
+
+// Puts a vertex where edges cross, and lets edges pass through the vertices that lie on them (nearer than the snap
+// distance), until no two edges meet but in a common end point, exactly. New vertices are appended to
+// `chains.vertices`. Points that rounding brings within 2^-44 of the largest coordinate of one another become one.
+// Throws InputError where that comes to no end.
+NodedEdges nodeChains(CleanChains& chains, const Coastline& coastline, const Projection& projection,
+                      CleanReport& report);
+
+}  // namespace coastmesh

@@ -1,0 +1,204 @@
+#include "gis/clean_simplify.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "core/predicates.hpp"
+#include "gis/box_tree.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A vertex with exactly two segments of the same labels, in a doubly linked chain.
+struct Link {
+  std::array<std::uint32_t, 2> segment{kNone, kNone};
+  std::uint32_t degree = 0;
+  std::uint32_t version = 0;  // grows whenever a neighbour changes: older queue entries are stale
+};
+
+// A living segment, with the vertices dropped from it, in order from a to b.
+struct Piece {
+  Segment segment;
+  std::vector<VertexId> dropped;
+  bool alive = true;
+};
+
+double squaredDistance(const Point& p, const Point& a, const Point& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
+  const double ex = a.x + t * dx - p.x, ey = a.y + t * dy - p.y;
+  return ex * ex + ey * ey;
+}
+
+class Simplifier {
+ public:
+  Simplifier(const CleanVertices& vertices, std::vector<Segment> segments, const Projection& projection,
+             double tolerance_m)
+      : vertices_(vertices), projection_(projection), tolerance_m_(tolerance_m), links_(vertices.plane.size()) {
+    pieces_.reserve(segments.size());
+    for (const Segment& s : segments) {
+      for (const VertexId v : {s.a, s.b}) {
+        Link& link = links_[v];
+        if (link.degree < 2) link.segment[link.degree] = static_cast<std::uint32_t>(pieces_.size());
+        ++link.degree;
+      }
+      pieces_.push_back({s, {}, true});
+    }
+    std::vector<Box> boxes(links_.size());
+    for (VertexId v = 0; v < links_.size(); ++v) {
+      if (links_[v].degree > 0) boxes[v].add(at(v));
+    }
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  }
+
+  template <typename Dropped>
+  std::vector<Segment> run(Dropped&& dropped) {
+    for (VertexId v = 0; v < links_.size(); ++v) enqueue(v);
+    // Every entry that is not stale drops a vertex or is never renewed but by one that does.
+    while (!queue_.empty()) {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (entry.version != links_[entry.vertex].version || links_[entry.vertex].degree != 2) continue;
+      if (blocked(entry.vertex)) continue;
+      dropped(entry.vertex, pieces_[links_[entry.vertex].segment[0]].segment);
+      drop(entry.vertex);
+    }
+    std::vector<Segment> kept;
+    for (const Piece& piece : pieces_) {
+      if (piece.alive) kept.push_back(piece.segment);
+    }
+    return kept;
+  }
+
+ private:
+  struct Entry {
+    double cost;
+    VertexId vertex;
+    std::uint32_t version;
+
+    bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : vertex > other.vertex; }
+  };
+
+  const Point& at(VertexId v) const { return vertices_.plane[v]; }
+
+  VertexId other(std::uint32_t segment, VertexId v) const {
+    const Segment& s = pieces_[segment].segment;
+    return s.a == v ? s.b : s.a;
+  }
+
+  // Labels to the left and to the right on the way out of v.
+  std::pair<RegionId, RegionId> labelsFrom(std::uint32_t segment, VertexId v) const {
+    const Segment& s = pieces_[segment].segment;
+    return s.a == v ? std::pair(s.left, s.right) : std::pair(s.right, s.left);
+  }
+
+  bool removable(VertexId v) const {
+    if (links_[v].degree != 2) return false;
+    const auto [first, second] = links_[v].segment;
+    const auto [left, right] = labelsFrom(first, v);
+    if (labelsFrom(second, v) != std::pair(right, left)) return false;
+    const VertexId p = other(first, v), q = other(second, v);
+    return p != q && !joined(p, q);
+  }
+
+  // Whether a segment between p and q is there already (the ring is a triangle, or two chains run between them).
+  bool joined(VertexId p, VertexId q) const {
+    // Vertices of degree 2 know their segments; between two junctions the triangle test decides.
+    for (const VertexId v : {p, q}) {
+      if (links_[v].degree > 2) continue;
+      for (std::uint32_t i = 0; i < links_[v].degree; ++i) {
+        if (other(links_[v].segment[i], v) == (v == p ? q : p)) return true;
+      }
+    }
+    return false;
+  }
+
+  // The largest distance, squared, of v and what was dropped beside it from the segment that would replace it.
+  double costOf(VertexId v) const {
+    const auto [first, second] = links_[v].segment;
+    const Point &a = at(other(first, v)), &b = at(other(second, v));
+    double cost = squaredDistance(at(v), a, b);
+    for (const std::uint32_t s : {first, second}) {
+      for (const VertexId d : pieces_[s].dropped) cost = std::max(cost, squaredDistance(at(d), a, b));
+    }
+    return cost;
+  }
+
+  void enqueue(VertexId v) {
+    if (!removable(v)) return;
+    const double cost = costOf(v), tolerance = tolerance_m_ * projection_.scaleAt(at(v));
+    if (cost <= tolerance * tolerance) queue_.push({cost, v, links_[v].version});
+  }
+
+  // Whether the triangle of v and its neighbours holds another living vertex, on its rim included.
+  bool blocked(VertexId v) const {
+    const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
+    const int turn = orient2d(at(p), at(v), at(q));
+    Box box = Box::of(at(p), at(q));
+    box.add(at(v));
+    bool found = false;
+    tree_.visit(box, [&](std::uint32_t w) {
+      if (found || w == v || w == p || w == q || links_[w].degree == 0) return;
+      if (turn == 0) {  // v lies on pq, or the chain turns back: nothing may lie on the way
+        found = orient2d(at(p), at(q), at(w)) == 0;
+        return;
+      }
+      found = orient2d(at(p), at(v), at(w)) * turn >= 0 && orient2d(at(v), at(q), at(w)) * turn >= 0 &&
+              orient2d(at(q), at(p), at(w)) * turn >= 0;
+    });
+    return found;
+  }
+
+  void drop(VertexId v) {
+    const auto [first, second] = links_[v].segment;
+    const VertexId p = other(first, v), q = other(second, v);
+    const auto [left, right] = labelsFrom(second, v);
+    Piece joined{{p, q, pieces_[first].segment.tag, left, right}, {}, true};
+    for (const std::uint32_t s : {first, second}) {
+      std::vector<VertexId> dropped = std::move(pieces_[s].dropped);
+      const bool along = pieces_[s].segment.b == (s == first ? v : q);
+      if (!along) std::reverse(dropped.begin(), dropped.end());
+      joined.dropped.insert(joined.dropped.end(), dropped.begin(), dropped.end());
+      if (s == first) joined.dropped.push_back(v);
+      pieces_[s].alive = false;
+    }
+    const auto number = static_cast<std::uint32_t>(pieces_.size());
+    pieces_.push_back(std::move(joined));
+    links_[v].degree = 0;
+    for (const VertexId end : {p, q}) {
+      Link& link = links_[end];
+      for (std::uint32_t& s : link.segment) {
+        if (s == first || s == second) s = number;
+      }
+      ++link.version;
+    }
+    enqueue(p);
+    enqueue(q);
+  }
+
+  const CleanVertices& vertices_;
+  const Projection& projection_;
+  double tolerance_m_;
+  std::vector<Link> links_;
+  std::vector<Piece> pieces_;
+  BoxTree tree_;
+  std::priority_queue<Entry> queue_;
+};
+
+}  // namespace
+
+std::vector<Segment> simplifyEdges(const CleanVertices& vertices, std::vector<Segment> segments,
+                                   const Coastline& coastline, const Projection& projection, double tolerance_m,
+                                   CleanReport& report) {
+  Simplifier simplifier(vertices, std::move(segments), projection, tolerance_m);
+  return simplifier.run([&](VertexId v, const Segment& segment) {
+    const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
+    report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline.features[feature].fid);
+  });
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+// A ring or line of the input while it is cleaned.
+struct TouchChain {
+  std::vector<Point>* points = nullptr;  // a ring's first point is not repeated
+  bool closed = true;
+};
+
+// A point that was put into an edge it lies on.
+struct Touch {
+  std::size_t chain;
+  Point place;
+};
+
+// Points that lie exactly on an edge of another chain, or of their own, become points of that edge as well: what
+// touches in the input's coordinates (polygons cut along a grid of longitudes, say) must touch in the working plane
+// too, where its edges run a little differently. Private to gis.
+std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains);
+
+}  // namespace coastmesh

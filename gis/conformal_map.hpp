@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+// An ellipsoid of revolution: semi-major axis in metres, flattening.
+struct Ellipsoid {
+  double a = 6378137.0;
+  double f = 1.0 / 298.257223563;
+};
+
+// A conformal map of the ellipsoid: x, y in degrees of longitude and latitude there, metres in the plane. Private to
+// gis. Thread-safe. `inverse` gives longitudes in [-180, 180]; a latitude beyond the poles makes NaN.
+class ConformalMap {
+ public:
+  virtual ~ConformalMap() = default;
+  virtual Point forward(const Point& lonlat) const = 0;
+  virtual Point inverse(const Point& plane) const = 0;
+  virtual double scaleAt(const Point& plane) const = 0;  // plane length over length on the ellipsoid
+};
+
+// Each has its origin and the scale 1 at the centre named, the conic on its two parallels.
+std::unique_ptr<ConformalMap> transverseMercator(const Ellipsoid& ellipsoid, const Point& centre);
+std::unique_ptr<ConformalMap> lambertConic(const Ellipsoid& ellipsoid, const Point& centre, double parallel1,
+                                           double parallel2);
+std::unique_ptr<ConformalMap> polarStereographic(const Ellipsoid& ellipsoid, bool north, double central_meridian);
+std::unique_ptr<ConformalMap> obliqueStereographic(const Ellipsoid& ellipsoid, const Point& centre);
+
+}  // namespace coastmesh

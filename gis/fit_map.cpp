@@ -1,0 +1,220 @@
+#include "gis/fit_map.hpp"
+
+#include <GeographicLib/Math.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+
+#include "gis/chain_index.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using GeographicLib::Math;
+
+struct Direction {
+  double x = 0, y = 0, z = 0;
+};
+
+double dot(const Direction& u, const Direction& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
+
+Direction toDirection(const Point& lonlat) {
+  double sin_lon, cos_lon, sin_lat, cos_lat;
+  Math::sincosd(lonlat.x, sin_lon, cos_lon);
+  Math::sincosd(lonlat.y, sin_lat, cos_lat);
+  return {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat};
+}
+
+Point toLonLat(const Direction& d) { return {Math::atan2d(d.y, d.x), Math::atan2d(d.z, std::hypot(d.x, d.y))}; }
+
+double degreesBetween(const Direction& u, const Direction& v) {
+  const double chord = std::sqrt(std::max(0.0, 2 - 2 * dot(u, v)));
+  return 2 * std::asin(std::min(1.0, chord / 2)) / Math::degree();
+}
+
+constexpr std::size_t kLonCells = 360, kLatCells = 180;
+
+// Many points are thinned to the outermost ones in each cell of one degree: enough for radii and centres.
+std::vector<Direction> thinned(const std::vector<Point>& lonlat) {
+  std::vector<Direction> directions;
+  if (lonlat.size() < kLonCells * kLatCells) {
+    for (const Point& p : lonlat) directions.push_back(toDirection(p));
+    return directions;
+  }
+  struct Cell {
+    std::array<Point, 4> outermost;
+    bool used = false;
+  };
+  std::vector<Cell> cells(kLonCells * kLatCells);
+  for (const Point& given : lonlat) {
+    const Point p{Math::AngNormalize(given.x), given.y};
+    const auto i = static_cast<std::size_t>(std::clamp(p.x + 180, 0.0, 359.0));
+    const auto j = static_cast<std::size_t>(std::clamp(p.y + 90, 0.0, 179.0));
+    Cell& cell = cells[j * kLonCells + i];
+    if (!cell.used) cell = {{p, p, p, p}, true};
+    auto& [west, east, south, north] = cell.outermost;
+    if (p.x < west.x) west = p;
+    if (p.x > east.x) east = p;
+    if (p.y < south.y) south = p;
+    if (p.y > north.y) north = p;
+  }
+  for (const Cell& cell : cells) {
+    if (!cell.used) continue;
+    for (const Point& p : cell.outermost) directions.push_back(toDirection(p));
+  }
+  return directions;
+}
+
+// The shortest arc of longitudes, and the latitudes.
+struct Extent {
+  double mid_lon = 0, width = 0;
+  double south = 90, north = -90;
+
+  double midLat() const { return (south + north) / 2; }
+  double height() const { return north - south; }
+};
+
+Extent extentOf(const std::vector<Point>& lonlat) {
+  Extent extent;
+  std::array<bool, kLonCells> used{};
+  for (const Point& p : lonlat) {
+    extent.south = std::min(extent.south, p.y), extent.north = std::max(extent.north, p.y);
+    if (std::abs(p.y) == 90) continue;  // a pole has no longitude
+    used[static_cast<std::size_t>(std::clamp(Math::AngNormalize(p.x) + 180, 0.0, 359.0))] = true;
+  }
+  // The middle of the longest run of empty cells, round the globe, is where the arc is not.
+  std::size_t best_run = 0, best_end = 0, run = 0;
+  for (std::size_t i = 0; i < 2 * kLonCells; ++i) {
+    run = used[i % kLonCells] ? 0 : run + 1;
+    if (run > best_run && run <= kLonCells) best_run = run, best_end = i;
+  }
+  const double empty_mid = static_cast<double>(best_end) + 1 - static_cast<double>(best_run) / 2 - 180;
+  const double roughly = Math::AngNormalize(empty_mid + 180);
+  double west = 0, east = 0;
+  for (const Point& p : lonlat) {
+    if (std::abs(p.y) == 90) continue;
+    const double d = Math::AngDiff(roughly, p.x);
+    west = std::min(west, d), east = std::max(east, d);
+  }
+  extent.mid_lon = Math::AngNormalize(roughly + (west + east) / 2);
+  extent.width = east - west;
+  return extent;
+}
+
+// A cap of the sphere.
+struct Cap {
+  Point centre;
+  double radius = 0;  // degrees
+};
+
+Cap capAround(const Point& centre, const std::vector<Direction>& directions) {
+  Cap cap{centre, 0};
+  const Direction middle = toDirection(centre);
+  for (const Direction& d : directions) cap.radius = std::max(cap.radius, degreesBetween(middle, d));
+  return cap;
+}
+
+// The least of a few caps: about the middle of the extent, the mean direction, the poles. A pole is preferred where it
+// is nearly as good.
+Cap leastCap(const Extent& extent, const std::vector<Direction>& directions) {
+  Cap best = capAround({extent.mid_lon, extent.midLat()}, directions);
+  Direction mean;
+  for (const Direction& d : directions) mean = {mean.x + d.x, mean.y + d.y, mean.z + d.z};
+  const Cap about_mean = capAround(toLonLat(mean), directions);
+  if (about_mean.radius < best.radius) best = about_mean;
+  for (const double pole : {90.0, -90.0}) {
+    const Cap about_pole = capAround({extent.mid_lon, pole}, directions);
+    if (about_pole.radius < 1.1 * best.radius &&
+        degreesBetween(toDirection(best.centre), {0, 0, pole / 90}) < best.radius)
+      best = about_pole;
+  }
+  return best;
+}
+
+// The centre of a stereographic projection for what is larger than a hemisphere: its antipode, which has no image, lies
+// as far inside of what the rings leave out as possible.
+Point centreAwayFromLand(const std::vector<const Ring*>& rings, const std::vector<Direction>& directions) {
+  ChainIndex index(ChainIndex::Kind::Rings);
+  for (const Ring* ring : rings) index.add(*ring);
+  index.build();
+  const double west = index.bounds().xmin;  // longitudes may run from -180 or from 0
+  constexpr int kTrials = 4000;             // some 3 degrees apart
+  constexpr double kLeastClearance = 0.5;   // degrees
+  std::optional<Point> best;
+  double best_clearance = kLeastClearance;
+  for (int i = 0; i < kTrials; ++i) {
+    // A spiral from pole to pole, with both poles on it.
+    const double z = 1 - 2.0 * i / (kTrials - 1);
+    const double lon = std::fmod(i * 180 * (3 - std::sqrt(5.0)), 360.0);
+    const Point trial{lon, std::asin(std::clamp(z, -1.0, 1.0)) / Math::degree()};
+    const Direction d = toDirection(trial);
+    double nearest = -1;
+    for (const Direction& vertex : directions) nearest = std::max(nearest, dot(d, vertex));
+    const double clearance = std::acos(std::clamp(nearest, -1.0, 1.0)) / Math::degree();
+    if (clearance <= best_clearance) continue;
+    const Point as_given{west + std::fmod(trial.x - west + 720, 360.0), trial.y};
+    if (index.locate(as_given) != Location::Outside) continue;
+    best = trial, best_clearance = clearance;
+  }
+  if (!best) {
+    throw InputError("the features cover the whole globe: a plane needs a place of some 100 km that they leave out");
+  }
+  return {Math::AngNormalize(best->x + 180), -best->y};
+}
+
+std::string degreesInWords(double degrees) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.5g°", degrees == 0 ? 0.0 : degrees);
+  return text;
+}
+
+FittedMap polar(const Point& centre, const Ellipsoid& ellipsoid) {
+  const bool north = centre.y > 0;
+  return {polarStereographic(ellipsoid, north, centre.x), std::string("polar stereographic about the ") +
+                                                              (north ? "north" : "south") + " pole, central meridian " +
+                                                              degreesInWords(centre.x)};
+}
+
+FittedMap oblique(const Point& centre, const Ellipsoid& ellipsoid) {
+  return {obliqueStereographic(ellipsoid, centre), "oblique stereographic, centre at longitude " +
+                                                       degreesInWords(centre.x) + ", latitude " +
+                                                       degreesInWords(centre.y)};
+}
+
+}  // namespace
+
+FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings, const Ellipsoid& ellipsoid) {
+  constexpr double kLargeCap = 30;  // degrees
+  constexpr double kElongated = 1.5;
+  const std::vector<Direction> directions = thinned(lonlat);
+  const Extent extent = extentOf(lonlat);
+  const Cap cap = leastCap(extent, directions);
+  const auto atPole = [](const Point& p) { return std::abs(p.y) == 90; };
+  if (cap.radius > 90) {
+    const Point centre = centreAwayFromLand(rings, directions);
+    return atPole(centre) ? polar(centre, ellipsoid) : oblique(centre, ellipsoid);
+  }
+  if (atPole(cap.centre)) return polar(cap.centre, ellipsoid);
+  const bool holds_pole = 90 - std::abs(cap.centre.y) <= cap.radius;
+  if (cap.radius > kLargeCap || holds_pole) return oblique(cap.centre, ellipsoid);
+
+  const Point middle{extent.mid_lon, extent.midLat()};
+  const double width = extent.width * std::cos(middle.y * Math::degree());
+  if (extent.height() >= kElongated * width) {
+    return {transverseMercator(ellipsoid, middle), "transverse Mercator, central meridian " + degreesInWords(middle.x)};
+  }
+  if (width >= kElongated * extent.height()) {
+    const double parallel1 = extent.south + extent.height() / 6, parallel2 = extent.north - extent.height() / 6;
+    return {lambertConic(ellipsoid, middle, parallel1, parallel2),
+            "Lambert conformal conic, central meridian " + degreesInWords(middle.x) + ", parallels " +
+                degreesInWords(parallel1) + " and " + degreesInWords(parallel2)};
+  }
+  return oblique(middle, ellipsoid);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "gis/crs_map.hpp"
+#include "gis/error.hpp"
+#include "gis/fit_map.hpp"
+#include "gis/ogr_support.hpp"
+#include "gis/projection_impl.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Longitudes and latitudes of features, from whatever CRS they are in.
+class ToGeographic {
+ public:
+  explicit ToGeographic(const Crs& crs) {
+    if (!crs.geographic) map_ = std::make_shared<CrsMap>(toOgr(crs), geographicBase(crs));
+  }
+  Point forward(const Point& input) const { return map_ ? map_->forward(input) : input; }
+  Point inverse(const Point& lonlat) const { return map_ ? map_->inverse(lonlat) : lonlat; }
+  bool isIdentity() const { return !map_; }
+
+ private:
+  std::shared_ptr<const CrsMap> map_;
+};
+
+class Fitted final : public Projection::Impl {
+ public:
+  Fitted(ToGeographic to_geographic, FittedMap fitted, double middle_longitude)
+      : to_geographic_(std::move(to_geographic)), map_(std::move(fitted.map)), middle_(middle_longitude) {
+    description = std::move(fitted.description);
+  }
+
+  Point forward(const Point& input) const override { return map_->forward(to_geographic_.forward(input)); }
+  Point inverse(const Point& plane) const override {
+    Point lonlat = map_->inverse(plane);
+    // As the input has it: the same turn round the globe.
+    if (lonlat.x < middle_ - 180) lonlat.x += 360;
+    if (lonlat.x > middle_ + 180) lonlat.x -= 360;
+    return to_geographic_.inverse(lonlat);
+  }
+  double scaleAt(const Point& plane) const override { return map_->scaleAt(plane); }
+
+ private:
+  ToGeographic to_geographic_;
+  std::unique_ptr<ConformalMap> map_;
+  double middle_;
+};
+
+// Calls `act(feature, chain)` for every ring and line of the members.
+template <typename Act>
+void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& members, Act&& act) {
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    for (const Polygon& polygon : feature.polygons) {
+      act(feature, polygon.outer, true);
+      for (const Ring& hole : polygon.holes) act(feature, hole, true);
+    }
+    for (const auto& line : feature.lines) act(feature, line, false);
+  }
+}
+
+[[noreturn]] void refuse(const Feature& feature, const Point& input, const Crs& crs) {
+  throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the point " +
+                   std::to_string(input.x) + ", " + std::to_string(input.y) + " is no place on Earth in " +
+                   nameOf(crs) + ": name the CRS that the data are in, or take them as a plane");
+}
+
+}  // namespace
+
+Projection Projection::fitted(const Coastline& coastline, const std::vector<std::size_t>& members) {
+  if (coastline.crs.isPlane()) return plane();
+  constexpr double kMostLongitude = 540;  // degrees: -180 to 180, 0 to 360, and some overlap
+  const ToGeographic to_geographic(coastline.crs);
+  std::vector<Point> lonlat;
+  std::vector<Ring> projected_rings;
+  std::vector<const Ring*> rings;
+  double west = std::numeric_limits<double>::infinity(), east = -west;
+  forEachChain(coastline, members, [&](const Feature& feature, const std::vector<Point>& chain, bool is_ring) {
+    for (const Point& input : chain) {
+      const Point p = to_geographic.forward(input);
+      if (!(std::abs(p.y) <= 90 && std::abs(p.x) <= kMostLongitude)) refuse(feature, input, coastline.crs);
+      west = std::min(west, p.x), east = std::max(east, p.x);
+      lonlat.push_back(p);
+    }
+    if (!is_ring) return;
+    if (to_geographic.isIdentity()) {
+      rings.push_back(&chain);
+    } else {
+      projected_rings.emplace_back(lonlat.end() - static_cast<std::ptrdiff_t>(chain.size()), lonlat.end());
+    }
+  });
+  if (lonlat.empty()) throw InputError("the features hold no point");
+  for (const Ring& ring : projected_rings) rings.push_back(&ring);
+  const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
+  const Ellipsoid ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
+  return Projection(std::make_shared<Fitted>(to_geographic, fitMap(lonlat, rings, ellipsoid), middle));
+}
+
+}  // namespace coastmesh

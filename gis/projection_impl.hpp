@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "gis/projection.hpp"
+
+namespace coastmesh {
+
+// What stands behind a Projection; private to gis.
+struct Projection::Impl {
+  virtual ~Impl() = default;
+  virtual Point forward(const Point& input) const = 0;
+  virtual Point inverse(const Point& plane) const = 0;
+  virtual double scaleAt(const Point& plane) const = 0;
+  virtual bool isIdentity() const { return false; }
+  std::string description;
+};
+
+}  // namespace coastmesh
