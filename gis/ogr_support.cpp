@@ -5,6 +5,7 @@
 
 #include <cassert>
 #include <memory>
+#include <string_view>
 
 namespace coastmesh {
 
@@ -47,6 +48,8 @@ OGRSpatialReference toOgr(const Crs& crs) {
 
 Crs fromOgr(const OGRSpatialReference* srs) {
   if (srs == nullptr || srs->IsEmpty() || srs->IsLocal()) return {};
+  // What OGR writes into a GeoPackage for no CRS at all.
+  if (srs->GetName() != nullptr && std::string_view(srs->GetName()) == "Undefined geographic SRS") return {};
   const auto codeOf = [](const OGRSpatialReference& of) {
     const char* name = of.GetAuthorityName(nullptr);
     const char* code = of.GetAuthorityCode(nullptr);

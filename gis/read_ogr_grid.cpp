@@ -205,6 +205,19 @@ class FeatureTable {
   std::map<std::tuple<std::int64_t, std::string, std::string>, std::uint32_t> index_;
 };
 
+// Numbers the features in the order of their first triangles, for files that hold triangles in an order of their own.
+void sortFeatures(Grid& grid) {
+  std::vector<std::uint32_t> rank(grid.features.size(), kNone), order;
+  for (std::uint32_t& feature : grid.feature_of) {
+    if (rank[feature] == kNone) {
+      rank[feature] = static_cast<std::uint32_t>(order.size());
+      order.push_back(feature);
+    }
+    feature = rank[feature];
+  }
+  reorder(grid.features, order);
+}
+
 void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
   const int id_field = reader.field("id"), angle_field = reader.field("min_angle"),
             area_field = reader.field("area_m2");
@@ -224,6 +237,7 @@ void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
     reorder(grid.min_angle_deg, order);
     reorder(grid.area_m2, order);
     reorder(grid.feature_of, order);
+    sortFeatures(grid);
   }
   const bool has_z = !grid.z.empty();
   for (const auto& places : corners) {

@@ -25,7 +25,8 @@ constexpr std::size_t kLongestTableText = 254;  // bytes, of a .dbf
 struct Writer {
   const char* driver;
   std::vector<const char*> layer_options;
-  bool table_types = false;  // flags and texts as a .dbf has them
+  bool table_types = false;         // flags and texts as a .dbf has them
+  const char* plane_wkt = nullptr;  // what a plane is called; null: nothing
 };
 
 struct CloseDataset {
@@ -142,7 +143,11 @@ class ShapeCursor {
 void writeLayer(GDALDataset& dataset, const std::string& path, const Writer& writer, const Grid& grid,
                 const GridLayer& layer, const std::string& name, const OgrErrors& errors) {
   std::optional<OGRSpatialReference> srs;
-  if (!grid.crs.isPlane()) srs = toOgr(grid.crs);
+  if (!grid.crs.isPlane()) {
+    srs = toOgr(grid.crs);
+  } else if (writer.plane_wkt != nullptr) {
+    srs.emplace(writer.plane_wkt);
+  }
   std::vector<const char*> options = writer.layer_options;
   options.push_back(nullptr);
   OGRLayer* const target = dataset.CreateLayer(name.c_str(), srs ? &*srs : nullptr, ShapeCursor::typeOf(grid, layer),
@@ -188,7 +193,8 @@ void writeGeoPackage(const Grid& grid, const std::string& path) {
   // The file only gets its name once it is whole, so nothing is gained by a journal or by waiting for the disk.
   const OgrOption journal("OGR_SQLITE_JOURNAL", "OFF");
   const OgrOption synchronous("OGR_SQLITE_SYNCHRONOUS", "OFF");
-  const Writer writer{"GPKG", {}};
+  // Said in this way or OGR calls it an undefined geographic CRS.
+  const Writer writer{"GPKG", {}, false, "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
   DatasetPtr dataset = create(writer, path, errors);
   if (dataset->StartTransaction() != OGRERR_NONE) fail(path, errors);
   for (const GridLayer& layer : layersOf(grid)) writeLayer(*dataset, path, writer, grid, layer, layer.name, errors);

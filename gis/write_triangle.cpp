@@ -50,7 +50,7 @@ Point pointInside(const Grid& grid, const Boundary& island, const std::string& p
   ring.closeRings();
   OGRPolygon polygon;
   polygon.addRing(&ring);
-  OGRPoint inside;
+  OGRPoint inside(0.0, 0.0);  // GDAL refuses to fill an empty one
   if (polygon.PointOnSurface(&inside) != OGRERR_NONE)
     throw OutputError("cannot write '" + path + "': no point found inside the island at " +
                       std::to_string(grid.nodes[island.nodes[0]].x) + ", " +
