@@ -277,7 +277,7 @@ VertexId EditMesh::splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>
 }
 
 void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::span<const VertexId> gone,
-                       std::vector<TriId>& touched, const RimEdge* inner) {
+                       std::vector<TriId>& touched, std::span<const RimEdge> inner) {
   std::vector<TriId>& slots = fan_[0];
   slots.clear();
   for (std::size_t i = 0; i < fresh.size(); ++i) {
@@ -304,8 +304,9 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
         waiting.push_back(e);
         continue;
       }
-      const bool is_inner = inner && ((inner->a == a && inner->b == b) || (inner->a == b && inner->b == a));
-      link(e, *other, is_inner ? inner->seg : kNone);
+      const auto constraint = std::ranges::find_if(
+          inner, [&](const RimEdge& r) { return (r.a == a && r.b == b) || (r.a == b && r.b == a); });
+      link(e, *other, constraint == inner.end() ? kNone : constraint->seg);
       *other = waiting.back();
       waiting.pop_back();
     }

@@ -91,10 +91,10 @@ class EditMesh {
   // where rounding would turn a triangle over.
   VertexId splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>& touched);
 
-  // Puts other triangles into a patch. `fresh` covers it with the same rim; edges of `fresh` equal to `inner` become
-  // subsegments. Vertices in `gone` die. Does not restore the Delaunay property.
+  // Puts other triangles into a patch. `fresh` covers it with the same rim; edges of `fresh` that `inner` names, either
+  // way round, become subsegments. Vertices in `gone` die. Does not restore the Delaunay property.
   void replace(const Patch& patch, std::span<const Corners> fresh, std::span<const VertexId> gone,
-               std::vector<TriId>& touched, const RimEdge* inner = nullptr);
+               std::vector<TriId>& touched, std::span<const RimEdge> inner = {});
 
   VertexId addVertex(const Point& x, VertexKind kind);
 
