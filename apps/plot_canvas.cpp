@@ -26,8 +26,8 @@ Color mix(const Color& a, const Color& b, double share_of_b) {
 PlotCanvas::PlotCanvas(const std::string& path, const Point& low, const Point& high, double size_px, double strip_px)
     : path_(path), vector_(std::filesystem::path(path).extension() == ".svg"), low_(low), high_(high) {
   scale_ = size_px / std::max(high.x - low.x, high.y - low.y);
-  width_ = std::max(1.0, std::ceil((high.x - low.x) * scale_));
-  map_height_ = std::max(1.0, std::ceil((high.y - low.y) * scale_));
+  width_ = std::max(1.0, std::round((high.x - low.x) * scale_));
+  map_height_ = std::max(1.0, std::round((high.y - low.y) * scale_));
   const double height = map_height_ + strip_px;
   surface_.reset(
       vector_ ? cairo_svg_surface_create(path.c_str(), width_, height)

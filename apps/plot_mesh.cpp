@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/check_grid.hpp"
 #include "apps/grid_pieces.hpp"
 #include "apps/plot_canvas.hpp"
 #include "core/quality.hpp"
@@ -143,6 +144,7 @@ class MeshPlot {
     const auto& v = mesh_.triangles[t].v;
     return std::ranges::min(anglesDeg(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
   }
+  bool isBad(TriId t) const { return smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg; }
   double area(TriId t) const {
     const auto& v = mesh_.triangles[t].v;
     return std::abs(signedArea(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
@@ -193,7 +195,7 @@ class MeshPlot {
     if (options_.color == PlotColor::Size) findAreas();
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       const bool blurred = options_.edges && longestEdgePx(t) < kBlurPx;
-      const bool bad = smallestAngle(t) < options_.min_angle_deg;
+      const bool bad = isBad(t);
       if (!blurred && !bad && options_.color == PlotColor::None) continue;
       if (!shows(t)) continue;
       const Color color = bad ? kBad : colorOf(t);
@@ -242,7 +244,7 @@ class MeshPlot {
   // A bad triangle of a pixel would go unseen: a circle tells where it is.
   void markBad() {
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
-      if (!(smallestAngle(t) < options_.min_angle_deg) || longestEdgePx(t) > 8.0 || !shows(t)) continue;
+      if (!isBad(t) || longestEdgePx(t) > 8.0 || !shows(t)) continue;
       const std::array<Point, 3> c = corners(t);
       canvas_.strokeCircle({(c[0].x + c[1].x + c[2].x) / 3, (c[0].y + c[1].y + c[2].y) / 3}, 5.0, 1.2, kBad);
     }
