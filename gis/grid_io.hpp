@@ -42,7 +42,7 @@ class StagedOutput {
   const std::string& stagingFolder() const { return staging_folder_; }
 
  private:
-  void refuseExisting() const;
+  void refuseExisting() const;  // and folders, whatever `overwrite_`
   bool keepsPrj(const Grid& grid) const;
 
   std::string path_;

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "gis/error.hpp"
@@ -28,12 +30,19 @@ bool isThere(const fs::path& path) {
   return fs::exists(fs::symlink_status(path, error));
 }
 
+std::string quoted(const fs::path& path) {
+  std::string text(1, '\'');
+  text += path.string();
+  text += '\'';
+  return text;
+}
+
 [[noreturn]] void failToWrite(const fs::path& path, const std::string& why) {
-  throw OutputError("cannot write '" + path.string() + "': " + why);
+  throw OutputError("cannot write " + quoted(path) + ": " + why);
 }
 
 [[noreturn]] void refuse(const fs::path& path) {
-  throw OutputError("'" + path.string() + "' exists already; give --overwrite to replace it");
+  throw OutputError(quoted(path) + " exists already; give --overwrite to replace it");
 }
 
 void replaceAll(std::string& text, const std::string& from, const std::string& to) {
@@ -49,6 +58,12 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   if (error) failToWrite(folder, error.message());
   std::ranges::sort(files);
   return files;
+}
+
+bool sameBytes(const fs::path& a, const fs::path& b) {
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
 }
 
 // Waits until the file is on the disk: some systems tell only then that it is full.
@@ -89,10 +104,10 @@ StagedOutput::StagedOutput(std::string path, const GridFormat& format, bool over
   const fs::path target(path_);
   std::error_code error;
   if (!format.writable) failToWrite(target, "the format " + std::string(format.name) + " can only be read");
-  if (!target.has_filename() || fs::is_directory(target, error)) failToWrite(target, "it is a folder; name a file");
+  if (!target.has_filename()) failToWrite(target, "it is a folder; name a file");
   const fs::path folder = folderOf(target);
-  if (!fs::is_directory(folder, error)) failToWrite(target, "there is no folder '" + folder.string() + "'");
-  if (!overwrite_) refuseExisting();
+  if (!fs::is_directory(folder, error)) failToWrite(target, "there is no folder " + quoted(folder));
+  refuseExisting();
   fs::path pattern = folder / ".";
   pattern += target.filename();
   pattern += ".part-XXXXXX";
@@ -115,47 +130,49 @@ StagedOutput::StagedOutput(StagedOutput&& other) noexcept
       keep_prj_(other.keep_prj_) {}
 
 void StagedOutput::refuseExisting() const {
-  for (const std::string& target : filesOf(*format_, path_).targets)
-    if (isThere(target)) refuse(target);
+  std::error_code error;
+  for (const std::string& target : filesOf(*format_, path_).targets) {
+    if (fs::is_directory(target, error)) failToWrite(target, "it is a folder; name a file");
+    if (!overwrite_ && isThere(target)) refuse(target);
+  }
 }
 
 bool StagedOutput::keepsPrj(const Grid& grid) const {
-  const std::string prj = filesOf(*format_, path_).prj;
+  const fs::path prj = filesOf(*format_, path_).prj;
   if (prj.empty() || !isThere(prj)) return false;
+  if (sameBytes(prj, fs::path(staging_folder_) / prj.filename())) return true;
   try {
-    if (sameCrs(readPrjBeside(prj), grid.crs)) return true;
+    if (sameCrs(readPrjBeside(prj.string()), grid.crs)) return true;
   } catch (const InputError&) {
     // It says nothing that can be read, so not the grid's CRS either.
   }
   if (!overwrite_) refuse(prj);
   const fs::path shapefile = fs::path(prj).replace_extension(".shp");
   if (isThere(shapefile) && format_->name != "shp")
-    failToWrite(path_, "'" + prj + "' belongs to '" + shapefile.string() +
-                           "' and says another CRS than the mesh has; give the mesh another name");
+    failToWrite(path_, quoted(prj) + " belongs to " + quoted(shapefile) +
+                           " and says another CRS than the mesh has; give the mesh another name");
   return false;
 }
 
 void StagedOutput::write(const Grid& grid) {
   assert(!staging_folder_.empty());
   if (grid.triangles.empty()) failToWrite(path_, "the mesh has no triangles");
-  keep_prj_ = keepsPrj(grid);
-  const fs::path folder = folderOf(path_);
+  const fs::path staging(staging_folder_);
+  std::error_code error;
+  for (const fs::path& earlier : filesIn(staging)) {
+    fs::remove(earlier, error);
+    if (error) failToWrite(earlier, error.message());
+  }
   try {
-    std::error_code error;
-    for (const fs::path& earlier : filesIn(staging_folder_)) {
-      fs::remove(earlier, error);
-      if (error) failToWrite(earlier, error.message());
-    }
-    functionsOf(*format_).write(grid, (fs::path(staging_folder_) / fs::path(path_).filename()).string());
-  } catch (const OutputError& error) {
-    std::string text = error.what();
-    replaceAll(text, staging_folder_, folder.string());
+    functionsOf(*format_).write(grid, (staging / fs::path(path_).filename()).string());
+  } catch (const OutputError& failure) {
+    std::string text = failure.what();
+    replaceAll(text, staging_folder_, folderOf(path_).string());
     throw OutputError(text);
   }
-  if (keep_prj_) {
-    std::error_code ignored;  // a format that says its CRS inside has none
-    fs::remove(fs::path(staging_folder_) / fs::path(filesOf(*format_, path_).prj).filename(), ignored);
-  }
+  keep_prj_ = keepsPrj(grid);
+  if (keep_prj_) fs::remove(staging / fs::path(filesOf(*format_, path_).prj).filename(), error);
+  if (error) failToWrite(path_, error.message());
 }
 
 void StagedOutput::commit() {
@@ -169,7 +186,7 @@ void StagedOutput::commit() {
     if (!overwrite_ && isThere(target)) refuse(target);
     flushToDisk(file, target);
   }
-  if (!overwrite_) refuseExisting();
+  refuseExisting();
 
   std::vector<fs::path> before;
   if (staged.size() > 1)

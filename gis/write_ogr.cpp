@@ -27,6 +27,7 @@ struct Writer {
   std::vector<const char*> layer_options;
   bool table_types = false;         // flags and texts as a .dbf has them
   const char* plane_wkt = nullptr;  // what a plane is called; null: nothing
+  bool hides_failures = false;      // OGR does not tell when the disk is full
 };
 
 struct CloseDataset {
@@ -167,6 +168,17 @@ void writeLayer(GDALDataset& dataset, const std::string& path, const Writer& wri
   }
 }
 
+// Reads the file through.
+void requireComplete(const std::string& path, std::size_t rows, const OgrErrors& errors) {
+  const DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  OGRLayer* const layer = dataset && dataset->GetLayerCount() == 1 ? dataset->GetLayer(0) : nullptr;
+  std::size_t found = 0;
+  if (layer != nullptr)
+    while (OGRFeatureUniquePtr(layer->GetNextFeature())) ++found;
+  if (found != rows || errors.failed())
+    throw OutputError("cannot write '" + path + "': the file came out incomplete; is the disk full?");
+}
+
 void writeLayerFiles(const Writer& writer, const Grid& grid, const std::vector<GridLayer>& layers,
                      const std::string& path) {
   for (const GridLayer& layer : layers) {
@@ -175,6 +187,7 @@ void writeLayerFiles(const Writer& writer, const Grid& grid, const std::vector<G
     DatasetPtr dataset = create(writer, layer_path, errors);
     writeLayer(*dataset, layer_path, writer, grid, layer, std::filesystem::path(layer_path).stem().string(), errors);
     close(std::move(dataset), layer_path, errors);
+    if (writer.hides_failures) requireComplete(layer_path, layer.rows, errors);
   }
 }
 
@@ -211,7 +224,7 @@ void writeShapefile(const Grid& grid, const std::string& path) {
 }
 
 void writeFlatGeobuf(const Grid& grid, const std::string& path) {
-  writeLayerFiles({"FlatGeobuf", {}}, grid, layersOf(grid), path);
+  writeLayerFiles({"FlatGeobuf", {}, false, nullptr, true}, grid, layersOf(grid), path);
 }
 
 void requireShapefileSize(const std::string& path, std::uint64_t rows, std::uint64_t shape_bytes,

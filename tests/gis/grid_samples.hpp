@@ -93,23 +93,18 @@ inline Grid sampleGrid(const Crs& crs, Point origin, double size, int cells = 6)
                    {41, "lakes.gpkg|lakes", {{"name", "Lake Two"}}}};
   for (const Triangle& t : mesh.triangles)
     grid.feature_of.push_back(mesh.points[t.v[0]].x < mesh.points[cells].x + size / 2 ? 0 : 1);
-  for (const auto& v : grid.triangles) {
-    (void)v;
-    grid.min_angle_deg.push_back(30.0 + 10.0 * shift(random));
-  }
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) grid.min_angle_deg.push_back(30.0 + 10.0 * shift(random));
   grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, crs);
   for (Boundary& boundary : findBoundaries(mesh)) {
-    if (boundary.role == BoundaryRole::Island || boundary.nodes.front() != 0) {
+    if (!grid.boundaries.empty()) {
       grid.boundaries.push_back(std::move(boundary));
       continue;
     }
-    // The first side of the first lake is open water; the rest of its shore joins on at both ends.
-    Boundary open{BoundaryRole::Open, false, {}}, land{BoundaryRole::Land, false, {}};
-    for (std::size_t i = 0; i <= boundary.nodes.size(); ++i) {
-      const std::uint32_t node = boundary.nodes[i % boundary.nodes.size()];
-      if (i <= static_cast<std::size_t>(cells)) open.nodes.push_back(node);
-      if (i >= static_cast<std::size_t>(cells)) land.nodes.push_back(node);
-    }
+    // The first shore begins with open water; the rest of it joins on at both ends.
+    const std::vector<std::uint32_t>& loop = boundary.nodes;
+    Boundary open{BoundaryRole::Open, false, {loop.begin(), loop.begin() + cells + 1}};
+    Boundary land{BoundaryRole::Land, false, {loop.begin() + cells, loop.end()}};
+    land.nodes.push_back(loop.front());
     grid.boundaries.push_back(std::move(open));
     grid.boundaries.push_back(std::move(land));
   }
