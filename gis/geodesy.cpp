@@ -29,9 +29,8 @@ Geodetic toGeodetic(std::span<const Point> points, const Crs& crs) {
   const OGRSpatialReference srs = toOgr(crs);
   Geodetic out;
   out.lonlat.assign(points.begin(), points.end());
-  out.a = srs.GetSemiMajor();
-  const double inverse_flattening = srs.GetInvFlattening();
-  out.f = inverse_flattening > 0.0 ? 1.0 / inverse_flattening : 0.0;
+  out.a = crs.semi_major_m;
+  out.f = crs.flattening;
   const std::unique_ptr<OGRSpatialReference> base(srs.CloneGeogCS());
   if (!base) throw InputError("the CRS " + nameOf(crs) + " has no longitude and latitude, so areas are unknown");
   base->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
