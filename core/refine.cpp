@@ -14,8 +14,14 @@ namespace coastmesh {
 
 namespace {
 
-// A vertex may come this much nearer to others than the spacing that its parents inherited.
-constexpr double kFloorShare = 0.5;
+// No free vertex comes nearer to others than this share of the input's spacing there, no end of a subsegment nearer to
+// the other. Runs that reach their bound stay above: up to 42° all but single points, which patches can do without.
+// Above that no spacing is fine enough, and a coarser one ends sooner.
+double freeShare(double min_angle) {
+  const double beyond = std::clamp((toDegrees(min_angle) - 42.0) / 2.0, 0.0, 1.0);
+  return 0.12 + 0.13 * beyond;
+}
+constexpr double kSegmentShare = 0.04;
 // Relocations never bring a vertex more often than this: a bound on the run, not a setting.
 constexpr std::uint8_t kMostMoves = 32;
 // Sectors below this angle are split on shells (Ruppert 1995, Section 5).
@@ -30,6 +36,7 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
       mesh_(std::move(mesh)),
       search_(options.algorithm, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
+      free_share_(freeShare(bound_.min_angle)),
       moves_(mesh_.vertexSlots(), 0) {
   findInputAngles();
   findSpacing();
@@ -55,20 +62,20 @@ void Refiner::findInputAngles() {
 
 // The distance to the nearest vertex or segment that a vertex sees, from the triangles round it.
 void Refiner::findSpacing() {
-  floor_.assign(mesh_.vertexSlots(), std::numeric_limits<double>::infinity());
+  spacing_.assign(mesh_.vertexSlots(), std::numeric_limits<double>::infinity());
   for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
     const Triangle& tri = mesh_.triangle(t);
     for (unsigned i = 0; i < 3; ++i) {
       const VertexId a = tri.v[next3(i)], b = tri.v[prev3(i)];
       const Point ab = mesh_.point(b) - mesh_.point(a);
       const double length = std::sqrt(squaredLength(ab));
-      floor_[a] = std::min(floor_[a], length);
-      floor_[b] = std::min(floor_[b], length);
+      spacing_[a] = std::min(spacing_[a], length);
+      spacing_[b] = std::min(spacing_[b], length);
       if (!mesh_.isConstrained(edgeRef(t, i))) continue;
       const Point av = mesh_.point(tri.v[i]) - mesh_.point(a);
       const double along = dot(av, ab);
       if (along > 0.0 && along < length * length)
-        floor_[tri.v[i]] = std::min(floor_[tri.v[i]], std::abs(cross(ab, av)) / length);
+        spacing_[tri.v[i]] = std::min(spacing_[tri.v[i]], std::abs(cross(ab, av)) / length);
     }
   }
 }
@@ -194,13 +201,43 @@ bool Refiner::isEncroached(const Point& x, const Point& a, const Point& b) const
   return d * d >= cos_lens_ * cos_lens_ * squaredDistance(x, a) * squaredDistance(x, b);
 }
 
+// The local feature size of the input, from above: that of a vertex nearby and the distance to it. It grows with the
+// distance from what is fine in the input as fast as any good mesh can.
+double Refiner::spacingAt(const Point& x, const Patch& cavity) const {
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const RimEdge& r : cavity.rim) spacing = std::min(spacing, spacing_[r.a] + distance(x, mesh_.point(r.a)));
+  return spacing;
+}
+
+// The same for a point that is to split a subsegment, where the other segments beside it count too.
+double Refiner::spacingOnSegment(const Point& x, EdgeRef edge) const {
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const EdgeRef side : {edge, mesh_.twin(edge)}) {
+    if (side == kNone) continue;
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(triOf(side), i);
+      const Point &a = mesh_.point(mesh_.origin(e)), &b = mesh_.point(mesh_.target(e));
+      spacing = std::min(spacing, spacing_[mesh_.origin(e)] + distance(x, a));
+      if (e == side || !mesh_.isConstrained(e)) continue;
+      const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
+      spacing = std::min(spacing, distance(x, a + share * (b - a)));
+    }
+  }
+  return spacing;
+}
+
+void Refiner::noteVertex(VertexId v, double spacing) {
+  spacing_.resize(mesh_.vertexSlots());
+  moves_.resize(mesh_.vertexSlots());
+  spacing_[v] = spacing;
+  moves_[v] = 0;
+}
+
 bool Refiner::insertPoint(TriId t, unsigned apex) {
-  const Triangle& bad = mesh_.triangle(t);
-  const double floor = std::min(floor_[bad.v[next3(apex)]], floor_[bad.v[prev3(apex)]]);
   const SteinerPoint candidate = search_.find(mesh_, t, apex);
   if (!std::isfinite(candidate.place.x) || !std::isfinite(candidate.place.y)) return false;
   const EditMesh::Place where = mesh_.locate(candidate.place, candidate.near);
-  if (where.blocked != kNone) return splitFor(where.blocked, t, apex, floor);
+  if (where.blocked != kNone) return splitFor(where.blocked, t, apex);
   if (where.triangle == kNone) return false;
   const bool inside = mesh_.findCavity(candidate.place, where.triangle, patch_);
   EdgeRef hit = kNone;
@@ -218,18 +255,16 @@ bool Refiner::insertPoint(TriId t, unsigned apex) {
       for (unsigned i = 0; i < 3; ++i)
         if (mesh_.origin(edgeRef(c, i)) == r.a && mesh_.target(edgeRef(c, i)) == r.b) hit = edgeRef(c, i);
   }
-  if (hit != kNone) return splitFor(hit, t, apex, floor);
-  if (!inside || candidate.squared_clearance < kFloorShare * kFloorShare * floor * floor) return false;
+  if (hit != kNone) return splitFor(hit, t, apex);
+  const double spacing = spacingAt(candidate.place, patch_);
+  if (!inside || candidate.squared_clearance < free_share_ * free_share_ * spacing * spacing) return false;
   const VertexId fan = fanApexBehind(t, apex);
   if (fan != kNone)
     for (const TriId c : patch_.triangles)
       if (isFan(c, fan)) return false;
 
   const VertexId v = mesh_.insertInCavity(candidate.place, patch_, touched_);
-  floor_.resize(mesh_.vertexSlots());
-  moves_.resize(mesh_.vertexSlots());
-  floor_[v] = floor;
-  moves_[v] = 0;
+  noteVertex(v, spacing);
   ++stats_.by_type[static_cast<unsigned>(candidate.type)];
   enqueueTouched();
   return true;
@@ -285,23 +320,20 @@ EdgeRef Refiner::clearDiametralCircle(EdgeRef edge) {
   return edge;
 }
 
-bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex, double floor) {
+bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex) {
   const SegmentId seg = mesh_.segment(edge);
   if (seg == kNone) return false;  // the rim of a mesh without segments
   const VertexId a = mesh_.origin(edge), b = mesh_.target(edge);
   const VertexId fan = fanApexBehind(t, apex);
   if (fan != kNone && (a == fan || b == fan)) return false;
-  const double least = std::min({floor, floor_[a], floor_[b]});
   const Point place = splitPlace(a, b, seg);
+  const double spacing = spacingOnSegment(place, edge);
   const double nearer = std::min(squaredDistance(place, mesh_.point(a)), squaredDistance(place, mesh_.point(b)));
-  if (nearer < kFloorShare * kFloorShare * least * least) return false;
+  if (nearer < kSegmentShare * kSegmentShare * spacing * spacing) return false;
   const EdgeRef cleared = clearDiametralCircle(edge);
   const VertexId v = cleared == kNone ? kNone : mesh_.splitSegment(cleared, place, touched_);
   if (v != kNone) {
-    floor_.resize(mesh_.vertexSlots());
-    moves_.resize(mesh_.vertexSlots());
-    floor_[v] = least;
-    moves_[v] = 0;
+    noteVertex(v, spacing);
     ++stats_.segment_splits;
     // The triangle that asked for the split may still be there, and bad.
     touched_.push_back(t);

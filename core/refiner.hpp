@@ -46,7 +46,10 @@ class Refiner {
   bool relocateCorner(TriId t);
   bool relocate(VertexId v);
   bool insertPoint(TriId t, unsigned apex);
-  bool splitFor(EdgeRef edge, TriId t, unsigned apex, double floor);
+  bool splitFor(EdgeRef edge, TriId t, unsigned apex);
+  double spacingAt(const Point& x, const Patch& cavity) const;
+  double spacingOnSegment(const Point& x, EdgeRef edge) const;
+  void noteVertex(VertexId v, double spacing);
   Point splitPlace(VertexId a, VertexId b, SegmentId seg) const;
   bool isEncroached(const Point& x, const Point& a, const Point& b) const;
   EdgeRef clearDiametralCircle(EdgeRef edge);
@@ -60,8 +63,9 @@ class Refiner {
   SteinerSearch search_;
   FeasibleRegion region_;
   double cos_lens_;
+  double free_share_;
 
-  std::vector<double> floor_;  // one a vertex: no vertex is put nearer than half of it to another because of this one
+  std::vector<double> spacing_;      // one a vertex: the local feature size of the input there, from above
   std::vector<double> shell_unit_;   // one an input vertex: radius of a shell round it; 0 where no small angle is there
   std::vector<bool> small_angle_;    // one an input vertex: some sector of it is too small for the bounds
   std::vector<std::uint8_t> moves_;  // one a vertex: relocations so far
