@@ -45,7 +45,7 @@ struct TriangleBound {
   double max_angle;  // radians; pi where nothing is asked
   double cos_min;
   double sin_min;
-  double sin_place;  // of the smallest angle that new points aim at
+  double place_angle;  // radians: the smallest angle that new points aim at
   double cos_max;
   double squared_size;  // longest edge, squared; infinite where nothing is asked
 
@@ -54,7 +54,7 @@ struct TriangleBound {
         max_angle(max_angle_deg >= 180.0 ? std::numbers::pi : toRadians(max_angle_deg - kMarginDeg)),
         cos_min(std::cos(min_angle)),
         sin_min(std::sin(min_angle)),
-        sin_place(std::sin(min_angle + toRadians(kMarginDeg))),
+        place_angle(min_angle + toRadians(kMarginDeg)),
         cos_max(std::cos(max_angle)),
         squared_size(size_max * size_max) {}
 

@@ -9,9 +9,8 @@ namespace {
 
 // Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where
 // the triangle is bad for its size, the disk in which an equilateral triangle of that size fits.
-double petalRadius(double length, const TriangleBound& bound, bool bad_angle) {
-  const double by_angle =
-      bound.min_angle > 0.0 ? 0.5 * length / bound.sin_place : std::numeric_limits<double>::infinity();
+double petalRadius(double length, const TriangleBound& bound, double sin_place, bool bad_angle) {
+  const double by_angle = bound.min_angle > 0.0 ? 0.5 * length / sin_place : std::numeric_limits<double>::infinity();
   if (bad_angle || std::isinf(bound.squared_size)) return by_angle;
   constexpr double kInverseRoot3 = 0.57735026918962576;
   return std::clamp(kInverseRoot3 * std::sqrt(bound.squared_size), 0.5 * length, by_angle);
@@ -31,7 +30,7 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
 
   const double length = std::sqrt(squaredLength(q));
   const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cos_min);
-  const double radius = petalRadius(length, bound_, bad_angle);
+  const double radius = petalRadius(length, bound_, sin_place_, bad_angle);
   const Point normal{-q.y / length, q.x / length};
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
   // Type I where the circumcentre lies outside the petal; both are on the bisector of pq.

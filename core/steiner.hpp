@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/edit_mesh.hpp"
@@ -26,7 +27,9 @@ struct SteinerPoint {
 // Finds the place where a vertex mends a bad triangle.
 class SteinerSearch {
  public:
-  SteinerSearch(Algorithm algorithm, const TriangleBound& bound) : algorithm_(algorithm), bound_(bound) {}
+  // Points aim at an angle that is `aim` (radians) above the bound.
+  SteinerSearch(Algorithm algorithm, const TriangleBound& bound, double aim)
+      : algorithm_(algorithm), bound_(bound), sin_place_(std::sin(bound.place_angle + aim)) {}
 
   // `t` is bad and its shortest edge is opposite its corner `apex`.
   SteinerPoint find(const EditMesh& mesh, TriId t, unsigned apex);
@@ -39,6 +42,7 @@ class SteinerSearch {
 
   Algorithm algorithm_;
   const TriangleBound& bound_;
+  double sin_place_;
   std::vector<Step> steps_;
 };
 

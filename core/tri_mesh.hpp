@@ -25,6 +25,9 @@ constexpr unsigned indexOf(EdgeRef e) { return e & 3u; }
 constexpr unsigned next3(unsigned i) { return i == 2 ? 0 : i + 1; }
 constexpr unsigned prev3(unsigned i) { return i == 0 ? 2 : i - 1; }
 
+// In place of a segment: an edge of a patch's rim, which is not to be changed while the patch is worked on.
+inline constexpr SegmentId kFrozen = kNone - 1;
+
 struct Triangle {
   std::array<VertexId, 3> v{kNone, kNone, kNone};     // counter-clockwise
   std::array<EdgeRef, 3> adj{kNone, kNone, kNone};    // the same edge seen from the other side

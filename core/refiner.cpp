@@ -1,0 +1,319 @@
+#include "core/refiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/input_angle.hpp"
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// No free vertex comes nearer to others than this share of the input's spacing there. Runs that reach their bound stay
+// above: up to 42° all but single points, which repair can do without. Above that no spacing is fine enough, and a
+// coarser one ends sooner.
+double freeShare(double min_angle) {
+  const double beyond = std::clamp((toDegrees(min_angle) - 42.0) / 2.0, 0.0, 1.0);
+  return 0.12 + 0.13 * beyond;
+}
+// Relocations never bring a vertex more often than this: a bound on the run, not a setting.
+constexpr std::uint8_t kMostMoves = 32;
+// Sectors below this angle are split on shells (Ruppert 1995, Section 5).
+constexpr double kShellAngle = std::numbers::pi / 3.0;
+
+}  // namespace
+
+Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
+    : pslg_(pslg),
+      options_(options),
+      bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
+      mesh_(std::move(mesh)),
+      search_(options.algorithm, bound_, 0.0),
+      cos_lens_(-std::cos(2.0 * bound_.min_angle)),
+      free_share_(freeShare(bound_.min_angle)),
+      moves_(mesh_.vertexSlots(), 0) {
+  findInputAngles();
+  findSpacing();
+}
+
+Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes&& notes,
+                 const RefineVariant& variant)
+    : pslg_(pslg),
+      options_(options),
+      variant_(variant),
+      bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
+      mesh_(std::move(mesh)),
+      search_(options.algorithm, bound_, toRadians(variant.aim_deg)),
+      cos_lens_(-std::cos(2.0 * bound_.min_angle)),
+      free_share_(variant.free_share),
+      notes_(std::move(notes)),
+      moves_(mesh_.vertexSlots(), 0) {}
+
+void Refiner::findInputAngles() {
+  notes_.shell_unit.assign(mesh_.inputVertices(), 0.0);
+  notes_.small_angle.assign(mesh_.inputVertices(), false);
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef right = edgeRef(t, prev3(i));
+      const VertexId v = mesh_.triangle(t).v[i];
+      if (!mesh_.isConstrained(right) || v >= mesh_.inputVertices()) continue;
+      const Sector sector = sectorAt(mesh_, t, i);
+      if (!bound_.canDivide(sector.angle)) notes_.small_angle[v] = true;
+      if (sector.angle >= kShellAngle) continue;
+      const double nearer = std::min(distance(mesh_.point(v), mesh_.point(mesh_.target(sector.right))),
+                                     distance(mesh_.point(v), mesh_.point(mesh_.origin(sector.left))));
+      notes_.shell_unit[v] = notes_.shell_unit[v] == 0.0 ? nearer : std::min(notes_.shell_unit[v], nearer);
+    }
+  }
+}
+
+// The distance to the nearest vertex or segment that a vertex sees, from the triangles round it.
+void Refiner::findSpacing() {
+  notes_.spacing.assign(mesh_.vertexSlots(), std::numeric_limits<double>::infinity());
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    const Triangle& tri = mesh_.triangle(t);
+    for (unsigned i = 0; i < 3; ++i) {
+      const VertexId a = tri.v[next3(i)], b = tri.v[prev3(i)];
+      const Point ab = mesh_.point(b) - mesh_.point(a);
+      const double length = std::sqrt(squaredLength(ab));
+      notes_.spacing[a] = std::min(notes_.spacing[a], length);
+      notes_.spacing[b] = std::min(notes_.spacing[b], length);
+      if (!mesh_.isConstrained(edgeRef(t, i))) continue;
+      const Point av = mesh_.point(tri.v[i]) - mesh_.point(a);
+      const double along = dot(av, ab);
+      if (along > 0.0 && along < length * length)
+        notes_.spacing[tri.v[i]] = std::min(notes_.spacing[tri.v[i]], std::abs(cross(ab, av)) / length);
+    }
+  }
+}
+
+void Refiner::enqueueIfBad(TriId t) {
+  const Triangle& tri = mesh_.triangle(t);
+  const Point &a = mesh_.point(tri.v[0]), &b = mesh_.point(tri.v[1]), &c = mesh_.point(tri.v[2]);
+  if (!isBad(a, b, c, bound_)) return;
+  const TriangleShape shape(a, b, c);
+  // Shortest edge first; the worst angle first for circumcentres (Erten & Üngör 2007, Section 2.1).
+  const bool worst_first = variant_.worst_first || options_.algorithm == Algorithm::Circumcenter;
+  const double key = worst_first ? -shape.cosAt(shape.shortest) : shape.squared[shape.shortest];
+  queue_.push({key, sequence_++, t, tri.v});
+}
+
+void Refiner::enqueueTouched() {
+  for (const TriId t : touched_)
+    if (mesh_.isLive(t)) enqueueIfBad(t);
+  touched_.clear();
+}
+
+void Refiner::run(const RunControl& control) {
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
+    if (mesh_.isLive(t)) enqueueIfBad(t);
+  drainQueue(control);
+}
+
+void Refiner::resume(std::vector<TriId>& touched, const RunControl& control) {
+  touched_.swap(touched);
+  enqueueTouched();
+  drainQueue(control);
+}
+
+void Refiner::drainQueue(const RunControl& control) {
+  std::uint64_t steps = 0;
+  while (!queue_.empty()) {
+    if (++steps % 1024 == 0)
+      control.checkpoint(static_cast<double>(steps) / static_cast<double>(steps + queue_.size()));
+    if (mesh_.vertexCount() >= options_.max_vertices) {
+      stats_.budget_reached = true;
+      return;
+    }
+    const BadTriangle bad = queue_.top();
+    queue_.pop();
+    if (mesh_.triangle(bad.triangle).v == bad.corners) mend(bad.triangle);
+  }
+}
+
+void Refiner::mend(TriId t) {
+  const TriangleShape shape(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
+  if (!isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_) || isLeftAlone(t, shape)) return;
+  if (options_.algorithm == Algorithm::Relocate && relocateCorner(t)) return;
+  insertPoint(t, shape.shortest);
+}
+
+// A triangle that fills a sector too small for the bounds, its smallest angle there, cannot be mended.
+bool Refiner::isLeftAlone(TriId t, const TriangleShape& shape) const {
+  return isFan(t, mesh_.triangle(t).v[shape.shortest]);
+}
+
+bool Refiner::isFan(TriId t, VertexId apex) const {
+  if (apex >= mesh_.inputVertices() || !notes_.small_angle[apex]) return false;
+  const unsigned i = mesh_.cornerOf(t, apex);
+  if (!mesh_.isConstrained(edgeRef(t, next3(i))) || !mesh_.isConstrained(edgeRef(t, prev3(i)))) return false;
+  const Triangle& tri = mesh_.triangle(t);
+  return !bound_.canDivide(angleAt(mesh_.point(apex), mesh_.point(tri.v[next3(i)]), mesh_.point(tri.v[prev3(i)])));
+}
+
+// The apex of the small input angle whose fan lies behind the shortest edge of t; kNone where there is none.
+VertexId Refiner::fanApexBehind(TriId t, unsigned apex) const {
+  const EdgeRef shortest = edgeRef(t, apex);
+  if (mesh_.isConstrained(shortest)) return kNone;
+  const EdgeRef beyond = mesh_.twin(shortest);
+  const VertexId v = mesh_.apex(beyond);
+  return isFan(triOf(beyond), v) ? v : kNone;
+}
+
+bool Refiner::relocateCorner(TriId t) {
+  const Corners corners = mesh_.triangle(t).v;
+  for (const VertexId v : corners)
+    if (mesh_.kind(v) != VertexKind::Input && moves_[v] < kMostMoves && relocate(v)) return true;
+  return false;
+}
+
+// Algorithm 2, the loop over free vertices. We differ from the paper: the region of good places is found exactly, and a
+// vertex on a segment slides along it.
+bool Refiner::relocate(VertexId v) {
+  const bool closed = mesh_.star(v, star_);
+  link_.clear();
+  for (const EdgeRef e : star_) link_.push_back({mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.target(e))});
+  std::optional<Point> place;
+  if (mesh_.kind(v) == VertexKind::Free) {
+    place = region_.findPoint(link_, bound_);
+  } else {
+    // The two neighbours along the segment.
+    VertexId ends[2] = {kNone, kNone};
+    SegmentId seg = kNone;
+    for (const EdgeRef e : star_) {
+      const EdgeRef spoke = edgeRef(triOf(e), prev3(indexOf(e)));
+      if (mesh_.segment(spoke) == kNone) continue;
+      seg = mesh_.segment(spoke);
+      (ends[0] == kNone ? ends[0] : ends[1]) = mesh_.target(spoke);
+    }
+    if (!closed) {
+      const EdgeRef last = edgeRef(triOf(star_.back()), next3(indexOf(star_.back())));
+      ends[1] = mesh_.origin(last);
+    }
+    if (ends[0] == kNone || ends[1] == kNone) return false;
+    place = FeasibleRegion::findPointBetween(mesh_.point(ends[0]), mesh_.point(ends[1]), link_, bound_);
+    if (place) {
+      const Point &a = pslg_.points[pslg_.segments[seg].a], &b = pslg_.points[pslg_.segments[seg].b];
+      place = a + (dot(*place - a, b - a) / squaredDistance(a, b)) * (b - a);
+    }
+  }
+  if (!place) return false;
+  for (const LinkEdge& e : link_)
+    if (orient2d(e.x, e.y, *place) <= 0 || isBad(e.x, e.y, *place, bound_)) return false;
+  mesh_.setPoint(v, *place);
+  ++moves_[v];
+  ++stats_.relocations;
+  for (const EdgeRef e : star_) touched_.push_back(triOf(e));
+  mesh_.restoreDelaunay(touched_);
+  enqueueTouched();
+  return true;
+}
+
+// Whether x sees the subsegment under 180° - 2 alpha or more: the diametral lens of Chew (1993) and Shewchuk (1997) for
+// 30°, wider with alpha. A triangle with such an angle is bad, so a subsegment that a vertex encroaches upon always has
+// one.
+bool Refiner::isEncroached(const Point& x, const Point& a, const Point& b) const {
+  const double d = dot(a - x, b - x);
+  if (d >= 0.0) return false;
+  if (cos_lens_ >= 0.0) return true;
+  return d * d >= cos_lens_ * cos_lens_ * squaredDistance(x, a) * squaredDistance(x, b);
+}
+
+// The local feature size of the input, from above: that of a vertex nearby and the distance to it. It grows with the
+// distance from what is fine in the input as fast as any good mesh can.
+double Refiner::spacingAt(const Point& x, const Patch& cavity) const {
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const RimEdge& r : cavity.rim) spacing = std::min(spacing, notes_.spacing[r.a] + distance(x, mesh_.point(r.a)));
+  return spacing;
+}
+
+void Refiner::noteVertex(VertexId v, double spacing) {
+  notes_.spacing.resize(mesh_.vertexSlots());
+  moves_.resize(mesh_.vertexSlots());
+  notes_.spacing[v] = spacing;
+  moves_[v] = 0;
+}
+
+bool Refiner::insertPoint(TriId t, unsigned apex) {
+  const SteinerPoint candidate = search_.find(mesh_, t, apex);
+  if (!std::isfinite(candidate.place.x) || !std::isfinite(candidate.place.y)) return false;
+  const EditMesh::Place where = mesh_.locate(candidate.place, candidate.near);
+  if (where.blocked != kNone) return splitFor(where.blocked, t, apex);
+  if (where.triangle == kNone) return false;
+  const bool inside = mesh_.findCavity(candidate.place, where.triangle, patch_);
+  EdgeRef hit = kNone;
+  double widest = 0.0;
+  for (const RimEdge& r : patch_.rim) {
+    if (r.seg == kNone && r.beyond != kNone) continue;
+    const Point &a = mesh_.point(r.a), &b = mesh_.point(r.b);
+    const bool behind = orient2d(a, b, candidate.place) <= 0;
+    if (!behind && (r.seg == kFrozen || !isEncroached(candidate.place, a, b))) continue;
+    const double angle = behind ? std::numbers::pi : angleAt(candidate.place, a, b);
+    if (angle <= widest) continue;
+    widest = angle;
+    // The edge as the cavity has it.
+    for (const TriId c : patch_.triangles)
+      for (unsigned i = 0; i < 3; ++i)
+        if (mesh_.origin(edgeRef(c, i)) == r.a && mesh_.target(edgeRef(c, i)) == r.b) hit = edgeRef(c, i);
+  }
+  if (hit != kNone) return splitFor(hit, t, apex);
+  const double spacing = spacingAt(candidate.place, patch_);
+  if (!inside || candidate.squared_clearance < free_share_ * free_share_ * spacing * spacing) return false;
+  const VertexId fan = fanApexBehind(t, apex);
+  if (fan != kNone)
+    for (const TriId c : patch_.triangles)
+      if (isFan(c, fan)) return false;
+
+  const VertexId v = mesh_.insertInCavity(candidate.place, patch_, touched_);
+  noteVertex(v, spacing);
+  ++stats_.by_type[static_cast<unsigned>(candidate.type)];
+  enqueueTouched();
+  return true;
+}
+
+bool Refiner::removeFreeVertex(VertexId v) {
+  if (!mesh_.gatherPatch({&v, 1}, patch_)) return false;
+  polygon_.clear();
+  for (const RimEdge& r : patch_.rim) polygon_.push_back(r.a);
+  if (!triangulatePolygon(mesh_, polygon_, fresh_)) return false;
+  mesh_.replace(patch_, fresh_, {&v, 1}, touched_);
+  mesh_.restoreDelaunay(touched_);
+  return true;
+}
+
+void Refiner::stripFreeVertices() {
+  for (VertexId v = mesh_.inputVertices(); v < mesh_.vertexSlots(); ++v)
+    if (mesh_.isLiveVertex(v) && mesh_.kind(v) == VertexKind::Free) removeFreeVertex(v);
+  touched_.clear();
+}
+
+bool Refiner::isExplained(TriId t) const {
+  const auto fillsSmallSector = [this](TriId s) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const VertexId v = mesh_.triangle(s).v[i];
+      if (v >= mesh_.inputVertices() || !notes_.small_angle[v]) continue;
+      const Sector sector = sectorAt(mesh_, s, i);
+      if (sector.right == kNone || mesh_.segment(sector.right) == kFrozen || mesh_.segment(sector.left) == kFrozen)
+        continue;
+      if (!bound_.canDivide(sector.angle)) return true;
+    }
+    return false;
+  };
+  if (fillsSmallSector(t)) return true;
+  for (unsigned i = 0; i < 3; ++i)
+    if (!mesh_.isConstrained(edgeRef(t, i)) && fillsSmallSector(triOf(mesh_.twin(edgeRef(t, i))))) return true;
+  return false;
+}
+
+bool Refiner::isShort(TriId t) const {
+  return isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_) && !isExplained(t);
+}
+
+TriMesh Refiner::release() {
+  stats_.steiner_points = mesh_.vertexCount() - mesh_.inputVertices();
+  return mesh_.release();
+}
+
+}  // namespace coastmesh

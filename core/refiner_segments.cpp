@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/refiner.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// The ends of a subsegment come no nearer to one another than this share of the input's spacing.
+constexpr double kSegmentShare = 0.04;
+
+}  // namespace
+
+// The same for a point that is to split a subsegment, where the other segments beside it count too.
+double Refiner::spacingOnSegment(const Point& x, EdgeRef edge) const {
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const EdgeRef side : {edge, mesh_.twin(edge)}) {
+    if (side == kNone) continue;
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(triOf(side), i);
+      const Point &a = mesh_.point(mesh_.origin(e)), &b = mesh_.point(mesh_.target(e));
+      spacing = std::min(spacing, notes_.spacing[mesh_.origin(e)] + distance(x, a));
+      if (e == side || !mesh_.isConstrained(e)) continue;
+      const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
+      spacing = std::min(spacing, distance(x, a + share * (b - a)));
+    }
+  }
+  return spacing;
+}
+
+Point Refiner::splitPlace(VertexId a, VertexId b, SegmentId seg) const {
+  const auto unit = [&](VertexId v) { return v < mesh_.inputVertices() ? notes_.shell_unit[v] : 0.0; };
+  const Point &pa = mesh_.point(a), &pb = mesh_.point(b);
+  double share = 0.5;
+  if ((unit(a) > 0.0) != (unit(b) > 0.0)) {
+    // On the shell round the small angle whose radius, the unit times a power of two, is nearest to the middle.
+    const double length = distance(pa, pb);
+    const double radius_unit = std::max(unit(a), unit(b));
+    const double radius = radius_unit * std::exp2(std::round(std::log2(0.5 * length / radius_unit)));
+    const double from = std::clamp(radius / length, 0.25, 0.75);
+    share = unit(a) > 0.0 ? from : 1.0 - from;
+  }
+  const Point &sa = pslg_.points[pslg_.segments[seg].a], &sb = pslg_.points[pslg_.segments[seg].b];
+  const Point place = pa + share * (pb - pa);
+  return sa + (dot(place - sa, sb - sa) / squaredDistance(sa, sb)) * (sb - sa);
+}
+
+// Takes out the free vertices in the subsegment's diametral circle (Chew 1993). Answers the subsegment, which may have
+// come to lie in another triangle.
+EdgeRef Refiner::clearDiametralCircle(EdgeRef edge) {
+  const VertexId a = mesh_.origin(edge), b = mesh_.target(edge);
+  for (int side = 0; side < 2; ++side) {
+    // Every round takes a vertex out.
+    while (edge != kNone) {
+      const VertexId v = mesh_.apex(edge);
+      if (mesh_.kind(v) != VertexKind::Free ||
+          dot(mesh_.point(a) - mesh_.point(v), mesh_.point(b) - mesh_.point(v)) >= 0.0)
+        break;
+      const VertexId from = mesh_.origin(edge);
+      if (!removeFreeVertex(v)) break;
+      ++stats_.removals;
+      edge = kNone;
+      for (const TriId t : touched_) {
+        if (!mesh_.isLive(t)) continue;
+        for (unsigned i = 0; i < 3; ++i)
+          if (mesh_.segment(edgeRef(t, i)) != kNone && mesh_.origin(edgeRef(t, i)) == from &&
+              mesh_.target(edgeRef(t, i)) == (from == a ? b : a))
+            edge = edgeRef(t, i);
+      }
+    }
+    if (side == 0 && edge != kNone && mesh_.twin(edge) != kNone) edge = mesh_.twin(edge);
+  }
+  return edge;
+}
+
+bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex) {
+  const SegmentId seg = mesh_.segment(edge);
+  if (seg == kNone || seg == kFrozen) return false;
+  const VertexId a = mesh_.origin(edge), b = mesh_.target(edge);
+  const VertexId fan = fanApexBehind(t, apex);
+  if (fan != kNone && (a == fan || b == fan)) return false;
+  const Point place = splitPlace(a, b, seg);
+  const double spacing = spacingOnSegment(place, edge);
+  const double nearer = std::min(squaredDistance(place, mesh_.point(a)), squaredDistance(place, mesh_.point(b)));
+  if (nearer < kSegmentShare * kSegmentShare * spacing * spacing) return false;
+  const EdgeRef cleared = clearDiametralCircle(edge);
+  const VertexId v = cleared == kNone ? kNone : mesh_.splitSegment(cleared, place, touched_);
+  if (v != kNone) {
+    noteVertex(v, spacing);
+    ++stats_.segment_splits;
+    // The triangle that asked for the split may still be there, and bad.
+    touched_.push_back(t);
+  }
+  std::ranges::sort(touched_);
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  enqueueTouched();
+  return v != kNone;
+}
+
+}  // namespace coastmesh

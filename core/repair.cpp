@@ -1,0 +1,102 @@
+#include "core/repair.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/local_patch.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct Attempt {
+  bool strip;  // start without the patch's free vertices
+  RefineVariant variant;
+};
+
+// What differs is where points aim and which triangle comes first: small changes lead a spiral elsewhere.
+constexpr std::array kAttempts = {
+    Attempt{false, {0.5, false, 0.0}}, Attempt{true, {0.0, false, 0.0}}, Attempt{true, {0.5, false, 0.0}},
+    Attempt{true, {1.0, false, 0.0}},  Attempt{true, {2.0, false, 0.0}}, Attempt{true, {4.0, false, 0.0}},
+    Attempt{true, {0.0, true, 0.0}},   Attempt{true, {1.0, true, 0.0}},  Attempt{true, {3.0, true, 0.0}},
+    Attempt{true, {6.0, false, 0.0}},
+};
+constexpr std::array kRings = {2u, 3u, 4u, 6u};
+// A patch may grow to this many times its vertices, and some.
+constexpr std::uint64_t kGrowth = 2;
+constexpr std::uint64_t kGrowthRoom = 12;
+
+// Vertices that local runs may handle in all: a share of the mesh, and some for small ones.
+constexpr std::uint64_t kWorkShare = 6;
+constexpr std::uint64_t kWorkRoom = 20000;
+
+std::optional<TriMesh> solve(const LocalPatch& patch, const Attempt& attempt, const Pslg& pslg,
+                             const RefineOptions& options, std::uint64_t& work) {
+  RefineOptions local = options;
+  local.max_vertices = patch.parent.size() * kGrowth + kGrowthRoom;
+  Refiner refiner(TriMesh(patch.mesh), pslg, local, VertexNotes(patch.notes), attempt.variant);
+  if (attempt.strip) refiner.stripFreeVertices();
+  refiner.run({});
+  work += refiner.mesh().vertexSlots();
+  if (refiner.stats().budget_reached) return std::nullopt;
+  for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t)
+    if (refiner.mesh().isLive(t) && refiner.isShort(t)) return std::nullopt;
+  return refiner.release();
+}
+
+std::optional<TriMesh> solveSmallest(const LocalPatch& patch, const Pslg& pslg, const RefineOptions& options,
+                                     std::uint64_t& work) {
+  std::optional<TriMesh> best;
+  for (const Attempt& attempt : kAttempts) {
+    std::optional<TriMesh> solved = solve(patch, attempt, pslg, options, work);
+    if (solved && (!best || solved->points.size() < best->points.size())) best = std::move(solved);
+  }
+  return best;
+}
+
+bool mendPlace(Refiner& refiner, TriId centre, const Pslg& pslg, const RefineOptions& options,
+               const RunControl& control, std::uint64_t& work) {
+  for (const unsigned rings : kRings) {
+    const LocalPatch patch = extractPatch(refiner.mesh(), refiner.notes(), centre, rings);
+    const std::optional<TriMesh> solved = solveSmallest(patch, pslg, options, work);
+    if (!solved) continue;
+    std::vector<VertexId> added;
+    std::vector<TriId> touched;
+    putBack(refiner.mesh(), patch, *solved, added, touched);
+    for (const VertexId v : added) {
+      double spacing = std::numeric_limits<double>::infinity();
+      for (VertexId f = 0; f < patch.parent.size(); ++f)
+        spacing = std::min(spacing, patch.notes.spacing[f] + distance(patch.mesh.points[f], refiner.mesh().point(v)));
+      refiner.noteVertex(v, spacing);
+    }
+    refiner.mesh().restoreDelaunay(touched);
+    refiner.resume(touched, control);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  const std::uint64_t most_work = kWorkRoom + kWorkShare * refiner.mesh().vertexCount();
+  std::uint64_t work = 0;
+  // What a repair pushes beyond its patch is met on the next round.
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    bool again = false;
+    for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t) {
+      if (!refiner.mesh().isLive(t) || !refiner.isShort(t)) continue;
+      if (work > most_work || refiner.stats().budget_reached) return;
+      control.checkpoint(1.0);
+      if (mendPlace(refiner, t, pslg, options, control, work)) again = true;
+    }
+    if (!again) return;
+  }
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/pslg.hpp"
+#include "core/refine.hpp"
+#include "core/refiner.hpp"
+
+namespace coastmesh {
+
+// Mends what refinement left short of the bounds: takes the patch round such a triangle, refines it anew in several
+// ways, keeps the smallest result without a bad triangle, and widens the patch where none succeeds. Places are few and
+// far apart, so it can be thorough; where they are not, the bound is out of reach, and the work is cut off in
+// proportion to that of the refinement.
+void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control);
+
+}  // namespace coastmesh
