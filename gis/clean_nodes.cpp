@@ -14,8 +14,9 @@ namespace coastmesh {
 
 namespace {
 
-// Rounds of splitting; from kPatience on, each doubles the distance within which points become one.
-constexpr int kMostRounds = 48, kPatience = 8;
+// The snap distance counts in the first rounds; after them rounding is all that is left to fight, at the grain of the
+// coordinates. From kPatience on, each round doubles that grain.
+constexpr int kSnapRounds = 3, kPatience = 8, kMostRounds = 24;
 
 // An edge and its uses, [first_use, last_use).
 struct Edge {
@@ -128,13 +129,13 @@ class Noder {
 
   // False where nothing is left to do.
   bool splitOnce(int round) {
-    const double growth = std::ldexp(1.0, std::max(0, round - kPatience));
+    const double grain = grain_ * std::ldexp(1.0, std::max(0, round - kPatience));
+    const double tolerance = round < kSnapRounds ? std::max(chains_.snap, grain) : grain;
     // The first round takes the input exactly, but for the snap distance asked for; what rounding made comes after.
-    const double near = round == 0 ? chains_.snap : std::max(chains_.snap, grain_) * growth;
-    find(near);
+    find(round == 0 ? chains_.snap : tolerance);
     if (splits_.empty() && crossings_.empty()) return false;
     if (round == 0) tellSplits();
-    if (!crossings_.empty()) putCrossings(std::max(chains_.snap, grain_) * growth, round == 0);
+    if (!crossings_.empty()) putCrossings(tolerance, round == 0);
     apply();
     return true;
   }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <queue>
+#include <unordered_set>
 
 #include "core/predicates.hpp"
 #include "gis/box_tree.hpp"
@@ -47,6 +47,7 @@ class Simplifier {
         ++link.degree;
       }
       pieces_.push_back({s, {}, true});
+      ends_.insert(keyOf(s.a, s.b));
     }
     std::vector<Box> boxes(links_.size());
     for (VertexId v = 0; v < links_.size(); ++v) {
@@ -62,7 +63,7 @@ class Simplifier {
     while (!queue_.empty()) {
       const Entry entry = queue_.top();
       queue_.pop();
-      if (entry.version != links_[entry.vertex].version || links_[entry.vertex].degree != 2) continue;
+      if (entry.version != links_[entry.vertex].version || !removable(entry.vertex)) continue;
       if (blocked(entry.vertex)) continue;
       dropped(entry.vertex, pieces_[links_[entry.vertex].segment[0]].segment);
       drop(entry.vertex);
@@ -105,16 +106,11 @@ class Simplifier {
     return p != q && !joined(p, q);
   }
 
-  // Whether a segment between p and q is there already (the ring is a triangle, or two chains run between them).
-  bool joined(VertexId p, VertexId q) const {
-    // Vertices of degree 2 know their segments; between two junctions the triangle test decides.
-    for (const VertexId v : {p, q}) {
-      if (links_[v].degree > 2) continue;
-      for (std::uint32_t i = 0; i < links_[v].degree; ++i) {
-        if (other(links_[v].segment[i], v) == (v == p ? q : p)) return true;
-      }
-    }
-    return false;
+  // Whether a segment between p and q is there already: the ring is a triangle, or two chains run between them.
+  bool joined(VertexId p, VertexId q) const { return ends_.contains(keyOf(p, q)); }
+
+  static std::uint64_t keyOf(VertexId p, VertexId q) {
+    return (static_cast<std::uint64_t>(std::min(p, q)) << 32) | std::max(p, q);
   }
 
   // The largest distance, squared, of v and what was dropped beside it from the segment that would replace it.
@@ -169,6 +165,9 @@ class Simplifier {
     const auto number = static_cast<std::uint32_t>(pieces_.size());
     pieces_.push_back(std::move(joined));
     links_[v].degree = 0;
+    ends_.erase(keyOf(p, v));
+    ends_.erase(keyOf(v, q));
+    ends_.insert(keyOf(p, q));
     for (const VertexId end : {p, q}) {
       Link& link = links_[end];
       for (std::uint32_t& s : link.segment) {
@@ -185,6 +184,7 @@ class Simplifier {
   double tolerance_m_;
   std::vector<Link> links_;
   std::vector<Piece> pieces_;
+  std::unordered_set<std::uint64_t> ends_;  // of living pieces
   BoxTree tree_;
   std::priority_queue<Entry> queue_;
 };

@@ -95,12 +95,13 @@ Extent extentOf(const std::vector<Point>& lonlat) {
   }
   const double empty_mid = static_cast<double>(best_end) + 1 - static_cast<double>(best_run) / 2 - 180;
   const double roughly = Math::AngNormalize(empty_mid + 180);
-  double west = 0, east = 0;
+  double west = 180, east = -180;
   for (const Point& p : lonlat) {
     if (std::abs(p.y) == 90) continue;
     const double d = Math::AngDiff(roughly, p.x);
     west = std::min(west, d), east = std::max(east, d);
   }
+  if (west > east) return extent;  // poles only
   extent.mid_lon = Math::AngNormalize(roughly + (west + east) / 2);
   extent.width = east - west;
   return extent;

@@ -72,13 +72,14 @@ double RingArea::of(const Ring& ring) const {
 double RingArea::onEllipsoid(const Ring& lonlat) const {
   GeographicLib::PolygonArea polygon(geodesic_);
   for (const Point& p : lonlat) polygon.AddPoint(p.y, p.x);
-  double perimeter, area;  // the area to the left, up to the whole globe: that of the ring or of the rest
-  polygon.Compute(false, false, perimeter, area);
+  double perimeter, area;  // the smaller part of the globe, negative where it lies to the right
+  polygon.Compute(false, true, perimeter, area);
+  area = std::abs(area);
   const double globe = geodesic_.EllipsoidArea(), rest = globe - area;
   Ring plain = lonlat;
   if (jumps(lonlat)) {
     plain = unrolled(lonlat);
-    if (std::abs(plain.back().x - plain.front().x) > 180) return std::min(area, rest);
+    if (std::abs(plain.back().x - plain.front().x) > 180) return area;
   }
   const double rough = roughArea(plain) / (4 * std::numbers::pi) * globe;
   return std::abs(area - rough) <= std::abs(rest - rough) ? area : rest;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/point.hpp"
 #include "gis/coastline.hpp"
@@ -16,8 +17,12 @@ class Projection {
   // The identity: coordinates are plane already (a CRS-less input, `--crs plane`).
   static Projection plane();
   // A conformal projection fitted to the extent of `features[members]`, on the ellipsoid of `crs`: transverse Mercator,
-  // Lambert conformal conic, polar or oblique stereographic. Crosses the antimeridian and the poles unharmed.
+  // Lambert conformal conic, polar or oblique stereographic. Crosses the antimeridian and the poles unharmed. The plane
+  // for a plane. Throws InputError for a point that is no place on Earth and for a group that leaves no land out.
   static Projection fitted(const Coastline& coastline, const std::vector<std::size_t>& members);
+  // The same for each of many groups; what they have in common is done once.
+  static std::vector<Projection> fittedEach(const Coastline& coastline,
+                                            const std::vector<std::vector<std::size_t>>& groups);
   // The CRS of the user's choice. Throws InputError where no transformation exists.
   static Projection to(const Crs& input, const Crs& working);
 

@@ -69,12 +69,9 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
                    nameOf(crs) + ": name the CRS that the data are in, or take them as a plane");
 }
 
-}  // namespace
-
-Projection Projection::fitted(const Coastline& coastline, const std::vector<std::size_t>& members) {
-  if (coastline.crs.isPlane()) return plane();
+std::shared_ptr<const Projection::Impl> fitTo(const Coastline& coastline, const std::vector<std::size_t>& members,
+                                              const ToGeographic& to_geographic) {
   constexpr double kMostLongitude = 540;  // degrees: -180 to 180, 0 to 360, and some overlap
-  const ToGeographic to_geographic(coastline.crs);
   std::vector<Point> lonlat;
   std::vector<Ring> projected_rings;
   std::vector<const Ring*> rings;
@@ -97,7 +94,23 @@ Projection Projection::fitted(const Coastline& coastline, const std::vector<std:
   for (const Ring& ring : projected_rings) rings.push_back(&ring);
   const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
   const Ellipsoid ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
-  return Projection(std::make_shared<Fitted>(to_geographic, fitMap(lonlat, rings, ellipsoid), middle));
+  return std::make_shared<Fitted>(to_geographic, fitMap(lonlat, rings, ellipsoid), middle);
+}
+
+}  // namespace
+
+std::vector<Projection> Projection::fittedEach(const Coastline& coastline,
+                                               const std::vector<std::vector<std::size_t>>& groups) {
+  if (coastline.crs.isPlane()) return std::vector<Projection>(groups.size(), plane());
+  const ToGeographic to_geographic(coastline.crs);
+  std::vector<Projection> projections;
+  projections.reserve(groups.size());
+  for (const auto& members : groups) projections.push_back(Projection(fitTo(coastline, members, to_geographic)));
+  return projections;
+}
+
+Projection Projection::fitted(const Coastline& coastline, const std::vector<std::size_t>& members) {
+  return fittedEach(coastline, {members}).front();
 }
 
 }  // namespace coastmesh
