@@ -144,7 +144,9 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
           static_cast<RegionId>(std::ranges::lower_bound(members, static_cast<std::size_t>(region)) - members.begin());
     }
   }
-  return makeGrid({{&domain, &mesh}}, names);
+  Grid grid = makeGrid({{&domain, &mesh}}, names);
+  grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
+  return grid;
 }
 
 void meshGroup(const MeshJob& job, const JobInput& input, std::size_t group, std::uint64_t budget,
@@ -228,7 +230,8 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
     return;
   }
   ++result.regions;
-  ++result.projections[part.projection];
+  ++result.projections[part.projection.substr(0, part.projection.find(','))];
+  if (result.regions == 1) result.first_projection = part.projection;
   result.refine.add(part.refine);
   result.unresolved += part.unresolved;
   for (const ShortfallPlace& place : part.unresolved_places) {

@@ -67,7 +67,8 @@ struct MeshJobResult {
   ReadReport read;
   Crs crs;
   std::array<std::uint64_t, kEditKinds> edits{};
-  std::map<std::string, std::uint64_t> projections;  // description, and how many regions used it
+  std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
+  std::string first_projection;                      // of the first region, with its parameters
   std::uint64_t regions = 0;                         // groups of features that were meshed
   RefineStats refine;                                // `unresolved` is empty: see below
   std::uint64_t unresolved = 0;

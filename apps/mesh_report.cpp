@@ -30,6 +30,7 @@ Json inputSection(const MeshJob& job, const MeshJobResult& result) {
           {"skipped_empty", result.read.skipped_empty},
           {"skipped_points", result.read.skipped_points},
           {"crs", nameOf(result.crs)},
+          {"projection", result.regions == 1 ? Json(result.first_projection) : Json(nullptr)},
           {"projections", std::move(projections)},
           {"area_m2", orNull(result.input_area_m2)},
           {"refused", std::move(refused)},

@@ -58,7 +58,7 @@ TEST_F(MeshRun, ReportHasItsKeys) {
                                                  "peak_memory_mib", "threads"}));
   EXPECT_EQ(keysOf(json["input"]),
             (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
-                                   "projections", "area_m2", "refused", "warnings"}));
+                                   "projection", "projections", "area_m2", "refused", "warnings"}));
   EXPECT_EQ(keysOf(json["refine"]),
             (std::set<std::string>{"algorithm", "min_angle_deg", "max_angle_deg", "size_max_m", "shrink",
                                    "steiner_points", "by_type", "segment_splits", "relocations", "removals", "merges",
