@@ -15,7 +15,7 @@ namespace coastmesh {
 namespace {
 
 // The snap distance counts in the first rounds; after them rounding is all that is left to fight, at the grain of the
-// coordinates. From kPatience on, each round doubles that grain.
+// coordinates. From kPatience on, vertices nearer than that grain become one, and each round doubles it.
 constexpr int kSnapRounds = 3, kPatience = 8, kMostRounds = 24;
 
 // An edge and its uses, [first_use, last_use).
@@ -131,6 +131,7 @@ class Noder {
   bool splitOnce(int round) {
     const double grain = grain_ * std::ldexp(1.0, std::max(0, round - kPatience));
     const double tolerance = round < kSnapRounds ? std::max(chains_.snap, grain) : grain;
+    if (round >= kPatience) mergeVertices(grain);
     // The first round takes the input exactly, but for the snap distance asked for; what rounding made comes after.
     find(round == 0 ? chains_.snap : tolerance);
     if (splits_.empty() && crossings_.empty()) return false;
@@ -240,11 +241,43 @@ class Noder {
     }
     uses_ = std::move(uses);
     collapse(false);
+    activate(std::move(fresh));
+  }
+
+  // Makes those edges active whose ends are listed, lower end first.
+  void activate(std::vector<std::pair<VertexId, VertexId>> fresh) {
     std::sort(fresh.begin(), fresh.end());
     active_.assign(edges_.size(), 0);
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       active_[e] = std::binary_search(fresh.begin(), fresh.end(), std::pair(edges_[e].low, edges_[e].high));
     }
+  }
+
+  // Makes vertices nearer than `tolerance` one, the first of them: where they are as near as rounding moves edges,
+  // these would go round and round between them.
+  void mergeVertices(double tolerance) {
+    std::vector<VertexId> target(chains_.vertices.plane.size(), kNone), kept;
+    for (const EdgeUse& use : uses_) target[use.a] = target[use.b] = 0;
+    std::vector<Point> kept_places;
+    PointGrid grid(kept_places, tolerance, target.size());
+    for (VertexId v = 0; v < target.size(); ++v) {
+      if (target[v] == kNone) continue;
+      const VertexId near = grid.find(at(v));
+      target[v] = near == kNone ? v : kept[near];
+      if (near != kNone) continue;
+      kept.push_back(v);
+      kept_places.push_back(at(v));
+      grid.add(static_cast<VertexId>(kept.size()) - 1);
+    }
+    std::vector<std::pair<VertexId, VertexId>> fresh;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const VertexId low = target[edges_[e].low], high = target[edges_[e].high];
+      if (active_[e] || low != edges_[e].low || high != edges_[e].high) fresh.push_back(std::minmax(low, high));
+    }
+    for (EdgeUse& use : uses_) use.a = target[use.a], use.b = target[use.b];
+    std::erase_if(uses_, [](const EdgeUse& use) { return use.a == use.b; });
+    collapse(false);
+    activate(std::move(fresh));
   }
 
   std::vector<VertexId> pathThrough(const Edge& edge, std::vector<Split>::const_iterator first,

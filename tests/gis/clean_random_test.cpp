@@ -68,6 +68,17 @@ TEST_P(CleanRandom, NearlyParallelNeedles) {
   expectCleanable({polygonFeature(1, ring)}, 1e-9);
 }
 
+TEST_P(CleanRandom, ClustersNearerThanRounding) {
+  std::mt19937_64 random(8000 + GetParam());
+  std::uniform_real_distribution<double> tiny(-1e-14, 1e-14);
+  Ring ring = gridRing(random, 50, 6);
+  for (Point& p : ring) {
+    const double dx = tiny(random), dy = tiny(random);
+    p = {p.x / 3 + dx, p.y / 7 + dy};
+  }
+  expectCleanable({polygonFeature(1, ring)}, 1e-9);
+}
+
 TEST_P(CleanRandom, StarsAndIslandsNeedNoEdit) {
   std::mt19937_64 random(5000 + GetParam());
   const Feature feature = polygonFeature(1, starRing(random, {0, 0}, 10, 200),
