@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// The mesh files that a command makes: all of them come into place together, once all are written.
+// The mesh files that a command makes: none comes into place before all are written. Each appears whole or not at all.
 class GridOutputs {
  public:
   // `format` names the format of the one path there is then; empty takes every path's ending. Refuses two outputs of

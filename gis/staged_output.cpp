@@ -179,6 +179,11 @@ void StagedOutput::commit() {
   assert(!staging_folder_.empty());
   const fs::path staging(staging_folder_), folder = folderOf(path_);
   const OutputFiles files = filesOf(*format_, path_);
+  std::error_code error;
+  // Another output of the same run, a .msh beside this .2dm say, may have brought the .prj since `write`.
+  if (const fs::path prj(files.prj); !keep_prj_ && sameBytes(prj, staging / prj.filename())) {
+    keep_prj_ = fs::remove(staging / prj.filename(), error);
+  }
   const std::vector<fs::path> staged = filesIn(staging);
   assert(!staged.empty());
   for (const fs::path& file : staged) {
@@ -194,7 +199,6 @@ void StagedOutput::commit() {
   before.insert(before.end(), files.stale.begin(), files.stale.end());
   if (!files.prj.empty() && !std::ranges::count(before, fs::path(files.prj))) before.push_back(files.prj);
   if (keep_prj_) std::erase(before, fs::path(files.prj));
-  std::error_code error;
   fs::create_directory(staging / kBackupFolder, error);
   if (error) failToWrite(path_, error.message());
   Moves moves;
