@@ -20,6 +20,8 @@ double freeShare(double min_angle) {
 }
 // Relocations never bring a vertex more often than this: a bound on the run, not a setting.
 constexpr std::uint8_t kMostMoves = 32;
+// From this angle on taking vertices out during refinement pays: density spreads there.
+constexpr double kMergeFromDeg = 35.0;
 // Sectors below this angle are split on shells (Ruppert 1995, Section 5).
 constexpr double kShellAngle = std::numbers::pi / 3.0;
 
@@ -31,6 +33,7 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
       bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
       mesh_(std::move(mesh)),
       search_(options.algorithm, bound_, 0.0),
+      ops_(mesh_, pslg_, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
       free_share_(freeShare(bound_.min_angle)),
       moves_(mesh_.vertexSlots(), 0) {
@@ -46,6 +49,7 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options,
       bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
       mesh_(std::move(mesh)),
       search_(options.algorithm, bound_, toRadians(variant.aim_deg)),
+      ops_(mesh_, pslg_, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
       free_share_(variant.free_share),
       notes_(std::move(notes)),
@@ -136,7 +140,10 @@ void Refiner::drainQueue(const RunControl& control) {
 void Refiner::mend(TriId t) {
   const TriangleShape shape(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
   if (!isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_) || isLeftAlone(t, shape)) return;
-  if (options_.algorithm == Algorithm::Relocate && relocateCorner(t)) return;
+  if (options_.algorithm == Algorithm::Relocate && mendWithoutInsertion(t)) {
+    enqueueTouched();
+    return;
+  }
   insertPoint(t, shape.shortest);
 }
 
@@ -162,53 +169,38 @@ VertexId Refiner::fanApexBehind(TriId t, unsigned apex) const {
   return isFan(triOf(beyond), v) ? v : kNone;
 }
 
-bool Refiner::relocateCorner(TriId t) {
-  const Corners corners = mesh_.triangle(t).v;
-  for (const VertexId v : corners)
-    if (mesh_.kind(v) != VertexKind::Input && moves_[v] < kMostMoves && relocate(v)) return true;
-  return false;
+// Vertices taken out may come back: their number is bounded by what was put in, and by the mesh's size, lest both go on
+// for ever.
+bool Refiner::mayTakeOut() const {
+  const auto& types = stats_.by_type;
+  const std::uint64_t put_in = types[0] + types[1] + types[2] + types[3] + stats_.segment_splits;
+  return 10 * taken_out_ < 3 * put_in && 2 * taken_out_ < mesh_.vertexCount();
 }
 
-// Algorithm 2, the loop over free vertices. We differ from the paper: the region of good places is found exactly, and a
-// vertex on a segment slides along it.
-bool Refiner::relocate(VertexId v) {
-  const bool closed = mesh_.star(v, star_);
-  link_.clear();
-  for (const EdgeRef e : star_) link_.push_back({mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.target(e))});
-  std::optional<Point> place;
-  if (mesh_.kind(v) == VertexKind::Free) {
-    place = region_.findPoint(link_, bound_);
-  } else {
-    // The two neighbours along the segment.
-    VertexId ends[2] = {kNone, kNone};
-    SegmentId seg = kNone;
-    for (const EdgeRef e : star_) {
-      const EdgeRef spoke = edgeRef(triOf(e), prev3(indexOf(e)));
-      if (mesh_.segment(spoke) == kNone) continue;
-      seg = mesh_.segment(spoke);
-      (ends[0] == kNone ? ends[0] : ends[1]) = mesh_.target(spoke);
-    }
-    if (!closed) {
-      const EdgeRef last = edgeRef(triOf(star_.back()), next3(indexOf(star_.back())));
-      ends[1] = mesh_.origin(last);
-    }
-    if (ends[0] == kNone || ends[1] == kNone) return false;
-    place = FeasibleRegion::findPointBetween(mesh_.point(ends[0]), mesh_.point(ends[1]), link_, bound_);
-    if (place) {
-      const Point &a = pslg_.points[pslg_.segments[seg].a], &b = pslg_.points[pslg_.segments[seg].b];
-      place = a + (dot(*place - a, b - a) / squaredDistance(a, b)) * (b - a);
-    }
+// Algorithm 2: a vertex of the triangle that finds a place where its whole star is good moves there. We go on where the
+// paper does not: one that is not needed goes, and two that one place can serve become one.
+bool Refiner::mendWithoutInsertion(TriId t) {
+  const Corners corners = mesh_.triangle(t).v;
+  for (const VertexId v : corners) {
+    if (mesh_.kind(v) == VertexKind::Input || moves_[v] >= kMostMoves || !ops_.relocate(v, touched_)) continue;
+    ++moves_[v];
+    ++stats_.relocations;
+    return true;
   }
-  if (!place) return false;
-  for (const LinkEdge& e : link_)
-    if (orient2d(e.x, e.y, *place) <= 0 || isBad(e.x, e.y, *place, bound_)) return false;
-  mesh_.setPoint(v, *place);
-  ++moves_[v];
-  ++stats_.relocations;
-  for (const EdgeRef e : star_) touched_.push_back(triOf(e));
-  mesh_.restoreDelaunay(touched_);
-  enqueueTouched();
-  return true;
+  if (bound_.min_angle < toRadians(kMergeFromDeg) || !mayTakeOut()) return false;
+  for (const VertexId v : corners) {
+    if (mesh_.kind(v) == VertexKind::Input) continue;
+    if (ops_.remove(v, touched_)) {
+      ++stats_.removals;
+    } else if (ops_.mergeWithNeighbour(v, touched_)) {
+      ++stats_.merges;
+    } else {
+      continue;
+    }
+    ++taken_out_;
+    return true;
+  }
+  return false;
 }
 
 // Whether x sees the subsegment under 180° - 2 alpha or more: the diametral lens of Chew (1993) and Shewchuk (1997) for

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/edit_mesh.hpp"
-#include "core/feasible_region.hpp"
 #include "core/metric.hpp"
 #include "core/pslg.hpp"
 #include "core/refine.hpp"
 #include "core/steiner.hpp"
+#include "core/vertex_ops.hpp"
 
 namespace coastmesh {
 
@@ -72,8 +72,8 @@ class Refiner {
   void mend(TriId t);
   bool isLeftAlone(TriId t, const TriangleShape& shape) const;
   bool isFan(TriId t, VertexId apex) const;
-  bool relocateCorner(TriId t);
-  bool relocate(VertexId v);
+  bool mendWithoutInsertion(TriId t);
+  bool mayTakeOut() const;
   bool insertPoint(TriId t, unsigned apex);
   bool splitFor(EdgeRef edge, TriId t, unsigned apex);
   double spacingAt(const Point& x, const Patch& cavity) const;
@@ -93,7 +93,7 @@ class Refiner {
   EditMesh mesh_;
   RefineStats stats_;
   SteinerSearch search_;
-  FeasibleRegion region_;
+  VertexOps ops_;
   double cos_lens_;
   double free_share_;
 
@@ -102,11 +102,10 @@ class Refiner {
 
   std::priority_queue<BadTriangle> queue_;
   std::uint64_t sequence_ = 0;
+  std::uint64_t taken_out_ = 0;  // by merges and removals during refinement
 
   // Scratch.
   std::vector<TriId> touched_;
-  std::vector<EdgeRef> star_;
-  std::vector<LinkEdge> link_;
   std::vector<VertexId> polygon_;
   std::vector<Corners> fresh_;
   Patch patch_;

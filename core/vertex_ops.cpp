@@ -1,0 +1,168 @@
+#include "core/vertex_ops.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// No vertex has more triangles round it than angles of the bound fit into a full turn.
+bool hasTooMany(std::size_t triangles, const TriangleBound& bound) {
+  return static_cast<double>(triangles) * bound.min_angle > 2.0 * std::numbers::pi;
+}
+
+VertexId otherEnd(const RimEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
+
+}  // namespace
+
+// Fills inner_ (and outer_) with the subsegments at v, rim and link with what is round it, less what it shares with
+// `other`.
+void VertexOps::gather(VertexId v, VertexId other, VertexId stays) {
+  const bool closed = mesh_.star(v, star_);
+  for (const EdgeRef e : star_) {
+    const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+    const bool shared = a == other || b == other;
+    if (!shared || v == stays) patch_.triangles.push_back(triOf(e));
+    if (!shared) patch_.rim.push_back({a, b, mesh_.twin(e), mesh_.segment(e)});
+    const EdgeRef spoke = spokeBefore(e);
+    const SegmentId seg = mesh_.segment(spoke);
+    if (a == other || seg == kNone) continue;
+    inner_.push_back({stays, a, kNone, seg});
+    if (mesh_.twin(spoke) == kNone) outer_.push_back(inner_.back());
+  }
+  if (closed) return;
+  const EdgeRef last = spokeAfter(star_.back());
+  if (mesh_.origin(last) == other) return;
+  inner_.push_back({stays, mesh_.origin(last), kNone, mesh_.segment(last)});
+  outer_.push_back({mesh_.origin(last), stays, kNone, mesh_.segment(last)});
+}
+
+// Where v may go, with the link in patch_.rim and the subsegments at v in inner_.
+std::optional<Point> VertexOps::findPlace(VertexId v) {
+  link_.clear();
+  for (const RimEdge& r : patch_.rim) link_.push_back({mesh_.point(r.a), mesh_.point(r.b)});
+  if (mesh_.kind(v) == VertexKind::Free) return region_.findPoint(link_, bound_);
+  if (inner_.size() != 2 || inner_[0].seg != inner_[1].seg || inner_[0].seg >= pslg_.segments.size())
+    return std::nullopt;
+  const std::optional<Point> place = FeasibleRegion::findPointBetween(
+      mesh_.point(otherEnd(inner_[0], v)), mesh_.point(otherEnd(inner_[1], v)), link_, bound_);
+  if (!place) return std::nullopt;
+  // On the input segment itself, lest rounding adds up.
+  const Segment& seg = pslg_.segments[inner_[0].seg];
+  const Point &a = pslg_.points[seg.a], &b = pslg_.points[seg.b];
+  return a + (dot(*place - a, b - a) / squaredDistance(a, b)) * (b - a);
+}
+
+bool VertexOps::fits(const Point& place) const {
+  return std::ranges::all_of(
+      link_, [&](const LinkEdge& e) { return orient2d(e.x, e.y, place) > 0 && !isBad(e.x, e.y, place, bound_); });
+}
+
+bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
+  patch_.triangles.clear();
+  patch_.rim.clear();
+  inner_.clear();
+  outer_.clear();
+  gather(v, kNone, v);
+  const std::optional<Point> place = findPlace(v);
+  if (!place || !fits(*place)) return false;
+  mesh_.setPoint(v, *place);
+  touched.insert(touched.end(), patch_.triangles.begin(), patch_.triangles.end());
+  mesh_.restoreDelaunay(touched);
+  return true;
+}
+
+// Triangulates the polygon of the rim edges first..last, closed by a straight edge where they are not closed
+// themselves.
+bool VertexOps::fillHole(std::size_t first, std::size_t last) {
+  polygon_.clear();
+  for (std::size_t i = first; i < last; ++i) polygon_.push_back(patch_.rim[i].a);
+  if (patch_.rim[last - 1].b != polygon_.front()) polygon_.push_back(patch_.rim[last - 1].b);
+  if (hasTooMany(polygon_.size(), bound_) || !triangulatePolygon(mesh_, polygon_, fresh_)) return false;
+  return std::ranges::none_of(fresh_, [this](const Corners& c) {
+    return isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_);
+  });
+}
+
+bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
+  const bool closed = mesh_.star(v, star_);
+  if (hasTooMany(star_.size(), bound_)) return false;
+  patch_.triangles.clear();
+  patch_.rim.clear();
+  inner_.clear();
+  for (const EdgeRef e : star_) {
+    patch_.triangles.push_back(triOf(e));
+    patch_.rim.push_back({mesh_.origin(e), mesh_.target(e), mesh_.twin(e), mesh_.segment(e)});
+  }
+  if (mesh_.kind(v) == VertexKind::Free) {
+    if (!fillHole(0, star_.size())) return false;
+    all_fresh_ = fresh_;
+  } else if (!closed) {
+    // At the rim: the two subsegments become the last side of the hole.
+    const SegmentId seg = mesh_.segment(spokeBefore(star_.front()));
+    if (seg == kNone || mesh_.segment(spokeAfter(star_.back())) != seg || star_.size() < 2) return false;
+    if (!fillHole(0, star_.size())) return false;
+    all_fresh_ = fresh_;
+    patch_.rim.push_back({patch_.rim.back().b, patch_.rim.front().a, kNone, seg});
+  } else {
+    // Inside the mesh: one hole on either side of the segment.
+    const std::size_t count = star_.size();
+    std::size_t first = count, second = count;
+    for (std::size_t i = 0; i < count; ++i)
+      if (mesh_.segment(spokeBefore(star_[i])) != kNone) (first == count ? first : second) = i;
+    if (second == count || second - first < 2 || count - second + first < 2) return false;
+    inner_.push_back({patch_.rim[first].a, patch_.rim[second].a, kNone, mesh_.segment(spokeBefore(star_[first]))});
+    if (!fillHole(first, second)) return false;
+    all_fresh_ = fresh_;
+    std::ranges::rotate(patch_.rim, patch_.rim.begin() + static_cast<std::ptrdiff_t>(second));
+    if (!fillHole(0, count - (second - first))) return false;
+    all_fresh_.insert(all_fresh_.end(), fresh_.begin(), fresh_.end());
+  }
+  mesh_.replace(patch_, all_fresh_, {&v, 1}, touched, inner_);
+  mesh_.restoreDelaunay(touched);
+  return true;
+}
+
+bool VertexOps::mergeWithNeighbour(VertexId v, std::vector<TriId>& touched) {
+  mesh_.star(v, star_);
+  neighbours_.clear();
+  for (const EdgeRef e : star_) neighbours_.push_back(mesh_.origin(e));
+  if (const VertexId last = mesh_.target(star_.back()); last != neighbours_.front()) neighbours_.push_back(last);
+  for (const VertexId w : neighbours_) {
+    if (mesh_.kind(w) == VertexKind::Input) continue;
+    // The vertex that stays is the one on the segment.
+    const bool swap = mesh_.kind(v) == VertexKind::Segment && mesh_.kind(w) == VertexKind::Free;
+    if (swap ? merge(w, v, touched) : merge(v, w, touched)) return true;
+  }
+  return false;
+}
+
+bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched) {
+  patch_.triangles.clear();
+  patch_.rim.clear();
+  inner_.clear();
+  outer_.clear();
+  gather(goes, stays, stays);
+  const std::size_t own = patch_.rim.size();
+  gather(stays, goes, stays);
+  if (hasTooMany(patch_.rim.size(), bound_)) return false;
+  // Link condition: the two stars share the corners beside their edge and no others.
+  std::size_t common = 0;
+  for (std::size_t i = own; i < patch_.rim.size(); ++i)
+    for (std::size_t j = 0; j < own; ++j) common += patch_.rim[i].a == patch_.rim[j].b;
+  if (common > 1) return false;
+  const std::optional<Point> place = findPlace(stays);
+  if (!place || !fits(*place)) return false;
+  all_fresh_.clear();
+  for (const RimEdge& r : patch_.rim) all_fresh_.push_back({stays, r.a, r.b});
+  mesh_.setPoint(stays, *place);
+  patch_.rim.insert(patch_.rim.end(), outer_.begin(), outer_.end());
+  mesh_.replace(patch_, all_fresh_, {&goes, 1}, touched, inner_);
+  mesh_.restoreDelaunay(touched);
+  return true;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/feasible_region.hpp"
+#include "core/metric.hpp"
+#include "core/pslg.hpp"
+
+namespace coastmesh {
+
+// Changes round a vertex or two that leave only good triangles there: moving a vertex, taking it out, merging two into
+// one. Each is tested on the link alone and done only where it succeeds; then the Delaunay property is restored by
+// flips, which never lower the smallest angle. Changed triangles are appended to `touched`.
+class VertexOps {
+ public:
+  VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound) : mesh_(mesh), pslg_(pslg), bound_(bound) {}
+
+  // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
+  // differ: the region of good places is found exactly, and a vertex on a segment slides along it.
+  bool relocate(VertexId v, std::vector<TriId>& touched);
+
+  // Takes out a vertex where the hole that it leaves triangulates without a bad triangle. On a segment the two
+  // subsegments become one.
+  bool remove(VertexId v, std::vector<TriId>& touched);
+
+  // Replaces the two ends of an edge by one vertex in the feasible region of both stars together; `stays` moves there
+  // and keeps its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
+  bool merge(VertexId goes, VertexId stays, std::vector<TriId>& touched);
+
+  // Tries merge with each neighbour of v that is no input vertex.
+  bool mergeWithNeighbour(VertexId v, std::vector<TriId>& touched);
+
+ private:
+  bool fillHole(std::size_t first, std::size_t last);
+  void gather(VertexId v, VertexId other, VertexId stays);
+  std::optional<Point> findPlace(VertexId v);
+  bool fits(const Point& place) const;
+  EdgeRef spokeBefore(EdgeRef opposite) const { return edgeRef(triOf(opposite), prev3(indexOf(opposite))); }
+  EdgeRef spokeAfter(EdgeRef opposite) const { return edgeRef(triOf(opposite), next3(indexOf(opposite))); }
+
+  EditMesh& mesh_;
+  const Pslg& pslg_;
+  const TriangleBound& bound_;
+
+  // Scratch.
+  FeasibleRegion region_;
+  std::vector<EdgeRef> star_;
+  std::vector<VertexId> neighbours_;
+  std::vector<VertexId> polygon_;
+  std::vector<Corners> fresh_, all_fresh_;
+  std::vector<RimEdge> inner_;  // subsegments that end at the vertex, as edges from it
+  std::vector<RimEdge> outer_;  // of them, those on the rim of the mesh, the mesh to their left
+  std::vector<LinkEdge> link_;
+  Patch patch_;
+};
+
+}  // namespace coastmesh
