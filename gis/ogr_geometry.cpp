@@ -43,12 +43,7 @@ void takePolygon(const OGRPolygon& polygon, const std::string& what, GeometryPar
       const std::string name = r == 0 ? "outer ring" : "hole " + std::to_string(r);
       return what + ": polygon " + std::to_string(number) + ", " + name;
     });
-    if (points.size() > 1 && points.front() == points.back()) {
-      points.pop_back();
-    } else {
-      if (parts.unclosed_rings++ == 0) parts.unclosed_place = points.back();
-    }
-    ++parts.rings;
+    closeRing(points, parts);
     if (r == 0) {
       taken.outer = std::move(points);
     } else {
@@ -96,6 +91,15 @@ void takeLinear(const OGRGeometry& geometry, const std::string& what, GeometryPa
 }
 
 }  // namespace
+
+void closeRing(Ring& ring, GeometryParts& parts) {
+  ++parts.rings;
+  if (ring.size() > 1 && ring.front() == ring.back()) {
+    ring.pop_back();
+  } else {
+    if (parts.unclosed_rings++ == 0) parts.unclosed_place = ring.back();
+  }
+}
 
 void takeApart(const OGRGeometry& geometry, const std::string& what, GeometryParts& parts) {
   if (!geometry.hasCurveGeometry()) return takeLinear(geometry, what, parts);

@@ -25,6 +25,10 @@ struct GeometryParts {
   bool empty() const { return polygons.empty() && lines.empty(); }
 };
 
+// Drops the last point of a ring that repeats the first, counts the ring, and tells of one that does not close.
+// REQUIRES: not empty.
+void closeRing(Ring& ring, GeometryParts& parts);
+
 // Adds what `geometry` holds to `parts`. Throws InputError for a coordinate that is not finite; `what` names the
 // feature in its sentence.
 void takeApart(const OGRGeometry& geometry, const std::string& what, GeometryParts& parts);

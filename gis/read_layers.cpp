@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "gis/bare_geojson.hpp"
 #include "gis/error.hpp"
 #include "gis/ogr_geometry.hpp"
 #include "gis/ogr_support.hpp"
@@ -75,6 +76,11 @@ class LayerReader {
     swap_axes_ = axesSwapped(*srs);
   }
 
+  LayerReader(const Crs& crs, std::string source) {
+    raw_.source = std::move(source);
+    raw_.crs = crs;
+  }
+
   void add(OGRFeature& given, ReadReport& report) {
     const OGRGeometry* geometry = given.GetGeometryRef();
     if (!geometry || geometry->IsEmpty()) {
@@ -84,19 +90,22 @@ class LayerReader {
     Feature feature;
     feature.fid = given.GetFID() == OGRNullFID ? count_ : given.GetFID();
     feature.source = raw_.source;
-    ++count_;
-    const std::string what = raw_.source + ", feature " + std::to_string(feature.fid);
     GeometryParts parts;
-    takeApart(*geometry, what, parts);
-    tally(parts, what, report);
-    if (parts.empty()) return;
+    takeApart(*geometry, describe(feature), parts);
+    if (!parts.empty()) feature.attributes = attributesOf(given);
+    add(std::move(parts), std::move(feature), report);
+  }
+
+  // `feature` has its name and attributes.
+  void add(GeometryParts parts, Feature feature, ReadReport& report) {
+    ++count_;
+    tally(parts, describe(feature), report);
     forEachChain(parts, [&](std::vector<Point>& chain) {
       for (Point& p : chain) {
         if (swap_axes_) std::swap(p.x, p.y);
         raw_.bounds.add(p);
       }
     });
-    feature.attributes = attributesOf(given);
     if (!parts.lines.empty()) {
       for (auto& line : parts.lines) raw_.lines.push_back({std::move(line), raw_.line_features.size()});
       raw_.line_features.push_back(feature);
@@ -113,6 +122,10 @@ class LayerReader {
   }
 
  private:
+  static std::string describe(const Feature& feature) {
+    return feature.source + ", feature " + std::to_string(feature.fid);
+  }
+
   void tally(const GeometryParts& parts, const std::string& what, ReadReport& report) {
     report.points += parts.coordinates;
     report.rings += parts.rings;
@@ -147,16 +160,33 @@ void refuseEmpty(const std::string& source, std::uint64_t points) {
                    "; polygons or lines are needed");
 }
 
+std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, const std::string& source, std::uint64_t points) {
+  std::vector<RawLayer> raw;
+  for (LayerReader& reader : readers) {
+    RawLayer finished = reader.finish();
+    if (!finished.empty()) raw.push_back(std::move(finished));
+  }
+  if (raw.empty()) refuseEmpty(source, points);
+  return raw;
+}
+
 }  // namespace
 
 std::vector<RawLayer> readLayers(const std::string& source, ReadReport& report) {
+  const std::uint64_t points_before = report.skipped_points;
+  std::vector<LayerReader> readers;
+  if (std::optional<GeometryParts> bare = readBareGeojson(source)) {
+    Feature feature;
+    feature.source = source;
+    readers.emplace_back(wgs84(), source);
+    readers.front().add(std::move(*bare), std::move(feature), report);
+    return finishAll(readers, source, report.skipped_points - points_before);
+  }
+
   OgrErrors errors;
   const OgrOption any_size("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
   const Dataset dataset = open(source, errors);
-  const std::uint64_t points_before = report.skipped_points;
-
   std::vector<OGRLayer*> layers;
-  std::vector<LayerReader> readers;
   for (OGRLayer* layer : dataset->GetLayers()) {
     const bool only = dataset->GetLayerCount() == 1;
     layers.push_back(layer);
@@ -171,14 +201,7 @@ std::vector<RawLayer> readLayers(const std::string& source, ReadReport& report) 
   }
   if (errors.failed()) throw InputError(source + ": cannot be read to its end (" + errors.text() + ")");
   if (!errors.text().empty()) report.warnings.push_back(source + ": " + errors.text());
-
-  std::vector<RawLayer> raw;
-  for (LayerReader& reader : readers) {
-    RawLayer finished = reader.finish();
-    if (!finished.empty()) raw.push_back(std::move(finished));
-  }
-  if (raw.empty()) refuseEmpty(source, report.skipped_points - points_before);
-  return raw;
+  return finishAll(readers, source, report.skipped_points - points_before);
 }
 
 }  // namespace coastmesh
