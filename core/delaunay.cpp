@@ -8,12 +8,16 @@
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
 
 namespace coastmesh {
 
@@ -69,16 +73,39 @@ std::vector<VertexHandle> insertPoints(const Pslg& pslg, Cdt& cdt) {
   return handles;
 }
 
+// The vertex that lies inside a segment; asked for only once it is known that there is one.
+Point vertexInside(const Pslg& pslg, const Segment& s) {
+  const Point &a = pslg.points[s.a], &b = pslg.points[s.b];
+  const auto isInside = [&](const Point& p) {
+    return p != a && p != b && orient2d(a, b, p) == 0 && dot(p - a, b - a) > 0.0 && dot(p - b, a - b) > 0.0;
+  };
+  const auto found = std::ranges::find_if(pslg.points, isInside);
+  return found == pslg.points.end() ? a : *found;
+}
+
+// Where a segment crosses one of those before it; asked for only once it is known that it does.
+Point crossingWith(const Pslg& pslg, SegmentId crossing) {
+  const Point &a = pslg.points[pslg.segments[crossing].a], &b = pslg.points[pslg.segments[crossing].b];
+  for (SegmentId s = 0; s < crossing; ++s) {
+    const Point &c = pslg.points[pslg.segments[s].a], &d = pslg.points[pslg.segments[s].b];
+    if (orient2d(a, b, c) * orient2d(a, b, d) >= 0 || orient2d(c, d, a) * orient2d(c, d, b) >= 0) continue;
+    const double from = cross(d - c, a - c), to = cross(d - c, b - c);
+    return a + (from / (from - to)) * (b - a);
+  }
+  return a;
+}
+
 void insertSegments(const Pslg& pslg, const std::vector<VertexHandle>& handles, Cdt& cdt) {
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
     const VertexHandle a = handles[pslg.segments[s].a], b = handles[pslg.segments[s].b];
-    const Point& place = pslg.points[pslg.segments[s].a];
     try {
       cdt.insert_constraint(a, b);
     } catch (const Cdt::Intersection_of_constraints_exception&) {
-      refuse(PslgDefect::Kind::SegmentsCross, place, s, "two segments cross");
+      refuse(PslgDefect::Kind::SegmentsCross, crossingWith(pslg, s), s, "two segments cross");
     }
-    if (!cdt.is_edge(a, b)) refuse(PslgDefect::Kind::PointOnSegment, place, s, "a vertex lies inside a segment");
+    if (!cdt.is_edge(a, b))
+      refuse(PslgDefect::Kind::PointOnSegment, vertexInside(pslg, pslg.segments[s]), s,
+             "a vertex lies inside a segment");
   }
 }
 
@@ -165,6 +192,10 @@ std::vector<std::array<SegmentId, 3>> segmentsOfFaces(const Pslg& pslg, const st
     FaceHandle f;
     int i = 0;
     cdt.is_edge(handles[pslg.segments[s].a], handles[pslg.segments[s].b], f, i);
+    if (segments[f->info()][i] != kNone) {
+      const Point &a = pslg.points[pslg.segments[s].a], &b = pslg.points[pslg.segments[s].b];
+      refuse(PslgDefect::Kind::SegmentsCoincide, midpoint(a, b), s, "two segments have the same ends");
+    }
     segments[f->info()][i] = s;
     const auto [g, j] = cdt.mirror_edge({f, i});
     segments[g->info()][j] = s;

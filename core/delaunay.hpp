@@ -16,6 +16,7 @@ struct PslgDefect {
     SegmentOfNoLength,
     UnknownVertex,
     SegmentsCross,
+    SegmentsCoincide,
     PointOnSegment,
     NoArea
   };

@@ -117,7 +117,9 @@ bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) con
     if (follower == patch.rim.end()) return false;
     std::iter_swap(patch.rim.begin() + i + 1, follower);
   }
-  if (patch.rim.back().b != patch.rim.front().a) return false;
+  if (patch.rim.empty() || patch.rim.back().b != patch.rim.front().a) return false;
+  // Euler's formula: a patch with more triangles holds a vertex that is not among those given.
+  if (patch.triangles.size() != patch.rim.size() + 2 * vertices.size() - 2) return false;
   // A vertex that the loop passes twice pinches the patch.
   for (std::size_t i = 0; i < patch.rim.size(); ++i)
     for (std::size_t j = i + 1; j < patch.rim.size(); ++j)

@@ -46,7 +46,10 @@ template <typename F>
 void forEachDisk(std::span<const LinkEdge> link, const TriangleBound& bound, F&& disk) {
   for (const LinkEdge& e : link) {
     if (bound.min_angle > 0.0) disk(petalOf(e, bound));
-    if (!std::isinf(bound.squared_size)) disk(Disk{e.x, std::sqrt(bound.squared_size)});
+    if (std::isinf(bound.squared_size)) continue;
+    // Both ends: an open link has a last corner that starts no edge.
+    disk(Disk{e.x, std::sqrt(bound.squared_size)});
+    disk(Disk{e.y, std::sqrt(bound.squared_size)});
   }
 }
 

@@ -112,7 +112,7 @@ inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, 
 
 // Whether a triangle falls short of what is asked.
 inline bool isBad(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
-  if (isSmallestAngleBelow(a, b, c, bound.cos_min)) return true;
+  if (bound.min_angle > 0.0 && isSmallestAngleBelow(a, b, c, bound.cos_min)) return true;
   if (bound.max_angle < std::numbers::pi && isLargestAngleAbove(a, b, c, bound.cos_max)) return true;
   if (std::isinf(bound.squared_size)) return false;
   return std::max({squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)}) > bound.squared_size;

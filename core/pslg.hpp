@@ -18,7 +18,7 @@ struct Segment {
 };
 
 // A planar straight-line graph: the only input of the core.
-// REQUIRES (see `findPslgDefect`): finite coordinates, no two equal points, no segment of zero length, no two segments
+// REQUIRES (`constrainedDelaunay` tells what is broken, and where): finite coordinates, no two equal points, no segment of zero length, no two segments
 // that meet anywhere but in a common end point, no point inside a segment.
 struct Pslg {
   std::vector<Point> points;

@@ -169,12 +169,12 @@ VertexId Refiner::fanApexBehind(TriId t, unsigned apex) const {
   return isFan(triOf(beyond), v) ? v : kNone;
 }
 
-// Vertices taken out may come back: their number is bounded by what was put in, and by the mesh's size, lest both go on
-// for ever.
-bool Refiner::mayTakeOut() const {
+// Two vertices merged may come to be two again: merges are bounded by what was put in, and by the mesh's size, lest both
+// go on for ever.
+bool Refiner::mayMerge() const {
   const auto& types = stats_.by_type;
   const std::uint64_t put_in = types[0] + types[1] + types[2] + types[3] + stats_.segment_splits;
-  return 10 * taken_out_ < 3 * put_in && 2 * taken_out_ < mesh_.vertexCount();
+  return 10 * stats_.merges < 3 * put_in && 2 * stats_.merges < mesh_.vertexCount();
 }
 
 // Algorithm 2: a vertex of the triangle that finds a place where its whole star is good moves there. We go on where the
@@ -187,17 +187,10 @@ bool Refiner::mendWithoutInsertion(TriId t) {
     ++stats_.relocations;
     return true;
   }
-  if (bound_.min_angle < toRadians(kMergeFromDeg) || !mayTakeOut()) return false;
+  if (bound_.min_angle < toRadians(kMergeFromDeg) || !mayMerge()) return false;
   for (const VertexId v : corners) {
-    if (mesh_.kind(v) == VertexKind::Input) continue;
-    if (ops_.remove(v, touched_)) {
-      ++stats_.removals;
-    } else if (ops_.mergeWithNeighbour(v, touched_)) {
-      ++stats_.merges;
-    } else {
-      continue;
-    }
-    ++taken_out_;
+    if (mesh_.kind(v) == VertexKind::Input || !ops_.mergeWithNeighbour(v, touched_)) continue;
+    ++stats_.merges;
     return true;
   }
   return false;

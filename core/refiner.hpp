@@ -73,7 +73,7 @@ class Refiner {
   bool isLeftAlone(TriId t, const TriangleShape& shape) const;
   bool isFan(TriId t, VertexId apex) const;
   bool mendWithoutInsertion(TriId t);
-  bool mayTakeOut() const;
+  bool mayMerge() const;
   bool insertPoint(TriId t, unsigned apex);
   bool splitFor(EdgeRef edge, TriId t, unsigned apex);
   double spacingAt(const Point& x, const Patch& cavity) const;
@@ -102,7 +102,6 @@ class Refiner {
 
   std::priority_queue<BadTriangle> queue_;
   std::uint64_t sequence_ = 0;
-  std::uint64_t taken_out_ = 0;  // by merges and removals during refinement
 
   // Scratch.
   std::vector<TriId> touched_;
