@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include "gis/chain_index.hpp"
@@ -79,6 +80,45 @@ Box boundsOf(const Feature& feature) {
   return box;
 }
 
+// Where longitudes span exactly 360 degrees, the data are cut along a meridian (the antimeridian, as a rule): features
+// that meet there, from either side, touch.
+void uniteAcrossCut(const Coastline& coastline, const std::vector<Box>& boxes, UnionFind& sets) {
+  Box extent;
+  for (const Box& box : boxes) extent.add(box);
+  if (!coastline.crs.geographic || extent.xmax - extent.xmin != 360) return;
+  struct OnCut {
+    double south, north;
+    std::uint32_t feature;
+  };
+  std::vector<OnCut> on_cut;
+  const auto isOnCut = [&](const Point& p) { return p.x == extent.xmin || p.x == extent.xmax; };
+  const auto collect = [&](const std::vector<Point>& chain, bool closed, std::uint32_t feature) {
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const Point& p = chain[i];
+      if (!isOnCut(p)) continue;
+      const bool last = i + 1 == chain.size();
+      const Point& q = last && !closed ? p : chain[last ? 0 : i + 1];
+      const double other = q.x == p.x ? q.y : p.y;
+      on_cut.push_back({std::min(p.y, other), std::max(p.y, other), feature});
+    }
+  };
+  for (std::uint32_t f = 0; f < boxes.size(); ++f) {
+    if (boxes[f].xmin != extent.xmin && boxes[f].xmax != extent.xmax) continue;
+    for (const Polygon& polygon : coastline.features[f].polygons) {
+      collect(polygon.outer, true, f);
+      for (const Ring& hole : polygon.holes) collect(hole, true, f);
+    }
+    for (const auto& line : coastline.features[f].lines) collect(line, false, f);
+  }
+  std::sort(on_cut.begin(), on_cut.end(), [](const OnCut& a, const OnCut& b) {
+    return a.south != b.south ? a.south < b.south : a.feature < b.feature;
+  });
+  for (std::size_t i = 0, reaching = 0; i < on_cut.size(); ++i) {
+    if (on_cut[i].south <= on_cut[reaching].north) sets.unite(on_cut[reaching].feature, on_cut[i].feature);
+    if (on_cut[i].north > on_cut[reaching].north) reaching = i;
+  }
+}
+
 std::vector<std::vector<std::size_t>> setsOf(UnionFind& sets, std::size_t n) {
   std::vector<std::vector<std::size_t>> groups;
   std::vector<std::uint32_t> group_of(n);
@@ -123,6 +163,7 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline) 
       if (belongTogether(a_smaller ? a : b, a_smaller ? b : a)) sets.unite(i, j);
     });
   }
+  uniteAcrossCut(coastline, boxes, sets);
   return setsOf(sets, features.size());
 }
 

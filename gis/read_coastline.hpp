@@ -33,7 +33,7 @@ Coastline readCoastline(const std::vector<std::string>& sources, ReadReport& rep
 
 // Features that touch, cross or contain one another have to be meshed as one; one that lies in a hole of another does
 // not. Every feature is in one group; members ascend, groups are ordered by their first member. Longitudes are taken as
-// given. Cost O(n log n) for features that lie apart.
+// given, but where they span exactly 360 degrees, the first and the last meridian are one. Cost O(n log n) for features that lie apart.
 std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline);
 
 }  // namespace coastmesh

@@ -59,6 +59,15 @@ TEST(GroupFeatures, LinesJoinWhatTheyTouch) {
             (Groups{{0, 1, 2}}));
 }
 
+TEST(GroupFeatures, WhatACutAlongAMeridianPartsBelongsTogether) {
+  const std::vector<Feature> halves{polygonFeature(0, square(179, 10, 1)), polygonFeature(1, square(-180, 10.5, 1)),
+                                    polygonFeature(2, square(-180, 50, 1)), polygonFeature(3, square(178, 50, 1)),
+                                    polygonFeature(4, {{180, 11.5}, {179, 12}, {179, 11.6}})};
+  EXPECT_EQ(groupFeatures(coastlineOf(halves, wgs84())), (Groups{{0, 1, 4}, {2}, {3}}));
+  // In a plane there is no such thing.
+  EXPECT_EQ(group(halves).size(), 5u);
+}
+
 // Every vertex and edge against every other.
 bool slowlyBelongTogether(const Feature& a, const Feature& b) {
   const auto ringsOf = [](const Feature& f) {
