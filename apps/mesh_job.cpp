@@ -2,48 +2,27 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
-#include <cmath>
-#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <numeric>
-#include <sstream>
 
-#include "apps/places.hpp"
-#include "core/check.hpp"
-#include "core/delaunay.hpp"
-#include "gis/error.hpp"
-#include "gis/poly_io.hpp"
+#include "apps/mesh_group.hpp"
+#include "apps/stopwatch.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+// Groups up to so many points are taken in their order, so that their results are put together as they come.
+constexpr std::size_t kSmallGroup = 1024;
 
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// All that remains of a group once it is meshed.
-struct GroupResult {
-  Grid grid;
-  std::array<std::uint64_t, kEditKinds> edits{};
-  std::string projection;
-  RefineStats refine;
-  std::uint64_t unresolved = 0;
-  std::vector<ShortfallPlace> unresolved_places;
-  MeshQuality quality;
-  std::optional<double> input_area_m2;
-  std::uint64_t digest = 0;
-  double clean_s = 0.0;
-  double check_s = 0.0;
-  MeshSeconds mesh_s;
-  std::string refusal;  // empty where it was meshed
-};
+// What the whole may hold, shared out by the groups' points, so that no group waits for what another leaves over.
+std::uint64_t vertexBudget(std::uint64_t whole, std::size_t points, std::size_t all_points) {
+  if (points == all_points || whole == std::numeric_limits<std::uint64_t>::max()) return whole;
+  return static_cast<std::uint64_t>(static_cast<double>(whole) * static_cast<double>(points) /
+                                    static_cast<double>(all_points));
+}
 
 // The groups' shares of the work put together, weighed by their points.
 class GroupProgress {
@@ -71,116 +50,6 @@ class GroupProgress {
   double total_ = 1.0;
   double done_ = 0.0;
 };
-
-Point centreOf(const Pslg& pslg) {
-  Point low = pslg.points.front();
-  Point high = low;
-  for (const Point& p : pslg.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
-}
-
-// What the whole may hold, shared out by the groups' points, so that no group waits for what another leaves over.
-std::uint64_t vertexBudget(std::uint64_t whole, std::size_t points, std::size_t all_points) {
-  if (points == all_points || whole == std::numeric_limits<std::uint64_t>::max()) return whole;
-  return static_cast<std::uint64_t>(static_cast<double>(whole) * static_cast<double>(points) /
-                                    static_cast<double>(all_points));
-}
-
-MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t budget) {
-  MeshOptions options = job.mesh;
-  options.refine.max_vertices = budget;
-  options.refine.size_max = job.size_max_m;
-  if (std::isfinite(job.size_max_m)) {
-    options.refine.size_max *= domain.projection.scaleAt(centreOf(domain.pslg));
-  }
-  return options;
-}
-
-// Leaves the failing region where its finder can send it from.
-std::string dumpRegion(const Pslg& pslg, std::uint64_t digest) {
-  std::ostringstream name;
-  name << "coastmesh-bug-" << std::hex << digest << ".poly";
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / name.str();
-  writePoly(pslg, path.string());
-  return path.string();
-}
-
-void requireSound(const TriMesh& mesh, const Domain& domain, const Feature& first) {
-  const std::vector<MeshDefect> defects = checkMesh(mesh, &domain.pslg, CheckOptions{});
-  if (defects.empty()) return;
-  const MeshDefect& defect = defects.front();
-  throw BadMesh("the mesh of " + featureText(first) + " has " + std::to_string(defects.size()) +
-                " defects, the first one " + std::string(toString(defect.kind)) + " at " +
-                pointText(domain.projection.inverse(defect.place)) + "; the region was kept in '" +
-                dumpRegion(domain.pslg, digestOf(mesh)) + "'");
-}
-
-void placeShortfalls(const RefineStats& stats, const Projection& projection, GroupResult& result) {
-  result.unresolved = stats.unresolved.size();
-  const std::size_t listed = std::min(stats.unresolved.size(), kShortfallPlaces);
-  for (std::size_t i = 0; i < listed; ++i) {
-    const Shortfall& shortfall = stats.unresolved[i];
-    result.unresolved_places.push_back(
-        {projection.inverse(shortfall.place), shortfall.min_angle_deg, shortfall.max_angle_deg});
-  }
-}
-
-// The group's part of the grid. It is given its own features alone, so that the work does not grow with the square of
-// their number.
-Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh) {
-  Coastline names;
-  names.crs = input.coastline().crs;
-  if (!input.isPoly()) {
-    const std::vector<std::size_t>& members = input.members(group);
-    for (std::size_t member : members) {
-      const Feature& feature = input.coastline().features[member];
-      names.features.push_back({feature.fid, feature.source, {}, {}, feature.attributes});
-    }
-    for (RegionId& region : mesh.regions) {
-      region =
-          static_cast<RegionId>(std::ranges::lower_bound(members, static_cast<std::size_t>(region)) - members.begin());
-    }
-  }
-  Grid grid = makeGrid({{&domain, &mesh}}, names);
-  grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
-  return grid;
-}
-
-void meshGroup(const MeshJob& job, const JobInput& input, std::size_t group, std::uint64_t budget,
-               const RunControl& control, GroupResult& result) {
-  const Stopwatch cleaning;
-  CleanReport clean;
-  const Domain domain = input.domain(group, clean);
-  result.edits = clean.counts;
-  clean = {};
-  result.projection = domain.projection.description();
-  result.input_area_m2 = input.area(group);
-  result.clean_s = cleaning.seconds();
-
-  const MeshOptions options = optionsFor(job, domain, budget);
-  MeshedRegion region = meshRegion(domain.pslg, options, control);
-  result.mesh_s = region.seconds;
-  result.refine = std::move(region.stats);
-  placeShortfalls(result.refine, domain.projection, result);
-  result.refine.unresolved = {};
-
-  const Stopwatch checking;
-  requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()]);
-  result.quality = measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg);
-  result.digest = digestOf(region.mesh);
-  result.check_s = checking.seconds();
-  result.grid = groupGrid(input, group, domain, region.mesh);
-}
-
-std::string refusalText(const BadPslg& error, const JobInput& input, std::size_t group) {
-  const Feature& first = input.coastline().features[input.members(group).front()];
-  CleanReport ignored;
-  const Projection projection = input.domain(group, ignored).projection;
-  return featureText(first) + ": " + error.what() + " at " + pointText(projection.inverse(error.defect.place));
-}
 
 std::uint64_t combineDigests(std::uint64_t digest, std::uint64_t next) {
   return std::rotl((digest ^ next) * 0x9E3779B97F4A7C15ull, 31);
@@ -248,6 +117,40 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   appendGrid(result.grid, std::move(part.grid));
 }
 
+// Puts the groups' results together in the groups' order, each as soon as those before it are there.
+class OrderedMerge {
+ public:
+  OrderedMerge(const JobInput& input, MeshJobResult& result)
+      : input_(input), result_(result), waiting_(input.groups()) {}
+
+  void add(std::size_t group, GroupResult&& part) {
+    const std::lock_guard lock(mutex_);
+    waiting_[group] = std::make_unique<GroupResult>(std::move(part));
+    const Stopwatch stitching;
+    for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
+      addGroup(input_, next_, std::move(*waiting_[next_]), result_);
+      waiting_[next_].reset();
+    }
+    result_.seconds.stitch += stitching.seconds();
+  }
+
+ private:
+  const JobInput& input_;
+  MeshJobResult& result_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<GroupResult>> waiting_;
+  std::size_t next_ = 0;
+};
+
+// Large groups first, lest one of them be left for the end, when all other threads have nothing to do.
+std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&points](std::size_t g) { return std::max(points[g], kSmallGroup); };
+  std::ranges::stable_sort(order, [&rank](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
+  return order;
+}
+
 }  // namespace
 
 MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control) {
@@ -261,36 +164,20 @@ MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control) {
   if (control.cancelled && control.cancelled()) throw Cancelled();
   if (control.progress) control.progress("read", 1.0);
 
-  std::vector<std::size_t> weights(input.groups());
-  for (std::size_t g = 0; g < weights.size(); ++g) weights[g] = input.pointsOf(g);
-  const std::size_t all_points = std::accumulate(weights.begin(), weights.end(), std::size_t{0});
-  std::vector<std::size_t> order(weights.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
-
-  std::vector<std::unique_ptr<GroupResult>> groups(weights.size());
-  GroupProgress progress(weights, control);
+  std::vector<std::size_t> points(input.groups());
+  for (std::size_t g = 0; g < points.size(); ++g) points[g] = input.pointsOf(g);
+  const std::size_t all_points = std::accumulate(points.begin(), points.end(), std::size_t{0});
+  const std::vector<std::size_t> order = workOrder(points);
+  GroupProgress progress(points, control);
+  OrderedMerge merge(input, result);
   forEachRegion(order.size(), job.parallel, RunControl{control.cancelled, {}}, [&](std::size_t i) {
     const std::size_t g = order[i];
-    groups[g] = std::make_unique<GroupResult>();
+    const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
-    try {
-      meshGroup(job, input, g, vertexBudget(job.mesh.refine.max_vertices, weights[g], all_points), inner, *groups[g]);
-    } catch (const InputError& error) {
-      groups[g]->refusal = error.what();
-    } catch (const BadPslg& error) {
-      groups[g]->refusal = refusalText(error, input, g);
-    }
+    merge.add(g, meshGroup(job, input, g, budget, inner));
     progress.report(g, 1.0);
   });
-
-  const Stopwatch stitching;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    addGroup(input, g, std::move(*groups[g]), result);
-    groups[g].reset();
-  }
   result.grid.crs = result.crs;
-  result.seconds.stitch = stitching.seconds();
   result.seconds.total = whole.seconds();
   return result;
 }

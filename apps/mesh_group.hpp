@@ -1,0 +1,29 @@
+#pragma once
+
+#include "apps/mesh_job.hpp"
+
+namespace coastmesh {
+
+// All that remains of a group of features once it is meshed.
+struct GroupResult {
+  Grid grid;  // its CRS is left out
+  std::array<std::uint64_t, kEditKinds> edits{};
+  std::string projection;
+  RefineStats refine;
+  std::uint64_t unresolved = 0;
+  std::vector<ShortfallPlace> unresolved_places;
+  MeshQuality quality;
+  std::optional<double> input_area_m2;
+  std::uint64_t digest = 0;
+  double clean_s = 0.0;
+  double check_s = 0.0;
+  MeshSeconds mesh_s;
+  std::string refusal;  // empty where it was meshed
+};
+
+// Projects, cleans, meshes and checks a group of at most `budget` vertices. What cannot be meshed is told in `refusal`.
+// Throws Cancelled, BadMesh.
+GroupResult meshGroup(const MeshJob& job, const JobInput& input, std::size_t group, std::uint64_t budget,
+                      const RunControl& control);
+
+}  // namespace coastmesh
