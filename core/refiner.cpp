@@ -18,6 +18,8 @@ double freeShare(double min_angle) {
   const double beyond = std::clamp((toDegrees(min_angle) - 42.0) / 2.0, 0.0, 1.0);
   return 0.12 + 0.13 * beyond;
 }
+// New points aim above the bound where it is large: a mesh without any slack refines further. Algorithm 1 is the paper's.
+double aimAbove(double min_angle) { return toRadians(std::clamp(0.5 * (toDegrees(min_angle) - 38.0), 0.0, 1.0)); }
 // Relocations never bring a vertex more often than this: a bound on the run, not a setting.
 constexpr std::uint8_t kMostMoves = 32;
 // From this angle on taking vertices out during refinement pays: density spreads there.
@@ -32,7 +34,7 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
       options_(options),
       bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
       mesh_(std::move(mesh)),
-      search_(options.algorithm, bound_, 0.0),
+      search_(options.algorithm, bound_, options.algorithm == Algorithm::Relocate ? aimAbove(bound_.min_angle) : 0.0),
       ops_(mesh_, pslg_, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
       free_share_(freeShare(bound_.min_angle)),

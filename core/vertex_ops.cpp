@@ -148,7 +148,9 @@ bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched
   gather(goes, stays, stays);
   const std::size_t own = patch_.rim.size();
   gather(stays, goes, stays);
-  if (hasTooMany(patch_.rim.size(), bound_)) return false;
+  // Angles of the bound fit into the turn, but hardly ever so many that little is left.
+  constexpr double kMostTurn = toRadians(300.5);
+  if (patch_.rim.size() < 3 || static_cast<double>(patch_.rim.size()) * bound_.min_angle > kMostTurn) return false;
   // Link condition: the two stars share the corners beside their edge and no others.
   std::size_t common = 0;
   for (std::size_t i = own; i < patch_.rim.size(); ++i)
