@@ -85,7 +85,7 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
   std::vector<Segment> segments = labelFaces(chains, edges, coastline, report);
   refuseEmpty(coastline, members, segments);
   if (options.simplify_m > 0) {
-    segments = simplifyEdges(chains.vertices, std::move(segments), coastline, projection, options.simplify_m, report);
+    segments = simplifyEdges(chains.vertices, segments, coastline, projection, options.simplify_m, report);
   }
   return compact(chains.vertices, std::move(segments), projection);
 }

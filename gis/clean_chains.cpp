@@ -50,6 +50,7 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
 
 void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, CleanReport& report) {
   std::vector<TouchChain> touching;
+  touching.reserve(chains.size());
   for (InputChain& chain : chains) touching.push_back({&chain.points, chain.role != CleanChain::Role::Line});
   for (const Touch& touch : insertTouchingPoints(touching)) {
     report.add(EditKind::OverlappingEdge, touch.place, coastline.features[chains[touch.chain].feature].fid);

@@ -232,7 +232,7 @@ class Noder {
       }
       const std::vector<VertexId> path = pathThrough(edge, first, split);
       for (std::size_t i = 1; i < path.size(); ++i) {
-        fresh.push_back(std::minmax(path[i - 1], path[i]));
+        fresh.emplace_back(std::minmax(path[i - 1], path[i]));
         for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
           const bool upward = uses_[u].a == edge.low;
           uses.push_back({upward ? path[i - 1] : path[i], upward ? path[i] : path[i - 1], uses_[u].chain});
@@ -272,7 +272,7 @@ class Noder {
     std::vector<std::pair<VertexId, VertexId>> fresh;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const VertexId low = target[edges_[e].low], high = target[edges_[e].high];
-      if (active_[e] || low != edges_[e].low || high != edges_[e].high) fresh.push_back(std::minmax(low, high));
+      if (active_[e] || low != edges_[e].low || high != edges_[e].high) fresh.emplace_back(std::minmax(low, high));
     }
     for (EdgeUse& use : uses_) use.a = target[use.a], use.b = target[use.b];
     std::erase_if(uses_, [](const EdgeUse& use) { return use.a == use.b; });

@@ -36,7 +36,7 @@ double squaredDistance(const Point& p, const Point& a, const Point& b) {
 
 class Simplifier {
  public:
-  Simplifier(const CleanVertices& vertices, std::vector<Segment> segments, const Projection& projection,
+  Simplifier(const CleanVertices& vertices, const std::vector<Segment>& segments, const Projection& projection,
              double tolerance_m)
       : vertices_(vertices), projection_(projection), tolerance_m_(tolerance_m), links_(vertices.plane.size()) {
     pieces_.reserve(segments.size());
@@ -191,10 +191,10 @@ class Simplifier {
 
 }  // namespace
 
-std::vector<Segment> simplifyEdges(const CleanVertices& vertices, std::vector<Segment> segments,
+std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const std::vector<Segment>& segments,
                                    const Coastline& coastline, const Projection& projection, double tolerance_m,
                                    CleanReport& report) {
-  Simplifier simplifier(vertices, std::move(segments), projection, tolerance_m);
+  Simplifier simplifier(vertices, segments, projection, tolerance_m);
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
     report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline.features[feature].fid);

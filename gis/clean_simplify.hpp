@@ -13,7 +13,7 @@ namespace coastmesh {
 // sides, no ring vanishes. Junctions, ends of lines and pinched vertices stay. After Visvalingam & Whyatt, "Line
 // generalisation by repeated elimination of points" (1993), with Douglas & Peucker's distance (1973) in place of the
 // area. Cost O(n log n) for shores that are not dense within the tolerance.
-std::vector<Segment> simplifyEdges(const CleanVertices& vertices, std::vector<Segment> segments,
+std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const std::vector<Segment>& segments,
                                    const Coastline& coastline, const Projection& projection, double tolerance_m,
                                    CleanReport& report);
 

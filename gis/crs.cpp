@@ -28,7 +28,7 @@ std::string wktOf(const OGRSpatialReference& srs) {
   char* text = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
   const OGRErr error = srs.exportToWkt(&text, options);
-  const std::string wkt = error == OGRERR_NONE && text ? text : "";
+  std::string wkt = error == OGRERR_NONE && text ? text : "";
   CPLFree(text);
   if (wkt.empty()) throw InputError("the CRS " + quotedName(srs) + " cannot be written as WKT");
   return wkt;

@@ -70,6 +70,7 @@ std::vector<Point> holePoints(const Pslg& pslg) {
                                     [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
   if (!labelled) return {};
   std::vector<std::pair<VertexId, VertexId>> edges;
+  edges.reserve(pslg.segments.size());
   for (const Segment& s : pslg.segments) edges.emplace_back(s.a, s.b);
   const PlanarMap map(pslg.points, edges);
   const HoleFinder finder(pslg, map);

@@ -40,8 +40,9 @@ void takePolygon(const OGRPolygon& polygon, const std::string& what, GeometryPar
     const int r = ring_number++;
     if (ring->IsEmpty()) continue;
     Ring points = takeChain(*ring, parts, [&] {
-      const std::string name = r == 0 ? "outer ring" : "hole " + std::to_string(r);
-      return what + ": polygon " + std::to_string(number) + ", " + name;
+      std::string name = what + ": polygon " + std::to_string(number);
+      name += r == 0 ? ", outer ring" : ", hole " + std::to_string(r);
+      return name;
     });
     closeRing(points, parts);
     if (r == 0) {

@@ -38,13 +38,12 @@ Crs crsOfFirst(const RawLayer& first, ReadReport& report) {
 // Brings the points of a layer from one CRS to another, feature by feature.
 class Reprojection {
  public:
-  Reprojection(const RawLayer& layer, const Crs& to) : source_(layer.source), name_(nameOf(to)) {
-    const OGRSpatialReference from_srs = toOgr(*layer.crs), to_srs = toOgr(to);
+  Reprojection(const std::string& source, const Crs& from, const Crs& to) : source_(source), name_(nameOf(to)) {
+    const OGRSpatialReference from_srs = toOgr(from), to_srs = toOgr(to);
     transformation_.reset(OGRCreateCoordinateTransformation(&from_srs, &to_srs));
     if (transformation_) return;
-    throw InputError(source_ + ": PROJ knows no way from its CRS, " + nameOf(*layer.crs) +
-                     ", to that of the first source, " + name_ +
-                     (errors_.text().empty() ? "" : " (" + errors_.text() + ")"));
+    throw InputError(source_ + ": PROJ knows no way from its CRS, " + nameOf(from) + ", to that of the first source, " +
+                     name_ + (errors_.text().empty() ? "" : " (" + errors_.text() + ")"));
   }
 
   void apply(std::vector<Point>& chain, std::int64_t fid) const {
@@ -87,7 +86,7 @@ void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport&
                      (first_lacks ? layer.source : first.source) + " is in " + nameOf(first_lacks ? *layer.crs : crs) +
                      ": give both a CRS");
   }
-  const Reprojection reprojection(layer, crs);
+  const Reprojection reprojection(layer.source, *layer.crs, crs);
   for (Feature& feature : layer.features) {
     for (Polygon& polygon : feature.polygons) {
       reprojection.apply(polygon.outer, feature.fid);

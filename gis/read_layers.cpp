@@ -130,7 +130,7 @@ class LayerReader {
     report.points += parts.coordinates;
     report.rings += parts.rings;
     report.skipped_points += parts.points;
-    if (parts.unclosed_rings > 0 && report.unclosed_rings == 0) {
+    if (parts.unclosed_place && report.unclosed_rings == 0) {
       report.warnings.push_back(what + ": a ring of a polygon is not closed (it ends at " +
                                 placeInWords(*parts.unclosed_place) + "): such rings are closed");
     }
