@@ -24,8 +24,7 @@ std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& b
   }
   for (const TriId t : first_ring)
     for (unsigned i = 0; i < 3; ++i)
-      if (mesh.triangles[t].adj[i] != kNone && mesh.triangles[t].seg[i] == kNone)
-        explained[triOf(mesh.triangles[t].adj[i])] = true;
+      if (mesh.triangles[t].adj[i] != kNone) explained[triOf(mesh.triangles[t].adj[i])] = true;
   return explained;
 }
 

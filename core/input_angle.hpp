@@ -61,8 +61,8 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
   return sector;
 }
 
-// The triangles whose shortfall an input angle explains: those in a sector too small for the bounds, and those that
-// share an edge with them which is no constraint.
+// The triangles whose shortfall an input angle explains: those in a sector too small for the bounds, and those that share an edge
+// with them, be it a constraint: the corner's sides are long beside its width, and what lies behind them has to bear that.
 std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound);
 
 }  // namespace coastmesh

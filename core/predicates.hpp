@@ -7,6 +7,9 @@
 namespace coastmesh {
 
 namespace detail {
+// The error bounds hold as long as products do not underflow; what is as small as this is left to exact arithmetic.
+inline constexpr double kUnderflow = 1e-250;
+
 int orient2dExact(const Point& a, const Point& b, const Point& c);
 int inCircleExact(const Point& a, const Point& b, const Point& c, const Point& d);
 }  // namespace detail
@@ -20,7 +23,7 @@ inline int orient2d(const Point& a, const Point& b, const Point& c) {
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
   const double det = left - right;
-  const double bound = kBound * (std::abs(left) + std::abs(right));
+  const double bound = kBound * (std::abs(left) + std::abs(right)) + detail::kUnderflow;
   if (det > bound) return 1;
   if (-det > bound) return -1;
   return detail::orient2dExact(a, b, c);
@@ -43,7 +46,7 @@ inline int inCircle(const Point& a, const Point& b, const Point& c, const Point&
   const double permanent = alift * (std::abs(bdxcdy) + std::abs(cdxbdy)) +
                            blift * (std::abs(cdxady) + std::abs(adxcdy)) +
                            clift * (std::abs(adxbdy) + std::abs(bdxady));
-  const double bound = kBound * permanent;
+  const double bound = kBound * permanent + detail::kUnderflow;
   if (det > bound) return 1;
   if (-det > bound) return -1;
   return detail::inCircleExact(a, b, c, d);

@@ -211,7 +211,7 @@ bool Refiner::isEncroached(const Point& x, const Point& a, const Point& b) const
 // The local feature size of the input, from above: that of a vertex nearby and the distance to it. It grows with the
 // distance from what is fine in the input as fast as any good mesh can.
 double Refiner::spacingAt(const Point& x, const Patch& cavity) const {
-  double spacing = std::numeric_limits<double>::infinity();
+  double spacing = options_.size_max;
   for (const RimEdge& r : cavity.rim) spacing = std::min(spacing, notes_.spacing[r.a] + distance(x, mesh_.point(r.a)));
   return spacing;
 }
@@ -290,7 +290,7 @@ bool Refiner::isExplained(TriId t) const {
   };
   if (fillsSmallSector(t)) return true;
   for (unsigned i = 0; i < 3; ++i)
-    if (!mesh_.isConstrained(edgeRef(t, i)) && fillsSmallSector(triOf(mesh_.twin(edgeRef(t, i))))) return true;
+    if (mesh_.twin(edgeRef(t, i)) != kNone && fillsSmallSector(triOf(mesh_.twin(edgeRef(t, i))))) return true;
   return false;
 }
 

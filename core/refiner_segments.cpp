@@ -8,20 +8,24 @@ namespace coastmesh {
 namespace {
 
 // The ends of a subsegment come no nearer to one another than this share of the input's spacing.
-constexpr double kSegmentShare = 0.04;
+constexpr double kSegmentShare = 0.02;
 
 }  // namespace
 
 // The same for a point that is to split a subsegment, where the other segments beside it count too.
 double Refiner::spacingOnSegment(const Point& x, EdgeRef edge) const {
-  double spacing = std::numeric_limits<double>::infinity();
+  const VertexId ends[2] = {mesh_.origin(edge), mesh_.target(edge)};
+  double spacing = options_.size_max;
   for (const EdgeRef side : {edge, mesh_.twin(edge)}) {
     if (side == kNone) continue;
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(triOf(side), i);
       const Point &a = mesh_.point(mesh_.origin(e)), &b = mesh_.point(mesh_.target(e));
       spacing = std::min(spacing, notes_.spacing[mesh_.origin(e)] + distance(x, a));
-      if (e == side || !mesh_.isConstrained(e)) continue;
+      // A segment that meets this one comes as near as one likes: there the spacing of their common vertex counts.
+      const bool apart = ends[0] != mesh_.origin(e) && ends[0] != mesh_.target(e) && ends[1] != mesh_.origin(e) &&
+                         ends[1] != mesh_.target(e);
+      if (!apart || !mesh_.isConstrained(e)) continue;
       const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
       spacing = std::min(spacing, distance(x, a + share * (b - a)));
     }

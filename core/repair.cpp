@@ -25,14 +25,16 @@ constexpr std::array kAttempts = {
     Attempt{true, {0.0, true, 0.0}},   Attempt{true, {1.0, true, 0.0}},  Attempt{true, {3.0, true, 0.0}},
     Attempt{true, {6.0, false, 0.0}},
 };
-constexpr std::array kRings = {2u, 3u, 4u, 6u};
+constexpr std::array kRings = {2u, 3u, 4u};
 // A patch may grow to this many times its vertices, and some.
 constexpr std::uint64_t kGrowth = 2;
 constexpr std::uint64_t kGrowthRoom = 12;
 
 // Vertices that local runs may handle in all: a share of the mesh, and some for small ones.
-constexpr std::uint64_t kWorkShare = 6;
-constexpr std::uint64_t kWorkRoom = 20000;
+constexpr std::uint64_t kWorkShare = 3;
+constexpr std::uint64_t kWorkRoom = 6000;
+// Past so many failures, and twice the successes, the bound is out of reach; at angles that no input has reached, sooner.
+std::uint64_t hopeless(double min_angle_deg) { return min_angle_deg > 43.0 ? 4 : 24; }
 
 std::optional<TriMesh> solve(const LocalPatch& patch, const Attempt& attempt, const Pslg& pslg,
                              const RefineOptions& options, std::uint64_t& work) {
@@ -84,7 +86,7 @@ bool mendPlace(Refiner& refiner, TriId centre, const Pslg& pslg, const RefineOpt
 
 void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
   const std::uint64_t most_work = kWorkRoom + kWorkShare * refiner.mesh().vertexCount();
-  std::uint64_t work = 0;
+  std::uint64_t work = 0, successes = 0, failures = 0;
   // What a repair pushes beyond its patch is met on the next round.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
@@ -93,7 +95,10 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
       if (!refiner.mesh().isLive(t) || !refiner.isShort(t)) continue;
       if (work > most_work || refiner.stats().budget_reached) return;
       control.checkpoint(1.0);
-      if (mendPlace(refiner, t, pslg, options, control, work)) again = true;
+      const bool mended = mendPlace(refiner, t, pslg, options, control, work);
+      again |= mended;
+      ++(mended ? successes : failures);
+      if (failures > hopeless(options.min_angle_deg) + 2 * successes) return;
     }
     if (!again) return;
   }

@@ -39,7 +39,11 @@ class Waiting {
 
 // How often every vertex gets its turn. A sweep shakes the mesh, so that the next finds more; where angles are large, dense
 // places are many, and sweeps pay for longer.
-int sweepsFor(double min_angle_deg) { return min_angle_deg < 32.0 ? 2 : min_angle_deg < 37.0 ? 3 : 8; }
+int sweepsFor(double min_angle_deg) {
+  if (min_angle_deg < 32.0) return 2;
+  if (min_angle_deg < 37.0 || min_angle_deg > 43.0) return 3;
+  return 16;
+}
 
 class Shrinker {
  public:
