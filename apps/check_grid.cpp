@@ -51,12 +51,10 @@ EdgeRef edgeAt(const TriMesh& mesh, TriId t, const Point& place) {
   return edgeRef(t, nearest);
 }
 
-// Rounding, or a border between features, does not account for it.
+// Rounding does not account for it.
 bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
   const EdgeRef e = edgeAt(mesh, defect.triangle, defect.place);
-  const EdgeRef twin = mesh.twin(e);
-  if (twin == kNone || mesh.regions[triOf(e)] != mesh.regions[triOf(twin)]) return false;
-  return delaunayExcess(mesh, e) > kAngleSlackDeg;
+  return mesh.twin(e) != kNone && delaunayExcess(mesh, e) > kAngleSlackDeg;
 }
 
 void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options,

@@ -42,6 +42,17 @@ Grid partOf(const Grid& grid, const std::vector<std::uint32_t>& nodes, const std
   return part;
 }
 
+// A border between features was a constraint, of which segment cannot be told any more.
+void markBorders(TriMesh& mesh) {
+  constexpr SegmentId kSomeSegment = 0;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef twin = mesh.triangles[t].adj[i];
+      if (twin != kNone && mesh.regions[t] != mesh.regions[triOf(twin)]) mesh.triangles[t].seg[i] = kSomeSegment;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid) {
@@ -95,6 +106,7 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
     for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
       piece.mesh.regions[t] = static_cast<RegionId>(grid.feature_of[piece.triangles[t]]);
     }
+    markBorders(piece.mesh);
   }
   return piece;
 }

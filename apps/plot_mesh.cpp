@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -34,6 +33,7 @@ constexpr double kMargin = 0.03;      // of the window, around what is drawn
 constexpr double kStripPx = 44.0;     // below the map: scale bar and legend
 constexpr double kEdgeShare = 0.075;  // an edge's width over its length, up to the widest
 constexpr double kWidestEdgePx = 0.8;
+constexpr double kShorePx = 1.1;
 constexpr double kBlurPx = 1.2;  // triangles smaller than this show as a tint, not as lines
 // Lines of kEdgeShare of the length of an equilateral triangle's edges cover this share of it.
 constexpr double kEdgeCover = 3.46 * kEdgeShare;
@@ -74,6 +74,26 @@ Window windowOf(const GridPiece& piece, const PlotOptions& options) {
     throw InputError("there is nothing to draw in the box asked for");
   }
   return window;
+}
+
+// The triangles that the picture may show: the plane is fitted to them alone. The box is one of longitudes and
+// latitudes, the picture one of the plane, which reaches further at its corners.
+std::vector<std::uint32_t> trianglesIn(const Grid& grid, const PlotOptions& options) {
+  constexpr double kReach = 0.3;  // of the box's sides
+  std::vector<std::uint32_t> shown;
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+    Window extent;
+    for (std::uint32_t node : grid.triangles[t]) extent.add(grid.nodes[node]);
+    if (options.bbox) {
+      const auto& [west, south, east, north] = *options.bbox;
+      const double reach_x = kReach * (east - west);
+      const double reach_y = kReach * (north - south);
+      if (extent.high.x < west - reach_x || extent.low.x > east + reach_x) continue;
+      if (extent.high.y < south - reach_y || extent.low.y > north + reach_y) continue;
+    }
+    shown.push_back(t);
+  }
+  return shown;
 }
 
 // From bad to good: red, sand, pale green, blue.
@@ -158,12 +178,11 @@ class MeshPlot {
   Color edgeColor() const { return options_.color == PlotColor::None ? kEdge : kEdgeOnColor; }
 
   void drawWater() {
-    std::vector<std::vector<Point>> loops;
     for (const auto& loop : rimLoops(mesh_)) {
-      std::vector<Point>& drawn = loops.emplace_back();
+      std::vector<Point>& drawn = loops_.emplace_back();
       for (VertexId v : loop) drawn.push_back(pixels_[v]);
     }
-    canvas_.fillLoops(loops, kWater);
+    canvas_.fillLoops(loops_, kWater);
   }
 
   Color colorOf(TriId t) const {
@@ -180,15 +199,16 @@ class MeshPlot {
     return kWater;
   }
 
+  // The range that colours tell: of the triangles shown, less the few smallest and largest.
   void findAreas() {
-    least_log_area_ = std::numeric_limits<double>::infinity();
-    most_log_area_ = -least_log_area_;
+    std::vector<double> shown;
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
-      const double log_area = std::log(area(t));
-      if (!std::isfinite(log_area)) continue;
-      least_log_area_ = std::min(least_log_area_, log_area);
-      most_log_area_ = std::max(most_log_area_, log_area);
+      if (area(t) > 0.0 && shows(t)) shown.push_back(std::log(area(t)));
     }
+    if (shown.empty()) return;
+    std::ranges::sort(shown);
+    least_log_area_ = shown[shown.size() / 50];
+    most_log_area_ = shown[shown.size() - 1 - shown.size() / 50];
   }
 
   void drawTriangles() {
@@ -225,20 +245,31 @@ class MeshPlot {
   }
 
   void drawShore() {
-    std::vector<std::array<Point, 2>> shore;
     std::vector<std::array<Point, 2>> borders;
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i);
         const EdgeRef twin = mesh_.twin(e);
-        const bool rim = twin == kNone;
-        if (!rim && (twin < e || mesh_.regions[t] == mesh_.regions[triOf(twin)])) continue;
-        const std::array<Point, 2> line{pixels_[mesh_.origin(e)], pixels_[mesh_.target(e)]};
-        if (canvas_.showsAny(line.data(), 2)) (rim ? shore : borders).push_back(line);
+        if (twin == kNone || twin < e || mesh_.regions[t] == mesh_.regions[triOf(twin)]) continue;
+        borders.push_back({pixels_[mesh_.origin(e)], pixels_[mesh_.target(e)]});
       }
     }
-    canvas_.strokeLines(borders, 0.9, mix(kShore, kEdge, 0.5));
-    canvas_.strokeLines(shore, 1.1, kShore);
+    canvas_.strokeLines(borders, 0.9, mix(kShore, edgeColor(), 0.5));
+
+    std::map<int, std::vector<std::array<Point, 2>>> by_width;  // in eighths of the widest
+    for (const std::vector<Point>& loop : loops_) {
+      if (!canvas_.showsAny(loop.data(), loop.size())) continue;
+      std::vector<std::array<Point, 2>>& lines = by_width[shoreLevel(loop)];
+      for (std::size_t i = 0; i < loop.size(); ++i) lines.push_back({loop[i], loop[i + 1 == loop.size() ? 0 : i + 1]});
+    }
+    for (const auto& [level, lines] : by_width) canvas_.strokeLines(lines, kShorePx * level / 8.0, kShore);
+  }
+
+  // The shore of a lake or an island of a few pixels is thin, lest ink be all that is seen of it.
+  static int shoreLevel(const std::vector<Point>& loop) {
+    Window extent;
+    for (const Point& p : loop) extent.add(p);
+    return static_cast<int>(std::clamp(extent.longerSide() / 2.0, 1.0, 8.0));
   }
 
   // A bad triangle of a pixel would go unseen: a circle tells where it is.
@@ -298,8 +329,9 @@ class MeshPlot {
   const TriMesh& mesh_;
   const PlotOptions& options_;
   PlotCanvas canvas_;
-  std::vector<Point> pixels_;  // one a point of the mesh
-  Point centre_;               // of the window, in the plane
+  std::vector<Point> pixels_;              // one a point of the mesh
+  std::vector<std::vector<Point>> loops_;  // the rim
+  Point centre_;                           // of the window, in the plane
   double least_log_area_ = 0.0;
   double most_log_area_ = 0.0;
 };
@@ -315,10 +347,10 @@ void requirePlotFormat(const std::string& path) {
 
 void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path) {
   requirePlotFormat(path);
-  std::vector<std::uint32_t> all(grid.triangles.size());
-  std::iota(all.begin(), all.end(), 0u);
-  const Projection projection = fitProjection(grid, all);
-  const GridPiece piece = makePiece(grid, std::move(all), projection);
+  std::vector<std::uint32_t> shown = trianglesIn(grid, options);
+  if (shown.empty()) throw InputError("the mesh has no triangle in the box asked for");
+  const Projection projection = fitProjection(grid, shown);
+  const GridPiece piece = makePiece(grid, std::move(shown), projection);
   const Window window = windowOf(piece, options);
   MeshPlot(grid, piece, options, window, path).draw();
 }
