@@ -7,14 +7,19 @@ namespace coastmesh {
 
 namespace {
 
-// Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where
-// the triangle is bad for its size, the disk in which an equilateral triangle of that size fits.
-double petalRadius(double length, const TriangleBound& bound, double sin_place, bool bad_angle) {
-  const double by_angle = bound.min_angle > 0.0 ? 0.5 * length / sin_place : std::numeric_limits<double>::infinity();
-  if (bad_angle || std::isinf(bound.squared_size)) return by_angle;
+// Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where the
+// triangle is bad for its size, the disk in which an equilateral triangle of that size fits. Never more than the triangle's own
+// circumcircle, which no vertex lies in.
+double petalRadius(double length, double circumradius, const TriangleBound& bound, double sin_place, bool bad_angle) {
+  double radius = circumradius;
+  if (bound.min_angle > 0.0) radius = std::min(radius, 0.5 * length / sin_place);
   constexpr double kInverseRoot3 = 0.57735026918962576;
-  return std::clamp(kInverseRoot3 * std::sqrt(bound.squared_size), 0.5 * length, by_angle);
+  if (!bad_angle) radius = std::min(radius, kInverseRoot3 * std::sqrt(bound.squared_size));
+  return std::max(radius, 0.5 * length);
 }
+
+// Far more Voronoi edges than a petal has; a bound for meshes that rounding has bent.
+constexpr int kMostSteps = 10000;
 
 }  // namespace
 
@@ -30,7 +35,7 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
 
   const double length = std::sqrt(squaredLength(q));
   const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cos_min);
-  const double radius = petalRadius(length, bound_, sin_place_, bad_angle);
+  const double radius = petalRadius(length, std::sqrt(own_clearance), bound_, sin_place_, bad_angle);
   const Point normal{-q.y / length, q.x / length};
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
   // Type I where the circumcentre lies outside the petal; both are on the bisector of pq.
@@ -50,7 +55,7 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
     steps_.clear();
     steps_.push_back({edgeRef(t, prev3(apex)), own});
     steps_.push_back({edgeRef(t, next3(apex)), own});
-    while (!steps_.empty()) {
+    for (int steps = 0; !steps_.empty() && steps < kMostSteps; ++steps) {
       const auto [edge, from] = steps_.back();
       steps_.pop_back();
       // Towards a constraint the way leads to places that are nearer to its ends, or behind it.
