@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "gis/error.hpp"
+#include "gis/netcdf_header.hpp"
 
 namespace coastmesh {
 
@@ -62,6 +63,7 @@ void NetcdfWriter::close() {
 }
 
 NetcdfReader::NetcdfReader(std::string path) : path_(std::move(path)) {
+  if (!headerFitsFile(path_)) fail("the file is damaged or cut off: its header claims more than there is");
   check(nc_open(path_.c_str(), NC_NOWRITE, &id_));
 }
 

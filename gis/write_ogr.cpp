@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "gis/error.hpp"
+#include "gis/gpkg_index.hpp"
 #include "gis/grid_layers.hpp"
 #include "gis/ogr_support.hpp"
 
@@ -141,8 +142,8 @@ class ShapeCursor {
   std::vector<std::uint32_t> nodes_;
 };
 
-void writeLayer(GDALDataset& dataset, const std::string& path, const Writer& writer, const Grid& grid,
-                const GridLayer& layer, const std::string& name, const OgrErrors& errors) {
+OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const Writer& writer, const Grid& grid,
+                      const GridLayer& layer, const std::string& name, const OgrErrors& errors) {
   std::optional<OGRSpatialReference> srs;
   if (!grid.crs.isPlane()) {
     srs = toOgr(grid.crs);
@@ -156,7 +157,12 @@ void writeLayer(GDALDataset& dataset, const std::string& path, const Writer& wri
   if (target == nullptr) fail(path, errors);
   for (const LayerColumn& column : layer.columns)
     if (!createField(*target, column, writer)) fail(path, errors);
-  OGRFeature feature(target->GetLayerDefn());
+  return *target;
+}
+
+void writeFeatures(OGRLayer& target, const std::string& path, const Grid& grid, const GridLayer& layer,
+                   const OgrErrors& errors) {
+  OGRFeature feature(target.GetLayerDefn());
   ShapeCursor shapes(grid, layer);
   std::string scratch;
   for (std::size_t row = 0; row < layer.rows; ++row) {
@@ -164,8 +170,25 @@ void writeLayer(GDALDataset& dataset, const std::string& path, const Writer& wri
     for (std::size_t c = 0; c < layer.columns.size(); ++c)
       setField(feature, static_cast<int>(c), layer.columns[c], row, scratch);
     feature.SetGeometry(&shapes.at(row));
-    if (target->CreateFeature(&feature) != OGRERR_NONE) fail(path, errors);
+    if (target.CreateFeature(&feature) != OGRERR_NONE) fail(path, errors);
   }
+}
+
+// The boxes of the layer's rows, which have the fids 1, 2, ...
+std::vector<IndexEntry> boxesOf(const Grid& grid, const GridLayer& layer) {
+  std::vector<IndexEntry> boxes(layer.rows);
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t row = 0; row < layer.rows; ++row) {
+    layer.shapeOf(row, nodes);
+    IndexEntry& box = boxes[row];
+    box = {static_cast<std::int64_t>(row) + 1, grid.nodes[nodes[0]], grid.nodes[nodes[0]]};
+    for (const std::uint32_t node : nodes) {
+      const Point& p = grid.nodes[node];
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  }
+  return boxes;
 }
 
 // Reads the file through.
@@ -185,7 +208,9 @@ void writeLayerFiles(const Writer& writer, const Grid& grid, const std::vector<G
     const std::string layer_path = pathOfLayer(path, layer.name);
     const OgrErrors errors;
     DatasetPtr dataset = create(writer, layer_path, errors);
-    writeLayer(*dataset, layer_path, writer, grid, layer, std::filesystem::path(layer_path).stem().string(), errors);
+    const std::string name = std::filesystem::path(layer_path).stem().string();
+    writeFeatures(createLayer(*dataset, layer_path, writer, grid, layer, name, errors), layer_path, grid, layer,
+                  errors);
     close(std::move(dataset), layer_path, errors);
     if (writer.hides_failures) requireComplete(layer_path, layer.rows, errors);
   }
@@ -207,10 +232,16 @@ void writeGeoPackage(const Grid& grid, const std::string& path) {
   const OgrOption journal("OGR_SQLITE_JOURNAL", "OFF");
   const OgrOption synchronous("OGR_SQLITE_SYNCHRONOUS", "OFF");
   // Said in this way or OGR calls it an undefined geographic CRS.
-  const Writer writer{"GPKG", {}, false, "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
+  const Writer writer{"GPKG", {"SPATIAL_INDEX=NO"}, false, "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
   DatasetPtr dataset = create(writer, path, errors);
   if (dataset->StartTransaction() != OGRERR_NONE) fail(path, errors);
-  for (const GridLayer& layer : layersOf(grid)) writeLayer(*dataset, path, writer, grid, layer, layer.name, errors);
+  for (const GridLayer& layer : layersOf(grid)) {
+    OGRLayer& target = createLayer(*dataset, path, writer, grid, layer, layer.name, errors);
+    GeoPackageIndex index(*dataset, layer.name, target.GetGeometryColumn());
+    if (!index.create()) fail(path, errors);
+    writeFeatures(target, path, grid, layer, errors);
+    if (!index.fill(boxesOf(grid, layer))) fail(path, errors);
+  }
   if (dataset->CommitTransaction() != OGRERR_NONE) fail(path, errors);
   close(std::move(dataset), path, errors);
 }

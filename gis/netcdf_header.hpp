@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace coastmesh {
+
+// True iff no list or value in the header of a classic NetCDF file (CDF-1, 2 or 5) claims more bytes than the file has;
+// also for every other file. The NetCDF library allocates and reads whatever a damaged header claims.
+bool headerFitsFile(const std::string& path);
+
+}  // namespace coastmesh
