@@ -71,7 +71,9 @@ int runCheck(const CheckUsage& usage, Interrupt& interrupt) {
     options.delaunay = true;
     defects = checkGridAgainst(grid, JobInput(usage.input), options);
   }
-  if (output) writeVectorLayers(output->path(), grid.crs, {layerOf(defects)});
+  if (output) {
+    output->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(defects)}); });
+  }
   interrupt.close();
   if (output) output->commit();
   if (!usage.quiet) printDefects(usage, grid, defects);

@@ -73,11 +73,26 @@ VectorLayer editLayer(const CleanReport& report) {
   return layer;
 }
 
-// A .poly knows no projection, so it holds one plane: that of the only group there is.
-const Pslg& onlyPslg(const CleanedInput& cleaned, const std::string& path) {
-  if (cleaned.domains.size() == 1) return cleaned.domains.front().pslg;
-  throw OutputError("cannot write '" + path + "': the input falls into " + std::to_string(cleaned.domains.size()) +
-                    " parts, each in a plane of its own; write a .gpkg");
+// All groups in one graph. A .poly knows no projection, so they have to share a plane.
+Pslg joinedPslg(const CleanedInput& cleaned, const CleanUsage& usage, const Crs& crs) {
+  const bool one_plane = cleaned.domains.size() == 1 || usage.input.crs != "auto" || crs.isPlane();
+  if (!one_plane) {
+    throw OutputError("cannot write '" + usage.output + "': the input falls into " +
+                      std::to_string(cleaned.domains.size()) +
+                      " parts, each in a plane of its own; choose one with --crs, or write a .gpkg");
+  }
+  Pslg joined;
+  for (const Domain& domain : cleaned.domains) {
+    const auto shift = static_cast<VertexId>(joined.points.size());
+    joined.points.insert(joined.points.end(), domain.pslg.points.begin(), domain.pslg.points.end());
+    joined.holes.insert(joined.holes.end(), domain.pslg.holes.begin(), domain.pslg.holes.end());
+    for (Segment segment : domain.pslg.segments) {
+      segment.a += shift;
+      segment.b += shift;
+      joined.segments.push_back(segment);
+    }
+  }
+  return joined;
 }
 
 void printReport(const CleanUsage& usage, const CleanedInput& cleaned) {
@@ -103,10 +118,13 @@ int runClean(const CleanUsage& usage, Interrupt& interrupt) {
   const JobInput input(usage.input);
   const CleanedInput cleaned = cleanAll(input, interrupt);
   if (poly) {
-    writePoly(onlyPslg(cleaned, usage.output), output.path());
+    const Pslg pslg = joinedPslg(cleaned, usage, input.coastline().crs);
+    output.make([&pslg](const std::string& path) { writePoly(pslg, path); });
   } else {
-    const VectorLayer layers[] = {pslgLayer(cleaned, input.coastline()), editLayer(cleaned.report)};
-    writeVectorLayers(output.path(), input.coastline().crs, {std::begin(layers), std::end(layers)});
+    output.make([&](const std::string& path) {
+      writeVectorLayers(path, input.coastline().crs,
+                        {pslgLayer(cleaned, input.coastline()), editLayer(cleaned.report)});
+    });
   }
   interrupt.close();
   output.commit();

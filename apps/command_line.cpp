@@ -176,9 +176,10 @@ void CommandLine::choice(const std::string& names, std::string& value, const std
   entry["choices"] = choices;
 }
 
-void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
+void CommandLine::flag(const std::string& names, bool& value, const std::string& help, bool* given) {
   const std::string shown = names.find('!') == std::string::npos ? help : help + (value ? " (on)" : " (off)");
-  impl_->app->add_flag(names, value, shown);
+  CLI::Option* option = impl_->app->add_flag(names, value, shown);
+  if (given != nullptr) option->each([given](const std::string&) { *given = true; });
   Json& entry = impl_->record(names, "flag", {}, help);
   entry["name"] = names.find('!') == std::string::npos ? splitNames(names).back() : splitNames(names).front();
   entry["default"] = value;

@@ -57,7 +57,7 @@ class CommandLine {
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
               const std::string& help);
   // "--shrink,!--no-shrink" declares a flag and its opposite.
-  void flag(const std::string& names, bool& value, const std::string& help);
+  void flag(const std::string& names, bool& value, const std::string& help, bool* given = nullptr);
 
   const std::string& name() const;
   bool chosen() const;  // whether this command is the one that was called

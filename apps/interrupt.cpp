@@ -13,7 +13,7 @@ namespace coastmesh {
 
 namespace {
 
-constexpr auto kPatience = std::chrono::milliseconds(600);
+constexpr auto kPatience = std::chrono::milliseconds(400);
 constexpr int kRemovalTries = 100;
 
 sigset_t stopSignals() {

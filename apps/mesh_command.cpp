@@ -26,6 +26,7 @@ struct MeshUsage {
   std::vector<std::string> outputs;
   std::string format;
   std::string algorithm = "relocate";
+  bool shrink_given = false;
   std::uint64_t threads = 0;
   std::string report;
   std::string progress = "auto";
@@ -142,7 +143,9 @@ Command declareMesh(CLI::App& root) {
   line.number("--max-angle", max_angle, "DEG", {60.0, 180.0}, "largest angle asked for; 180 sets no bound");
   line.choice("--algorithm", usage->algorithm, {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)},
               "where the points go that mend bad triangles");
-  line.flag("--shrink,!--no-shrink", usage->job.mesh.shrink, "take out vertices that the bounds do not need");
+  line.flag("--shrink,!--no-shrink", usage->job.mesh.shrink,
+            "take out vertices that the bounds do not need; the algorithms other than relocate do so only when asked",
+            &usage->shrink_given);
   line.number("--size-max", usage->job.size_max_m, "M", {0.0, std::numeric_limits<double>::infinity(), true},
               "longest edge");
   declareInputOptions(line, usage->job.input);
@@ -159,6 +162,8 @@ Command declareMesh(CLI::App& root) {
   Command command{std::move(line), {}};
   command.run = [usage](Interrupt& interrupt) {
     usage->job.mesh.refine.algorithm = algorithmNamed(usage->algorithm);
+    // The classical algorithms are there to compare with: they insert what their papers say.
+    if (!usage->shrink_given) usage->job.mesh.shrink = usage->job.mesh.refine.algorithm == Algorithm::Relocate;
     usage->job.parallel.threads = static_cast<int>(usage->threads);
     return runMesh(*usage, interrupt);
   };

@@ -45,7 +45,7 @@ int runPlot(PlotUsage& usage, Interrupt& interrupt) {
   StagedFile output(usage.output, usage.overwrite, interrupt);
   const Grid grid = readMeshFile(usage.mesh);
   interrupt.check();
-  plotMesh(grid, usage.plot, output.path());
+  output.make([&](const std::string& path) { plotMesh(grid, usage.plot, path); });
   interrupt.close();
   output.commit();
   return kExitDone;

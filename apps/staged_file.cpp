@@ -47,6 +47,19 @@ void StagedFile::write(const std::string& content) {
   if (!file) throw OutputError("cannot write '" + target_.string() + "': " + std::strerror(errno));
 }
 
+void StagedFile::make(const std::function<void(const std::string& path)>& writer) {
+  try {
+    writer(path());
+  } catch (const OutputError& error) {
+    std::string text = error.what();
+    const std::string staged = path();
+    for (std::size_t at = text.find(staged); at != std::string::npos; at = text.find(staged)) {
+      text.replace(at, staged.size(), target_.string());
+    }
+    throw OutputError(text);
+  }
+}
+
 void StagedFile::commit() {
   std::error_code error;
   if (!overwrite_ && fs::exists(fs::symlink_status(target_, error))) {

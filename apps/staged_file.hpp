@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "apps/interrupt.hpp"
@@ -17,14 +18,15 @@ class StagedFile {
   StagedFile(const StagedFile&) = delete;
   StagedFile& operator=(const StagedFile&) = delete;
 
-  // Where to write; has the target's own file name.
-  std::string path() const { return (folder_ / target_.filename()).string(); }
-  const std::filesystem::path& target() const { return target_; }
-
   void write(const std::string& content);  // throws OutputError
-  void commit();                           // throws OutputError
+  // Lets `writer` make the file under the path that it is given, which ends in the target's own name. Throws what it
+  // throws, with the target in place of that path.
+  void make(const std::function<void(const std::string& path)>& writer);
+  void commit();  // throws OutputError
 
  private:
+  std::string path() const { return (folder_ / target_.filename()).string(); }
+
   std::filesystem::path target_;
   bool overwrite_;
   Interrupt& interrupt_;
