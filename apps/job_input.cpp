@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "apps/command_line.hpp"
 #include "gis/error.hpp"
 #include "gis/poly_io.hpp"
 
@@ -21,26 +22,34 @@ std::size_t countPoints(const Feature& feature) {
   return count;
 }
 
+Crs parseWorkingCrs(const std::string& text) {
+  try {
+    return parseCrs(text);
+  } catch (const InputError& error) {
+    throw UsageError(std::string("--crs: ") + error.what());
+  }
+}
+
 }  // namespace
 
 JobInput::JobInput(const InputOptions& options) : options_(options) {
   for (const std::string& file : options_.files) {
     if (isPolyFile(file) && options_.files.size() > 1) {
-      throw InputError("'" + file + "' is a ready plane graph and cannot be joined with other inputs; mesh it alone");
+      throw UsageError("'" + file + "' is a ready plane graph and cannot be joined with other inputs; mesh it alone");
     }
   }
   if (isPolyFile(options_.files.front())) {
     readPolyFile(options_.files.front());
     return;
   }
+  if (options_.crs != "auto" && options_.crs != "plane") working_ = parseWorkingCrs(options_.crs);
   coastline_ = readCoastline(options_.files, report_);
   groups_ = groupFeatures(coastline_);
-  if (options_.crs != "auto" && options_.crs != "plane") working_ = parseCrs(options_.crs);
 }
 
 void JobInput::readPolyFile(const std::string& path) {
   if (options_.crs != "auto" && options_.crs != "plane") {
-    throw InputError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
+    throw UsageError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
   }
   poly_ = readPoly(path);
   Feature feature;

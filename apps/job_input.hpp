@@ -24,7 +24,7 @@ struct InputOptions {
 // An input that was read and split into groups of features, each of which is meshed apart. A .poly is one group.
 class JobInput {
  public:
-  explicit JobInput(const InputOptions& options);  // throws InputError
+  explicit JobInput(const InputOptions& options);  // reads; throws UsageError, InputError
 
   const Coastline& coastline() const { return coastline_; }
   const ReadReport& report() const { return report_; }

@@ -41,6 +41,9 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
   for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareClean}) {
     commands.push_back(declare(app));
   }
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+    throw UsageError("there is no command '" + std::string(argv[1]) + "'; coastmesh --help lists them");
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -98,6 +98,9 @@ TEST_F(ExitCodes, WrongUsage) {
       {"mesh", input, "-o", out, "-o", out},
       {"mesh", input, "-o", input, "--overwrite"},
       {"mesh", input, "-o", out, "-o", file("out.msh"), "--format", "2dm"},
+      {"mesh", input, "-o", out, "--crs", "rubbish"},
+      {"mesh", input, file("graph.poly"), "-o", out},
+      {"mesh", file("graph.poly"), "-o", out, "--crs", "EPSG:3067"},
       {"plot", input, "-o", file("map.png"), "--bbox", "1,2,3"},
   };
   for (const std::vector<std::string>& arguments : wrong) {
