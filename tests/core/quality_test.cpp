@@ -1,0 +1,168 @@
+#include "core/quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "core/delaunay.hpp"
+#include "core/metric.hpp"
+#include "core/refine.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+const double kRoot3 = std::sqrt(3.0);
+
+TEST(AnglesDeg, KnownTriangles) {
+  const auto equilateral = anglesDeg({0, 0}, {1, 0}, {0.5, kRoot3 / 2});
+  for (const double angle : equilateral) EXPECT_NEAR(angle, 60.0, 1e-12);
+  const auto half_square = anglesDeg({0, 0}, {1, 0}, {0, 1});
+  EXPECT_NEAR(half_square[0], 90.0, 1e-12);
+  EXPECT_NEAR(half_square[1], 45.0, 1e-12);
+  EXPECT_NEAR(half_square[2], 45.0, 1e-12);
+  const auto half_equilateral = anglesDeg({0, 0}, {kRoot3, 0}, {0, 1});
+  EXPECT_NEAR(half_equilateral[1], 30.0, 1e-12);
+  EXPECT_NEAR(half_equilateral[2], 60.0, 1e-12);
+  const auto flat = anglesDeg({0, 0}, {1, 0}, {0.5, 0});
+  EXPECT_EQ(flat[0], 0.0);
+  EXPECT_EQ(flat[2], 180.0);
+}
+
+TEST(AnglesDeg, SumAndInvariance) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const auto at = [&] {
+      const double x = uniform(random, -1.0, 1.0);
+      return Point{x, uniform(random, -1.0, 1.0)};
+    };
+    const Point a = at(), b = at(), c = at();
+    const auto angles = anglesDeg(a, b, c);
+    EXPECT_NEAR(angles[0] + angles[1] + angles[2], 180.0, 1e-9);
+    const auto rotated = anglesDeg(b, c, a);
+    EXPECT_EQ(rotated[2], angles[0]);
+    const auto large = anglesDeg(1e150 * a, 1e150 * b, 1e150 * c);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(large[k], angles[k], 1e-9);
+    // Law of sines, as another way to the same.
+    EXPECT_NEAR(std::sin(toRadians(angles[0])) * distance(a, b), std::sin(toRadians(angles[2])) * distance(b, c),
+                1e-12);
+  }
+}
+
+TEST(SignedArea, Known) {
+  EXPECT_EQ(signedArea({0, 0}, {2, 0}, {0, 1}), 1.0);
+  EXPECT_EQ(signedArea({0, 0}, {0, 1}, {2, 0}), -1.0);
+  EXPECT_EQ(signedArea({0, 0}, {1, 1}, {2, 2}), 0.0);
+  // Differences first: the place does not cost digits.
+  EXPECT_EQ(signedArea({1e9, 1e9}, {1e9 + 2, 1e9}, {1e9, 1e9 + 1}), 1.0);
+}
+
+TEST(MeasureQuality, OneTriangle) {
+  const TriMesh mesh = meshOf({{0, 0}, {kRoot3, 0}, {0, 1}, {5, 5}}, {{0, 1, 2}});
+  const MeshQuality quality = measureQuality(mesh, 20.0);
+  EXPECT_EQ(quality.vertices, 3u) << "a point without triangles is no vertex of the mesh";
+  EXPECT_EQ(quality.triangles, 1u);
+  EXPECT_NEAR(quality.area, kRoot3 / 2, 1e-15);
+  EXPECT_NEAR(quality.min_angle_deg, 30.0, 1e-12);
+  EXPECT_NEAR(quality.max_angle_deg, 90.0, 1e-12);
+  EXPECT_EQ(quality.shortest_edge, 1.0);
+  EXPECT_NEAR(quality.longest_edge, 2.0, 1e-15);
+  EXPECT_EQ(quality.below_bound, 0u);
+  EXPECT_EQ(measureQuality(mesh, 31.0).below_bound, 1u);
+  EXPECT_EQ(measureQuality(mesh, 20.0, 89.0).below_bound, 1u);
+}
+
+TEST(MeasureQuality, EmptyMesh) {
+  const MeshQuality quality = measureQuality({}, 30.0);
+  EXPECT_EQ(quality.triangles, 0u);
+  EXPECT_EQ(quality.vertices, 0u);
+  EXPECT_EQ(quality.area, 0.0);
+}
+
+TEST(MeasureQuality, HistogramClassesOfFiveDegrees) {
+  // 46.3, 43.7 and 90.0, by a hair on the safe side of the class's limit.
+  const double at = toRadians(92.6);
+  const Point apex{0.5 + 0.4999 * std::cos(at), 0.4999 * std::sin(at)};
+  const MeshQuality quality = measureQuality(meshOf({{0, 0}, {1, 0}, apex}, {{0, 1, 2}}), 0.0);
+  EXPECT_EQ(std::accumulate(quality.angle_histogram.begin(), quality.angle_histogram.end(), 0u), 3u);
+  EXPECT_EQ(quality.angle_histogram[9], 1u);
+  EXPECT_EQ(quality.angle_histogram[8], 1u);
+  EXPECT_EQ(quality.angle_histogram[18], 1u);
+}
+
+TEST(MeasureQuality, AgreesWithANaiveTwin) {
+  for (const NamedPslg& named : assortedPslgs()) {
+    SCOPED_TRACE(named.name);
+    const TriMesh mesh = constrainedDelaunay(named.pslg);
+    const MeshQuality quality = measureQuality(mesh, 25.0, 110.0);
+    EXPECT_EQ(quality.triangles, mesh.triangles.size());
+    EXPECT_EQ(std::accumulate(quality.angle_histogram.begin(), quality.angle_histogram.end(), std::uint64_t{0}),
+              3 * mesh.triangles.size());
+    std::vector<double> all, lengths;
+    std::uint64_t below = 0;
+    double area = 0.0;
+    for (const Triangle& t : mesh.triangles) {
+      const Point &a = mesh.points[t.v[0]], &b = mesh.points[t.v[1]], &c = mesh.points[t.v[2]];
+      const auto angles = anglesDeg(a, b, c);
+      all.insert(all.end(), angles.begin(), angles.end());
+      lengths.insert(lengths.end(), {distance(a, b), distance(b, c), distance(c, a)});
+      below += std::ranges::min(angles) < 25.0 || std::ranges::max(angles) > 110.0;
+      area += signedArea(a, b, c);
+    }
+    EXPECT_EQ(quality.min_angle_deg, std::ranges::min(all));
+    EXPECT_EQ(quality.max_angle_deg, std::ranges::max(all));
+    EXPECT_EQ(quality.shortest_edge, std::ranges::min(lengths));
+    EXPECT_EQ(quality.longest_edge, std::ranges::max(lengths));
+    EXPECT_EQ(quality.below_bound, below);
+    EXPECT_LE(quality.below_bound_explained, below);
+    EXPECT_NEAR(quality.area, area, 1e-12 * area);
+    for (std::size_t i = 0; i < quality.angle_histogram.size(); ++i) {
+      const auto low = 5.0 * static_cast<double>(i), high = low + 5.0;
+      const bool last = i + 1 == quality.angle_histogram.size();
+      EXPECT_EQ(quality.angle_histogram[i],
+                std::ranges::count_if(all, [&](double x) { return x >= low && (x < high || last); }));
+    }
+  }
+}
+
+TEST(MeasureQuality, AddsUpOverParts) {
+  const TriMesh a = constrainedDelaunay(starPolygon(3, 20)), b = constrainedDelaunay(squareWithHole());
+  const MeshQuality qa = measureQuality(a, 25.0), qb = measureQuality(b, 25.0);
+  MeshQuality sum = qa;
+  sum.add(qb);
+  EXPECT_EQ(sum.vertices, qa.vertices + qb.vertices);
+  EXPECT_EQ(sum.triangles, qa.triangles + qb.triangles);
+  EXPECT_EQ(sum.area, qa.area + qb.area);
+  EXPECT_EQ(sum.min_angle_deg, std::min(qa.min_angle_deg, qb.min_angle_deg));
+  EXPECT_EQ(sum.max_angle_deg, std::max(qa.max_angle_deg, qb.max_angle_deg));
+  EXPECT_EQ(sum.shortest_edge, std::min(qa.shortest_edge, qb.shortest_edge));
+  EXPECT_EQ(sum.longest_edge, std::max(qa.longest_edge, qb.longest_edge));
+  EXPECT_EQ(sum.below_bound, qa.below_bound + qb.below_bound);
+  EXPECT_EQ(sum.below_bound_explained, qa.below_bound_explained + qb.below_bound_explained);
+  for (std::size_t i = 0; i < sum.angle_histogram.size(); ++i)
+    EXPECT_EQ(sum.angle_histogram[i], qa.angle_histogram[i] + qb.angle_histogram[i]);
+  MeshQuality none;
+  none.add(qa);
+  EXPECT_EQ(none.min_angle_deg, qa.min_angle_deg);
+  EXPECT_EQ(none.shortest_edge, qa.shortest_edge);
+}
+
+TEST(MeasureQuality, SmallInputAnglesExplainAndOthersDoNot) {
+  // A needle of 10 degrees at the origin.
+  const Point tip{std::cos(toRadians(10.0)), std::sin(toRadians(10.0))};
+  const MeshQuality needle = measureQuality(meshOf({{0, 0}, {1, 0}, tip}, {{0, 1, 2}}), 30.0);
+  EXPECT_EQ(needle.below_bound, 1u);
+  EXPECT_EQ(needle.below_bound_explained, 1u);
+  // A square cut into thin strips from a corner: 90 degrees can be divided better.
+  const TriMesh strips = meshOf({{0, 0}, {1, 0}, {1, 0.2}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
+  const MeshQuality cut = measureQuality(strips, 30.0);
+  EXPECT_EQ(cut.below_bound, 1u);
+  EXPECT_EQ(cut.below_bound_explained, 0u);
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,328 @@
+#include "core/refine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "core/delaunay.hpp"
+#include "core/input_angle.hpp"
+#include "core/metric.hpp"
+#include "core/quality.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr Algorithm kAlgorithms[] = {Algorithm::Circumcenter, Algorithm::Offcenter, Algorithm::Optimal,
+                                     Algorithm::Relocate};
+
+using Places = std::set<std::pair<double, double>>;
+
+std::map<RegionId, double> areasByRegion(const TriMesh& mesh) {
+  std::map<RegionId, double> areas;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t].v;
+    areas[mesh.regions[t]] += signedArea(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
+  }
+  return areas;
+}
+
+// By how much a triangle falls short of what is asked: degrees below or above, or hundredths of the size. Negative
+// where it holds.
+double shortBy(const TriMesh& mesh, const Triangle& t, const RefineOptions& options) {
+  const Point &a = mesh.points[t.v[0]], &b = mesh.points[t.v[1]], &c = mesh.points[t.v[2]];
+  const auto angles = anglesDeg(a, b, c);
+  double by = std::max(options.min_angle_deg - std::ranges::min(angles),
+                       options.max_angle_deg < 180.0 ? std::ranges::max(angles) - options.max_angle_deg : -180.0);
+  if (!std::isinf(options.size_max))
+    by = std::max(by, 100.0 * (std::max({distance(a, b), distance(b, c), distance(c, a)}) / options.size_max - 1.0));
+  return by;
+}
+
+// All that holds of every refined mesh, whatever was asked.
+void expectRefined(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RefineStats& stats) {
+  // A valid mesh of the input, with the regions that it had.
+  expectValidMesh(mesh, pslg);
+  EXPECT_EQ(stats.steiner_points, mesh.points.size() - pslg.points.size());
+  const auto before = areasByRegion(constrainedDelaunay(pslg)), after = areasByRegion(mesh);
+  ASSERT_EQ(after.size(), before.size());
+  for (const auto& [region, area] : before) EXPECT_NEAR(after.at(region), area, 1e-9 * area) << "region " << region;
+
+  // Every triangle that falls short is explained or listed; what is listed falls short.
+  const auto explained =
+      explainedTriangles(mesh, TriangleBound(options.min_angle_deg, options.max_angle_deg, options.size_max));
+  Places listed, fall_short;
+  for (const Shortfall& s : stats.unresolved) listed.insert({s.place.x, s.place.y});
+  EXPECT_EQ(listed.size(), stats.unresolved.size());
+  constexpr double kHair = 1e-5;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t].v;
+    const Point centre = (1.0 / 3.0) * (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]);
+    const double by = shortBy(mesh, mesh.triangles[t], options);
+    if (by > -kHair) fall_short.insert({centre.x, centre.y});
+    if (by > kHair && !explained[t]) {
+      EXPECT_TRUE(listed.contains({centre.x, centre.y})) << "triangle " << t << " at " << centre.x << ", " << centre.y;
+    }
+  }
+  for (const auto& [x, y] : listed) EXPECT_TRUE(fall_short.contains({x, y})) << x << ", " << y;
+
+  // The checker finds the same, but for those within rounding of the bound.
+  if (!std::isinf(options.size_max)) return;
+  const auto defects =
+      checkMesh(mesh, &pslg, {.min_angle_deg = options.min_angle_deg, .max_angle_deg = options.max_angle_deg});
+  std::size_t clear = 0;
+  for (const Shortfall& s : stats.unresolved)
+    clear += s.min_angle_deg < options.min_angle_deg - kHair || s.max_angle_deg > options.max_angle_deg + kHair;
+  EXPECT_GE(defects.size(), clear);
+  for (const MeshDefect& d : defects) {
+    EXPECT_EQ(d.kind, DefectKind::AngleBelowBound);
+    EXPECT_TRUE(listed.contains({d.place.x, d.place.y})) << d.place.x << ", " << d.place.y;
+  }
+}
+
+struct Refined {
+  TriMesh mesh;
+  RefineStats stats;
+};
+
+Refined refined(const Pslg& pslg, const RefineOptions& options, const RunControl& control = {}) {
+  Refined result{constrainedDelaunay(pslg), {}};
+  result.stats = refine(result.mesh, pslg, options, control);
+  return result;
+}
+
+std::string describe(const RefineOptions& o) {
+  const char* names[] = {"circumcenter", "offcenter", "optimal", "relocate"};
+  std::ostringstream text;
+  text << names[static_cast<unsigned>(o.algorithm)] << ", " << o.min_angle_deg << " to " << o.max_angle_deg
+       << " degrees, size " << o.size_max;
+  return text.str();
+}
+
+class RefineOf : public ::testing::TestWithParam<NamedPslg> {
+ protected:
+  // Points alone have a rim that is no segment, and that no point may split.
+  bool hasSegments() const { return !GetParam().pslg.segments.empty(); }
+
+  RefineStats expectRefinedWith(RefineOptions options) {
+    SCOPED_TRACE(describe(options));
+    // A run that does not end by itself is to fail, not to hang.
+    options.max_vertices = 50'000;
+    const Refined result = refined(GetParam().pslg, options);
+    expectRefined(result.mesh, GetParam().pslg, options, result.stats);
+    EXPECT_FALSE(result.stats.budget_reached);
+    // The input's own spacing, or the size asked for, bounds edges from below.
+    constexpr double kShare = 1e-3;
+    EXPECT_GE(measureQuality(result.mesh, 0.0).shortest_edge,
+              kShare * std::min(smallestSpacing(GetParam().pslg), options.size_max));
+    return result.stats;
+  }
+};
+
+TEST_P(RefineOf, AnyAlgorithmAndAngle) {
+  for (const Algorithm algorithm : kAlgorithms) {
+    for (const double angle : {0.0, 10.0, 20.0, 30.0, 33.0}) {
+      const RefineStats stats = expectRefinedWith({.min_angle_deg = angle, .algorithm = algorithm});
+      const bool in_reach = angle <= 20.0 || (angle <= 33.0 && algorithm >= Algorithm::Optimal);
+      if (in_reach && hasSegments()) {
+        EXPECT_TRUE(stats.unresolved.empty()) << stats.unresolved.size() << " short of " << angle
+                                              << " degrees, algorithm " << static_cast<unsigned>(algorithm);
+      }
+      EXPECT_TRUE(angle > 0.0 || stats.steiner_points == 0);
+      if (algorithm == Algorithm::Relocate) continue;
+      // Without relocation every vertex is accounted for.
+      const auto inserted = std::accumulate(stats.by_type.begin(), stats.by_type.end(), std::uint64_t{0});
+      EXPECT_EQ(stats.steiner_points, inserted + stats.segment_splits - stats.removals);
+      EXPECT_EQ(stats.relocations, 0u);
+      EXPECT_EQ(stats.merges, 0u);
+      if (algorithm == Algorithm::Circumcenter) {
+        EXPECT_EQ(inserted, stats.by_type[3]);
+      }
+      if (algorithm == Algorithm::Offcenter) {
+        EXPECT_EQ(inserted, stats.by_type[0] + stats.by_type[3]);
+      }
+    }
+  }
+}
+
+TEST_P(RefineOf, AnglesThatMayBeOutOfReach) {
+  for (const double angle : {38.0, 40.0, 42.0, 45.0}) expectRefinedWith({.min_angle_deg = angle});
+}
+
+TEST_P(RefineOf, LargestAngles) {
+  for (const auto& [low, high] : {std::pair(20.0, 130.0), {30.0, 100.0}, {0.0, 120.0}, {38.0, 90.0}})
+    expectRefinedWith({.min_angle_deg = low, .max_angle_deg = high});
+}
+
+TEST_P(RefineOf, Sizes) {
+  for (const Algorithm algorithm : kAlgorithms)
+    expectRefinedWith({.min_angle_deg = 25.0, .size_max = 0.15, .algorithm = algorithm});
+  expectRefinedWith({.min_angle_deg = 0.0, .size_max = 0.2});
+}
+
+TEST_P(RefineOf, IsTheSameTwice) {
+  for (const Algorithm algorithm : kAlgorithms) {
+    const RefineOptions options{.min_angle_deg = 30.0, .algorithm = algorithm};
+    const Refined first = refined(GetParam().pslg, options), second = refined(GetParam().pslg, options);
+    EXPECT_EQ(digestOf(first.mesh), digestOf(second.mesh));
+    EXPECT_EQ(first.mesh.regions, second.mesh.regions);
+  }
+}
+
+// Powers of two scale without rounding, so nothing may change at all.
+TEST_P(RefineOf, ScalesExactly) {
+  const RefineOptions options{.min_angle_deg = 33.0};
+  const Refined once = refined(GetParam().pslg, options);
+  for (const double factor : {0x1p-20, 0x1p20}) {
+    const Refined other = refined(scaled(GetParam().pslg, factor), options);
+    ASSERT_EQ(other.mesh.points.size(), once.mesh.points.size()) << factor;
+    for (std::size_t v = 0; v < once.mesh.points.size(); ++v)
+      ASSERT_EQ(other.mesh.points[v], factor * once.mesh.points[v]) << factor;
+  }
+}
+
+TEST_P(RefineOf, BudgetGivesAValidMesh) {
+  const Pslg& pslg = GetParam().pslg;
+  const std::uint64_t needed = refined(pslg, {.min_angle_deg = 30.0}).mesh.points.size();
+  for (const std::uint64_t most :
+       {std::uint64_t{1}, std::uint64_t{pslg.points.size()}, (pslg.points.size() + needed) / 2}) {
+    for (const Algorithm algorithm : kAlgorithms) {
+      const RefineOptions options{.min_angle_deg = 30.0, .algorithm = algorithm, .max_vertices = most};
+      SCOPED_TRACE(describe(options));
+      const Refined result = refined(pslg, options);
+      expectRefined(result.mesh, pslg, options, result.stats);
+      EXPECT_LE(result.mesh.points.size(), std::max<std::uint64_t>(most, pslg.points.size()));
+      EXPECT_TRUE(result.stats.budget_reached || result.stats.unresolved.empty() || !hasSegments());
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RefineOf, ::testing::ValuesIn(assortedPslgs()),
+                         [](const auto& param_info) { return nameOf(param_info.param); });
+
+TEST(Refine, BudgetJustEnoughIsNotReached) {
+  const Pslg pslg = fractalCoast(3, 2, 2);
+  const RefineOptions options{.min_angle_deg = 30.0, .algorithm = Algorithm::Optimal};
+  const std::uint64_t needed = refined(pslg, options).mesh.points.size();
+  RefineOptions enough = options, short_by_one = options;
+  enough.max_vertices = needed + 1;
+  short_by_one.max_vertices = needed - 1;
+  EXPECT_FALSE(refined(pslg, enough).stats.budget_reached);
+  EXPECT_TRUE(refined(pslg, short_by_one).stats.budget_reached);
+}
+
+TEST(Refine, LongestEdgeHoldsTheSize) {
+  for (const Pslg& pslg : {squarePslg(), squareWithHole(), twoRegions(), narrowChannel(0.05)}) {
+    for (const double size : {0.5, 0.1, 0.04}) {
+      const Refined result = refined(pslg, {.min_angle_deg = 28.0, .size_max = size});
+      EXPECT_TRUE(result.stats.unresolved.empty());
+      const MeshQuality quality = measureQuality(result.mesh, 28.0);
+      EXPECT_LE(quality.longest_edge, size);
+      // And not with far more than it takes: an equilateral triangle of that size has 0.43 size².
+      EXPECT_LT(static_cast<double>(quality.triangles), 40.0 + 8.0 * quality.area / (0.43 * size * size));
+    }
+  }
+}
+
+// Neither huge nor tiny coordinates matter, nor how the input lies. A mesh depends on every rounding, so one count says
+// little; several together hardly change.
+TEST(Refine, ScaleMoveAndTurnHardlyChangeTheCount) {
+  for (const Algorithm algorithm : {Algorithm::Optimal, Algorithm::Relocate}) {
+    const RefineOptions options{.min_angle_deg = 33.0, .algorithm = algorithm};
+    SCOPED_TRACE(describe(options));
+    std::map<std::string, double> counts;
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      for (const Pslg& pslg : {fractalCoast(seed, 3, 4), randomPointsInBox(seed, 400)}) {
+        const double far = 1e7 * smallestSpacing(pslg);
+        const std::vector<NamedPslg> variants{{"as it is", pslg},
+                                              {"scaled by 1e-6", scaled(pslg, 1e-6)},
+                                              {"scaled by 1e6", scaled(pslg, 1e6)},
+                                              {"moved", moved(pslg, {far, -0.7 * far})},
+                                              {"turned", turned(pslg, 33.0)}};
+        for (const auto& [name, variant] : variants) {
+          SCOPED_TRACE(name);
+          const Refined result = refined(variant, options);
+          expectValidMesh(result.mesh, variant);
+          counts[name] += static_cast<double>(result.stats.steiner_points);
+        }
+      }
+    }
+    const double count = counts["as it is"];
+    for (const auto& [name, other] : counts) EXPECT_NEAR(other, count, 0.03 * count) << name;
+  }
+}
+
+TEST(Refine, OptimalNeedsFewerPointsThanCircumcenters) {
+  const Pslg pslg = fractalCoast(5, 3, 3);
+  std::vector<std::uint64_t> counts;
+  for (const Algorithm algorithm : kAlgorithms)
+    counts.push_back(refined(pslg, {.min_angle_deg = 30.0, .algorithm = algorithm}).stats.steiner_points);
+  EXPECT_LT(counts[2], counts[0]);
+  EXPECT_LT(counts[3], counts[2]);
+}
+
+TEST(Refine, CancelledStopsIt) {
+  const Pslg pslg = fractalCoast(4, 4, 4);
+  for (const Algorithm algorithm : kAlgorithms) {
+    int asked = 0;
+    RunControl control;
+    control.cancelled = [&] { return ++asked == 2; };
+    EXPECT_THROW(refined(pslg, {.min_angle_deg = 33.0, .algorithm = algorithm}, control), Cancelled);
+    EXPECT_EQ(asked, 2) << "nothing runs on after the answer";
+  }
+}
+
+TEST(Refine, ControlThatNeverCancelsChangesNothing) {
+  const Pslg pslg = fractalCoast(4, 4, 4);
+  std::vector<double> shares;
+  RunControl control;
+  control.cancelled = [] { return false; };
+  control.progress = [&](double share) { shares.push_back(share); };
+  const Refined watched = refined(pslg, {}, control), alone = refined(pslg, {});
+  EXPECT_EQ(digestOf(watched.mesh), digestOf(alone.mesh));
+  EXPECT_GT(shares.size(), 1u);
+  for (const double share : shares) {
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0);
+  }
+}
+
+TEST(RefineStats, AddUp) {
+  RefineStats a, b;
+  a.steiner_points = 1;
+  b.steiner_points = 10;
+  a.by_type = {1, 2, 3, 4};
+  b.by_type = {10, 20, 30, 40};
+  a.segment_splits = 5;
+  b.segment_splits = 50;
+  a.relocations = 6;
+  b.relocations = 60;
+  a.removals = 7;
+  b.removals = 70;
+  a.merges = 8;
+  b.merges = 80;
+  b.budget_reached = true;
+  a.unresolved = {{{1, 2}, 3, 4}};
+  b.unresolved = {{{5, 6}, 7, 8}, {{9, 10}, 11, 12}};
+  a.add(b);
+  EXPECT_EQ(a.steiner_points, 11u);
+  EXPECT_EQ(a.by_type, (std::array<std::uint64_t, 4>{11, 22, 33, 44}));
+  EXPECT_EQ(a.segment_splits, 55u);
+  EXPECT_EQ(a.relocations, 66u);
+  EXPECT_EQ(a.removals, 77u);
+  EXPECT_EQ(a.merges, 88u);
+  EXPECT_TRUE(a.budget_reached);
+  ASSERT_EQ(a.unresolved.size(), 3u);
+  EXPECT_EQ(a.unresolved[2].place, (Point{9, 10}));
+}
+
+}  // namespace
+}  // namespace coastmesh

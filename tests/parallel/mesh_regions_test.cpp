@@ -1,0 +1,189 @@
+#include "parallel/mesh_regions.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/delaunay.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+class ForEachRegion : public ::testing::TestWithParam<int> {
+ protected:
+  ParallelOptions options() const { return {.threads = GetParam()}; }
+};
+
+TEST_P(ForEachRegion, DoesEveryItemOnce) {
+  for (const std::size_t count : {0u, 1u, 2u, 7u, 1000u}) {
+    std::vector<std::atomic<int>> calls(count);
+    forEachRegion(count, options(), {}, [&](std::size_t i) { ++calls[i]; });
+    for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(calls[i], 1) << i << " of " << count;
+  }
+}
+
+TEST_P(ForEachRegion, NeverRunsMoreAtOnceThanThreads) {
+  std::mutex mutex;
+  std::set<std::thread::id> running, seen;
+  std::size_t most = 0;
+  forEachRegion(200, options(), {}, [&](std::size_t) {
+    {
+      const std::lock_guard lock(mutex);
+      EXPECT_TRUE(running.insert(std::this_thread::get_id()).second);
+      seen.insert(std::this_thread::get_id());
+      most = std::max(most, running.size());
+    }
+    std::this_thread::yield();
+    const std::lock_guard lock(mutex);
+    running.erase(std::this_thread::get_id());
+  });
+  EXPECT_LE(most, static_cast<std::size_t>(GetParam()));
+  EXPECT_LE(seen.size(), static_cast<std::size_t>(GetParam()));
+}
+
+TEST_P(ForEachRegion, RethrowsTheErrorOfTheLeastIndex) {
+  // All items that throw are under way before the first does, so all of them throw on several threads.
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const auto throwing = static_cast<std::size_t>(GetParam());
+    std::atomic<std::size_t> waiting = 0;
+    std::string message;
+    try {
+      forEachRegion(100, options(), {}, [&](std::size_t i) {
+        if (i >= throwing) return;
+        ++waiting;
+        while (waiting < throwing) std::this_thread::yield();
+        throw std::runtime_error("item " + std::to_string(i));
+      });
+    } catch (const std::runtime_error& error) {
+      message = error.what();
+    }
+    EXPECT_EQ(message, "item 0");
+  }
+}
+
+TEST_P(ForEachRegion, StopsAfterAnError) {
+  std::atomic<int> calls = 0;
+  EXPECT_THROW(forEachRegion(100'000, options(), {},
+                             [&](std::size_t) {
+                               ++calls;
+                               throw std::invalid_argument("no");
+                             }),
+               std::invalid_argument);
+  EXPECT_LE(calls, GetParam());
+}
+
+TEST_P(ForEachRegion, CanBeUsedAgainAfterAnError) {
+  EXPECT_THROW(forEachRegion(3, options(), {}, [](std::size_t) { throw 7; }), int);
+  std::atomic<int> calls = 0;
+  forEachRegion(50, options(), {}, [&](std::size_t) { ++calls; });
+  EXPECT_EQ(calls, 50);
+}
+
+TEST_P(ForEachRegion, CancelledThrowsAndStops) {
+  std::atomic<int> calls = 0;
+  std::atomic<bool> stop = false;
+  RunControl control;
+  control.cancelled = [&] { return stop.load(); };
+  EXPECT_THROW(forEachRegion(100'000, options(), control,
+                             [&](std::size_t) {
+                               if (++calls == 5) stop = true;
+                             }),
+               Cancelled);
+  // Those that had begun may end.
+  EXPECT_LE(calls, 5 + GetParam());
+  stop = true;
+  calls = 0;
+  EXPECT_THROW(forEachRegion(10, options(), control, [&](std::size_t) { ++calls; }), Cancelled);
+  EXPECT_EQ(calls, 0) << "cancelled before it began";
+}
+
+TEST_P(ForEachRegion, ProgressRisesToOneFromOneThreadAtATime) {
+  std::atomic<int> inside = 0;
+  std::vector<double> shares;
+  RunControl control;
+  control.progress = [&](double share) {
+    EXPECT_EQ(++inside, 1);
+    shares.push_back(share);
+    --inside;
+  };
+  forEachRegion(300, options(), control, [](std::size_t) {});
+  ASSERT_FALSE(shares.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_GE(shares.front(), 0.0);
+  EXPECT_EQ(shares.back(), 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ForEachRegion, ::testing::Values(1, 2, 8));
+
+TEST(ForEachRegionDefault, ZeroThreadsTakesAllCores) {
+  std::vector<std::atomic<int>> calls(100);
+  forEachRegion(100, {}, {}, [&](std::size_t i) { ++calls[i]; });
+  for (const auto& call : calls) EXPECT_EQ(call, 1);
+}
+
+TEST(MeshRegions, AnyNumberOfThreadsGivesTheSameMeshes) {
+  std::vector<Pslg> regions;
+  for (unsigned seed = 1; seed <= 8; ++seed) regions.push_back(fractalCoast(seed, 1 + seed % 3, 2));
+  for (unsigned seed = 1; seed <= 8; ++seed) regions.push_back(starPolygon(seed, 30));
+  std::vector<std::uint64_t> first;
+  for (const int threads : {1, 2, 8}) {
+    std::vector<std::uint64_t> digests(regions.size());
+    forEachRegion(regions.size(), {.threads = threads}, {},
+                  [&](std::size_t i) { digests[i] = digestOf(meshRegion(regions[i], {}).mesh); });
+    if (first.empty()) first = digests;
+    EXPECT_EQ(digests, first) << threads << " threads";
+  }
+}
+
+TEST(MeshRegion, IsTriangulateRefineAndShrink) {
+  const Pslg pslg = fractalCoast(3, 2, 3);
+  for (const bool shrinks : {false, true}) {
+    const MeshOptions options{.refine = {.min_angle_deg = 34.0}, .shrink = shrinks};
+    const MeshedRegion region = meshRegion(pslg, options);
+    TriMesh mesh = constrainedDelaunay(pslg);
+    RefineStats stats = refine(mesh, pslg, options.refine);
+    if (shrinks) shrink(mesh, pslg, options.refine);
+    EXPECT_EQ(digestOf(region.mesh), digestOf(mesh));
+    expectValidMesh(region.mesh, pslg, {.min_angle_deg = 34.0});
+    EXPECT_EQ(region.stats.steiner_points, mesh.points.size() - pslg.points.size());
+    EXPECT_EQ(region.stats.by_type, stats.by_type);
+    EXPECT_TRUE(region.stats.unresolved.empty());
+    EXPECT_EQ(region.stats.merges > 0, shrinks);
+    EXPECT_GE(region.seconds.refine, 0.0);
+  }
+}
+
+TEST(MeshRegion, WhatFallsShortIsListedOnce) {
+  // A bound out of reach: what shrinking leaves replaces what refinement left.
+  const Pslg pslg = fractalCoast(3, 1, 1);
+  const MeshedRegion region = meshRegion(pslg, {.refine = {.min_angle_deg = 45.0}});
+  ASSERT_FALSE(region.stats.unresolved.empty());
+  std::set<std::pair<double, double>> places;
+  for (const Shortfall& s : region.stats.unresolved) places.insert({s.place.x, s.place.y});
+  EXPECT_EQ(places.size(), region.stats.unresolved.size());
+  const auto defects = checkMesh(region.mesh, &pslg, {.min_angle_deg = 45.0});
+  EXPECT_LE(defects.size(), region.stats.unresolved.size());
+}
+
+TEST(MeshRegion, BadInputAndCancellationComeThrough) {
+  Pslg bad = squarePslg();
+  bad.points.push_back(bad.points[0]);
+  EXPECT_THROW(meshRegion(bad, {}), BadPslg);
+  EXPECT_THROW(forEachRegion(4, {.threads = 2}, {}, [&](std::size_t) { meshRegion(bad, {}); }), BadPslg);
+  RunControl control;
+  control.cancelled = [] { return true; };
+  EXPECT_THROW(meshRegion(fractalCoast(1, 4, 3), {}, control), Cancelled);
+}
+
+}  // namespace
+}  // namespace coastmesh
