@@ -1,6 +1,7 @@
 #include "apps/program.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -41,7 +42,8 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
   for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareClean}) {
     commands.push_back(declare(app));
   }
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+  const auto isNamed = [&](const Command& command) { return command.line.name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, isNamed)) {
     throw UsageError("there is no command '" + std::string(argv[1]) + "'; coastmesh --help lists them");
   }
   try {
