@@ -25,12 +25,12 @@ struct Cell {
 };
 
 float roundedDown(double value) {
-  const float nearest = static_cast<float>(value);
+  const auto nearest = static_cast<float>(value);
   return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
 }
 
 float roundedUp(double value) {
-  const float nearest = static_cast<float>(value);
+  const auto nearest = static_cast<float>(value);
   return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
 }
 
@@ -79,7 +79,7 @@ void sortIntoTiles(std::vector<IndexEntry>& entries, std::size_t per_node) {
 // Rows of one table, sent many at once.
 class RowBatch {
  public:
-  explicit RowBatch(std::string table) : start_("INSERT INTO \"" + table + "\" VALUES ") {}
+  explicit RowBatch(const std::string& table) : start_("INSERT INTO \"" + table + "\" VALUES ") {}
 
   std::string& next() {
     sql_ += sql_.empty() ? start_ : ",";

@@ -138,7 +138,7 @@ std::string NetcdfReader::textOf(int variable, const std::string& attribute) con
   if (type != NC_STRING || length != 1) return {};
   char* string = nullptr;
   check(nc_get_att_string(id_, variable, attribute.c_str(), &string));
-  const std::string text = string ? string : "";
+  std::string text = string ? string : "";
   nc_free_string(1, &string);
   return text;
 }

@@ -19,7 +19,7 @@ class HeaderWalk {
     std::array<char, 4> magic{};
     if (left_ < magic.size() || !file_.read(magic.data(), magic.size())) return true;
     left_ -= magic.size();
-    version_ = magic[3];
+    version_ = static_cast<unsigned char>(magic[3]);
     if (magic[0] != 'C' || magic[1] != 'D' || magic[2] != 'F' || (version_ != 1 && version_ != 2 && version_ != 5))
       return true;
     count();  // of records

@@ -182,28 +182,28 @@ void skipTo(TextReader& file, const std::string& end) {
 
 Contents readSections(TextReader& file) {
   Contents contents;
-  std::optional<bool> blocks;  // version 4.1 against 2
+  enum { kUnknown, kVersion2, kVersion41 } version = kUnknown;
   while (file.nextLine()) {
     const std::string section(file.word());
     if (!section.starts_with('$')) file.fail("a section is expected, such as $Nodes");
     const std::string end = "$End" + section.substr(1);
     if (section == "$MeshFormat") {
       file.needLine();
-      const std::string version(file.word());
-      if (version != "4.1" && version != "2" && version != "2.0" && version != "2.1" && version != "2.2")
-        file.fail("version " + version + " of Gmsh's format cannot be read; save it as 4.1 or 2.2");
+      const std::string name(file.word());
+      if (name != "4.1" && name != "2" && name != "2.0" && name != "2.1" && name != "2.2")
+        file.fail("version " + name + " of Gmsh's format cannot be read; save it as 4.1 or 2.2");
       if (file.count() != 0) file.fail("a binary file; save it as ASCII");
-      blocks = version == "4.1";
-    } else if (!blocks && section != "$Comments") {
+      version = name == "4.1" ? kVersion41 : kVersion2;
+    } else if (version == kUnknown && section != "$Comments") {
       file.fail("a Gmsh file starts with $MeshFormat");
     } else if (section == "$PhysicalNames") {
       readPhysicalNames(file, contents);
     } else if (section == "$Entities") {
       readEntities(file, contents);
     } else if (section == "$Nodes") {
-      *blocks ? readNodes41(file, contents) : readNodes22(file, contents);
+      version == kVersion41 ? readNodes41(file, contents) : readNodes22(file, contents);
     } else if (section == "$Elements") {
-      *blocks ? readElements41(file, contents) : readElements22(file, contents);
+      version == kVersion41 ? readElements41(file, contents) : readElements22(file, contents);
     } else if (section == "$NodeData") {
       readNodeData(file, contents);
     }

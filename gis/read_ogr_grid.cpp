@@ -33,7 +33,7 @@ using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
 struct PointHash {
   std::size_t operator()(const Point& p) const {
     // 0.0 and -0.0 are equal and so need the same hash.
-    const std::uint64_t x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
+    const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
     const std::uint64_t mixed = (x ^ std::rotl(y, 32)) * 0x9E3779B97F4A7C15ull;
     return static_cast<std::size_t>(mixed ^ mixed >> 29);
   }

@@ -22,8 +22,9 @@ std::pair<std::string, std::string> coordinateNames(const NetcdfReader& file, co
   std::istringstream words(file.text(mesh, "node_coordinates"));
   std::string first, second;
   if (!(words >> first >> second)) file.fail("\"" + mesh + "\" does not name two node_coordinates");
-  for (const std::string& name : {first, second})
-    if (!file.hasVariable(name)) file.fail("there is no variable \"" + name + "\", which \"" + mesh + "\" names");
+  if (!file.hasVariable(first) || !file.hasVariable(second))
+    file.fail("there is no variable \"" + (file.hasVariable(first) ? second : first) + "\", which \"" + mesh +
+              "\" names");
   if (file.text(first, "standard_name") == "latitude" || file.text(first, "standard_name") == "projection_y_coordinate")
     std::swap(first, second);
   return {first, second};

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ranges>
 #include <utility>
 
 #include "gis/error.hpp"
@@ -91,7 +92,7 @@ class Moves {
  private:
   void undo() {
     std::error_code ignored;  // the first error is the one to tell
-    for (auto at = done_.rbegin(); at != done_.rend(); ++at) fs::rename(at->second, at->first, ignored);
+    for (const auto& [from, to] : std::views::reverse(done_)) fs::rename(to, from, ignored);
   }
 
   std::vector<std::pair<fs::path, fs::path>> done_;
@@ -197,7 +198,7 @@ void StagedOutput::commit() {
   if (staged.size() > 1)
     before.assign(files.targets.begin(), files.targets.end());  // a single file is replaced at once
   before.insert(before.end(), files.stale.begin(), files.stale.end());
-  if (!files.prj.empty() && !std::ranges::count(before, fs::path(files.prj))) before.push_back(files.prj);
+  if (!files.prj.empty() && !std::ranges::count(before, fs::path(files.prj))) before.emplace_back(files.prj);
   if (keep_prj_) std::erase(before, fs::path(files.prj));
   fs::create_directory(staging / kBackupFolder, error);
   if (error) failToWrite(path_, error.message());

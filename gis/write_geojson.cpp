@@ -29,14 +29,16 @@ std::string quoted(std::string_view text) {
 }
 
 std::string crsMember(const Crs& crs, const std::string& path) {
-  if (crs.isPlane()) return "\"crs\": null,\n";
+  if (crs.isPlane())
+    return R"("crs": null,)"
+           "\n";
   if (crs.authority == "EPSG:4326" || crs.authority == "OGC:CRS84") return {};
   const std::size_t colon = crs.authority.find(':');
   if (colon == std::string::npos)
     throw OutputError("cannot write '" + path + "': GeoJSON can only name a CRS by its code, and " + nameOf(crs) +
                       " has none; choose .gpkg");
   const std::string urn = "urn:ogc:def:crs:" + crs.authority.substr(0, colon) + "::" + crs.authority.substr(colon + 1);
-  return "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": " + quoted(urn) + "}},\n";
+  return R"("crs": {"type": "name", "properties": {"name": )" + quoted(urn) + "}},\n";
 }
 
 void writeValue(TextWriter& file, const LayerColumn& column, std::size_t row) {
@@ -89,6 +91,7 @@ void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs
   file << "{\n\"type\": \"FeatureCollection\",\n\"name\": " << quoted(layer.name) << ",\n"
        << crs_member << "\"features\": [\n";
   std::vector<std::string> keys;
+  keys.reserve(layer.columns.size());
   for (const LayerColumn& column : layer.columns) keys.push_back(quoted(column.name));
   std::vector<std::uint32_t> nodes;
   for (std::size_t row = 0; row < layer.rows; ++row) {

@@ -18,9 +18,9 @@ class Appendix {
   explicit Appendix(TextWriter& file) : file_(file) {}
 
   void declare(const char* type, const std::string& name, int components, std::uint64_t bytes) {
-    file_ << "<DataArray type=\"" << type << "\" Name=\"" << name << '"';
-    if (components > 1) file_ << " NumberOfComponents=\"" << components << '"';
-    file_ << " format=\"appended\" offset=\"" << offset_ << "\"/>\n";
+    file_ << R"(<DataArray type=")" << type << R"(" Name=")" << name << '"';
+    if (components > 1) file_ << R"( NumberOfComponents=")" << components << '"';
+    file_ << R"( format="appended" offset=")" << offset_ << "\"/>\n";
     offset_ += sizeof(bytes) + bytes;
   }
 

@@ -223,6 +223,12 @@ TEST_F(ReadGrid, UgridWithQuadsIsRefused) {
   EXPECT_THAT(errorOf(folder_ / "quads.nc"), AllOf(HasSubstr("face 2"), HasSubstr("4 nodes")));
 }
 
+// The NetCDF library would allocate what this header claims for its attributes.
+TEST_F(ReadGrid, NetcdfHeadersThatClaimTooMuchAreRefused) {
+  const std::string header("CDF\x02\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x0C\x7F\xFF\xFF\xFF", 24);
+  EXPECT_THAT(errorIn("damaged.nc", header), AllOf(HasSubstr("damaged.nc"), HasSubstr("claims more")));
+}
+
 // Cut off anywhere, a file is refused or read short, but never crashes or hangs.
 TEST_F(ReadGrid, CutFilesDoNoHarm) {
   const Grid grid = testing::sampleGrid(wgs84(), {-87.5, 43.1}, 0.01, 2);
