@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "core/hilbert.hpp"
 #include "core/predicates.hpp"
 
 namespace coastmesh {
@@ -25,65 +26,72 @@ EditMesh::EditMesh(TriMesh&& mesh)
   }
 }
 
-std::vector<VertexId> EditMesh::numbering() const {
-  std::vector<VertexId> number(points_.size(), kNone);
-  VertexId next = 0;
-  for (VertexId v = 0; v < points_.size(); ++v)
-    if (v < input_vertices_ || isLiveVertex(v)) number[v] = next++;
-  return number;
-}
-
 TriMesh EditMesh::release() {
-  const std::vector<VertexId> vertex_number = numbering();
-  std::vector<TriId> triangle_number(triangles_.size(), kNone);
-  TriId count = 0;
-  for (TriId t = 0; t < triangles_.size(); ++t)
-    if (isLive(t)) triangle_number[t] = count++;
+  // Steiner points get their numbers along Hilbert's curve, so that what lies near in the plane lies near in memory.
+  std::vector<VertexId> steiner;
+  for (VertexId v = input_vertices_; v < points_.size(); ++v)
+    if (isLiveVertex(v)) steiner.push_back(v);
+  const std::vector<std::uint32_t> along = hilbertIndices(points_);
+  std::ranges::sort(steiner, {}, [&](VertexId v) { return std::pair(along[v], v); });
 
   TriMesh mesh;
   mesh.input_vertices = input_vertices_;
-  for (VertexId v = 0; v < points_.size(); ++v)
-    if (vertex_number[v] != kNone) points_[vertex_number[v]] = points_[v];
-  points_.resize(vertex_number.empty() ? 0 : vertexCount());
-  mesh.points = std::move(points_);
-  for (TriId t = 0; t < triangles_.size(); ++t) {
-    if (triangle_number[t] == kNone) continue;
-    Triangle moved = triangles_[t];
-    for (unsigned i = 0; i < 3; ++i) {
-      moved.v[i] = vertex_number[moved.v[i]];
-      if (moved.adj[i] != kNone) moved.adj[i] = edgeRef(triangle_number[triOf(moved.adj[i])], indexOf(moved.adj[i]));
-    }
-    triangles_[triangle_number[t]] = moved;
+  mesh.points.assign(points_.begin(), points_.begin() + input_vertices_);
+  std::vector<VertexId> number(points_.size(), kNone);
+  for (VertexId v = 0; v < input_vertices_; ++v) number[v] = v;
+  for (const VertexId v : steiner) {
+    number[v] = static_cast<VertexId>(mesh.points.size());
+    mesh.points.push_back(points_[v]);
   }
-  triangles_.resize(count);
-  mesh.triangles = std::move(triangles_);
+
+  // Triangles follow their last vertex.
+  const auto last = [&](TriId t) {
+    const auto& v = triangles_[t].v;
+    return std::max({number[v[0]], number[v[1]], number[v[2]]});
+  };
+  std::vector<TriId> first(mesh.points.size() + 1, 0);
+  for (TriId t = 0; t < triangles_.size(); ++t)
+    if (isLive(t)) ++first[last(t) + 1];
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+  mesh.triangles.resize(first.back());
+  std::vector<TriId> slot(triangles_.size(), kNone);
+  for (TriId t = 0; t < triangles_.size(); ++t)
+    if (isLive(t)) slot[t] = first[last(t)]++;
+  for (TriId t = 0; t < triangles_.size(); ++t) {
+    if (slot[t] == kNone) continue;
+    Triangle& moved = mesh.triangles[slot[t]] = triangles_[t];
+    for (unsigned i = 0; i < 3; ++i) {
+      moved.v[i] = number[moved.v[i]];
+      if (moved.adj[i] != kNone) moved.adj[i] = edgeRef(slot[triOf(moved.adj[i])], indexOf(moved.adj[i]));
+    }
+  }
   return mesh;
 }
 
 bool EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite) const {
   opposite.clear();
-  // Clockwise to the rim, or once round.
   const TriId home = triangle_of_[v];
   TriId t = home;
-  bool closed = false;
-  while (true) {
-    const EdgeRef before = triangles_[t].adj[prev3(cornerOf(t, v))];
-    if (before == kNone) break;
-    t = triOf(before);
-    if (t == home) {
-      closed = true;
-      break;
-    }
-  }
-  const TriId first = t;
   while (true) {
     const unsigned i = cornerOf(t, v);
     opposite.push_back(edgeRef(t, i));
     const EdgeRef after = triangles_[t].adj[next3(i)];
-    if (after == kNone) return closed;
+    if (after == kNone) break;
     t = triOf(after);
-    if (t == first) return true;
+    if (t == home) return true;
   }
+  // The rim is met: what lies clockwise of the first triangle comes before it.
+  const std::size_t counter_clockwise = opposite.size();
+  t = home;
+  while (true) {
+    const EdgeRef before = triangles_[t].adj[prev3(cornerOf(t, v))];
+    if (before == kNone) break;
+    t = triOf(before);
+    opposite.push_back(edgeRef(t, cornerOf(t, v)));
+  }
+  std::reverse(opposite.begin() + static_cast<std::ptrdiff_t>(counter_clockwise), opposite.end());
+  std::rotate(opposite.begin(), opposite.begin() + static_cast<std::ptrdiff_t>(counter_clockwise), opposite.end());
+  return false;
 }
 
 bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) const {

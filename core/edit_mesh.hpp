@@ -37,7 +37,8 @@ class EditMesh {
  public:
   explicit EditMesh(TriMesh&& mesh);
 
-  // The mesh without dead entries; vertices keep their order. Leaves `regions` empty and this object unusable.
+  // The mesh without dead entries. Input vertices keep their numbers; Steiner points, and triangles with them, are put in an order
+  // that keeps neighbours near in memory. Leaves `regions` empty.
   TriMesh release();
 
   const Point& point(VertexId v) const { return points_[v]; }
@@ -104,9 +105,6 @@ class EditMesh {
 
   // Lawson's flips, from all edges of the triangles in `touched` on; appends the triangles they change.
   void restoreDelaunay(std::vector<TriId>& touched);
-
-  // The live vertices among the slots get the numbers that release() gives them; kNone for the others.
-  std::vector<VertexId> numbering() const;
 
  private:
   TriId newTriangle();

@@ -191,7 +191,7 @@ bool Refiner::mendWithoutInsertion(TriId t) {
   }
   if (bound_.min_angle < toRadians(kMergeFromDeg) || !mayMerge()) return false;
   for (const VertexId v : corners) {
-    if (mesh_.kind(v) == VertexKind::Input || !ops_.mergeWithNeighbour(v, touched_)) continue;
+    if (mesh_.kind(v) == VertexKind::Input || !ops_.mergeWithNeighbour(v, false, touched_)) continue;
     ++stats_.merges;
     return true;
   }

@@ -79,7 +79,7 @@ class Shrinker {
     touched_.clear();
     if (ops_.remove(v, touched_)) {
       ++stats_.removals;
-    } else if (ops_.mergeWithNeighbour(v, touched_)) {
+    } else if (ops_.mergeWithNeighbour(v, true, touched_)) {
       ++stats_.merges;
     } else {
       // To the middle of where it may be: that leaves room for its neighbours to go.

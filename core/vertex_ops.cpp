@@ -126,13 +126,13 @@ bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
   return true;
 }
 
-bool VertexOps::mergeWithNeighbour(VertexId v, std::vector<TriId>& touched) {
+bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched) {
   mesh_.star(v, star_);
   neighbours_.clear();
   for (const EdgeRef e : star_) neighbours_.push_back(mesh_.origin(e));
   if (const VertexId last = mesh_.target(star_.back()); last != neighbours_.front()) neighbours_.push_back(last);
   for (const VertexId w : neighbours_) {
-    if (mesh_.kind(w) == VertexKind::Input) continue;
+    if (mesh_.kind(w) == VertexKind::Input || (each_gets_its_turn && w < v && mesh_.kind(w) == mesh_.kind(v))) continue;
     // The vertex that stays is the one on the segment.
     const bool swap = mesh_.kind(v) == VertexKind::Segment && mesh_.kind(w) == VertexKind::Free;
     if (swap ? merge(w, v, touched) : merge(v, w, touched)) return true;

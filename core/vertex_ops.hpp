@@ -31,8 +31,9 @@ class VertexOps {
   // and keeps its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
   bool merge(VertexId goes, VertexId stays, std::vector<TriId>& touched);
 
-  // Tries merge with each neighbour of v that is no input vertex.
-  bool mergeWithNeighbour(VertexId v, std::vector<TriId>& touched);
+  // Tries merge with each neighbour of v that is no input vertex; of two free vertices only with the later, where each gets its
+  // turn.
+  bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
 
  private:
   bool fillHole(std::size_t first, std::size_t last);

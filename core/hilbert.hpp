@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+// The place of a cell of a 65,536 by 65,536 grid along Hilbert's curve: cells with near indices lie near to one another.
+std::uint32_t hilbertIndex(std::uint32_t x, std::uint32_t y);
+
+// One index a point, on a grid that covers all of them.
+std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points);
+
+}  // namespace coastmesh
