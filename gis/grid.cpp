@@ -6,6 +6,7 @@
 
 #include "core/quality.hpp"
 #include "gis/boundary_chains.hpp"
+#include "gis/error.hpp"
 #include "gis/geodesy.hpp"
 
 namespace coastmesh {
@@ -130,6 +131,15 @@ std::vector<Boundary> findBoundaries(const TriMesh& mesh) {
     boundaries.push_back({role, true, std::move(loop)});
   }
   return boundaries;
+}
+
+void requireZ(const Grid& grid, const std::string& path) {
+  const auto unknown = std::ranges::find_if(grid.z, [](double z) { return std::isnan(z); });
+  if (unknown == grid.z.end()) return;
+  const auto node = static_cast<std::size_t>(unknown - grid.z.begin());
+  throw OutputError("cannot write '" + path + "': the z of node " + std::to_string(node + 1) + " at " +
+                    std::to_string(grid.nodes[node].x) + ", " + std::to_string(grid.nodes[node].y) +
+                    " is unknown, and the format cannot say that; choose .nc or .gpkg");
 }
 
 TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts) {

@@ -36,8 +36,8 @@ struct GridFeature {
 struct Grid {
   std::string title;
   Crs crs;
-  std::vector<Point> nodes;                             // in `crs`; every node belongs to a triangle
-  std::vector<double> z;                                // metres, positive up; empty or one a node
+  std::vector<Point> nodes;                             // in `crs`; those of `makeGrid` all belong to a triangle
+  std::vector<double> z;                                // metres, positive up; empty or one a node, NaN where unknown
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
   std::vector<std::uint32_t> feature_of;                // empty or one a triangle: index into `features`
   std::vector<double> min_angle_deg;                    // empty or one a triangle, measured in the working plane
@@ -56,6 +56,9 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
 
 // Rim loops as boundaries: the loop that goes counter-clockwise round each connected piece is land, the others islands.
 std::vector<Boundary> findBoundaries(const TriMesh& mesh);
+
+// Throws OutputError where a z is unknown; for formats that need one at every node.
+void requireZ(const Grid& grid, const std::string& path);
 
 // The grid as a mesh in the plane of `projection` (for checks, figures and plots).
 TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -236,8 +237,8 @@ void sortByTag(Contents& contents) {
 }
 
 void readZ(const Contents& contents, const IdMap& node_index, const std::string& path, Grid& grid) {
-  if (contents.z.size() == grid.nodes.size()) {
-    grid.z.resize(grid.nodes.size());
+  if (!contents.z.empty()) {
+    grid.z.assign(grid.nodes.size(), std::numeric_limits<double>::quiet_NaN());
     for (const auto& [tag, z] : contents.z) grid.z[nodeOf(node_index, tag, path)] = z;
   } else if (std::ranges::any_of(contents.places, [](const auto& place) { return place[2] != 0.0; })) {
     for (const auto& place : contents.places) grid.z.push_back(place[2]);

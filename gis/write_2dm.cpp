@@ -21,6 +21,7 @@ void writeNodeString(TextWriter& file, std::vector<std::uint32_t> nodes, bool cl
 }  // namespace
 
 void write2dm(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
   TextWriter file(path);
   file << "MESH2D\n";
   for (std::size_t t = 0; t < grid.triangles.size(); ++t) {

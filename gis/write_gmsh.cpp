@@ -1,6 +1,7 @@
 #include "gis/write_gmsh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -64,8 +65,10 @@ void writePhysicalNames(TextWriter& file, const Grid& grid, const Layout& layout
 
 void writeNodeData(TextWriter& file, const Grid& grid) {
   if (grid.z.empty()) return;
-  file << "$NodeData\n1\n\"z\"\n1\n0\n3\n0\n1\n" << grid.z.size() << '\n';
-  for (std::size_t i = 0; i < grid.z.size(); ++i) file << i + 1 << ' ' << grid.z[i] << '\n';
+  const auto known = std::ranges::count_if(grid.z, [](double z) { return !std::isnan(z); });
+  file << "$NodeData\n1\n\"z\"\n1\n0\n3\n0\n1\n" << known << '\n';
+  for (std::size_t i = 0; i < grid.z.size(); ++i)
+    if (!std::isnan(grid.z[i])) file << i + 1 << ' ' << grid.z[i] << '\n';
   file << "$EndNodeData\n";
 }
 

@@ -247,6 +247,7 @@ void writeGeoPackage(const Grid& grid, const std::string& path) {
 }
 
 void writeShapefile(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
   const std::vector<GridLayer> layers = layersOf(grid);
   constexpr std::uint64_t kTriangleShape = 8 + 44 + 4 + 4 * 16;  // header, type, box and counts, part, four corners
   requireShapefileSize(path, layers[0].rows, kTriangleShape, tableBytes(layers[0]));

@@ -83,6 +83,7 @@ void writeSegments(const Grid& grid, const std::string& path) {
 }  // namespace
 
 void writeTriangle(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
   writeNodes(grid, withEnding(path, ".node"));
   writeElements(grid, withEnding(path, ".ele"));
   writeSegments(grid, withEnding(path, ".poly"));
