@@ -1,6 +1,7 @@
 #include "core/refiner.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -26,6 +27,13 @@ constexpr std::uint8_t kMostMoves = 32;
 constexpr double kMergeFromDeg = 35.0;
 // Sectors below this angle are split on shells (Ruppert 1995, Section 5).
 constexpr double kShellAngle = std::numbers::pi / 3.0;
+
+// Ranks of bad triangles: squared lengths in sixteen steps an octave, cosines in steps of a thousandth. Within a step the older
+// comes first, which is near the one before it: an exact order costs time and gains no points.
+std::uint32_t rankOfLength(double squared) {
+  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(squared) >> 48);
+}
+std::uint32_t rankOfAngle(double cosine) { return static_cast<std::uint32_t>((1.0 - cosine) * 1000.0); }
 
 }  // namespace
 
@@ -57,6 +65,20 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options,
       notes_(std::move(notes)),
       moves_(mesh_.vertexSlots(), 0) {}
 
+// Without a largest angle only sectors below a right angle matter: no trigonometry for the many others.
+bool Refiner::mayBeSmall(TriId t, unsigned i) const {
+  if (bound_.max_angle < std::numbers::pi) return true;
+  const VertexId v = mesh_.triangle(t).v[i];
+  const Point along = mesh_.point(mesh_.triangle(t).v[next3(i)]) - mesh_.point(v);
+  while (true) {
+    const unsigned c = mesh_.cornerOf(t, v);
+    if (dot(along, mesh_.point(mesh_.triangle(t).v[prev3(c)]) - mesh_.point(v)) <= 0.0) return false;
+    const EdgeRef in = edgeRef(t, next3(c));
+    if (mesh_.isConstrained(in)) return true;
+    t = triOf(mesh_.twin(in));
+  }
+}
+
 void Refiner::findInputAngles() {
   notes_.shell_unit.assign(mesh_.inputVertices(), 0.0);
   notes_.small_angle.assign(mesh_.inputVertices(), false);
@@ -65,6 +87,7 @@ void Refiner::findInputAngles() {
       const EdgeRef right = edgeRef(t, prev3(i));
       const VertexId v = mesh_.triangle(t).v[i];
       if (!mesh_.isConstrained(right) || v >= mesh_.inputVertices()) continue;
+      if (!mayBeSmall(t, i)) continue;
       const Sector sector = sectorAt(mesh_, t, i);
       if (!bound_.canDivide(sector.angle)) notes_.small_angle[v] = true;
       if (sector.angle >= kShellAngle) continue;
@@ -102,8 +125,8 @@ void Refiner::enqueueIfBad(TriId t) {
   const TriangleShape shape(a, b, c);
   // Shortest edge first; the worst angle first for circumcentres (Erten & Üngör 2007, Section 2.1).
   const bool worst_first = variant_.worst_first || options_.algorithm == Algorithm::Circumcenter;
-  const double key = worst_first ? -shape.cosAt(shape.shortest) : shape.squared[shape.shortest];
-  queue_.push({key, sequence_++, t, tri.v});
+  queue_.push(worst_first ? rankOfAngle(shape.cosAt(shape.shortest)) : rankOfLength(shape.squared[shape.shortest]),
+              {t, tri.v});
 }
 
 void Refiner::enqueueTouched() {
@@ -133,8 +156,7 @@ void Refiner::drainQueue(const RunControl& control) {
       stats_.budget_reached = true;
       return;
     }
-    const BadTriangle bad = queue_.top();
-    queue_.pop();
+    const BadTriangle bad = queue_.pop();
     if (mesh_.triangle(bad.triangle).v == bad.corners) mend(bad.triangle);
   }
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <queue>
 #include <vector>
 
+#include "core/bad_queue.hpp"
 #include "core/edit_mesh.hpp"
 #include "core/metric.hpp"
 #include "core/pslg.hpp"
@@ -12,19 +12,6 @@
 #include "core/vertex_ops.hpp"
 
 namespace coastmesh {
-
-// A bad triangle that waits. It carries its corners, so that it is known to be stale once the slot holds another
-// triangle.
-struct BadTriangle {
-  double key;              // least first
-  std::uint64_t sequence;  // among equal keys the older first
-  TriId triangle;
-  Corners corners;
-
-  friend bool operator<(const BadTriangle& a, const BadTriangle& b) {
-    return a.key != b.key ? a.key > b.key : a.sequence > b.sequence;
-  }
-};
 
 // What a run knows of vertices besides their places.
 struct VertexNotes {
@@ -66,6 +53,7 @@ class Refiner {
 
  private:
   void findInputAngles();
+  bool mayBeSmall(TriId t, unsigned i) const;
   void findSpacing();
   void enqueueIfBad(TriId t);
   void enqueueTouched();
@@ -100,8 +88,7 @@ class Refiner {
   VertexNotes notes_;
   std::vector<std::uint8_t> moves_;  // one a vertex: relocations so far
 
-  std::priority_queue<BadTriangle> queue_;
-  std::uint64_t sequence_ = 0;
+  BadQueue queue_;
 
   // Scratch.
   std::vector<TriId> touched_;
