@@ -25,7 +25,7 @@ constexpr std::array kAttempts = {
     Attempt{true, {0.0, true, 0.0}},   Attempt{true, {1.0, true, 0.0}},  Attempt{true, {3.0, true, 0.0}},
     Attempt{true, {6.0, false, 0.0}},
 };
-constexpr std::array kRings = {2u, 3u, 4u};
+constexpr std::array kRings = {2u, 3u, 4u, 6u};
 // A patch may grow to this many times its vertices, and some.
 constexpr std::uint64_t kGrowth = 2;
 constexpr std::uint64_t kGrowthRoom = 12;
