@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <utility>
 #include <vector>
@@ -110,12 +109,6 @@ RefineStats shrink(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
   labelRegions(mesh, pslg);
   RefineStats stats = std::move(shrinker.stats());
   stats.unresolved = findShortfalls(mesh, options);
-  // Flips keep the smallest angle, but not the largest, nor the longest edge.
-  const bool flips_may_harm = !std::isinf(options.size_max) || options.max_angle_deg < 180.0;
-  if (flips_may_harm && !stats.unresolved.empty()) {
-    stats.unresolved.clear();
-    stats.add(refine(mesh, pslg, options, control));
-  }
   return stats;
 }
 

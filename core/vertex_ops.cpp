@@ -61,6 +61,35 @@ bool VertexOps::fits(const Point& place) const {
       link_, [&](const LinkEdge& e) { return orient2d(e.x, e.y, place) > 0 && !isBad(e.x, e.y, place, bound_); });
 }
 
+// Whether a fan round `place` over the rim would be flipped into triangles that no one has tested.
+bool VertexOps::fanFlips(const Point& place) const {
+  for (const RimEdge& r : patch_.rim) {
+    const Point &a = mesh_.point(r.a), &b = mesh_.point(r.b);
+    if (r.seg == kNone && r.beyond != kNone && inCircle(place, a, b, mesh_.point(mesh_.apex(r.beyond))) > 0)
+      return true;
+    const bool constrained =
+        std::ranges::any_of(inner_, [&](const RimEdge& spoke) { return spoke.a == r.b || spoke.b == r.b; });
+    const auto next = std::ranges::find_if(patch_.rim, [&](const RimEdge& s) { return s.a == r.b; });
+    if (constrained || next == patch_.rim.end()) continue;
+    if (inCircle(place, a, b, mesh_.point(next->b)) > 0) return true;
+  }
+  return false;
+}
+
+// The same for the triangles that are to fill a hole: they are Delaunay among themselves.
+bool VertexOps::holeFlips() const {
+  for (const Corners& c : all_fresh_) {
+    for (const RimEdge& r : patch_.rim) {
+      if (r.seg != kNone || r.beyond == kNone) continue;
+      const bool on = (c[0] == r.a && c[1] == r.b) || (c[1] == r.a && c[2] == r.b) || (c[2] == r.a && c[0] == r.b);
+      if (on &&
+          inCircle(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), mesh_.point(mesh_.apex(r.beyond))) > 0)
+        return true;
+    }
+  }
+  return false;
+}
+
 bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
   patch_.triangles.clear();
   patch_.rim.clear();
@@ -68,7 +97,7 @@ bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
   outer_.clear();
   gather(v, kNone, v);
   const std::optional<Point> place = findPlace(v);
-  if (!place || !fits(*place)) return false;
+  if (!place || !fits(*place) || (flips_may_harm_ && fanFlips(*place))) return false;
   mesh_.setPoint(v, *place);
   touched.insert(touched.end(), patch_.triangles.begin(), patch_.triangles.end());
   mesh_.restoreDelaunay(touched);
@@ -121,6 +150,7 @@ bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
     if (!fillHole(0, count - (second - first))) return false;
     all_fresh_.insert(all_fresh_.end(), fresh_.begin(), fresh_.end());
   }
+  if (flips_may_harm_ && holeFlips()) return false;
   mesh_.replace(patch_, all_fresh_, {&v, 1}, touched, inner_);
   mesh_.restoreDelaunay(touched);
   return true;
@@ -157,7 +187,7 @@ bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched
     for (std::size_t j = 0; j < own; ++j) common += patch_.rim[i].a == patch_.rim[j].b;
   if (common > 1) return false;
   const std::optional<Point> place = findPlace(stays);
-  if (!place || !fits(*place)) return false;
+  if (!place || !fits(*place) || (flips_may_harm_ && fanFlips(*place))) return false;
   all_fresh_.clear();
   for (const RimEdge& r : patch_.rim) all_fresh_.push_back({stays, r.a, r.b});
   mesh_.setPoint(stays, *place);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,7 +19,11 @@ namespace coastmesh {
 // flips, which never lower the smallest angle. Changed triangles are appended to `touched`.
 class VertexOps {
  public:
-  VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound) : mesh_(mesh), pslg_(pslg), bound_(bound) {}
+  VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound)
+      : mesh_(mesh),
+        pslg_(pslg),
+        bound_(bound),
+        flips_may_harm_(bound.max_angle < std::numbers::pi || !std::isinf(bound.squared_size)) {}
 
   // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
   // differ: the region of good places is found exactly, and a vertex on a segment slides along it.
@@ -40,12 +46,15 @@ class VertexOps {
   void gather(VertexId v, VertexId other, VertexId stays);
   std::optional<Point> findPlace(VertexId v);
   bool fits(const Point& place) const;
+  bool fanFlips(const Point& place) const;
+  bool holeFlips() const;
   EdgeRef spokeBefore(EdgeRef opposite) const { return edgeRef(triOf(opposite), prev3(indexOf(opposite))); }
   EdgeRef spokeAfter(EdgeRef opposite) const { return edgeRef(triOf(opposite), next3(indexOf(opposite))); }
 
   EditMesh& mesh_;
   const Pslg& pslg_;
   const TriangleBound& bound_;
+  bool flips_may_harm_;  // they keep the smallest angle, but not the largest, nor the longest edge
 
   // Scratch.
   FeasibleRegion region_;

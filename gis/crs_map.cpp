@@ -1,8 +1,10 @@
 #include "gis/crs_map.hpp"
 
-#include <functional>
+#include <cpl_conv.h>
+
+#include <array>
 #include <limits>
-#include <thread>
+#include <string>
 #include <utility>
 
 #include "gis/error.hpp"
@@ -21,59 +23,83 @@ Point transform(OGRCoordinateTransformation& by, const Point& p) {
 
 std::string named(const OGRSpatialReference& srs) { return srs.GetName() ? srs.GetName() : "unnamed"; }
 
+std::string wktOf(const OGRSpatialReference& srs) {
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  srs.exportToWkt(&text, options);
+  std::string wkt = text ? text : "";
+  CPLFree(text);
+  return wkt;
+}
+
+OGRSpatialReference fromWkt(const std::string& wkt, bool traditional) {
+  OGRSpatialReference srs;
+  srs.importFromWkt(wkt.c_str());
+  if (traditional) srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return srs;
+}
+
+using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
+
+struct Pair {
+  Transformation forward, inverse;
+};
+
 }  // namespace
 
-CrsMap::CrsMap(const OGRSpatialReference& from, const OGRSpatialReference& to) {
-  const OgrErrors errors;
-  first_.reset(OGRCreateCoordinateTransformation(&from, &to));
-  const Transformation back(first_ ? first_->GetInverse() : nullptr);
-  if (!first_ || !back) {
-    throw InputError("PROJ knows no way from the CRS " + named(from) + " to " + named(to) +
-                     (errors.text().empty() ? "" : " (" + errors.text() + ")"));
-  }
-  first_->SetEmitErrors(false);
-}
+// What a thread needs to make its own transformation.
+struct CrsMap::Ends {
+  std::string from, to;
+  bool from_traditional = false, to_traditional = false;
+};
 
-CrsMap::Shelf& CrsMap::shelfOfThread() const {
-  return shelves_[std::hash<std::thread::id>{}(std::this_thread::get_id()) % shelves_.size()];
-}
+namespace {
 
-CrsMap::Pair CrsMap::take() const {
-  Shelf& shelf = shelfOfThread();
-  {
-    const std::lock_guard lock(shelf.mutex);
-    if (!shelf.idle.empty()) {
-      Pair pair = std::move(shelf.idle.back());
-      shelf.idle.pop_back();
-      return pair;
-    }
-  }
-  const std::lock_guard lock(first_mutex_);
-  Pair pair{Transformation(first_->Clone()), Transformation(first_->GetInverse())};
-  pair.forward->SetEmitErrors(false);
-  pair.inverse->SetEmitErrors(false);
+Pair makePair(const CrsMap::Ends& ends) {
+  const OGRSpatialReference from = fromWkt(ends.from, ends.from_traditional),
+                            to = fromWkt(ends.to, ends.to_traditional);
+  Pair pair{Transformation(OGRCreateCoordinateTransformation(&from, &to)),
+            Transformation(OGRCreateCoordinateTransformation(&to, &from))};
+  for (const Transformation* t : {&pair.forward, &pair.inverse})
+    if (*t) (*t)->SetEmitErrors(false);
   return pair;
 }
 
-void CrsMap::giveBack(Pair pair) const {
-  Shelf& shelf = shelfOfThread();
-  const std::lock_guard lock(shelf.mutex);
-  shelf.idle.push_back(std::move(pair));
+// This thread's own transformation. A few are kept, since a run uses few by turns.
+const Pair& pairOfThread(const std::shared_ptr<const CrsMap::Ends>& ends) {
+  struct Entry {
+    std::shared_ptr<const CrsMap::Ends> ends;
+    Pair pair;
+  };
+  constexpr std::size_t kKept = 4;
+  thread_local std::array<Entry, kKept> kept;
+  thread_local std::size_t oldest = 0;
+  for (const Entry& entry : kept)
+    if (entry.ends == ends) return entry.pair;
+  Entry& entry = kept[oldest];
+  oldest = (oldest + 1) % kKept;
+  entry = {ends, makePair(*ends)};
+  return entry.pair;
 }
 
-Point CrsMap::forward(const Point& p) const {
-  Pair pair = take();
-  const Point image = transform(*pair.forward, p);
-  giveBack(std::move(pair));
-  return image;
+}  // namespace
+
+CrsMap::CrsMap(const OGRSpatialReference& from, const OGRSpatialReference& to) {
+  const auto isTraditional = [](const OGRSpatialReference& srs) {
+    return srs.GetAxisMappingStrategy() == OAMS_TRADITIONAL_GIS_ORDER;
+  };
+  ends_ = std::make_shared<const Ends>(Ends{wktOf(from), wktOf(to), isTraditional(from), isTraditional(to)});
+  const OgrErrors errors;
+  const Pair& pair = pairOfThread(ends_);
+  if (!pair.forward || !pair.inverse) {
+    throw InputError("PROJ knows no way from the CRS " + named(from) + " to " + named(to) +
+                     (errors.text().empty() ? "" : " (" + errors.text() + ")"));
+  }
 }
 
-Point CrsMap::inverse(const Point& p) const {
-  Pair pair = take();
-  const Point image = transform(*pair.inverse, p);
-  giveBack(std::move(pair));
-  return image;
-}
+Point CrsMap::forward(const Point& p) const { return transform(*pairOfThread(ends_).forward, p); }
+
+Point CrsMap::inverse(const Point& p) const { return transform(*pairOfThread(ends_).inverse, p); }
 
 OGRSpatialReference geographicBase(const Crs& crs) {
   const OGRSpatialReference srs = toOgr(crs);
