@@ -18,7 +18,12 @@ struct ConvertUsage {
 
 int runConvert(const ConvertUsage& usage, Interrupt& interrupt) {
   GridOutputs outputs(usage.outputs, usage.format, usage.overwrite, {usage.mesh.path}, interrupt);
-  const Grid grid = readMeshFile(usage.mesh);
+  Grid grid = readMeshFile(usage.mesh);
+  if (grid.boundaries.empty()) {
+    // The file tells none: the rim of the mesh does.
+    std::vector<EdgeConflict> conflicts;
+    grid.boundaries = findBoundaries(toTriMesh(grid, Projection::plane(), conflicts));
+  }
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     interrupt.check();
     outputs.write(i, grid);
