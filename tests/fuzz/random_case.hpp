@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tests/fuzz/choices.hpp"
+#include "tests/fuzz/refine_case.hpp"
+
+namespace coastmesh {
+
+// A random input of some dozen points, of a shape that is easy to get wrong, with random options. Most are PSLGs;
+// rounding turns a few into something that constrainedDelaunay refuses.
+RefineCase randomCase(Choices& choices);
+
+}  // namespace coastmesh

@@ -1,0 +1,226 @@
+#include "tests/fuzz/refine_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "core/delaunay.hpp"
+#include "core/quality.hpp"
+#include "tests/fuzz/unexpected_defects.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A broken rule.
+struct Broken {
+  std::string failure, detail;
+};
+
+std::string_view toString(PslgDefect::Kind kind) {
+  switch (kind) {
+    case PslgDefect::Kind::NotFinite:
+      return "not finite";
+    case PslgDefect::Kind::PointsCoincide:
+      return "points coincide";
+    case PslgDefect::Kind::SegmentOfNoLength:
+      return "segment of no length";
+    case PslgDefect::Kind::UnknownVertex:
+      return "unknown vertex";
+    case PslgDefect::Kind::SegmentsCross:
+      return "segments cross";
+    case PslgDefect::Kind::SegmentsCoincide:
+      return "segments coincide";
+    case PslgDefect::Kind::PointOnSegment:
+      return "point on segment";
+    case PslgDefect::Kind::NoArea:
+      return "no area";
+  }
+  return "";
+}
+
+std::map<RegionId, double> areasByRegion(const TriMesh& mesh) {
+  std::map<RegionId, double> areas;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t].v;
+    areas[mesh.regions[t]] += signedArea(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
+  }
+  return areas;
+}
+
+// Rounding of a coordinate moves a border by that much along its length; areas may differ so.
+double areaRoom(const TriMesh& mesh) {
+  double magnitude = 0.0, low_x = mesh.points[0].x, high_x = low_x, low_y = mesh.points[0].y, high_y = low_y;
+  for (const Point& p : mesh.points) {
+    magnitude = std::max({magnitude, std::abs(p.x), std::abs(p.y)});
+    low_x = std::min(low_x, p.x), high_x = std::max(high_x, p.x);
+    low_y = std::min(low_y, p.y), high_y = std::max(high_y, p.y);
+  }
+  const double extent = high_x - low_x + high_y - low_y;
+  return 4.0 * std::numeric_limits<double>::epsilon() * magnitude * extent *
+         std::sqrt(static_cast<double>(mesh.points.size()));
+}
+
+void judge(const std::string& stage, const TriMesh& mesh, const TriMesh& coarse, const RefineCase& c,
+           const std::vector<Shortfall>& unresolved) {
+  const auto defects = unexpectedDefects(mesh, c.pslg, c.options, unresolved);
+  if (!defects.empty()) {
+    std::string detail;
+    for (std::size_t i = 0; i < std::min<std::size_t>(5, defects.size()); ++i) detail += describe(defects[i]) + "\n";
+    throw Broken{stage + ": " + std::string(toString(defects.front().kind)), detail};
+  }
+  if (mesh.regions.size() != mesh.triangles.size()) throw Broken{stage + ": regions are not one a triangle", {}};
+  if (mesh.input_vertices != c.pslg.points.size()) throw Broken{stage + ": count of input vertices changed", {}};
+  const auto before = areasByRegion(coarse), after = areasByRegion(mesh);
+  const double room = areaRoom(coarse);
+  for (const auto& [region, area] : before) {
+    const auto found = after.find(region);
+    if (found == after.end() || std::abs(found->second - area) > 1e-9 * area + room)
+      throw Broken{stage + ": area of a region changed", "region " + std::to_string(region)};
+  }
+  if (after.size() != before.size()) throw Broken{stage + ": a region appeared", {}};
+}
+
+// The other way round: what is listed must fall short, clear of rounding.
+void judgeListed(const std::string& stage, const TriMesh& mesh, const RefineCase& c,
+                 const std::vector<Shortfall>& unresolved) {
+  // The checker knows of angles alone, and reads the bound a hair less strictly.
+  constexpr double kHair = 1e-5;
+  std::set<std::pair<double, double>> found;
+  for (const MeshDefect& d :
+       checkMesh(mesh, &c.pslg, {.min_angle_deg = c.options.min_angle_deg, .max_angle_deg = c.options.max_angle_deg}))
+    found.emplace(d.place.x, d.place.y);
+  for (const Shortfall& s : unresolved) {
+    const bool clear =
+        s.min_angle_deg < c.options.min_angle_deg - kHair || s.max_angle_deg > c.options.max_angle_deg + kHair;
+    if (!clear || found.contains({s.place.x, s.place.y})) continue;
+    std::ostringstream text;
+    text.precision(17);
+    text << "at " << s.place.x << ", " << s.place.y << ": " << s.min_angle_deg << " to " << s.max_angle_deg;
+    throw Broken{stage + ": a shortfall is listed that the checker does not see", text.str()};
+  }
+}
+
+// Vertices that the input needs at an angle that every method reaches; nothing where that is beyond the limit. Any
+// mesh whose vertices keep a fixed share of the input's spacing from one another has at most a fixed multiple of them.
+std::optional<std::uint64_t> neededAtLeast(const RefineCase& c, std::uint64_t limit) {
+  RefineOptions modest;
+  modest.min_angle_deg = std::min(20.0, c.options.min_angle_deg);
+  modest.size_max = c.options.size_max;
+  modest.algorithm = Algorithm::Optimal;
+  modest.max_vertices = limit;
+  TriMesh mesh = constrainedDelaunay(c.pslg);
+  const RefineStats stats = refine(mesh, c.pslg, modest);
+  if (stats.budget_reached) return std::nullopt;
+  return mesh.points.size();
+}
+
+struct Meshed {
+  TriMesh mesh;
+  RefineStats refined, shrunk;
+};
+
+void checkCounts(const RefineCase& c, const RefineOptions& options, const TriMesh& mesh, const RefineStats& stats) {
+  if (stats.steiner_points != mesh.points.size() - c.pslg.points.size())
+    throw Broken{"refine: steiner_points is not vertices out minus vertices in", {}};
+  if (mesh.points.size() > std::max<std::uint64_t>(options.max_vertices, c.pslg.points.size()))
+    throw Broken{"refine: more vertices than the budget allows", std::to_string(mesh.points.size())};
+}
+
+Meshed meshAndJudge(const RefineCase& c, const TriMesh& coarse, const CaseLimits& limits) {
+  Meshed meshed;
+  RefineOptions options = c.options;
+  options.max_vertices = std::min<std::uint64_t>(options.max_vertices, limits.most_vertices);
+  meshed.mesh = coarse;
+  meshed.refined = refine(meshed.mesh, c.pslg, options);
+  checkCounts(c, options, meshed.mesh, meshed.refined);
+  judge("refine", meshed.mesh, coarse, c, meshed.refined.unresolved);
+  judgeListed("refine", meshed.mesh, c, meshed.refined.unresolved);
+  if (!c.shrink) return meshed;
+  const std::size_t before = meshed.mesh.points.size();
+  meshed.shrunk = shrink(meshed.mesh, c.pslg, options);
+  judge("shrink", meshed.mesh, coarse, c, meshed.shrunk.unresolved);
+  judgeListed("shrink", meshed.mesh, c, meshed.shrunk.unresolved);
+  if (meshed.mesh.points.size() > before)
+    throw Broken{"shrink: more vertices than before",
+                 std::to_string(before) + " before, " + std::to_string(meshed.mesh.points.size()) + " after"};
+  if (meshed.shrunk.unresolved.size() > meshed.refined.unresolved.size())
+    throw Broken{"shrink: more shortfalls than before", std::to_string(meshed.refined.unresolved.size()) + " before, " +
+                                                            std::to_string(meshed.shrunk.unresolved.size()) + " after"};
+  return meshed;
+}
+
+CaseResult judgeCase(const RefineCase& c, const TriMesh& coarse, const CaseLimits& limits) {
+  RefineCase plain = c;
+  plain.options = {.min_angle_deg = 0.0};
+  judge("triangulate", coarse, coarse, plain, {});
+  const Meshed meshed = meshAndJudge(c, coarse, limits);
+  if (limits.repeat) {
+    const Meshed again = meshAndJudge(c, constrainedDelaunay(c.pslg), limits);
+    if (digestOf(again.mesh) != digestOf(meshed.mesh)) throw Broken{"another mesh the second time", {}};
+  }
+  CaseResult result;
+  result.vertices = meshed.mesh.points.size();
+  if (!meshed.refined.budget_reached || c.options.max_vertices <= limits.most_vertices) return result;
+  constexpr std::uint64_t kMostTimes = 100, kRoom = 1000;
+  const auto needed = neededAtLeast(c, limits.most_vertices);
+  if (needed && kRoom + kMostTimes * *needed < limits.most_vertices)
+    throw Broken{
+        "refine: more vertices than the input explains",
+        std::to_string(*needed) + " at 20 degrees, more than " + std::to_string(limits.most_vertices) + " here"};
+  result.verdict = Verdict::TooLarge;
+  return result;
+}
+
+}  // namespace
+
+CaseResult runCase(const RefineCase& refine_case, const CaseLimits& limits) {
+  CaseResult result;
+  try {
+    TriMesh coarse;
+    try {
+      coarse = constrainedDelaunay(refine_case.pslg);
+    } catch (const BadPslg& e) {
+      result.verdict = Verdict::Refused;
+      result.failure = toString(e.defect.kind);
+      return result;
+    } catch (const std::logic_error& e) {
+      // Labels that contradict one another: a mistake of whoever made the PSLG.
+      result.verdict = Verdict::Refused;
+      result.failure = e.what();
+      return result;
+    }
+    result = judgeCase(refine_case, coarse, limits);
+  } catch (const Broken& broken) {
+    result.verdict = Verdict::Failed;
+    result.failure = broken.failure;
+    result.detail = broken.detail;
+  } catch (const std::exception& e) {
+    result.verdict = Verdict::Failed;
+    result.failure = std::string("exception: ") + e.what();
+  }
+  return result;
+}
+
+std::string_view nameOf(Algorithm algorithm) {
+  switch (algorithm) {
+    case Algorithm::Circumcenter:
+      return "circumcenter";
+    case Algorithm::Offcenter:
+      return "offcenter";
+    case Algorithm::Optimal:
+      return "optimal";
+    case Algorithm::Relocate:
+      return "relocate";
+  }
+  return "";
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/check.hpp"
+#include "core/pslg.hpp"
+#include "core/refine.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+// What `checkMesh` finds in a mesh that `refine` or `shrink` answered, less the shortfalls that `unresolved` lists.
+std::vector<MeshDefect> unexpectedDefects(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
+                                          const std::vector<Shortfall>& unresolved);
+
+// One line with kind, place (to the last bit) and value.
+std::string describe(const MeshDefect& defect);
+
+}  // namespace coastmesh
