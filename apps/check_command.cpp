@@ -36,7 +36,7 @@ void printDefects(const CheckUsage& usage, const Grid& grid, const std::vector<G
     std::printf("%s: %zu\n", std::string(toString(kind)).c_str(), of_kind.size());
     for (std::size_t i = 0; i < std::min(kPlacesShown, of_kind.size()); ++i) {
       std::printf("  at %s", pointText(of_kind[i]->place).c_str());
-      if (of_kind[i]->triangle >= 0) std::printf(", triangle %lld", static_cast<long long>(of_kind[i]->triangle + 1));
+      if (of_kind[i]->triangle >= 0) std::printf(", triangle %s", std::to_string(of_kind[i]->triangle + 1).c_str());
       if (kind == DefectKind::AngleBelowBound) std::printf(", %.3f degrees", of_kind[i]->value);
       std::printf("\n");
     }

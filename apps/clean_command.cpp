@@ -36,7 +36,7 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
     try {
       cleaned.domains.push_back(input.domain(g, cleaned.report));
     } catch (const InputError& error) {
-      cleaned.refused.push_back(error.what());
+      cleaned.refused.emplace_back(error.what());
     }
   }
   if (cleaned.domains.empty()) throw InputError(cleaned.refused.front());

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -44,7 +45,7 @@ void addHistogram(std::string& text, const MeshQuality& quality) {
   addLine(text, "angles");
   for (std::size_t i = first; i < last; ++i) {
     const double share = static_cast<double>(counts[i]) / static_cast<double>(most);
-    const std::string bar(static_cast<std::size_t>(share * kHistogramWidth + 0.5), '#');
+    const std::string bar(static_cast<std::size_t>(std::lround(share * kHistogramWidth)), '#');
     addLine(text, "  %3zu to %3zu  %10llu  %s", 5 * i, 5 * (i + 1), big(counts[i]), bar.c_str());
   }
 }

@@ -42,8 +42,10 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
     readPolyFile(options_.files.front());
     return;
   }
-  if (options_.crs != "auto" && options_.crs != "plane") working_ = parseWorkingCrs(options_.crs);
+  std::optional<Crs> working;
+  if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
   coastline_ = readCoastline(options_.files, report_);
+  if (working) chosen_ = Projection::to(coastline_.crs, *working);
   groups_ = groupFeatures(coastline_);
 }
 
@@ -69,7 +71,7 @@ std::size_t JobInput::pointsOf(std::size_t group) const {
 }
 
 Projection JobInput::projectionOf(std::size_t group) const {
-  if (working_) return Projection::to(coastline_.crs, *working_);
+  if (chosen_) return *chosen_;
   if (options_.crs == "plane" || coastline_.crs.isPlane()) return Projection::plane();
   return Projection::fitted(coastline_, groups_[group]);
 }

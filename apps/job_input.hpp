@@ -6,7 +6,7 @@
 
 #include "gis/clean.hpp"
 #include "gis/coastline.hpp"
-#include "gis/crs.hpp"
+#include "gis/projection.hpp"
 #include "gis/read_coastline.hpp"
 
 namespace coastmesh {
@@ -48,7 +48,7 @@ class JobInput {
   ReadReport report_;
   std::vector<std::vector<std::size_t>> groups_;
   std::optional<Pslg> poly_;
-  std::optional<Crs> working_;  // where the user chose one
+  std::optional<Projection> chosen_;  // where the user chose one; the same for all groups
 };
 
 }  // namespace coastmesh

@@ -77,7 +77,9 @@ class MeshOutputs {
     grids_written_ = true;
   }
 
-  void writeReport(const std::string& text) { report_->write(text); }
+  void writeReport(const std::string& text) {
+    if (report_) report_->write(text);
+  }
 
   void commit() {
     interrupt_.close();

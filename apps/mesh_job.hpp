@@ -49,7 +49,7 @@ struct ShortfallPlace {
 };
 inline constexpr std::size_t kShortfallPlaces = 1000;  // those past it are counted, not listed
 
-// Seconds; clean, triangulate, refine, shrink and check are summed over threads, the others are what a clock shows.
+// Seconds; read, write and total are what a clock shows, the others are summed over threads.
 struct PhaseSeconds {
   double read = 0.0;
   double clean = 0.0;
