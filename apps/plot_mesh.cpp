@@ -199,7 +199,7 @@ class MeshPlot {
     return kWater;
   }
 
-  // The range that colours tell: of the triangles shown, less the few smallest and largest.
+  // The range that colours tell: of the triangles shown, less the few smallest.
   void findAreas() {
     std::vector<double> shown;
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
@@ -208,7 +208,7 @@ class MeshPlot {
     if (shown.empty()) return;
     std::ranges::sort(shown);
     least_log_area_ = shown[shown.size() / 50];
-    most_log_area_ = shown[shown.size() - 1 - shown.size() / 50];
+    most_log_area_ = shown.back();
   }
 
   void drawTriangles() {
