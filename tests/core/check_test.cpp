@@ -166,7 +166,7 @@ TEST(CheckMesh, InputVertexMovedByOneBit) {
   Sample sample = sampleOf(squareWithHole());
   sample.mesh.points[2].x = std::nextafter(1.0, 2.0);
   const auto defects = checkMesh(sample.mesh, &sample.pslg, {});
-  EXPECT_EQ(kindsIn(defects), Kinds{DefectKind::MissingVertex});
+  ASSERT_EQ(kindsIn(defects), Kinds{DefectKind::MissingVertex});
   EXPECT_EQ(defects.front().place, (Point{1.0, 1.0}));
 }
 
@@ -200,8 +200,24 @@ TEST(CheckMesh, SegmentThatIsNoChain) {
   // The square's corners are in order, so the other diagonal joins the next ones.
   sample.pslg.segments.push_back({(p + 1) % 4, (q + 1) % 4});
   const auto defects = checkMesh(sample.mesh, &sample.pslg, {});
-  EXPECT_EQ(kindsIn(defects), Kinds{DefectKind::MissingSegment});
+  ASSERT_EQ(kindsIn(defects), Kinds{DefectKind::MissingSegment});
   EXPECT_EQ(defects.front().place, (Point{0.5, 0.5}));
+}
+
+TEST(CheckMesh, SegmentWithAGap) {
+  // One piece of several no longer marked, on neither side.
+  Sample sample = sampleOf(collinearRuns());
+  for (TriId t = 0; t < sample.mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      const VertexId a = sample.mesh.origin(e), b = sample.mesh.target(e);
+      if (sample.mesh.segment(e) == kNone || a < sample.mesh.input_vertices || b < sample.mesh.input_vertices) continue;
+      sample.mesh.triangles[t].seg[i] = kNone;
+      EXPECT_EQ(kindsIn(sample), Kinds{DefectKind::MissingSegment});
+      return;
+    }
+  }
+  FAIL() << "no segment has three pieces";
 }
 
 TEST(CheckMesh, VertexOffItsSegment) {

@@ -155,8 +155,12 @@ TEST_P(RefineOf, AnyAlgorithmAndAngle) {
   }
 }
 
-TEST_P(RefineOf, AnglesThatMayBeOutOfReach) {
-  for (const double angle : {38.0, 40.0, 42.0, 45.0}) expectRefinedWith({.min_angle_deg = angle});
+TEST_P(RefineOf, AnglesUpToWhereNoneHasReached) {
+  for (const double angle : {38.0, 40.0, 42.0, 45.0}) {
+    const RefineStats stats = expectRefinedWith({.min_angle_deg = angle});
+    if (angle > 42.0 || !isEasy()) continue;
+    EXPECT_EQ(stats.unresolved.size(), 0u) << angle << " degrees";
+  }
 }
 
 TEST_P(RefineOf, LargestAngles) {
@@ -210,6 +214,25 @@ TEST_P(RefineOf, BudgetGivesAValidMesh) {
 INSTANTIATE_TEST_SUITE_P(All, RefineOf, ::testing::ValuesIn(assortedPslgs()),
                          [](const auto& param_info) { return nameOf(param_info.param); });
 
+// Bounds that cannot be held end at the floor that the input's spacing sets, not at that of double precision.
+TEST(Refine, HopelessBoundsEnd) {
+  const auto expectEnd = [](const Pslg& pslg, RefineOptions options) {
+    options.max_vertices = 50'000;
+    const Refined result = refined(pslg, options);
+    SCOPED_TRACE(describe(options));
+    expectValidMesh(result.mesh, pslg);
+    EXPECT_FALSE(result.stats.budget_reached);
+    EXPECT_GE(measureQuality(result.mesh, 0.0).shortest_edge, 1e-3 * smallestSpacing(pslg));
+  };
+  expectEnd(combPolygon(11), {.min_angle_deg = 40.0, .algorithm = Algorithm::Circumcenter});
+  expectEnd(starPolygon(14, 40), {.min_angle_deg = 41.0, .max_angle_deg = 75.0, .algorithm = Algorithm::Offcenter});
+  expectEnd(squareWithHole(), {.min_angle_deg = 30.0, .max_angle_deg = 70.0, .algorithm = Algorithm::Optimal});
+  for (const double step_deg : {1.0, 5.0, 29.0})
+    for (int rays = 2; rays < 5; ++rays)
+      for (const double angle : {25.0, 33.0, 38.0, 44.0})
+        expectEnd(fanOfAngles(rays, step_deg), {.min_angle_deg = angle});
+}
+
 TEST(Refine, BudgetJustEnoughIsNotReached) {
   const Pslg pslg = fractalCoast(3, 2, 2);
   const RefineOptions options{.min_angle_deg = 30.0, .algorithm = Algorithm::Optimal};
@@ -230,6 +253,22 @@ TEST(Refine, LongestEdgeHoldsTheSize) {
       EXPECT_LE(quality.longest_edge, size);
       // And not with far more than it takes: an equilateral triangle of that size has 0.43 size².
       EXPECT_LT(static_cast<double>(quality.triangles), 40.0 + 8.0 * quality.area / (0.43 * size * size));
+    }
+  }
+}
+
+// A canal: nothing tells how narrow it is but the opposite shore.
+TEST(Refine, ChannelsOfAnyWidth) {
+  for (const double width : {0.03, 0.01, 0.001, 0.0001}) {
+    for (const Algorithm algorithm : {Algorithm::Optimal, Algorithm::Relocate}) {
+      for (const double angle : {20.0, 30.0}) {
+        const RefineOptions options{.min_angle_deg = angle, .algorithm = algorithm};
+        SCOPED_TRACE(::testing::Message() << describe(options) << ", width " << width);
+        const Pslg pslg = narrowChannel(width);
+        const Refined result = refined(pslg, options);
+        expectRefined(result.mesh, pslg, options, result.stats);
+        EXPECT_EQ(result.stats.unresolved.size(), 0u);
+      }
     }
   }
 }

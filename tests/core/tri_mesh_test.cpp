@@ -234,6 +234,13 @@ TEST(Digest, TellsMeshesApart) {
   changed = mesh;
   std::ranges::rotate(changed.triangles[0].v, changed.triangles[0].v.begin() + 1);
   add(changed);
+  for (unsigned i = 0; i < 3; ++i) {
+    // One corner of one triangle.
+    changed = mesh;
+    auto& corner = changed.triangles[0].v[i];
+    corner = (corner + 1) % 4;
+    add(changed);
+  }
   changed = mesh;
   changed.points.push_back({0, 0});
   add(changed);
