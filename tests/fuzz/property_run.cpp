@@ -84,6 +84,7 @@ class Failures {
     std::printf("%s failed: %s\n  %s\n", name.c_str(), result.failure.c_str(), result.detail.c_str());
     if (++by_kind_[result.failure] > settings_.reduce_each) return;
     write(c, result.failure + "\n" + result.detail, fileName(result.failure, name));
+    if (settings_.reduce_trials == 0) return;
     const auto still_fails = [&](const RefineCase& smaller) {
       return runIsolated(smaller, limits, settings_.cpu_seconds).failure == result.failure;
     };
