@@ -21,9 +21,15 @@ struct Expected {
   double area = 0.0;
 };
 
-bool isLabelled(const Pslg& pslg) {
-  return std::ranges::any_of(pslg.segments,
-                             [](const Segment& s) { return s.left != kUnlabelled || s.right != kUnlabelled; });
+// Labels on segments tell what the domain is; whether a point without segments lies in it they do not.
+bool labelsTellAll(const Pslg& pslg) {
+  bool labelled = false;
+  std::vector<bool> on_segment(pslg.points.size(), false);
+  for (const Segment& s : pslg.segments) {
+    labelled |= s.left != kUnlabelled || s.right != kUnlabelled;
+    on_segment[s.a] = on_segment[s.b] = true;
+  }
+  return labelled && std::ranges::find(on_segment, false) == on_segment.end();
 }
 
 Expected expectFromLabels(const Pslg& pslg) {
@@ -93,7 +99,7 @@ bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::vec
 }  // namespace
 
 void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects) {
-  const Expected expected = isLabelled(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
+  const Expected expected = labelsTellAll(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
   std::vector<bool> used(mesh.points.size(), false);
   std::vector<std::vector<Piece>> pieces(pslg.segments.size());
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
@@ -168,7 +174,7 @@ bool markChain(TriMesh& mesh, const std::vector<std::vector<EdgeRef>>& around, V
 }  // namespace
 
 void checkAgainstInputByPlace(TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects) {
-  const Expected expected = isLabelled(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
+  const Expected expected = labelsTellAll(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
   std::unordered_map<Point, VertexId, PointHash> at;
   for (VertexId v = 0; v < mesh.points.size(); ++v) at.emplace(mesh.points[v], v);
   std::vector<VertexId> vertex(pslg.points.size(), kNone);

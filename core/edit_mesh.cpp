@@ -191,6 +191,18 @@ bool EditMesh::findCavity(const Point& x, TriId start, Patch& cavity) const {
   return std::ranges::all_of(cavity.rim, [&](const RimEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
 }
 
+bool EditMesh::findSplitCavity(EdgeRef edge, const Point& x, Patch& cavity) const {
+  cavity.triangles.clear();
+  cavity.rim.clear();
+  for (const EdgeRef side : {edge, twin(edge)}) {
+    if (side == kNone) continue;
+    cavity.triangles.push_back(triOf(side));
+    const EdgeRef others[2] = {edgeRef(triOf(side), next3(indexOf(side))), edgeRef(triOf(side), prev3(indexOf(side)))};
+    collectConflicts(x, others, cavity);
+  }
+  return std::ranges::all_of(cavity.rim, [&](const RimEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
+}
+
 TriId EditMesh::newTriangle() {
   if (free_triangles_.empty()) {
     triangles_.emplace_back();

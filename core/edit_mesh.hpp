@@ -88,6 +88,9 @@ class EditMesh {
   // Fills a cavity with a fan round a new free vertex.
   VertexId insertInCavity(const Point& x, const Patch& cavity, std::vector<TriId>& touched);
 
+  // The same for x on a subsegment: the triangles on both sides, and their rim without the subsegment, side by side.
+  bool findSplitCavity(EdgeRef edge, const Point& x, Patch& cavity) const;
+
   // Splits a subsegment with a new vertex at x, on it as well as doubles allow. Answers kNone, and changes nothing,
   // where rounding would turn a triangle over.
   VertexId splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>& touched);

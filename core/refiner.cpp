@@ -46,6 +46,7 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
       ops_(mesh_, pslg_, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
       free_share_(freeShare(bound_.min_angle)),
+      squared_grain_(squaredGrain()),
       moves_(mesh_.vertexSlots(), 0) {
   findInputAngles();
   findSpacing();
@@ -62,6 +63,7 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options,
       ops_(mesh_, pslg_, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
       free_share_(variant.free_share),
+      squared_grain_(squaredGrain()),
       notes_(std::move(notes)),
       moves_(mesh_.vertexSlots(), 0) {}
 
@@ -96,6 +98,15 @@ void Refiner::findInputAngles() {
       notes_.shell_unit[v] = notes_.shell_unit[v] == 0.0 ? nearer : std::min(notes_.shell_unit[v], nearer);
     }
   }
+}
+
+// A thousand units in the last place of the largest coordinate, squared.
+double Refiner::squaredGrain() const {
+  double magnitude = 0.0;
+  for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
+    magnitude = std::max({magnitude, std::abs(mesh_.point(v).x), std::abs(mesh_.point(v).y)});
+  const double grain = 1000.0 * std::numeric_limits<double>::epsilon() * magnitude;
+  return grain * grain;
 }
 
 // The distance to the nearest vertex or segment that a vertex sees, from the triangles round it.
@@ -269,7 +280,8 @@ bool Refiner::insertPoint(TriId t, unsigned apex) {
   }
   if (hit != kNone) return splitFor(hit, t, apex);
   const double spacing = spacingAt(candidate.place, patch_);
-  if (!inside || candidate.squared_clearance < free_share_ * free_share_ * spacing * spacing) return false;
+  if (!inside || std::min(candidate.squared_clearance, spacing * spacing) < squared_grain_) return false;
+  if (candidate.squared_clearance < free_share_ * free_share_ * spacing * spacing) return false;
   const VertexId fan = fanApexBehind(t, apex);
   if (fan != kNone)
     for (const TriId c : patch_.triangles)

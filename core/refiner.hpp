@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "core/bad_queue.hpp"
@@ -55,6 +57,7 @@ class Refiner {
   void findInputAngles();
   bool mayBeSmall(TriId t, unsigned i) const;
   void findSpacing();
+  double squaredGrain() const;
   void enqueueIfBad(TriId t);
   void enqueueTouched();
   void mend(TriId t);
@@ -65,7 +68,7 @@ class Refiner {
   bool insertPoint(TriId t, unsigned apex);
   bool splitFor(EdgeRef edge, TriId t, unsigned apex);
   double spacingAt(const Point& x, const Patch& cavity) const;
-  double spacingOnSegment(const Point& x, EdgeRef edge) const;
+  double spacingOnSegment(const Point& x, VertexId a, VertexId b, const Patch& cavity) const;
   bool isExplained(TriId t) const;
   bool removeFreeVertex(VertexId v);
   void drainQueue(const RunControl& control);
@@ -84,11 +87,13 @@ class Refiner {
   VertexOps ops_;
   double cos_lens_;
   double free_share_;
+  double squared_grain_;  // no vertex is put nearer to another: there rounding decides what an angle is
 
   VertexNotes notes_;
   std::vector<std::uint8_t> moves_;  // one a vertex: relocations so far
 
   BadQueue queue_;
+  std::set<std::pair<VertexId, VertexId>> stuck_;  // subsegments that rounding lets no one split
 
   // Scratch.
   std::vector<TriId> touched_;

@@ -13,22 +13,15 @@ constexpr double kSegmentShare = 0.02;
 }  // namespace
 
 // The same for a point that is to split a subsegment, where the other segments beside it count too.
-double Refiner::spacingOnSegment(const Point& x, EdgeRef edge) const {
-  const VertexId ends[2] = {mesh_.origin(edge), mesh_.target(edge)};
-  double spacing = options_.size_max;
-  for (const EdgeRef side : {edge, mesh_.twin(edge)}) {
-    if (side == kNone) continue;
-    for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef e = edgeRef(triOf(side), i);
-      const Point &a = mesh_.point(mesh_.origin(e)), &b = mesh_.point(mesh_.target(e));
-      spacing = std::min(spacing, notes_.spacing[mesh_.origin(e)] + distance(x, a));
-      // A segment that meets this one comes as near as one likes: there the spacing of their common vertex counts.
-      const bool apart = ends[0] != mesh_.origin(e) && ends[0] != mesh_.target(e) && ends[1] != mesh_.origin(e) &&
-                         ends[1] != mesh_.target(e);
-      if (!apart || !mesh_.isConstrained(e)) continue;
-      const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
-      spacing = std::min(spacing, distance(x, a + share * (b - a)));
-    }
+double Refiner::spacingOnSegment(const Point& x, VertexId a, VertexId b, const Patch& cavity) const {
+  double spacing = spacingAt(x, cavity);
+  for (const VertexId v : {a, b}) spacing = std::min(spacing, notes_.spacing[v] + distance(x, mesh_.point(v)));
+  for (const RimEdge& r : cavity.rim) {
+    // A segment that meets this one comes as near as one likes: there the spacing of their common vertex counts.
+    if (r.a == a || r.a == b || r.b == a || r.b == b || (r.seg == kNone && r.beyond != kNone)) continue;
+    const Point &from = mesh_.point(r.a), &to = mesh_.point(r.b);
+    const double share = std::clamp(dot(x - from, to - from) / squaredDistance(from, to), 0.0, 1.0);
+    spacing = std::min(spacing, distance(x, from + share * (to - from)));
   }
   return spacing;
 }
@@ -85,8 +78,11 @@ bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex) {
   const VertexId fan = fanApexBehind(t, apex);
   if (fan != kNone && (a == fan || b == fan)) return false;
   const Point place = splitPlace(a, b, seg);
-  const double spacing = spacingOnSegment(place, edge);
+  if (stuck_.contains({a, b}) || !mesh_.findSplitCavity(edge, place, patch_)) return false;
+  const double spacing = spacingOnSegment(place, a, b, patch_);
   const double nearer = std::min(squaredDistance(place, mesh_.point(a)), squaredDistance(place, mesh_.point(b)));
+  // Where the input itself is finer than the grain, nothing can be mended.
+  if (std::min(nearer, spacing * spacing) < squared_grain_) return false;
   if (nearer < kSegmentShare * kSegmentShare * spacing * spacing) return false;
   const EdgeRef cleared = clearDiametralCircle(edge);
   const VertexId v = cleared == kNone ? kNone : mesh_.splitSegment(cleared, place, touched_);
@@ -95,6 +91,11 @@ bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex) {
     ++stats_.segment_splits;
     // The triangle that asked for the split may still be there, and bad.
     touched_.push_back(t);
+  }
+  if (v == kNone) {
+    // Vertices may have gone for nothing, and would come back for as little.
+    stuck_.insert({a, b});
+    stuck_.insert({b, a});
   }
   std::ranges::sort(touched_);
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
