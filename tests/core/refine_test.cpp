@@ -117,7 +117,7 @@ class RefineOf : public ::testing::TestWithParam<NamedPslg> {
   RefineStats expectRefinedWith(RefineOptions options) {
     SCOPED_TRACE(describe(options));
     // A run that does not end by itself is to fail, not to hang.
-    options.max_vertices = 50'000;
+    options.max_vertices = 20'000;
     const Refined result = refined(GetParam().pslg, options);
     expectRefined(result.mesh, GetParam().pslg, options, result.stats);
     EXPECT_FALSE(result.stats.budget_reached);
@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(All, RefineOf, ::testing::ValuesIn(assortedPslgs()),
 // Bounds that cannot be held end at the floor that the input's spacing sets, not at that of double precision.
 TEST(Refine, HopelessBoundsEnd) {
   const auto expectEnd = [](const Pslg& pslg, RefineOptions options) {
-    options.max_vertices = 50'000;
+    options.max_vertices = 20'000;
     const Refined result = refined(pslg, options);
     SCOPED_TRACE(describe(options));
     expectValidMesh(result.mesh, pslg);

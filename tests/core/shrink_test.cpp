@@ -24,7 +24,7 @@ struct BothRuns {
 
 BothRuns runBoth(const Pslg& pslg, RefineOptions options) {
   // Where refinement does not end by itself, another test says so.
-  options.max_vertices = std::min<std::uint64_t>(options.max_vertices, 50'000);
+  options.max_vertices = std::min<std::uint64_t>(options.max_vertices, 20'000);
   BothRuns run;
   run.refined = constrainedDelaunay(pslg);
   run.refine_stats = refine(run.refined, pslg, options);
