@@ -68,7 +68,7 @@ class Refiner {
   bool insertPoint(TriId t, unsigned apex);
   bool splitFor(EdgeRef edge, TriId t, unsigned apex);
   double spacingAt(const Point& x, const Patch& cavity) const;
-  double spacingOnSegment(const Point& x, VertexId a, VertexId b, const Patch& cavity) const;
+  double spacingOnSegment(const Point& x, EdgeRef edge, const Patch& cavity) const;
   bool isExplained(TriId t) const;
   bool removeFreeVertex(VertexId v);
   void drainQueue(const RunControl& control);

@@ -13,12 +13,16 @@ constexpr double kSegmentShare = 0.02;
 }  // namespace
 
 // The same for a point that is to split a subsegment, where the other segments beside it count too.
-double Refiner::spacingOnSegment(const Point& x, VertexId a, VertexId b, const Patch& cavity) const {
+double Refiner::spacingOnSegment(const Point& x, EdgeRef edge, const Patch& cavity) const {
   double spacing = spacingAt(x, cavity);
-  for (const VertexId v : {a, b}) spacing = std::min(spacing, notes_.spacing[v] + distance(x, mesh_.point(v)));
+  for (const VertexId v : {mesh_.origin(edge), mesh_.target(edge)})
+    spacing = std::min(spacing, notes_.spacing[v] + distance(x, mesh_.point(v)));
+  const Segment& own = pslg_.segments[mesh_.segment(edge)];
   for (const RimEdge& r : cavity.rim) {
+    if (r.seg >= pslg_.segments.size()) continue;
     // A segment that meets this one comes as near as one likes: there the spacing of their common vertex counts.
-    if (r.a == a || r.a == b || r.b == a || r.b == b || (r.seg == kNone && r.beyond != kNone)) continue;
+    const Segment& other = pslg_.segments[r.seg];
+    if (own.a == other.a || own.a == other.b || own.b == other.a || own.b == other.b) continue;
     const Point &from = mesh_.point(r.a), &to = mesh_.point(r.b);
     const double share = std::clamp(dot(x - from, to - from) / squaredDistance(from, to), 0.0, 1.0);
     spacing = std::min(spacing, distance(x, from + share * (to - from)));
@@ -79,7 +83,7 @@ bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex) {
   if (fan != kNone && (a == fan || b == fan)) return false;
   const Point place = splitPlace(a, b, seg);
   if (stuck_.contains({a, b}) || !mesh_.findSplitCavity(edge, place, patch_)) return false;
-  const double spacing = spacingOnSegment(place, a, b, patch_);
+  const double spacing = spacingOnSegment(place, edge, patch_);
   const double nearer = std::min(squaredDistance(place, mesh_.point(a)), squaredDistance(place, mesh_.point(b)));
   // Where the input itself is finer than the grain, nothing can be mended.
   if (std::min(nearer, spacing * spacing) < squared_grain_) return false;
