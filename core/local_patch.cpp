@@ -111,7 +111,8 @@ void putBack(EditMesh& parent, const LocalPatch& patch, const TriMesh& solved, s
     const Triangle& tri = solved.triangles[t];
     fresh.push_back({number[tri.v[0]], number[tri.v[1]], number[tri.v[2]]});
     for (unsigned i = 0; i < 3; ++i) {
-      if (tri.seg[i] == kNone || tri.seg[i] == kFrozen) continue;
+      // A rim without segments is the rim of a mesh of points alone.
+      if (tri.seg[i] == kFrozen || (tri.seg[i] == kNone && tri.adj[i] != kNone)) continue;
       const EdgeRef e = edgeRef(t, i);
       const RimEdge edge{number[solved.origin(e)], number[solved.target(e)], kNone, tri.seg[i]};
       (tri.adj[i] == kNone ? hole.rim : inner).push_back(edge);
