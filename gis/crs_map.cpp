@@ -65,21 +65,34 @@ Pair makePair(const CrsMap::Ends& ends) {
   return pair;
 }
 
-// This thread's own transformation. A few are kept, since a run uses few by turns.
-const Pair& pairOfThread(const std::shared_ptr<const CrsMap::Ends>& ends) {
+// The transformations of one thread. A few are kept, since a run uses few by turns.
+class Kept {
+ public:
+  // Makes the thread's PROJ context first, so that it outlives the transformations: destroyed later, they would make a new one
+  // that nobody frees.
+  Kept() { OGRSpatialReference().SetWellKnownGeogCS("WGS84"); }
+
+  const Pair& get(const std::shared_ptr<const CrsMap::Ends>& ends) {
+    for (const Entry& entry : entries_)
+      if (entry.ends == ends) return entry.pair;
+    Entry& entry = entries_[oldest_];
+    oldest_ = (oldest_ + 1) % entries_.size();
+    entry = {ends, makePair(*ends)};
+    return entry.pair;
+  }
+
+ private:
   struct Entry {
     std::shared_ptr<const CrsMap::Ends> ends;
     Pair pair;
   };
-  constexpr std::size_t kKept = 4;
-  thread_local std::array<Entry, kKept> kept;
-  thread_local std::size_t oldest = 0;
-  for (const Entry& entry : kept)
-    if (entry.ends == ends) return entry.pair;
-  Entry& entry = kept[oldest];
-  oldest = (oldest + 1) % kKept;
-  entry = {ends, makePair(*ends)};
-  return entry.pair;
+  std::array<Entry, 4> entries_;
+  std::size_t oldest_ = 0;
+};
+
+const Pair& pairOfThread(const std::shared_ptr<const CrsMap::Ends>& ends) {
+  thread_local Kept kept;
+  return kept.get(ends);
 }
 
 }  // namespace
