@@ -15,18 +15,16 @@ namespace {
 // No free vertex comes nearer to others than this share of the input's spacing there. Runs that reach their bound stay
 // above: up to 42° all but single points, which repair can do without. Above that no spacing is fine enough, and a
 // coarser one ends sooner.
-double freeShare(double min_angle) {
-  const double beyond = std::clamp((toDegrees(min_angle) - 42.0) / 2.0, 0.0, 1.0);
+double freeShare(double min_angle_deg) {
+  const double beyond = std::clamp((min_angle_deg - 42.0) / 2.0, 0.0, 1.0);
   return 0.12 + 0.13 * beyond;
 }
 // New points aim above the bound where it is large: a mesh without any slack refines further. Algorithm 1 is the paper's.
-double aimAbove(double min_angle) { return toRadians(std::clamp(0.5 * (toDegrees(min_angle) - 38.0), 0.0, 1.0)); }
+double aimAboveDeg(double min_angle_deg) { return std::clamp(0.5 * (min_angle_deg - 38.0), 0.0, 1.0); }
 // Relocations never bring a vertex more often than this: a bound on the run, not a setting.
 constexpr std::uint8_t kMostMoves = 32;
 // From this angle on taking vertices out during refinement pays: density spreads there.
 constexpr double kMergeFromDeg = 35.0;
-// Sectors below this angle are split on shells (Ruppert 1995, Section 5).
-constexpr double kShellAngle = std::numbers::pi / 3.0;
 
 // Ranks of bad triangles: squared lengths in sixteen steps an octave, cosines in steps of a thousandth. Within a step the older
 // comes first, which is near the one before it: an exact order costs time and gains no points.
@@ -37,20 +35,17 @@ std::uint32_t rankOfAngle(double cosine) { return static_cast<std::uint32_t>((1.
 
 }  // namespace
 
-Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
-    : pslg_(pslg),
-      options_(options),
-      bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
-      mesh_(std::move(mesh)),
-      search_(options.algorithm, bound_, options.algorithm == Algorithm::Relocate ? aimAbove(bound_.min_angle) : 0.0),
-      ops_(mesh_, pslg_, bound_),
-      cos_lens_(-std::cos(2.0 * bound_.min_angle)),
-      free_share_(freeShare(bound_.min_angle)),
-      squared_grain_(squaredGrain()),
-      moves_(mesh_.vertexSlots(), 0) {
-  findInputAngles();
-  findSpacing();
+RefineVariant usualVariant(const RefineOptions& options) {
+  RefineVariant variant;
+  if (options.algorithm == Algorithm::Relocate) variant.aim_deg = aimAboveDeg(options.min_angle_deg);
+  variant.free_share = freeShare(options.min_angle_deg);
+  return variant;
 }
+
+Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
+    : Refiner(std::move(mesh), pslg, options,
+              noteInput(mesh, TriangleBound(options.min_angle_deg, options.max_angle_deg, options.size_max)),
+              usualVariant(options)) {}
 
 Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes&& notes,
                  const RefineVariant& variant)
@@ -62,43 +57,9 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options,
       search_(options.algorithm, bound_, toRadians(variant.aim_deg)),
       ops_(mesh_, pslg_, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
-      free_share_(variant.free_share),
       squared_grain_(squaredGrain()),
       notes_(std::move(notes)),
       moves_(mesh_.vertexSlots(), 0) {}
-
-// Without a largest angle only sectors below a right angle matter: no trigonometry for the many others.
-bool Refiner::mayBeSmall(TriId t, unsigned i) const {
-  if (bound_.max_angle < std::numbers::pi) return true;
-  const VertexId v = mesh_.triangle(t).v[i];
-  const Point along = mesh_.point(mesh_.triangle(t).v[next3(i)]) - mesh_.point(v);
-  while (true) {
-    const unsigned c = mesh_.cornerOf(t, v);
-    if (dot(along, mesh_.point(mesh_.triangle(t).v[prev3(c)]) - mesh_.point(v)) <= 0.0) return false;
-    const EdgeRef in = edgeRef(t, next3(c));
-    if (mesh_.isConstrained(in)) return true;
-    t = triOf(mesh_.twin(in));
-  }
-}
-
-void Refiner::findInputAngles() {
-  notes_.shell_unit.assign(mesh_.inputVertices(), 0.0);
-  notes_.small_angle.assign(mesh_.inputVertices(), false);
-  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef right = edgeRef(t, prev3(i));
-      const VertexId v = mesh_.triangle(t).v[i];
-      if (!mesh_.isConstrained(right) || v >= mesh_.inputVertices()) continue;
-      if (!mayBeSmall(t, i)) continue;
-      const Sector sector = sectorAt(mesh_, t, i);
-      if (!bound_.canDivide(sector.angle)) notes_.small_angle[v] = true;
-      if (sector.angle >= kShellAngle) continue;
-      const double nearer = std::min(distance(mesh_.point(v), mesh_.point(mesh_.target(sector.right))),
-                                     distance(mesh_.point(v), mesh_.point(mesh_.origin(sector.left))));
-      notes_.shell_unit[v] = notes_.shell_unit[v] == 0.0 ? nearer : std::min(notes_.shell_unit[v], nearer);
-    }
-  }
-}
 
 // A thousand units in the last place of the largest coordinate, squared.
 double Refiner::squaredGrain() const {
@@ -107,26 +68,6 @@ double Refiner::squaredGrain() const {
     magnitude = std::max({magnitude, std::abs(mesh_.point(v).x), std::abs(mesh_.point(v).y)});
   const double grain = 1000.0 * std::numeric_limits<double>::epsilon() * magnitude;
   return grain * grain;
-}
-
-// The distance to the nearest vertex or segment that a vertex sees, from the triangles round it.
-void Refiner::findSpacing() {
-  notes_.spacing.assign(mesh_.vertexSlots(), std::numeric_limits<double>::infinity());
-  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
-    const Triangle& tri = mesh_.triangle(t);
-    for (unsigned i = 0; i < 3; ++i) {
-      const VertexId a = tri.v[next3(i)], b = tri.v[prev3(i)];
-      const Point ab = mesh_.point(b) - mesh_.point(a);
-      const double length = std::sqrt(squaredLength(ab));
-      notes_.spacing[a] = std::min(notes_.spacing[a], length);
-      notes_.spacing[b] = std::min(notes_.spacing[b], length);
-      if (!mesh_.isConstrained(edgeRef(t, i))) continue;
-      const Point av = mesh_.point(tri.v[i]) - mesh_.point(a);
-      const double along = dot(av, ab);
-      if (along > 0.0 && along < length * length)
-        notes_.spacing[tri.v[i]] = std::min(notes_.spacing[tri.v[i]], std::abs(cross(ab, av)) / length);
-    }
-  }
 }
 
 void Refiner::enqueueIfBad(TriId t) {
@@ -281,7 +222,7 @@ bool Refiner::insertPoint(TriId t, unsigned apex) {
   if (hit != kNone) return splitFor(hit, t, apex);
   const double spacing = spacingAt(candidate.place, patch_);
   if (!inside || std::min(candidate.squared_clearance, spacing * spacing) < squared_grain_) return false;
-  if (candidate.squared_clearance < free_share_ * free_share_ * spacing * spacing) return false;
+  if (candidate.squared_clearance < variant_.free_share * variant_.free_share * spacing * spacing) return false;
   const VertexId fan = fanApexBehind(t, apex);
   if (fan != kNone)
     for (const TriId c : patch_.triangles)

@@ -11,29 +11,25 @@
 #include "core/pslg.hpp"
 #include "core/refine.hpp"
 #include "core/steiner.hpp"
+#include "core/vertex_notes.hpp"
 #include "core/vertex_ops.hpp"
 
 namespace coastmesh {
 
-// What a run knows of vertices besides their places.
-struct VertexNotes {
-  std::vector<double> spacing;     // one a vertex: the local feature size of the input there, from above
-  std::vector<double> shell_unit;  // one an input vertex: radius of a shell round it; 0 where no small angle is there
-  std::vector<bool> small_angle;   // one an input vertex: some sector of it is too small for the bounds
-};
-
-// How a run on a patch differs from the usual one: repair tries several.
+// What runs differ in. Repair tries several on a patch.
 struct RefineVariant {
   double aim_deg = 0.0;      // new points aim at an angle this much above the bound
   bool worst_first = false;  // smallest angle first, not shortest edge
   double free_share = 0.0;   // least distance to other vertices, as a share of the input's spacing
 };
 
+RefineVariant usualVariant(const RefineOptions& options);
+
 // The state of one refinement run.
 class Refiner {
  public:
   Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options);
-  // On a patch of a larger mesh: what is known of its vertices comes along.
+  // On a part of a larger mesh: what is known of its vertices comes along.
   Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes&& notes,
           const RefineVariant& variant);
 
@@ -44,7 +40,6 @@ class Refiner {
 
   EditMesh& mesh() { return mesh_; }
   const VertexNotes& notes() const { return notes_; }
-  const TriangleBound& bound() const { return bound_; }
   // Whether a triangle breaks the bounds and no input angle explains it.
   bool isShort(TriId t) const;
   void noteVertex(VertexId v, double spacing);
@@ -54,9 +49,6 @@ class Refiner {
   void resume(std::vector<TriId>& touched, const RunControl& control);
 
  private:
-  void findInputAngles();
-  bool mayBeSmall(TriId t, unsigned i) const;
-  void findSpacing();
   double squaredGrain() const;
   void enqueueIfBad(TriId t);
   void enqueueTouched();
@@ -86,7 +78,6 @@ class Refiner {
   SteinerSearch search_;
   VertexOps ops_;
   double cos_lens_;
-  double free_share_;
   double squared_grain_;  // no vertex is put nearer to another: there rounding decides what an angle is
 
   VertexNotes notes_;

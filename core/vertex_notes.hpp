@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "core/metric.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+// What a run knows of vertices besides their places.
+struct VertexNotes {
+  std::vector<double> spacing;     // one a vertex: the local feature size of the input there, from above
+  std::vector<double> shell_unit;  // one an input vertex: radius of a shell round it; 0 where no small angle is there
+  std::vector<bool> small_angle;   // one an input vertex: some sector of it is too small for the bounds
+};
+
+// Notes on a mesh as `constrainedDelaunay` made it.
+VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound);
+
+}  // namespace coastmesh
