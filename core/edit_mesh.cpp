@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "core/flip.hpp"
 #include "core/hilbert.hpp"
 #include "core/predicates.hpp"
 
@@ -26,7 +27,7 @@ EditMesh::EditMesh(TriMesh&& mesh)
   }
 }
 
-TriMesh EditMesh::release() {
+TriMesh EditMesh::release(Renumbering& by) {
   // Steiner points get their numbers along Hilbert's curve, so that what lies near in the plane lies near in memory.
   std::vector<VertexId> steiner;
   for (VertexId v = input_vertices_; v < points_.size(); ++v)
@@ -37,7 +38,8 @@ TriMesh EditMesh::release() {
   TriMesh mesh;
   mesh.input_vertices = input_vertices_;
   mesh.points.assign(points_.begin(), points_.begin() + input_vertices_);
-  std::vector<VertexId> number(points_.size(), kNone);
+  std::vector<VertexId>& number = by.vertex;
+  number.assign(points_.size(), kNone);
   for (VertexId v = 0; v < input_vertices_; ++v) number[v] = v;
   for (const VertexId v : steiner) {
     number[v] = static_cast<VertexId>(mesh.points.size());
@@ -54,7 +56,8 @@ TriMesh EditMesh::release() {
     if (isLive(t)) ++first[last(t) + 1];
   for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
   mesh.triangles.resize(first.back());
-  std::vector<TriId> slot(triangles_.size(), kNone);
+  std::vector<TriId>& slot = by.triangle;
+  slot.assign(triangles_.size(), kNone);
   for (TriId t = 0; t < triangles_.size(); ++t)
     if (isLive(t)) slot[t] = first[last(t)]++;
   for (TriId t = 0; t < triangles_.size(); ++t) {
@@ -342,24 +345,10 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
 }
 
 bool EditMesh::flip(EdgeRef e) {
-  const EdgeRef f = twin(e);
-  const TriId t = triOf(e), n = triOf(f);
-  const VertexId a = apex(e), b = origin(e), c = target(e), d = apex(f);
-  if (inCircle(points_[a], points_[b], points_[c], points_[d]) <= 0) return false;
-  if (orient2d(points_[a], points_[b], points_[d]) <= 0 || orient2d(points_[a], points_[d], points_[c]) <= 0)
-    return false;
-  const auto outer = [this](TriId s, unsigned i) {
-    return RimEdge{kNone, kNone, triangles_[s].adj[i], triangles_[s].seg[i]};
-  };
-  const RimEdge ab = outer(t, prev3(indexOf(e))), ca = outer(t, next3(indexOf(e)));
-  const RimEdge bd = outer(n, next3(indexOf(f))), dc = outer(n, prev3(indexOf(f)));
-  write(t, {a, b, d});
-  write(n, {a, d, c});
-  link(edgeRef(t, 0), bd.beyond, bd.seg);
-  link(edgeRef(t, 2), ab.beyond, ab.seg);
-  link(edgeRef(n, 0), dc.beyond, dc.seg);
-  link(edgeRef(n, 1), ca.beyond, ca.seg);
-  link(edgeRef(t, 1), edgeRef(n, 2), kNone);
+  const TriId t = triOf(e), n = triOf(twin(e));
+  if (!flipToDelaunay(points_, triangles_, e)) return false;
+  for (const TriId changed : {t, n})
+    for (const VertexId v : triangles_[changed].v) triangle_of_[v] = changed;
   return true;
 }
 

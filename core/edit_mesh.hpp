@@ -31,6 +31,12 @@ struct Patch {
   std::vector<RimEdge> rim;
 };
 
+// New numbers by old ones; kNone for what is gone.
+struct Renumbering {
+  std::vector<VertexId> vertex;
+  std::vector<TriId> triangle;
+};
+
 // A triangulation under change: compact arrays with free lists. All writes of topology go through this class.
 // Operations that change it append the triangles they made or changed to `touched`.
 class EditMesh {
@@ -39,7 +45,11 @@ class EditMesh {
 
   // The mesh without dead entries. Input vertices keep their numbers; Steiner points, and triangles with them, are put in an order
   // that keeps neighbours near in memory. Leaves `regions` empty.
-  TriMesh release();
+  TriMesh release() {
+    Renumbering by;
+    return release(by);
+  }
+  TriMesh release(Renumbering& by);
 
   const Point& point(VertexId v) const { return points_[v]; }
   const Triangle& triangle(TriId t) const { return triangles_[t]; }

@@ -59,7 +59,23 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options,
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
       squared_grain_(squaredGrain()),
       notes_(std::move(notes)),
-      moves_(mesh_.vertexSlots(), 0) {}
+      moves_(mesh_.vertexSlots(), 0) {
+  if (variant_.clear_of_frozen) findFrozenVertices();
+}
+
+void Refiner::findFrozenVertices() {
+  ops_.keepClearOfFrozen();
+  frozen_.assign(mesh_.inputVertices(), false);
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
+    for (unsigned i = 0; i < 3; ++i)
+      if (mesh_.segment(edgeRef(t, i)) == kFrozen)
+        frozen_[mesh_.origin(edgeRef(t, i))] = frozen_[mesh_.target(edgeRef(t, i))] = true;
+}
+
+// Whether a patch is next to a frozen edge, and is to be left alone for that.
+bool Refiner::isBarred(const Patch& patch) const {
+  return variant_.clear_of_frozen && std::ranges::any_of(patch.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
+}
 
 // A thousand units in the last place of the largest coordinate, squared.
 double Refiner::squaredGrain() const {
@@ -115,7 +131,10 @@ void Refiner::drainQueue(const RunControl& control) {
 
 void Refiner::mend(TriId t) {
   const TriangleShape shape(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
-  if (!isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_) || isLeftAlone(t, shape)) return;
+  if (!isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_)) return;
+  const auto isFrozen = [this](VertexId v) { return v < frozen_.size() && frozen_[v]; };
+  if (std::ranges::any_of(mesh_.triangle(t).v, isFrozen)) return defer(t);
+  if (isLeftAlone(t, shape)) return;
   if (options_.algorithm == Algorithm::Relocate && mendWithoutInsertion(t)) {
     enqueueTouched();
     return;
@@ -204,6 +223,10 @@ bool Refiner::insertPoint(TriId t, unsigned apex) {
   if (where.blocked != kNone) return splitFor(where.blocked, t, apex);
   if (where.triangle == kNone) return false;
   const bool inside = mesh_.findCavity(candidate.place, where.triangle, patch_);
+  if (isBarred(patch_)) {
+    defer(t);
+    return false;
+  }
   EdgeRef hit = kNone;
   double widest = 0.0;
   for (const RimEdge& r : patch_.rim) {
@@ -236,7 +259,7 @@ bool Refiner::insertPoint(TriId t, unsigned apex) {
 }
 
 bool Refiner::removeFreeVertex(VertexId v) {
-  if (!mesh_.gatherPatch({&v, 1}, patch_)) return false;
+  if (!mesh_.gatherPatch({&v, 1}, patch_) || isBarred(patch_)) return false;
   polygon_.clear();
   for (const RimEdge& r : patch_.rim) polygon_.push_back(r.a);
   if (!triangulatePolygon(mesh_, polygon_, fresh_)) return false;
@@ -276,6 +299,21 @@ bool Refiner::isShort(TriId t) const {
 TriMesh Refiner::release() {
   stats_.steiner_points = mesh_.vertexCount() - mesh_.inputVertices();
   return mesh_.release();
+}
+
+TriMesh Refiner::release(VertexNotes& notes, std::vector<std::uint8_t>& due) {
+  std::erase_if(deferred_, [this](const BadTriangle& bad) { return mesh_.triangle(bad.triangle).v != bad.corners; });
+  Renumbering by;
+  stats_.steiner_points = mesh_.vertexCount() - mesh_.inputVertices();
+  TriMesh mesh = mesh_.release(by);
+  due.assign(mesh.triangles.size(), 0);
+  for (const BadTriangle& bad : deferred_) due[by.triangle[bad.triangle]] = 1;
+  notes = std::move(notes_);
+  std::vector<double> spacing(mesh.points.size());
+  for (VertexId v = 0; v < by.vertex.size(); ++v)
+    if (by.vertex[v] != kNone) spacing[by.vertex[v]] = notes.spacing[v];
+  notes.spacing = std::move(spacing);
+  return mesh;
 }
 
 }  // namespace coastmesh

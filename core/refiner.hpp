@@ -21,6 +21,8 @@ struct RefineVariant {
   double aim_deg = 0.0;      // new points aim at an angle this much above the bound
   bool worst_first = false;  // smallest angle first, not shortest edge
   double free_share = 0.0;   // least distance to other vertices, as a share of the input's spacing
+  // Leaves alone what reaches a frozen edge, and keeps it for later. Else a frozen edge is a wall like a segment.
+  bool clear_of_frozen = false;
 };
 
 RefineVariant usualVariant(const RefineOptions& options);
@@ -36,6 +38,9 @@ class Refiner {
   // Handles bad triangles until none is left that a point could mend.
   void run(const RunControl& control);
   TriMesh release();
+  // The same, and what else a run on a part of a larger mesh has to give back: notes on its vertices, and one flag a triangle for those
+  // that it kept for later.
+  TriMesh release(VertexNotes& notes, std::vector<std::uint8_t>& due);
   RefineStats& stats() { return stats_; }
 
   EditMesh& mesh() { return mesh_; }
@@ -43,6 +48,9 @@ class Refiner {
   // Whether a triangle breaks the bounds and no input angle explains it.
   bool isShort(TriId t) const;
   void noteVertex(VertexId v, double spacing);
+  // Keeps a triangle for later.
+  void defer(TriId t) { deferred_.push_back({t, mesh_.triangle(t).v}); }
+  bool isClearOfFrozen() const { return variant_.clear_of_frozen; }
   // Takes out every free vertex that can go.
   void stripFreeVertices();
   // Handles the bad ones among these triangles, and what follows from that.
@@ -52,6 +60,8 @@ class Refiner {
   double squaredGrain() const;
   void enqueueIfBad(TriId t);
   void enqueueTouched();
+  void findFrozenVertices();
+  bool isBarred(const Patch& patch) const;
   void mend(TriId t);
   bool isLeftAlone(TriId t, const TriangleShape& shape) const;
   bool isFan(TriId t, VertexId apex) const;
@@ -84,6 +94,9 @@ class Refiner {
   std::vector<std::uint8_t> moves_;  // one a vertex: relocations so far
 
   BadQueue queue_;
+  std::vector<bool>
+      frozen_;  // one a fixed vertex: on a frozen edge that the run is to keep clear of; empty where there is none
+  std::vector<BadTriangle> deferred_;
   std::set<std::pair<VertexId, VertexId>> stuck_;  // subsegments that rounding lets no one split
 
   // Scratch.

@@ -77,12 +77,19 @@ EdgeRef Refiner::clearDiametralCircle(EdgeRef edge) {
 
 bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex) {
   const SegmentId seg = mesh_.segment(edge);
-  if (seg == kNone || seg == kFrozen) return false;
+  if (seg == kNone || seg == kFrozen) {
+    if (seg == kFrozen && variant_.clear_of_frozen) defer(t);
+    return false;
+  }
   const VertexId a = mesh_.origin(edge), b = mesh_.target(edge);
   const VertexId fan = fanApexBehind(t, apex);
   if (fan != kNone && (a == fan || b == fan)) return false;
   const Point place = splitPlace(a, b, seg);
   if (stuck_.contains({a, b}) || !mesh_.findSplitCavity(edge, place, patch_)) return false;
+  if (isBarred(patch_)) {
+    defer(t);
+    return false;
+  }
   const double spacing = spacingOnSegment(place, edge, patch_);
   const double nearer = std::min(squaredDistance(place, mesh_.point(a)), squaredDistance(place, mesh_.point(b)));
   // Where the input itself is finer than the grain, nothing can be mended.

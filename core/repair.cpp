@@ -60,10 +60,23 @@ std::optional<TriMesh> solveSmallest(const LocalPatch& patch, const Pslg& pslg, 
   return best;
 }
 
-bool mendPlace(Refiner& refiner, TriId centre, const Pslg& pslg, const RefineOptions& options,
-               const RunControl& control, std::uint64_t& work) {
+enum class Outcome { Mended, Failed, Deferred };
+
+// Whether the mesh is a part of a larger one and the patch lies at its frozen rim.
+bool isAtFrozenRim(const EditMesh& mesh, const LocalPatch& patch) {
+  return std::ranges::any_of(patch.triangles, [&](TriId t) {
+    return std::ranges::find(mesh.triangle(t).seg, kFrozen) != mesh.triangle(t).seg.end();
+  });
+}
+
+Outcome mendPlace(Refiner& refiner, TriId centre, const Pslg& pslg, const RefineOptions& options,
+                  const RunControl& control, std::uint64_t& work) {
   for (const unsigned rings : kRings) {
     const LocalPatch patch = extractPatch(refiner.mesh(), refiner.notes(), centre, rings);
+    if (refiner.isClearOfFrozen() && isAtFrozenRim(refiner.mesh(), patch)) {
+      refiner.defer(centre);
+      return Outcome::Deferred;
+    }
     const std::optional<TriMesh> solved = solveSmallest(patch, pslg, options, work);
     if (!solved) continue;
     std::vector<VertexId> added;
@@ -77,14 +90,19 @@ bool mendPlace(Refiner& refiner, TriId centre, const Pslg& pslg, const RefineOpt
     }
     refiner.mesh().restoreDelaunay(touched);
     refiner.resume(touched, control);
-    return true;
+    return Outcome::Mended;
   }
-  return false;
+  return Outcome::Failed;
 }
 
 }  // namespace
 
-void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+            std::span<const BadTriangle> given_up) {
+  const auto isGivenUp = [&](TriId t) {
+    const auto known = std::ranges::lower_bound(given_up, t, {}, &BadTriangle::triangle);
+    return known != given_up.end() && known->triangle == t && known->corners == refiner.mesh().triangle(t).v;
+  };
   const std::uint64_t most_work = kWorkRoom + kWorkShare * refiner.mesh().vertexCount();
   std::uint64_t work = 0, successes = 0, failures = 0;
   // What a repair pushes beyond its patch is met on the next round.
@@ -92,12 +110,13 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
   for (int round = 0; round < kRounds; ++round) {
     bool again = false;
     for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t) {
-      if (!refiner.mesh().isLive(t) || !refiner.isShort(t)) continue;
+      if (!refiner.mesh().isLive(t) || !refiner.isShort(t) || isGivenUp(t)) continue;
       if (work > most_work || refiner.stats().budget_reached) return;
       control.checkpoint(1.0);
-      const bool mended = mendPlace(refiner, t, pslg, options, control, work);
-      again |= mended;
-      ++(mended ? successes : failures);
+      const Outcome outcome = mendPlace(refiner, t, pslg, options, control, work);
+      if (outcome == Outcome::Deferred) continue;
+      again |= outcome == Outcome::Mended;
+      ++(outcome == Outcome::Mended ? successes : failures);
       if (failures > hopeless(options.min_angle_deg) + 2 * successes) return;
     }
     if (!again) return;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 #include <deque>
 #include <utility>
 #include <vector>
@@ -6,6 +7,7 @@
 #include "core/edit_mesh.hpp"
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
+#include "core/piece.hpp"
 #include "core/refine.hpp"
 #include "core/shortfalls.hpp"
 #include "core/vertex_ops.hpp"
@@ -53,10 +55,17 @@ class Shrinker {
         ops_(mesh_, pslg, bound_),
         waiting_(mesh_.vertexSlots()) {}
 
+  // Of a part of a larger mesh: only the due vertices, and clear of frozen edges.
+  Shrinker(Piece&& piece, const Pslg& pslg, const RefineOptions& options)
+      : Shrinker(std::move(piece.mesh), pslg, options) {
+    ops_.keepClearOfFrozen();
+    due_ = std::move(piece.due_vertices);
+  }
+
   void run(int sweeps, const RunControl& control) {
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       for (VertexId v = mesh_.inputVertices(); v < mesh_.vertexSlots(); ++v)
-        if (mesh_.isLiveVertex(v)) waiting_.push(v);
+        if (mesh_.isLiveVertex(v) && isDue(v)) waiting_.push(v);
       const double first = static_cast<double>(std::max<std::size_t>(1, waiting_.size()));
       // Only a success lets vertices wait again, and takes one out for good.
       for (std::uint64_t steps = 1; waiting_.size() > 0; ++steps) {
@@ -71,9 +80,12 @@ class Shrinker {
   }
 
   TriMesh release() { return mesh_.release(); }
+  Piece releasePiece();
   RefineStats& stats() { return stats_; }
 
  private:
+  bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
+  bool isAtFrozenEdge(VertexId v);
   void handle(VertexId v) {
     touched_.clear();
     if (ops_.remove(v, touched_)) {
@@ -98,9 +110,36 @@ class Shrinker {
   Waiting waiting_;
   RefineStats stats_;
   std::vector<TriId> touched_;
+  std::vector<EdgeRef> star_;
+  std::vector<std::uint8_t> due_;  // one a vertex; empty where all are
 };
 
+bool Shrinker::isAtFrozenEdge(VertexId v) {
+  mesh_.star(v, star_);
+  return std::ranges::any_of(star_, [this](EdgeRef e) { return mesh_.segment(e) == kFrozen; });
+}
+
+// A vertex stays due where it is fixed for now, or next to a frozen edge.
+Piece Shrinker::releasePiece() {
+  for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
+    due_[v] = due_[v] && mesh_.isLiveVertex(v) && (v < mesh_.inputVertices() || isAtFrozenEdge(v));
+  Piece piece;
+  Renumbering by;
+  piece.mesh = mesh_.release(by);
+  piece.due_vertices.assign(piece.mesh.points.size(), 0);
+  for (VertexId v = 0; v < by.vertex.size(); ++v)
+    if (by.vertex[v] != kNone) piece.due_vertices[by.vertex[v]] = due_[v];
+  return piece;
+}
+
 }  // namespace
+
+RefineStats shrinkPiece(Piece& piece, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  Shrinker shrinker(std::move(piece), pslg, options);
+  shrinker.run(sweepsFor(options.min_angle_deg), control);
+  piece = shrinker.releasePiece();
+  return std::move(shrinker.stats());
+}
 
 RefineStats shrink(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
   Shrinker shrinker(std::move(mesh), pslg, options);

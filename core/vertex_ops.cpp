@@ -90,12 +90,18 @@ bool VertexOps::holeFlips() const {
   return false;
 }
 
+// Whether the star in patch_ is next to a frozen edge, and is to be left alone for that.
+bool VertexOps::isBarred() const {
+  return clear_of_frozen_ && std::ranges::any_of(patch_.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
+}
+
 bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
   patch_.triangles.clear();
   patch_.rim.clear();
   inner_.clear();
   outer_.clear();
   gather(v, kNone, v);
+  if (isBarred()) return false;
   const std::optional<Point> place = findPlace(v);
   if (!place || !fits(*place) || (flips_may_harm_ && fanFlips(*place))) return false;
   mesh_.setPoint(v, *place);
@@ -126,6 +132,7 @@ bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
     patch_.triangles.push_back(triOf(e));
     patch_.rim.push_back({mesh_.origin(e), mesh_.target(e), mesh_.twin(e), mesh_.segment(e)});
   }
+  if (isBarred()) return false;
   if (mesh_.kind(v) == VertexKind::Free) {
     if (!fillHole(0, star_.size())) return false;
     all_fresh_ = fresh_;
@@ -178,6 +185,7 @@ bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched
   gather(goes, stays, stays);
   const std::size_t own = patch_.rim.size();
   gather(stays, goes, stays);
+  if (isBarred()) return false;
   // Angles of the bound fit into the turn, but hardly ever so many that little is left.
   constexpr double kMostTurn = toRadians(300.5);
   if (patch_.rim.size() < 3 || static_cast<double>(patch_.rim.size()) * bound_.min_angle > kMostTurn) return false;

@@ -25,6 +25,9 @@ class VertexOps {
         bound_(bound),
         flips_may_harm_(bound.max_angle < std::numbers::pi || !std::isinf(bound.squared_size)) {}
 
+  // From now on leaves alone what a frozen edge is next to: it is another's to change too.
+  void keepClearOfFrozen() { clear_of_frozen_ = true; }
+
   // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
   // differ: the region of good places is found exactly, and a vertex on a segment slides along it.
   bool relocate(VertexId v, std::vector<TriId>& touched);
@@ -48,12 +51,14 @@ class VertexOps {
   bool fits(const Point& place) const;
   bool fanFlips(const Point& place) const;
   bool holeFlips() const;
+  bool isBarred() const;
   EdgeRef spokeBefore(EdgeRef opposite) const { return edgeRef(triOf(opposite), prev3(indexOf(opposite))); }
   EdgeRef spokeAfter(EdgeRef opposite) const { return edgeRef(triOf(opposite), next3(indexOf(opposite))); }
 
   EditMesh& mesh_;
   const Pslg& pslg_;
   const TriangleBound& bound_;
+  bool clear_of_frozen_ = false;
   bool flips_may_harm_;  // they keep the smallest angle, but not the largest, nor the longest edge
 
   // Scratch.
