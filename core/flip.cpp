@@ -23,7 +23,9 @@ bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles
   const auto link = [&](EdgeRef own, const Side& other) {
     triangles[triOf(own)].adj[indexOf(own)] = other.beyond;
     triangles[triOf(own)].seg[indexOf(own)] = other.seg;
-    if (other.beyond != kNone) triangles[triOf(other.beyond)].adj[indexOf(other.beyond)] = own;
+    if (other.beyond == kNone) return;
+    triangles[triOf(other.beyond)].adj[indexOf(other.beyond)] = own;
+    triangles[triOf(other.beyond)].seg[indexOf(other.beyond)] = other.seg;
   };
   triangles[t].v = {a, b, d};
   triangles[n].v = {a, d, c};
