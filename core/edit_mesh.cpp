@@ -358,6 +358,20 @@ void EditMesh::restoreDelaunay(std::vector<TriId>& touched) {
     if (!isLive(t)) continue;
     for (unsigned i = 0; i < 3; ++i) stack_.push_back(edgeRef(t, i));
   }
+  flipWaiting(touched);
+}
+
+void EditMesh::restoreDelaunayRound(VertexId v, std::vector<TriId>& touched) {
+  stack_.clear();
+  for (const TriId t : touched) {
+    const unsigned i = cornerOf(t, v);
+    stack_.push_back(edgeRef(t, i));
+    stack_.push_back(edgeRef(t, next3(i)));
+  }
+  flipWaiting(touched);
+}
+
+void EditMesh::flipWaiting(std::vector<TriId>& touched) {
   while (!stack_.empty()) {
     const EdgeRef e = stack_.back();
     stack_.pop_back();
@@ -370,30 +384,15 @@ void EditMesh::restoreDelaunay(std::vector<TriId>& touched) {
   }
 }
 
-namespace {
-
-// Triangulates the chain polygon[first..last], closed by the edge from its last point to its first.
-bool triangulateChain(const EditMesh& mesh, std::span<const VertexId> chain, std::vector<Corners>& triangles) {
-  if (chain.size() < 3) return true;
-  const Point& a = mesh.point(chain.front());
-  const Point& b = mesh.point(chain.back());
+std::size_t detail::delaunayApex(const EditMesh& mesh, std::span<const VertexId> chain) {
+  const Point a = mesh.point(chain.front()), b = mesh.point(chain.back());
   std::size_t best = 0;
   for (std::size_t k = 1; k + 1 < chain.size(); ++k) {
     const Point& c = mesh.point(chain[k]);
     if (orient2d(a, c, b) <= 0) continue;
     if (best == 0 || inCircle(a, mesh.point(chain[best]), b, c) > 0) best = k;
   }
-  if (best == 0) return false;
-  triangles.push_back({chain.front(), chain[best], chain.back()});
-  return triangulateChain(mesh, chain.subspan(0, best + 1), triangles) &&
-         triangulateChain(mesh, chain.subspan(best), triangles);
-}
-
-}  // namespace
-
-bool triangulatePolygon(const EditMesh& mesh, std::span<const VertexId> polygon, std::vector<Corners>& triangles) {
-  triangles.clear();
-  return triangulateChain(mesh, polygon, triangles);
+  return best;
 }
 
 }  // namespace coastmesh

@@ -119,12 +119,16 @@ class EditMesh {
   // Lawson's flips, from all edges of the triangles in `touched` on; appends the triangles they change.
   void restoreDelaunay(std::vector<TriId>& touched);
 
+  // The same where `touched` is the star of v, which has no rim.
+  void restoreDelaunayRound(VertexId v, std::vector<TriId>& touched);
+
  private:
   TriId newTriangle();
   void kill(TriId t);
   void write(TriId t, const Corners& corners);
   void link(EdgeRef e, EdgeRef f, SegmentId seg);
   bool flip(EdgeRef e);
+  void flipWaiting(std::vector<TriId>& touched);
   void collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const;
   void fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan);
 
@@ -142,8 +146,37 @@ class EditMesh {
   Patch side_[2];
 };
 
+namespace detail {
+
+// The point of a chain, other than its ends, whose circle through the ends holds no other. 0 where all lie behind.
+std::size_t delaunayApex(const EditMesh& mesh, std::span<const VertexId> chain);
+
+// Triangulates a chain, closed by the edge from its last point to its first.
+template <typename Accept>
+bool triangulateChain(const EditMesh& mesh, std::span<const VertexId> chain, std::vector<Corners>& triangles,
+                      const Accept& accept) {
+  if (chain.size() < 3) return true;
+  const std::size_t apex = delaunayApex(mesh, chain);
+  if (apex == 0) return false;
+  triangles.push_back({chain.front(), chain[apex], chain.back()});
+  return accept(triangles.back()) && triangulateChain(mesh, chain.subspan(0, apex + 1), triangles, accept) &&
+         triangulateChain(mesh, chain.subspan(apex), triangles, accept);
+}
+
+}  // namespace detail
+
 // The Delaunay triangulation of a simple polygon given counter-clockwise: k - 2 triangles. Answers false where it has
-// none without a turned triangle.
-bool triangulatePolygon(const EditMesh& mesh, std::span<const VertexId> polygon, std::vector<Corners>& triangles);
+// none without a turned triangle, or as soon as `accept` refuses a triangle.
+template <typename Accept>
+bool triangulatePolygon(const EditMesh& mesh, std::span<const VertexId> polygon, std::vector<Corners>& triangles,
+                        const Accept& accept) {
+  triangles.clear();
+  return detail::triangulateChain(mesh, polygon, triangles, accept);
+}
+
+inline bool triangulatePolygon(const EditMesh& mesh, std::span<const VertexId> polygon,
+                               std::vector<Corners>& triangles) {
+  return triangulatePolygon(mesh, polygon, triangles, [](const Corners&) { return true; });
+}
 
 }  // namespace coastmesh

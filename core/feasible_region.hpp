@@ -25,17 +25,20 @@ class FeasibleRegion {
   // A point well inside the region, or nothing where there is none (or one thinner than rounding).
   std::optional<Point> findPoint(std::span<const LinkEdge> link, const TriangleBound& bound);
 
-  // The same on the line from a to b: the point in the middle of what is feasible there.
+  // Whether the region is certainly empty; a quick test without sizes and largest angles. A `false` tells nothing.
+  // REQUIRES: the link is closed.
+  bool isEmpty(std::span<const LinkEdge> link, const TriangleBound& bound);
+
+  // As findPoint on the line from a to b: the point in the middle of what is feasible there.
   static std::optional<Point> findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link,
                                                const TriangleBound& bound);
 
  private:
-  // Keeps what lies to the left of the line through `on` along `direction`. Answers false where nothing is left.
-  bool clip(const Point& on, const Point& direction);
-  Point centre() const;
+  void makeRoom(std::size_t corners);
 
   std::vector<Point> polygon_;
   std::vector<Point> clipped_;
+  std::vector<double> sides_;
 };
 
 }  // namespace coastmesh

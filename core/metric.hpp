@@ -45,7 +45,10 @@ struct TriangleBound {
   double max_angle;  // radians; pi where nothing is asked
   double cos_min;
   double sin_min;
-  double place_angle;  // radians: the smallest angle that new points aim at
+  double cot_min;
+  double petal_radius;  // of the disk whose rim sees an edge under min_angle, over the edge's length
+  double petal_height;  // of its centre above the edge
+  double place_angle;   // radians: the smallest angle that new points aim at
   double cos_max;
   double squared_size;  // longest edge, squared; infinite where nothing is asked
 
@@ -54,6 +57,9 @@ struct TriangleBound {
         max_angle(max_angle_deg >= 180.0 ? std::numbers::pi : toRadians(max_angle_deg - kMarginDeg)),
         cos_min(std::cos(min_angle)),
         sin_min(std::sin(min_angle)),
+        cot_min(cos_min / sin_min),
+        petal_radius(0.5 / sin_min),
+        petal_height(petal_radius * cos_min),
         place_angle(min_angle + toRadians(kMarginDeg)),
         cos_max(std::cos(max_angle)),
         squared_size(size_max * size_max) {}
@@ -86,23 +92,14 @@ struct TriangleShape {
   }
 };
 
-// cos(smallest angle) exceeds the bound; free of square roots and divisions.
-inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c, double cos_min) {
+// cot(smallest angle) exceeds the bound; free of square roots, divisions and branches. The smallest angle has the largest
+// scalar product of its sides, and twice the area is the vector product at every corner.
+inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c, double cot_min) {
   const Point ab = b - a, bc = c - b, ca = a - c;
-  const double la = squaredLength(bc), lb = squaredLength(ca), lc = squaredLength(ab);
-  // The angle opposite the shortest edge: the product of the other two edges from that corner.
-  double d, others;
-  if (la <= lb && la <= lc) {
-    d = -dot(ab, ca);
-    others = lb * lc;
-  } else if (lb <= lc) {
-    d = -dot(ab, bc);
-    others = la * lc;
-  } else {
-    d = -dot(bc, ca);
-    others = la * lb;
-  }
-  return d > 0.0 && d * d > cos_min * cos_min * others;
+  const double at_a = -dot(ab, ca), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
+  const double more = at_a > at_b ? at_a : at_b;
+  const double most = more > at_c ? more : at_c;
+  return most > cot_min * std::abs(cross(ab, ca));
 }
 
 inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, double cos_max) {
@@ -112,7 +109,7 @@ inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, 
 
 // Whether a triangle falls short of what is asked.
 inline bool isBad(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
-  if (bound.min_angle > 0.0 && isSmallestAngleBelow(a, b, c, bound.cos_min)) return true;
+  if (bound.min_angle > 0.0 && isSmallestAngleBelow(a, b, c, bound.cot_min)) return true;
   if (bound.max_angle < std::numbers::pi && isLargestAngleAbove(a, b, c, bound.cos_max)) return true;
   if (std::isinf(bound.squared_size)) return false;
   return std::max({squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)}) > bound.squared_size;

@@ -34,7 +34,7 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   if (algorithm_ == Algorithm::Circumcenter) return {p + own, SteinerType::OwnCircumcenter, t, own_clearance};
 
   const double length = std::sqrt(squaredLength(q));
-  const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cos_min);
+  const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cot_min);
   const double radius = petalRadius(length, std::sqrt(own_clearance), bound_, sin_place_, bad_angle);
   const Point normal{-q.y / length, q.x / length};
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));

@@ -14,6 +14,12 @@ bool hasTooMany(std::size_t triangles, const TriangleBound& bound) {
   return static_cast<double>(triangles) * bound.min_angle > 2.0 * std::numbers::pi;
 }
 
+// The same for what is to be round a merged vertex, hardly ever so many that little is left.
+bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
+  constexpr double kMostTurn = toRadians(300.5);
+  return static_cast<double>(triangles) * bound.min_angle > kMostTurn;
+}
+
 VertexId otherEnd(const RimEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
 
 }  // namespace
@@ -95,7 +101,64 @@ bool VertexOps::isBarred() const {
   return clear_of_frozen_ && std::ranges::any_of(patch_.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
 }
 
+// The ring of a free vertex, from the triangle `home` on.
+void VertexOps::walkRound(VertexId v, TriId home, Ring& ring) const {
+  ring.corners.clear();
+  ring.triangles.clear();
+  TriId t = home;
+  do {
+    const Triangle& tri = mesh_.triangle(t);
+    const unsigned i = mesh_.cornerOf(t, v);
+    ring.corners.push_back(tri.v[next3(i)]);
+    ring.triangles.push_back(t);
+    t = triOf(tri.adj[next3(i)]);
+  } while (t != home);
+}
+
+// Appends to link_ what is round a vertex, less the edges that end at `other`.
+void VertexOps::appendLink(const Ring& ring, VertexId other) {
+  const std::size_t count = ring.corners.size();
+  VertexId from = ring.corners[count - 1];
+  Point x = mesh_.point(from);
+  for (const VertexId to : ring.corners) {
+    const Point y = mesh_.point(to);
+    if (from != other && to != other) link_.push_back({x, y});
+    from = to;
+    x = y;
+  }
+}
+
+// A quick test of two free vertices, v with its ring_ and w beside it, that rules most merges out.
+bool VertexOps::cannotMerge(VertexId v, VertexId w, TriId beside) {
+  walkRound(w, beside, other_ring_);
+  const std::size_t edges = ring_.corners.size() + other_ring_.corners.size() - 4;
+  if (edges < 3 || hasTooManyToMerge(edges, bound_)) return true;
+  link_.clear();
+  appendLink(ring_, w);
+  appendLink(other_ring_, v);
+  return region_.isEmpty(link_, bound_);
+}
+
+bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
+  walkRound(v, mesh_.triangleOf(v), ring_);
+  if (hasTooMany(ring_.corners.size(), bound_)) return false;
+  link_.clear();
+  appendLink(ring_, kNone);
+  const Point& here = mesh_.point(v);
+  const bool good = std::ranges::none_of(link_, [&](const LinkEdge& e) { return isBad(e.x, e.y, here, bound_); });
+  if (!good && region_.isEmpty(link_, bound_)) return false;
+  const std::optional<Point> place = region_.findPoint(link_, bound_);
+  if (!place || !fits(*place)) return false;
+  const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
+  if (clear_of_frozen_ && std::ranges::any_of(ring_.triangles, isFrozen)) return false;
+  mesh_.setPoint(v, *place);
+  touched.insert(touched.end(), ring_.triangles.begin(), ring_.triangles.end());
+  mesh_.restoreDelaunayRound(v, touched);
+  return true;
+}
+
 bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
+  if (mesh_.kind(v) == VertexKind::Free && !flips_may_harm_) return relocateFree(v, touched);
   patch_.triangles.clear();
   patch_.rim.clear();
   inner_.clear();
@@ -116,13 +179,23 @@ bool VertexOps::fillHole(std::size_t first, std::size_t last) {
   polygon_.clear();
   for (std::size_t i = first; i < last; ++i) polygon_.push_back(patch_.rim[i].a);
   if (patch_.rim[last - 1].b != polygon_.front()) polygon_.push_back(patch_.rim[last - 1].b);
-  if (hasTooMany(polygon_.size(), bound_) || !triangulatePolygon(mesh_, polygon_, fresh_)) return false;
-  return std::ranges::none_of(fresh_, [this](const Corners& c) {
-    return isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_);
+  return !hasTooMany(polygon_.size(), bound_) && triangulateWell();
+}
+
+// Triangulates polygon_ into fresh_; answers false at the first bad triangle.
+bool VertexOps::triangulateWell() {
+  return triangulatePolygon(mesh_, polygon_, fresh_, [this](const Corners& c) {
+    return !isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_);
   });
 }
 
 bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
+  if (mesh_.kind(v) == VertexKind::Free) {
+    // Most fail: before anything else is looked at.
+    walkRound(v, mesh_.triangleOf(v), ring_);
+    polygon_.assign(ring_.corners.begin(), ring_.corners.end());
+    if (hasTooMany(polygon_.size(), bound_) || !triangulateWell()) return false;
+  }
   const bool closed = mesh_.star(v, star_);
   if (hasTooMany(star_.size(), bound_)) return false;
   patch_.triangles.clear();
@@ -134,7 +207,6 @@ bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
   }
   if (isBarred()) return false;
   if (mesh_.kind(v) == VertexKind::Free) {
-    if (!fillHole(0, star_.size())) return false;
     all_fresh_ = fresh_;
   } else if (!closed) {
     // At the rim: the two subsegments become the last side of the hole.
@@ -164,6 +236,20 @@ bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
 }
 
 bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched) {
+  if (mesh_.kind(v) == VertexKind::Free) {
+    walkRound(v, mesh_.triangleOf(v), ring_);
+    for (std::size_t k = 0; k < ring_.corners.size(); ++k) {
+      const VertexId w = ring_.corners[k];
+      const VertexKind kind = mesh_.kind(w);
+      if (kind == VertexKind::Input) continue;
+      if (kind == VertexKind::Free) {
+        if (each_gets_its_turn && w < v) continue;
+        if (cannotMerge(v, w, ring_.triangles[k])) continue;
+      }
+      if (merge(v, w, touched)) return true;
+    }
+    return false;
+  }
   mesh_.star(v, star_);
   neighbours_.clear();
   for (const EdgeRef e : star_) neighbours_.push_back(mesh_.origin(e));
@@ -171,8 +257,7 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
   for (const VertexId w : neighbours_) {
     if (mesh_.kind(w) == VertexKind::Input || (each_gets_its_turn && w < v && mesh_.kind(w) == mesh_.kind(v))) continue;
     // The vertex that stays is the one on the segment.
-    const bool swap = mesh_.kind(v) == VertexKind::Segment && mesh_.kind(w) == VertexKind::Free;
-    if (swap ? merge(w, v, touched) : merge(v, w, touched)) return true;
+    if (mesh_.kind(w) == VertexKind::Free ? merge(w, v, touched) : merge(v, w, touched)) return true;
   }
   return false;
 }
@@ -186,9 +271,7 @@ bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched
   const std::size_t own = patch_.rim.size();
   gather(stays, goes, stays);
   if (isBarred()) return false;
-  // Angles of the bound fit into the turn, but hardly ever so many that little is left.
-  constexpr double kMostTurn = toRadians(300.5);
-  if (patch_.rim.size() < 3 || static_cast<double>(patch_.rim.size()) * bound_.min_angle > kMostTurn) return false;
+  if (patch_.rim.size() < 3 || hasTooManyToMerge(patch_.rim.size(), bound_)) return false;
   // Link condition: the two stars share the corners beside their edge and no others.
   std::size_t common = 0;
   for (std::size_t i = own; i < patch_.rim.size(); ++i)

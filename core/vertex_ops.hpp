@@ -45,6 +45,17 @@ class VertexOps {
   bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
 
  private:
+  // What is round a free vertex, counter-clockwise: where each edge of its link starts, and the triangle there.
+  struct Ring {
+    std::vector<VertexId> corners;
+    std::vector<TriId> triangles;
+  };
+
+  void walkRound(VertexId v, TriId home, Ring& ring) const;
+  void appendLink(const Ring& ring, VertexId other);
+  bool relocateFree(VertexId v, std::vector<TriId>& touched);
+  bool cannotMerge(VertexId v, VertexId w, TriId beside);
+  bool triangulateWell();
   bool fillHole(std::size_t first, std::size_t last);
   void gather(VertexId v, VertexId other, VertexId stays);
   std::optional<Point> findPlace(VertexId v);
@@ -63,6 +74,8 @@ class VertexOps {
 
   // Scratch.
   FeasibleRegion region_;
+  Ring ring_;        // of the vertex whose turn it is
+  Ring other_ring_;  // of its neighbour
   std::vector<EdgeRef> star_;
   std::vector<VertexId> neighbours_;
   std::vector<VertexId> polygon_;
