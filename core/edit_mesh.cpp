@@ -289,6 +289,13 @@ VertexId EditMesh::splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>
     for (const RimEdge& r : side_[s].rim)
       if (orient2d(points_[r.a], points_[r.b], x) <= 0) return kNone;
   }
+  // Where x is rounded to one side of a flat triangle on the other, it may lie outside its circumcircle.
+  bool in_circles = true;
+  for (const EdgeRef side : sides) {
+    if (side == kNone) continue;
+    const Corners& c = triangles_[triOf(side)].v;
+    in_circles &= inCircle(points_[c[0]], points_[c[1]], points_[c[2]], x) > 0;
+  }
   const VertexId v = addVertex(x, VertexKind::Segment);
   for (int s = 0; s < 2; ++s) {
     if (sides[s] == kNone) continue;
@@ -298,6 +305,7 @@ VertexId EditMesh::splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>
   const bool two_sided = sides[1] != kNone;
   link(edgeRef(fan_[0].front(), 2), two_sided ? edgeRef(fan_[1].back(), 1) : kNone, seg);
   link(edgeRef(fan_[0].back(), 1), two_sided ? edgeRef(fan_[1].front(), 2) : kNone, seg);
+  if (!in_circles) restoreDelaunay(touched);
   return v;
 }
 

@@ -7,19 +7,28 @@ namespace coastmesh {
 std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound) {
   std::vector<bool> explained(mesh.triangles.size(), false);
   std::vector<TriId> first_ring;
+  // Every sector once, from its right side.
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
+      const VertexId v = mesh.triangles[t].v[i];
+      const EdgeRef right = edgeRef(t, prev3(i));
+      if (mesh.segment(right) == kNone && mesh.twin(right) != kNone) continue;
       // Only at input vertices do segments meet at an angle.
-      if (mesh.input_vertices != 0 && mesh.triangles[t].v[i] >= mesh.input_vertices) continue;
-      const double here = angleAt(mesh.points[mesh.triangles[t].v[i]], mesh.points[mesh.triangles[t].v[next3(i)]],
-                                  mesh.points[mesh.triangles[t].v[prev3(i)]]);
-      // Without a largest angle a sector that holds one good angle can be divided.
-      if (bound.max_angle >= std::numbers::pi && here >= bound.min_angle) continue;
+      if (mesh.input_vertices != 0 && v >= mesh.input_vertices) continue;
       const Sector sector = sectorAt(mesh, t, i);
-      if (sector.right == kNone || bound.canDivide(sector.angle)) continue;
-      explained[t] = true;
-      first_ring.push_back(t);
-      break;
+      if (bound.canDivide(sector.angle)) continue;
+      TriId s = t;
+      for (unsigned left = sector.triangles; left > 0; --left) {
+        const unsigned c = mesh.cornerOf(s, v);
+        const double here =
+            angleAt(mesh.point(v), mesh.point(mesh.triangle(s).v[next3(c)]), mesh.point(mesh.triangle(s).v[prev3(c)]));
+        // Without a largest angle a triangle whose own angle is good has no excuse here.
+        if (bound.max_angle < std::numbers::pi || here < bound.min_angle) {
+          explained[s] = true;
+          first_ring.push_back(s);
+        }
+        if (left > 1) s = triOf(mesh.twin(edgeRef(s, next3(c))));
+      }
     }
   }
   for (const TriId t : first_ring)

@@ -21,10 +21,6 @@ template <typename Mesh>
 Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
   const auto& home = mesh.triangle(t);
   const VertexId v = home.v[i];
-  const auto corner = [&](TriId s) {
-    const auto& c = mesh.triangle(s).v;
-    return c[0] == v ? 0u : c[1] == v ? 1u : 2u;
-  };
   const auto closed = [&](EdgeRef e) {
     const Triangle& s = mesh.triangle(triOf(e));
     return s.seg[indexOf(e)] != kNone || s.adj[indexOf(e)] == kNone;
@@ -34,7 +30,7 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
   TriId first = t;
   bool round = false;
   while (true) {
-    const EdgeRef out = edgeRef(first, prev3(corner(first)));
+    const EdgeRef out = edgeRef(first, prev3(mesh.cornerOf(first, v)));
     if (closed(out)) {
       sector.right = out;
       break;
@@ -46,7 +42,7 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
     }
   }
   for (TriId s = first;;) {
-    const unsigned c = corner(s);
+    const unsigned c = mesh.cornerOf(s, v);
     const Triangle& tri = mesh.triangle(s);
     sector.angle += angleAt(mesh.point(v), mesh.point(tri.v[next3(c)]), mesh.point(tri.v[prev3(c)]));
     ++sector.triangles;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/metric.hpp"
 #include "core/refine.hpp"
 #include "core/tri_mesh.hpp"
 
@@ -9,5 +10,8 @@ namespace coastmesh {
 
 // The triangles that break the bounds of `options` although no input angle explains it, in order.
 std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options);
+
+// The same with two bounds: those that break `asked` although an input angle does not stand in the way of `in_reach`.
+std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach);
 
 }  // namespace coastmesh

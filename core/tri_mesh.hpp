@@ -50,6 +50,12 @@ struct TriMesh {
   VertexId apex(EdgeRef e) const { return triangles[triOf(e)].v[indexOf(e)]; }
   EdgeRef twin(EdgeRef e) const { return triangles[triOf(e)].adj[indexOf(e)]; }
   SegmentId segment(EdgeRef e) const { return triangles[triOf(e)].seg[indexOf(e)]; }
+
+  // The index of v in t. REQUIRES: v is a corner of t.
+  unsigned cornerOf(TriId t, VertexId v) const {
+    const auto& c = triangles[t].v;
+    return c[0] == v ? 0 : c[1] == v ? 1 : 2;
+  }
 };
 
 // An edge that more than two triangles, or two triangles of opposite orientation, claim.
