@@ -71,7 +71,7 @@ TriMesh EditMesh::release(Renumbering& by) {
   return mesh;
 }
 
-bool EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite) const {
+bool EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite, std::size_t most) const {
   opposite.clear();
   const TriId home = triangle_of_[v];
   TriId t = home;
@@ -82,6 +82,7 @@ bool EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite) const {
     if (after == kNone) break;
     t = triOf(after);
     if (t == home) return true;
+    if (opposite.size() > most) return false;
   }
   // The rim is met: what lies clockwise of the first triangle comes before it.
   const std::size_t counter_clockwise = opposite.size();
@@ -91,6 +92,7 @@ bool EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite) const {
     if (before == kNone) break;
     t = triOf(before);
     opposite.push_back(edgeRef(t, cornerOf(t, v)));
+    if (opposite.size() > most) return false;
   }
   std::reverse(opposite.begin() + static_cast<std::ptrdiff_t>(counter_clockwise), opposite.end());
   std::rotate(opposite.begin(), opposite.begin() + static_cast<std::ptrdiff_t>(counter_clockwise), opposite.end());

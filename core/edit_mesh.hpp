@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -77,8 +79,10 @@ class EditMesh {
   }
 
   // The edges opposite v in the triangles round it, counter-clockwise; from rim to rim where v is on the rim (then
-  // answers false), else full circle. At a pinched vertex: the fan that holds triangleOf(v).
-  bool star(VertexId v, std::vector<EdgeRef>& opposite) const;
+  // answers false), else full circle. At a pinched vertex: the fan that holds triangleOf(v). Stops where there are more
+  // than `most`.
+  bool star(VertexId v, std::vector<EdgeRef>& opposite,
+            std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
   // The triangles round the given vertices and their rim. REQUIRES: the vertices are connected by edges, none is on the
   // rim of the mesh. Answers false where the patch is not a disk.

@@ -139,7 +139,18 @@ void Refiner::mend(TriId t) {
     enqueueTouched();
     return;
   }
-  insertPoint(t, shape.shortest);
+  if (!isOutOfReach(t, shape)) insertPoint(t, shape.shortest);
+}
+
+// Whether every place where a vertex would make a good triangle with the shortest edge is nearer to that edge than the
+// input's spacing lets any vertex come: between two segments that meet at a tiny angle.
+bool Refiner::isOutOfReach(TriId t, const TriangleShape& shape) const {
+  if (shape.squared[shape.longest] > bound_.squared_size) return false;
+  const auto& v = mesh_.triangle(t).v;
+  const double spacing = std::min(notes_.spacing[v[next3(shape.shortest)]], notes_.spacing[v[prev3(shape.shortest)]]);
+  // The petal's diameter is the edge over the sine.
+  const double nearest = kSegmentShare * spacing * bound_.sin_min;
+  return shape.squared[shape.shortest] < nearest * nearest;
 }
 
 // A triangle that fills a sector too small for the bounds, its smallest angle there, cannot be mended.

@@ -16,6 +16,9 @@
 
 namespace coastmesh {
 
+// The ends of a subsegment come no nearer to one another than this share of the input's spacing.
+inline constexpr double kSegmentShare = 0.02;
+
 // What runs differ in. Repair tries several on a patch.
 struct RefineVariant {
   double aim_deg = 0.0;      // new points aim at an angle this much above the bound
@@ -64,6 +67,7 @@ class Refiner {
   bool isBarred(const Patch& patch) const;
   void mend(TriId t);
   bool isLeftAlone(TriId t, const TriangleShape& shape) const;
+  bool isOutOfReach(TriId t, const TriangleShape& shape) const;
   bool isFan(TriId t, VertexId apex) const;
   bool mendWithoutInsertion(TriId t);
   bool mayMerge() const;

@@ -5,13 +5,6 @@
 
 namespace coastmesh {
 
-namespace {
-
-// The ends of a subsegment come no nearer to one another than this share of the input's spacing.
-constexpr double kSegmentShare = 0.02;
-
-}  // namespace
-
 // The same for a point that is to split a subsegment, where the other segments beside it count too.
 double Refiner::spacingOnSegment(const Point& x, EdgeRef edge, const Patch& cavity) const {
   double spacing = spacingAt(x, cavity);

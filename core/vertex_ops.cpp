@@ -1,6 +1,7 @@
 #include "core/vertex_ops.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "core/predicates.hpp"
@@ -10,9 +11,12 @@ namespace coastmesh {
 namespace {
 
 // No vertex has more triangles round it than angles of the bound fit into a full turn.
-bool hasTooMany(std::size_t triangles, const TriangleBound& bound) {
-  return static_cast<double>(triangles) * bound.min_angle > 2.0 * std::numbers::pi;
+std::size_t mostTriangles(const TriangleBound& bound) {
+  if (bound.min_angle <= 0.0) return std::numeric_limits<std::size_t>::max() / 2;
+  return static_cast<std::size_t>(2.0 * std::numbers::pi / bound.min_angle);
 }
+// Triangles that vanish when two vertices become one.
+constexpr std::size_t kMergedAway = 2;
 
 // The same for what is to be round a merged vertex, hardly ever so many that little is left.
 bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
@@ -24,10 +28,18 @@ VertexId otherEnd(const RimEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
 
 }  // namespace
 
+VertexOps::VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound)
+    : mesh_(mesh),
+      pslg_(pslg),
+      bound_(bound),
+      most_triangles_(mostTriangles(bound)),
+      flips_may_harm_(bound.max_angle < std::numbers::pi || !std::isinf(bound.squared_size)) {}
+
 // Fills inner_ (and outer_) with the subsegments at v, rim and link with what is round it, less what it shares with
-// `other`.
-void VertexOps::gather(VertexId v, VertexId other, VertexId stays) {
-  const bool closed = mesh_.star(v, star_);
+// `other`. Answers false where there are too many triangles.
+bool VertexOps::gather(VertexId v, VertexId other, VertexId stays) {
+  const bool closed = mesh_.star(v, star_, most_triangles_ + kMergedAway);
+  if (star_.size() > most_triangles_ + kMergedAway) return false;
   for (const EdgeRef e : star_) {
     const VertexId a = mesh_.origin(e), b = mesh_.target(e);
     const bool shared = a == other || b == other;
@@ -39,11 +51,12 @@ void VertexOps::gather(VertexId v, VertexId other, VertexId stays) {
     inner_.push_back({stays, a, kNone, seg});
     if (mesh_.twin(spoke) == kNone) outer_.push_back(inner_.back());
   }
-  if (closed) return;
+  if (closed) return true;
   const EdgeRef last = spokeAfter(star_.back());
-  if (mesh_.origin(last) == other) return;
+  if (mesh_.origin(last) == other) return true;
   inner_.push_back({stays, mesh_.origin(last), kNone, mesh_.segment(last)});
   outer_.push_back({mesh_.origin(last), stays, kNone, mesh_.segment(last)});
+  return true;
 }
 
 // Where v may go, with the link in patch_.rim and the subsegments at v in inner_.
@@ -112,7 +125,7 @@ void VertexOps::walkRound(VertexId v, TriId home, Ring& ring) const {
     ring.corners.push_back(tri.v[next3(i)]);
     ring.triangles.push_back(t);
     t = triOf(tri.adj[next3(i)]);
-  } while (t != home);
+  } while (t != home && ring.corners.size() <= most_triangles_ + kMergedAway);
 }
 
 // Appends to link_ what is round a vertex, less the edges that end at `other`.
@@ -141,7 +154,7 @@ bool VertexOps::cannotMerge(VertexId v, VertexId w, TriId beside) {
 
 bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
   walkRound(v, mesh_.triangleOf(v), ring_);
-  if (hasTooMany(ring_.corners.size(), bound_)) return false;
+  if (ring_.corners.size() > most_triangles_) return false;
   link_.clear();
   appendLink(ring_, kNone);
   const Point& here = mesh_.point(v);
@@ -163,8 +176,7 @@ bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
   patch_.rim.clear();
   inner_.clear();
   outer_.clear();
-  gather(v, kNone, v);
-  if (isBarred()) return false;
+  if (!gather(v, kNone, v) || isBarred()) return false;
   const std::optional<Point> place = findPlace(v);
   if (!place || !fits(*place) || (flips_may_harm_ && fanFlips(*place))) return false;
   mesh_.setPoint(v, *place);
@@ -179,7 +191,7 @@ bool VertexOps::fillHole(std::size_t first, std::size_t last) {
   polygon_.clear();
   for (std::size_t i = first; i < last; ++i) polygon_.push_back(patch_.rim[i].a);
   if (patch_.rim[last - 1].b != polygon_.front()) polygon_.push_back(patch_.rim[last - 1].b);
-  return !hasTooMany(polygon_.size(), bound_) && triangulateWell();
+  return polygon_.size() <= most_triangles_ && triangulateWell();
 }
 
 // Triangulates polygon_ into fresh_; answers false at the first bad triangle.
@@ -194,10 +206,10 @@ bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
     // Most fail: before anything else is looked at.
     walkRound(v, mesh_.triangleOf(v), ring_);
     polygon_.assign(ring_.corners.begin(), ring_.corners.end());
-    if (hasTooMany(polygon_.size(), bound_) || !triangulateWell()) return false;
+    if (polygon_.size() > most_triangles_ || !triangulateWell()) return false;
   }
-  const bool closed = mesh_.star(v, star_);
-  if (hasTooMany(star_.size(), bound_)) return false;
+  const bool closed = mesh_.star(v, star_, most_triangles_);
+  if (star_.size() > most_triangles_) return false;
   patch_.triangles.clear();
   patch_.rim.clear();
   inner_.clear();
@@ -238,6 +250,7 @@ bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
 bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free) {
     walkRound(v, mesh_.triangleOf(v), ring_);
+    if (ring_.corners.size() > most_triangles_ + kMergedAway) return false;
     for (std::size_t k = 0; k < ring_.corners.size(); ++k) {
       const VertexId w = ring_.corners[k];
       const VertexKind kind = mesh_.kind(w);
@@ -250,7 +263,8 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
     }
     return false;
   }
-  mesh_.star(v, star_);
+  mesh_.star(v, star_, most_triangles_ + kMergedAway);
+  if (star_.size() > most_triangles_ + kMergedAway) return false;
   neighbours_.clear();
   for (const EdgeRef e : star_) neighbours_.push_back(mesh_.origin(e));
   if (const VertexId last = mesh_.target(star_.back()); last != neighbours_.front()) neighbours_.push_back(last);
@@ -267,10 +281,9 @@ bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched
   patch_.rim.clear();
   inner_.clear();
   outer_.clear();
-  gather(goes, stays, stays);
+  if (!gather(goes, stays, stays)) return false;
   const std::size_t own = patch_.rim.size();
-  gather(stays, goes, stays);
-  if (isBarred()) return false;
+  if (!gather(stays, goes, stays) || isBarred()) return false;
   if (patch_.rim.size() < 3 || hasTooManyToMerge(patch_.rim.size(), bound_)) return false;
   // Link condition: the two stars share the corners beside their edge and no others.
   std::size_t common = 0;

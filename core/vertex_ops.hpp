@@ -19,11 +19,7 @@ namespace coastmesh {
 // flips, which never lower the smallest angle. Changed triangles are appended to `touched`.
 class VertexOps {
  public:
-  VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound)
-      : mesh_(mesh),
-        pslg_(pslg),
-        bound_(bound),
-        flips_may_harm_(bound.max_angle < std::numbers::pi || !std::isinf(bound.squared_size)) {}
+  VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound);
 
   // From now on leaves alone what a frozen edge is next to: it is another's to change too.
   void keepClearOfFrozen() { clear_of_frozen_ = true; }
@@ -57,7 +53,7 @@ class VertexOps {
   bool cannotMerge(VertexId v, VertexId w, TriId beside);
   bool triangulateWell();
   bool fillHole(std::size_t first, std::size_t last);
-  void gather(VertexId v, VertexId other, VertexId stays);
+  bool gather(VertexId v, VertexId other, VertexId stays);
   std::optional<Point> findPlace(VertexId v);
   bool fits(const Point& place) const;
   bool fanFlips(const Point& place) const;
@@ -70,7 +66,8 @@ class VertexOps {
   const Pslg& pslg_;
   const TriangleBound& bound_;
   bool clear_of_frozen_ = false;
-  bool flips_may_harm_;  // they keep the smallest angle, but not the largest, nor the longest edge
+  std::size_t most_triangles_;  // no vertex can have more round it without a bad one among them
+  bool flips_may_harm_;         // they keep the smallest angle, but not the largest, nor the longest edge
 
   // Scratch.
   FeasibleRegion region_;
