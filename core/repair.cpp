@@ -79,6 +79,10 @@ Outcome mendPlace(Refiner& refiner, TriId centre, const Pslg& pslg, const Refine
     }
     const std::optional<TriMesh> solved = solveSmallest(patch, pslg, options, work);
     if (!solved) continue;
+    if (refiner.mesh().vertexCount() + solved->points.size() - patch.parent.size() > options.max_vertices) {
+      refiner.stats().budget_reached = true;
+      return Outcome::Failed;
+    }
     std::vector<VertexId> added;
     std::vector<TriId> touched;
     putBack(refiner.mesh(), patch, *solved, added, touched);
