@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(All, Corpus, ::testing::ValuesIn(corpusFiles()), [](con
 });
 
 TEST(Property, RandomInputsHold) {
-  constexpr std::uint64_t kRuns = 300;
+  constexpr std::uint64_t kRuns = 120;
   std::uint64_t held = 0;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     Choices choices(seed);

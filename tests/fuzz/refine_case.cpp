@@ -112,7 +112,7 @@ void judgeListed(const std::string& stage, const TriMesh& mesh, const RefineCase
 // mesh whose vertices keep a fixed share of the input's spacing from one another has at most a fixed multiple of them.
 std::optional<std::uint64_t> neededAtLeast(const RefineCase& c, std::uint64_t limit) {
   RefineOptions modest;
-  modest.min_angle_deg = std::min(20.0, c.options.min_angle_deg);
+  modest.min_angle_deg = 20.0;
   modest.size_max = c.options.size_max;
   modest.algorithm = Algorithm::Optimal;
   modest.max_vertices = limit;
