@@ -27,6 +27,7 @@ struct MeshUsage {
   std::string format;
   std::string algorithm = "relocate";
   bool shrink_given = false;
+  bool cut = true;
   std::uint64_t threads = 0;
   std::string report;
   std::string progress = "auto";
@@ -40,7 +41,7 @@ Algorithm algorithmNamed(const std::string& name) {
   return static_cast<Algorithm>(index);
 }
 
-int threadCount(const ParallelOptions& options) {
+int threadsAsked(const ParallelOptions& options) {
   return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
@@ -112,7 +113,7 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   if (any) outputs.writeGrids(result.grid, display);
   result.seconds.write = secondsSince(write_start);
   result.seconds.total = secondsSince(start);
-  if (!usage.report.empty()) outputs.writeReport(meshReport(usage.job, result, threadCount(usage.job.parallel)));
+  if (!usage.report.empty()) outputs.writeReport(meshReport(usage.job, result, threadsAsked(usage.job.parallel)));
   outputs.commit();
   if (!any) {
     throw InputError(result.refusals.size() == 1 ? result.refusals.front().reason
@@ -153,6 +154,7 @@ Command declareMesh(CLI::App& root) {
   declareInputOptions(line, usage->job.input);
   line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
                "stop refining at so many vertices, with exit code 1");
+  line.flag("--cut,!--no-cut", usage->cut, "cut large seas into pieces, to be refined at the same time");
   line.integer("--threads", usage->threads, "N", 0, 1024,
                "threads to work on, 0 for all cores; never changes the result");
   line.text("--report", usage->report, "FILE", "write a report as JSON");
@@ -166,6 +168,7 @@ Command declareMesh(CLI::App& root) {
     usage->job.mesh.refine.algorithm = algorithmNamed(usage->algorithm);
     // The classical algorithms are there to compare with: they insert what their papers say.
     if (!usage->shrink_given) usage->job.mesh.shrink = usage->job.mesh.refine.algorithm == Algorithm::Relocate;
+    usage->job.mesh.one_piece = !usage->cut;
     usage->job.parallel.threads = static_cast<int>(usage->threads);
     return runMesh(*usage, interrupt);
   };

@@ -113,6 +113,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   result.seconds.triangulate += part.mesh_s.triangulate;
   result.seconds.refine += part.mesh_s.refine;
   result.seconds.shrink += part.mesh_s.shrink;
+  result.seconds.stitch += part.mesh_s.stitch;
   result.seconds.check += part.check_s;
   appendGrid(result.grid, std::move(part.grid));
 }
@@ -153,7 +154,9 @@ std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
 
 }  // namespace
 
-MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control) {
+namespace {
+
+MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const Stopwatch whole;
   MeshJobResult result;
   if (control.progress) control.progress("read", 0.0);
@@ -170,7 +173,7 @@ MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control) {
   const std::vector<std::size_t> order = workOrder(points);
   GroupProgress progress(points, control);
   OrderedMerge merge(input, result);
-  forEachRegion(order.size(), job.parallel, RunControl{control.cancelled, {}}, [&](std::size_t i) {
+  forEachItem(order.size(), RunControl{control.cancelled, {}}, [&](std::size_t i) {
     const std::size_t g = order[i];
     const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
@@ -179,6 +182,14 @@ MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control) {
   });
   result.grid.crs = result.crs;
   result.seconds.total = whole.seconds();
+  return result;
+}
+
+}  // namespace
+
+MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control) {
+  MeshJobResult result;
+  withThreads(job.parallel, [&] { result = runOnThreads(job, control); });
   return result;
 }
 

@@ -16,6 +16,7 @@
 #include "core/refine.hpp"
 #include "gis/grid.hpp"
 #include "parallel/mesh_regions.hpp"
+#include "parallel/workers.hpp"
 
 namespace coastmesh {
 

@@ -307,18 +307,23 @@ bool Refiner::isShort(TriId t) const {
   return isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_) && !isExplained(t);
 }
 
+bool Refiner::isDeferred(TriId t) const {
+  const auto entry = deferred_.find(t);
+  return entry != deferred_.end() && entry->second == mesh_.triangle(t).v;
+}
+
 TriMesh Refiner::release() {
   stats_.steiner_points = mesh_.vertexCount() - mesh_.inputVertices();
   return mesh_.release();
 }
 
 TriMesh Refiner::release(VertexNotes& notes, std::vector<std::uint8_t>& due) {
-  std::erase_if(deferred_, [this](const BadTriangle& bad) { return mesh_.triangle(bad.triangle).v != bad.corners; });
+  std::erase_if(deferred_, [this](const auto& entry) { return !isDeferred(entry.first); });
   Renumbering by;
   stats_.steiner_points = mesh_.vertexCount() - mesh_.inputVertices();
   TriMesh mesh = mesh_.release(by);
   due.assign(mesh.triangles.size(), 0);
-  for (const BadTriangle& bad : deferred_) due[by.triangle[bad.triangle]] = 1;
+  for (const auto& [t, corners] : deferred_) due[by.triangle[t]] = 1;
   notes = std::move(notes_);
   std::vector<double> spacing(mesh.points.size());
   for (VertexId v = 0; v < by.vertex.size(); ++v)

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -52,7 +53,8 @@ class Refiner {
   bool isShort(TriId t) const;
   void noteVertex(VertexId v, double spacing);
   // Keeps a triangle for later.
-  void defer(TriId t) { deferred_.push_back({t, mesh_.triangle(t).v}); }
+  void defer(TriId t) { deferred_[t] = mesh_.triangle(t).v; }
+  bool isDeferred(TriId t) const;
   bool isClearOfFrozen() const { return variant_.clear_of_frozen; }
   // Takes out every free vertex that can go.
   void stripFreeVertices();
@@ -100,7 +102,7 @@ class Refiner {
   BadQueue queue_;
   std::vector<bool>
       frozen_;  // one a fixed vertex: on a frozen edge that the run is to keep clear of; empty where there is none
-  std::vector<BadTriangle> deferred_;
+  std::unordered_map<TriId, Corners> deferred_;
   std::set<std::pair<VertexId, VertexId>> stuck_;  // subsegments that rounding lets no one split
 
   // Scratch.

@@ -115,6 +115,7 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
     bool again = false;
     for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t) {
       if (!refiner.mesh().isLive(t) || !refiner.isShort(t) || isGivenUp(t)) continue;
+      if (refiner.isDeferred(t)) continue;
       if (work > most_work || refiner.stats().budget_reached) return;
       control.checkpoint(1.0);
       const Outcome outcome = mendPlace(refiner, t, pslg, options, control, work);

@@ -1,23 +1,19 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <vector>
 
 #include "core/pslg.hpp"
 #include "core/refine.hpp"
 #include "core/run_control.hpp"
 #include "core/tri_mesh.hpp"
+#include "parallel/work_log.hpp"
 
 namespace coastmesh {
-
-struct ParallelOptions {
-  int threads = 0;  // 0 takes all cores; never changes a result
-};
 
 struct MeshOptions {
   RefineOptions refine;
   bool shrink = true;
+  bool one_piece = false;  // never cuts a region, however large
 };
 
 // Seconds of work, summed over threads.
@@ -25,21 +21,18 @@ struct MeshSeconds {
   double triangulate = 0.0;
   double refine = 0.0;
   double shrink = 0.0;
+  double stitch = 0.0;
 };
 
 struct MeshedRegion {
   TriMesh mesh;
   RefineStats stats;
   MeshSeconds seconds;
+  std::size_t pieces = 1;  // that it was cut into
+  WorkLog log;
 };
 
-// Runs `work(i)` for every i below `count` on the asked number of threads; large items should come first. Every call
-// gets done unless `control.cancelled` answers true (then throws Cancelled) or a call throws (then the one with the
-// least i is rethrown once all running ones have ended). `control.progress` is called from one thread at a time.
-void forEachRegion(std::size_t count, const ParallelOptions& options, const RunControl& control,
-                   const std::function<void(std::size_t)>& work);
-
-// Triangulates, refines and shrinks one region. Throws BadPslg, Cancelled.
+// Triangulates, refines and shrinks one region; a large one is cut into pieces for that. Throws BadPslg, Cancelled.
 MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunControl& control = {});
 
 }  // namespace coastmesh

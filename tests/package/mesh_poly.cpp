@@ -4,6 +4,7 @@
 #include "core/quality.hpp"
 #include "gis/poly_io.hpp"
 #include "parallel/mesh_regions.hpp"
+#include "parallel/workers.hpp"
 
 int main() {
   using namespace coastmesh;
@@ -15,7 +16,7 @@ int main() {
   if (read.points != square.points || read.segments.size() != square.segments.size()) return 1;
 
   MeshedRegion region;
-  forEachRegion(1, ParallelOptions{}, RunControl{}, [&](std::size_t) { region = meshRegion(read, MeshOptions{}); });
+  withThreads(ParallelOptions{}, [&] { region = meshRegion(read, MeshOptions{}); });
   const MeshQuality quality = measureQuality(region.mesh, MeshOptions{}.refine.min_angle_deg);
   std::printf("%zu triangles, smallest angle %.3f degrees\n", region.mesh.triangles.size(), quality.min_angle_deg);
   return quality.below_bound == 0 && quality.triangles > 0 ? 0 : 1;

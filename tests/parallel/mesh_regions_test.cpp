@@ -20,6 +20,11 @@
 namespace coastmesh {
 namespace {
 
+void forEachRegion(std::size_t count, const ParallelOptions& options, const RunControl& control,
+                   const std::function<void(std::size_t)>& work) {
+  withThreads(options, [&] { forEachItem(count, control, work); });
+}
+
 class ForEachRegion : public ::testing::TestWithParam<int> {
  protected:
   ParallelOptions options() const { return {.threads = GetParam()}; }

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+using PieceId = std::uint32_t;
+
+// Which piece each triangle goes to.
+struct Partition {
+  PieceId pieces = 0;
+  std::vector<PieceId> piece_of;  // one a triangle
+  // The triangles of piece p, in the order of their numbers: triangles[first[p]] to triangles[first[p + 1]].
+  std::vector<TriId> triangles;
+  std::vector<std::size_t> first;
+  std::vector<TriId> slot_of;  // one a triangle: its place within its piece
+
+  std::span<const TriId> of(PieceId p) const { return std::span(triangles).subspan(first[p], first[p + 1] - first[p]); }
+};
+
+// Cuts a mesh into pieces of like weight by straight lines, along one of two directions at right angles each: halves, halves of these,
+// and so on (Bentley's k-d tree). Depends on nothing but its arguments.
+//   weight(t)  what a triangle counts, above 0
+//   angle      radians: the directions are turned by so much; cuts under other angles meet these at single points
+Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight);
+
+}  // namespace coastmesh

@@ -1,0 +1,90 @@
+#include "parallel/workers.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <utility>
+
+namespace coastmesh {
+
+namespace {
+
+// The first error by index, whatever order the items ran in.
+class FirstError {
+ public:
+  void keep(std::size_t index, std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    if (error_ && index_ < index) return;
+    index_ = index;
+    error_ = std::move(error);
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t index_ = 0;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+void withThreads(const ParallelOptions& options, const std::function<void()>& work) {
+  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  // More threads than cores are given when asked for: what they change can then be seen on any machine.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(work);
+}
+
+int threadCount() { return tbb::this_task_arena::max_concurrency(); }
+
+void forEachItem(std::size_t count, const RunControl& control, const std::function<void(std::size_t)>& work) {
+  FirstError failure;
+  std::atomic<bool> stop = false;
+  std::atomic<std::size_t> next = 0;
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+
+  // Workers take the items in order, one at a time: the large ones come first and no worker waits behind another's
+  // share.
+  const auto worker = [&] {
+    while (!stop) {
+      const std::size_t i = next.fetch_add(1);
+      if (i >= count) return;
+      try {
+        if (control.cancelled && control.cancelled()) throw Cancelled();
+        work(i);
+      } catch (...) {
+        failure.keep(i, std::current_exception());
+        stop = true;
+        return;
+      }
+      const std::lock_guard lock(progress_mutex);
+      ++done;
+      if (control.progress) control.progress(static_cast<double>(done) / static_cast<double>(count));
+    }
+  };
+  // Isolated: who waits here for the last item must not start on one of the items that this call is a part of.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(
+        0, threadCount(), [&](int) { worker(); }, tbb::simple_partitioner());
+  });
+  failure.rethrow();
+}
+
+void forEachStretch(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+  constexpr std::size_t kGrain = 8192;
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
+                      [&](const tbb::blocked_range<std::size_t>& range) { work(range.begin(), range.end()); });
+  });
+}
+
+}  // namespace coastmesh
