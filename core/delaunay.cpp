@@ -1,13 +1,5 @@
 #include "core/delaunay.hpp"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_2.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,22 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/delaunay_builder.hpp"
 #include "core/metric.hpp"
-#include "core/predicates.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexId, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<std::uint32_t, Kernel,
-                                                           CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Storage = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Storage,
-                                                       CGAL::No_constraint_intersection_requiring_constructions_tag>;
-using FaceHandle = Cdt::Face_handle;
-using VertexHandle = Cdt::Vertex_handle;
 
 [[noreturn]] void refuse(PslgDefect::Kind kind, const Point& place, SegmentId segment, std::string message) {
   throw BadPslg({kind, place, segment, std::move(message)});
@@ -49,119 +31,84 @@ void checkReferences(const Pslg& pslg) {
   }
 }
 
-// Points go in along a space-filling curve, each found from the one before.
-std::vector<VertexHandle> insertPoints(const Pslg& pslg, Cdt& cdt) {
-  std::vector<Kernel::Point_2> points;
-  points.reserve(pslg.points.size());
-  for (const Point& p : pslg.points) points.emplace_back(p.x, p.y);
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto map = CGAL::make_property_map(points);
-  CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, decltype(map)>(map));
-
-  std::vector<VertexHandle> handles(points.size());
-  FaceHandle hint;
-  for (std::size_t i : order) {
-    const std::size_t before = cdt.number_of_vertices();
-    const VertexHandle v = cdt.insert(points[i], hint);
-    if (cdt.number_of_vertices() == before)
-      refuse(PslgDefect::Kind::PointsCoincide, pslg.points[i], kNone, "two vertices lie at the same place");
-    v->info() = static_cast<VertexId>(i);
-    handles[i] = v;
-    hint = v->face();
-  }
-  return handles;
+Point crossingOf(const Pslg& pslg, SegmentId s, SegmentId other) {
+  const Point &a = pslg.points[pslg.segments[s].a], &b = pslg.points[pslg.segments[s].b];
+  const Point &c = pslg.points[pslg.segments[other].a], &d = pslg.points[pslg.segments[other].b];
+  const double from = cross(d - c, a - c), to = cross(d - c, b - c);
+  return a + (from / (from - to)) * (b - a);
 }
 
-// The vertex that lies inside a segment; asked for only once it is known that there is one.
-Point vertexInside(const Pslg& pslg, const Segment& s) {
-  const Point &a = pslg.points[s.a], &b = pslg.points[s.b];
-  const auto isInside = [&](const Point& p) {
-    return p != a && p != b && orient2d(a, b, p) == 0 && dot(p - a, b - a) > 0.0 && dot(p - b, a - b) > 0.0;
-  };
-  const auto found = std::ranges::find_if(pslg.points, isInside);
-  return found == pslg.points.end() ? a : *found;
-}
-
-// Where a segment crosses one of those before it; asked for only once it is known that it does.
-Point crossingWith(const Pslg& pslg, SegmentId crossing) {
-  const Point &a = pslg.points[pslg.segments[crossing].a], &b = pslg.points[pslg.segments[crossing].b];
-  for (SegmentId s = 0; s < crossing; ++s) {
-    const Point &c = pslg.points[pslg.segments[s].a], &d = pslg.points[pslg.segments[s].b];
-    if (orient2d(a, b, c) * orient2d(a, b, d) >= 0 || orient2d(c, d, a) * orient2d(c, d, b) >= 0) continue;
-    const double from = cross(d - c, a - c), to = cross(d - c, b - c);
-    return a + (from / (from - to)) * (b - a);
-  }
-  return a;
-}
-
-void insertSegments(const Pslg& pslg, const std::vector<VertexHandle>& handles, Cdt& cdt) {
+void insertSegments(const Pslg& pslg, DelaunayBuilder& builder) {
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
-    const VertexHandle a = handles[pslg.segments[s].a], b = handles[pslg.segments[s].b];
+    const auto& [a, b, tag, left, right] = pslg.segments[s];
     try {
-      cdt.insert_constraint(a, b);
-    } catch (const Cdt::Intersection_of_constraints_exception&) {
-      refuse(PslgDefect::Kind::SegmentsCross, crossingWith(pslg, s), s, "two segments cross");
+      builder.insertSegment(a, b, s);
+    } catch (const DelaunayBuilder::Clash& clash) {
+      switch (clash.kind) {
+        case DelaunayBuilder::Clash::Kind::SegmentsCross:
+          refuse(PslgDefect::Kind::SegmentsCross, crossingOf(pslg, s, clash.other), s, "two segments cross");
+        case DelaunayBuilder::Clash::Kind::SegmentsCoincide:
+          refuse(PslgDefect::Kind::SegmentsCoincide, midpoint(pslg.points[a], pslg.points[b]), s,
+                 "two segments have the same ends");
+        default:
+          refuse(PslgDefect::Kind::PointOnSegment, pslg.points[clash.at], s, "a vertex lies inside a segment");
+      }
     }
-    if (!cdt.is_edge(a, b))
-      refuse(PslgDefect::Kind::PointOnSegment, vertexInside(pslg, pslg.segments[s]), s,
-             "a vertex lies inside a segment");
   }
 }
 
 constexpr RegionId kUnvisited = kUnlabelled;
 
-// Decides for every face which region it belongs to, by flooding from what is known up to the segments.
+// Decides for every triangle which region it belongs to, by flooding from what is known up to the segments.
 class Carver {
  public:
-  Carver(const Pslg& pslg, const Cdt& cdt, std::vector<FaceHandle> faces)
-      : pslg_(pslg), cdt_(cdt), faces_(std::move(faces)), region_(faces_.size(), kUnvisited) {}
+  Carver(const Pslg& pslg, const DelaunayBuilder& builder)
+      : pslg_(pslg), builder_(builder), triangles_(builder.triangles()), region_(triangles_.size(), kUnvisited) {}
 
-  std::vector<RegionId> run(const std::vector<std::array<SegmentId, 3>>& segments) {
-    bool labelled = false;
-    for (const Segment& s : pslg_.segments) labelled |= s.left != kUnlabelled || s.right != kUnlabelled;
-    if (labelled) {
-      floodFromLabels(segments);
+  std::vector<RegionId> run() {
+    const auto isLabelled = [](const Segment& s) { return s.left != kUnlabelled || s.right != kUnlabelled; };
+    if (std::ranges::any_of(pslg_.segments, isLabelled)) {
+      floodFromLabels();
     } else {
-      if (!pslg_.segments.empty()) flood(cdt_.infinite_face()->info(), kOutside);
-      for (const Point& hole : pslg_.holes) {
-        const FaceHandle f = cdt_.locate({hole.x, hole.y});
-        if (f != nullptr) flood(f->info(), kOutside);
-      }
-      for (RegionId& r : region_)
-        if (r == kUnvisited) r = 0;
+      if (!pslg_.segments.empty()) flood(firstGhost(), kOutside);
+      for (const Point& hole : pslg_.holes) flood(builder_.locate(hole), kOutside);
+      std::ranges::replace(region_, kUnvisited, 0);
     }
-    for (std::size_t f = 0; f < faces_.size(); ++f)
-      if (region_[f] == kUnvisited || cdt_.is_infinite(faces_[f])) region_[f] = kOutside;
+    for (TriId t = 0; t < triangles_.size(); ++t)
+      if (region_[t] == kUnvisited || builder_.isGhost(t)) region_[t] = kOutside;
     return std::move(region_);
   }
 
  private:
-  void floodFromLabels(const std::vector<std::array<SegmentId, 3>>& segments) {
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      for (int i = 0; i < 3; ++i) {
-        const SegmentId s = segments[f][i];
-        if (s == kNone) continue;
-        const bool along = faces_[f]->vertex(Cdt::ccw(i))->info() == pslg_.segments[s].a;
-        const RegionId label = along ? pslg_.segments[s].left : pslg_.segments[s].right;
+  TriId firstGhost() const {
+    TriId t = 0;
+    while (!builder_.isGhost(t)) ++t;
+    return t;
+  }
+
+  void floodFromLabels() {
+    for (TriId t = 0; t < triangles_.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (triangles_[t].seg[i] == kNone) continue;
+        const Segment& segment = pslg_.segments[triangles_[t].seg[i]];
+        const RegionId label = triangles_[t].v[next3(i)] == segment.a ? segment.left : segment.right;
         if (label == kUnlabelled) continue;
-        if (region_[f] == kUnvisited) flood(f, label);
-        if (region_[f] != label) throw std::logic_error("the labels of a PSLG's segments contradict one another");
+        flood(t, label);
+        if (region_[t] != label) throw std::logic_error("the labels of a PSLG's segments contradict one another");
       }
     }
   }
 
-  void flood(std::size_t start, RegionId label) {
+  void flood(TriId start, RegionId label) {
     if (region_[start] != kUnvisited) return;
     region_[start] = label;
     stack_.push_back(start);
     while (!stack_.empty()) {
-      const FaceHandle face = faces_[stack_.back()];
+      const Triangle& here = triangles_[stack_.back()];
       stack_.pop_back();
-      for (int i = 0; i < 3; ++i) {
-        if (face->is_constrained(i)) continue;
-        const std::size_t other = face->neighbor(i)->info();
-        if (region_[other] != kUnvisited) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        const TriId other = triOf(here.adj[i]);
+        if (here.seg[i] != kNone || region_[other] != kUnvisited) continue;
         region_[other] = label;
         stack_.push_back(other);
       }
@@ -169,59 +116,49 @@ class Carver {
   }
 
   const Pslg& pslg_;
-  const Cdt& cdt_;
-  std::vector<FaceHandle> faces_;
+  const DelaunayBuilder& builder_;
+  std::span<const Triangle> triangles_;
   std::vector<RegionId> region_;
-  std::vector<std::size_t> stack_;
+  std::vector<TriId> stack_;
 };
 
-std::vector<FaceHandle> numberFaces(const Cdt& cdt) {
-  std::vector<FaceHandle> faces;
-  faces.reserve(cdt.tds().number_of_faces());
-  for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) {
-    f->info() = static_cast<std::uint32_t>(faces.size());
-    faces.push_back(f);
+// The new numbers of the triangles that are kept, along the curve by their first corner; kNone for the others.
+std::vector<TriId> numberAlongCurve(const DelaunayBuilder& builder, const std::vector<RegionId>& region, TriId& count) {
+  const std::span<const Triangle> triangles = builder.triangles();
+  std::vector<std::pair<std::uint32_t, TriId>> order;
+  for (TriId t = 0; t < triangles.size(); ++t) {
+    if (region[t] == kOutside) continue;
+    const auto along = [&](unsigned i) { return builder.alongCurve()[triangles[t].v[i]]; };
+    order.emplace_back(std::min({along(0), along(1), along(2)}), t);
   }
-  return faces;
+  std::ranges::sort(order);
+  std::vector<TriId> numbers(triangles.size(), kNone);
+  count = 0;
+  for (const auto& [place, t] : order) numbers[t] = count++;
+  return numbers;
 }
 
-std::vector<std::array<SegmentId, 3>> segmentsOfFaces(const Pslg& pslg, const std::vector<VertexHandle>& handles,
-                                                      const Cdt& cdt, std::size_t face_count) {
-  std::vector<std::array<SegmentId, 3>> segments(face_count, {kNone, kNone, kNone});
-  for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
-    FaceHandle f;
-    int i = 0;
-    cdt.is_edge(handles[pslg.segments[s].a], handles[pslg.segments[s].b], f, i);
-    if (segments[f->info()][i] != kNone) {
-      const Point &a = pslg.points[pslg.segments[s].a], &b = pslg.points[pslg.segments[s].b];
-      refuse(PslgDefect::Kind::SegmentsCoincide, midpoint(a, b), s, "two segments have the same ends");
-    }
-    segments[f->info()][i] = s;
-    const auto [g, j] = cdt.mirror_edge({f, i});
-    segments[g->info()][j] = s;
+DelaunayBuilder triangulate(const Pslg& pslg) {
+  try {
+    return DelaunayBuilder(pslg.points);
+  } catch (const DelaunayBuilder::Clash& clash) {
+    refuse(PslgDefect::Kind::PointsCoincide, pslg.points[clash.at], kNone, "two vertices lie at the same place");
   }
-  return segments;
 }
 
 }  // namespace
 
 TriMesh constrainedDelaunay(const Pslg& pslg) {
   checkReferences(pslg);
-  Cdt cdt;
-  const std::vector<VertexHandle> handles = insertPoints(pslg, cdt);
-  if (cdt.dimension() < 2)
+  DelaunayBuilder builder = triangulate(pslg);
+  if (!builder.hasTriangles())
     refuse(PslgDefect::Kind::NoArea, pslg.points.empty() ? Point{} : pslg.points.front(), kNone,
            "the vertices lie on one line and enclose no area");
-  insertSegments(pslg, handles, cdt);
+  insertSegments(pslg, builder);
 
-  std::vector<FaceHandle> faces = numberFaces(cdt);
-  const auto segments = segmentsOfFaces(pslg, handles, cdt, faces.size());
-  const std::vector<RegionId> region = Carver(pslg, cdt, faces).run(segments);
-
-  std::vector<TriId> kept(faces.size(), kNone);
+  const std::vector<RegionId> region = Carver(pslg, builder).run();
   TriId count = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    if (region[f] != kOutside) kept[f] = count++;
+  const std::vector<TriId> numbers = numberAlongCurve(builder, region, count);
   if (count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
 
   TriMesh mesh;
@@ -229,16 +166,11 @@ TriMesh constrainedDelaunay(const Pslg& pslg) {
   mesh.input_vertices = static_cast<VertexId>(pslg.points.size());
   mesh.triangles.resize(count);
   mesh.regions.resize(count);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (kept[f] == kNone) continue;
-    Triangle& t = mesh.triangles[kept[f]];
-    mesh.regions[kept[f]] = region[f];
-    t.seg = segments[f];
-    for (int i = 0; i < 3; ++i) {
-      t.v[i] = faces[f]->vertex(i)->info();
-      const TriId other = kept[faces[f]->neighbor(i)->info()];
-      if (other != kNone) t.adj[i] = edgeRef(other, static_cast<unsigned>(cdt.mirror_index(faces[f], i)));
-    }
+  for (TriId from = 0; from < numbers.size(); ++from) {
+    if (numbers[from] == kNone) continue;
+    Triangle& t = mesh.triangles[numbers[from]] = builder.triangles()[from];
+    mesh.regions[numbers[from]] = region[from];
+    for (EdgeRef& adj : t.adj) adj = numbers[triOf(adj)] == kNone ? kNone : edgeRef(numbers[triOf(adj)], indexOf(adj));
   }
   return mesh;
 }

@@ -5,8 +5,6 @@
 
 namespace coastmesh {
 
-namespace {
-
 std::vector<TriId> trianglesAround(const EditMesh& mesh, TriId centre, unsigned rings) {
   std::vector<TriId> patch{centre};
   std::vector<EdgeRef> star;
@@ -30,8 +28,6 @@ std::vector<TriId> trianglesAround(const EditMesh& mesh, TriId centre, unsigned 
   }
   return patch;
 }
-
-}  // namespace
 
 LocalPatch extractPatch(const EditMesh& parent, const VertexNotes& notes, TriId centre, unsigned rings) {
   LocalPatch patch;

@@ -17,6 +17,9 @@ struct LocalPatch {
 };
 
 // The triangles that touch a triangle, those that touch these, and so on for `rings` rings.
+std::vector<TriId> trianglesAround(const EditMesh& mesh, TriId centre, unsigned rings);
+
+// Those triangles as a mesh.
 LocalPatch extractPatch(const EditMesh& parent, const VertexNotes& notes, TriId centre, unsigned rings);
 
 // Puts another mesh of the same patch (fixed vertices and frozen rim unchanged) into the parent's mesh. Appends the

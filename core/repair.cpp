@@ -23,8 +23,11 @@ constexpr std::array kAttempts = {
     Attempt{false, {0.5, false, 0.0}}, Attempt{true, {0.0, false, 0.0}}, Attempt{true, {0.5, false, 0.0}},
     Attempt{true, {1.0, false, 0.0}},  Attempt{true, {2.0, false, 0.0}}, Attempt{true, {4.0, false, 0.0}},
     Attempt{true, {0.0, true, 0.0}},   Attempt{true, {1.0, true, 0.0}},  Attempt{true, {3.0, true, 0.0}},
-    Attempt{true, {6.0, false, 0.0}},
+    Attempt{true, {6.0, false, 0.0}},  Attempt{true, {1.5, false, 0.0}}, Attempt{true, {3.0, false, 0.0}},
+    Attempt{true, {8.0, false, 0.0}},  Attempt{true, {2.0, true, 0.0}},  Attempt{true, {4.5, true, 0.0}},
 };
+// As many compete; the rest is for where they fail.
+constexpr std::size_t kUsualAttempts = 10;
 constexpr std::array kRings = {2u, 3u, 4u, 6u};
 // A patch may grow to this many times its vertices, and some.
 constexpr std::uint64_t kGrowth = 2;
@@ -53,8 +56,8 @@ std::optional<TriMesh> solve(const LocalPatch& patch, const Attempt& attempt, co
 std::optional<TriMesh> solveSmallest(const LocalPatch& patch, const Pslg& pslg, const RefineOptions& options,
                                      std::uint64_t& work) {
   std::optional<TriMesh> best;
-  for (const Attempt& attempt : kAttempts) {
-    std::optional<TriMesh> solved = solve(patch, attempt, pslg, options, work);
+  for (std::size_t i = 0; i < kAttempts.size() && !(best && i >= kUsualAttempts); ++i) {
+    std::optional<TriMesh> solved = solve(patch, kAttempts[i], pslg, options, work);
     if (solved && (!best || solved->points.size() < best->points.size())) best = std::move(solved);
   }
   return best;
@@ -108,18 +111,40 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
     return known != given_up.end() && known->triangle == t && known->corners == refiner.mesh().triangle(t).v;
   };
   const std::uint64_t most_work = kWorkRoom + kWorkShare * refiner.mesh().vertexCount();
-  std::uint64_t work = 0, successes = 0, failures = 0;
+  std::uint64_t well_spent = 0, wasted = 0, successes = 0, failures = 0;
+  // Where mending has failed the triangles beside wait for the next round.
+  std::vector<bool> in_vain;
+  const auto isInVain = [&](TriId t) {
+    return std::ranges::all_of(refiner.mesh().triangle(t).v,
+                               [&](VertexId v) { return v < in_vain.size() && in_vain[v]; });
+  };
+  const auto giveUp = [&](TriId t) {
+    in_vain.resize(refiner.mesh().vertexSlots(), false);
+    for (const TriId near : trianglesAround(refiner.mesh(), t, 1))
+      for (const VertexId v : refiner.mesh().triangle(near).v) in_vain[v] = true;
+  };
   // What a repair pushes beyond its patch is met on the next round.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     bool again = false;
-    for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t) {
+    in_vain.clear();
+    const TriId slots = refiner.mesh().triangleSlots();
+    for (TriId k = 0; k < slots; ++k) {
+      // There and back: of a few beside one another another comes first, which makes another patch.
+      const TriId t = round % 2 == 0 ? k : slots - 1 - k;
       if (!refiner.mesh().isLive(t) || !refiner.isShort(t) || isGivenUp(t)) continue;
       if (refiner.isDeferred(t)) continue;
-      if (work > most_work || refiner.stats().budget_reached) return;
+      if (isInVain(t)) {
+        again = true;
+        continue;
+      }
+      if (wasted > most_work || well_spent > 4 * most_work || refiner.stats().budget_reached) return;
       control.checkpoint(1.0);
+      std::uint64_t work = 0;
       const Outcome outcome = mendPlace(refiner, t, pslg, options, control, work);
+      (outcome == Outcome::Mended ? well_spent : wasted) += work;
       if (outcome == Outcome::Deferred) continue;
+      if (outcome == Outcome::Failed) giveUp(t);
       again |= outcome == Outcome::Mended;
       ++(outcome == Outcome::Mended ? successes : failures);
       if (failures > hopeless(options.min_angle_deg) + 2 * successes) return;

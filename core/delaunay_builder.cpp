@@ -1,0 +1,354 @@
+#include "core/delaunay_builder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <utility>
+
+#include "core/hilbert.hpp"
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// The round in which a point goes in, by its number: each round has four times the points of the one before it (Amenta,
+// Choi, Rote, "Incremental constructions con BRIO", 2003; we differ: a hash in place of chance).
+std::uint32_t roundsLeft(VertexId v) {
+  std::uint32_t h = v * 0x9E3779B1u;
+  h = (h ^ h >> 15) * 0x85EBCA77u;
+  return static_cast<std::uint32_t>(std::countr_zero(h | 1u << 20)) / 2;
+}
+
+std::vector<VertexId> insertionOrder(const std::vector<std::uint32_t>& along) {
+  std::vector<std::uint64_t> keys(along.size());
+  for (VertexId v = 0; v < along.size(); ++v) keys[v] = std::uint64_t{along[v]} << 32 | v;
+  std::ranges::sort(keys);
+  std::vector<VertexId> order;
+  order.reserve(along.size());
+  for (std::uint32_t round = 11; round-- > 0;)
+    for (const std::uint64_t key : keys)
+      if (const auto v = static_cast<VertexId>(key); roundsLeft(v) == round) order.push_back(v);
+  return order;
+}
+
+}  // namespace
+
+DelaunayBuilder::DelaunayBuilder(std::span<const Point> points)
+    : points_(points),
+      ghost_(static_cast<VertexId>(points.size())),
+      along_(hilbertIndices(points)),
+      triangle_of_(points.size() + 1, kNone) {
+  std::vector<VertexId> order = insertionOrder(along_);
+  if (!startWith(order)) return;
+  for (std::size_t i = 3; i < order.size(); ++i) insertPoint(order[i]);
+}
+
+// The first triangle, of the first three points that are not on a line; they move to the front.
+bool DelaunayBuilder::startWith(std::vector<VertexId>& order) {
+  if (order.size() < 2) return false;
+  const Point &p = points_[order[0]], &q = points_[order[1]];
+  if (p == q) throw Clash(Clash::Kind::PointsCoincide, order[1], kNone);
+  const auto third =
+      std::find_if(order.begin() + 2, order.end(), [&](VertexId v) { return orient2d(p, q, points_[v]) != 0; });
+  if (third == order.end()) {
+    std::ranges::sort(order, [&](VertexId a, VertexId b) { return lexLess(points_[a], points_[b]); });
+    const auto same =
+        std::ranges::adjacent_find(order, [&](VertexId a, VertexId b) { return points_[a] == points_[b]; });
+    if (same != order.end()) throw Clash(Clash::Kind::PointsCoincide, *same, kNone);
+    return false;
+  }
+  std::rotate(order.begin() + 2, third, third + 1);
+  VertexId a = order[0], b = order[1];
+  const VertexId c = order[2];
+  if (orient2d(p, q, points_[c]) < 0) std::swap(a, b);
+  triangles_.reserve(2 * points_.size());
+  const TriId inner = makeTriangle(a, b, c);
+  const TriId outer[3] = {makeTriangle(ghost_, c, b), makeTriangle(ghost_, a, c), makeTriangle(ghost_, b, a)};
+  for (unsigned i = 0; i < 3; ++i) link(edgeRef(inner, i), edgeRef(outer[i], 0));
+  for (unsigned i = 0; i < 3; ++i) link(edgeRef(outer[i], 1), edgeRef(outer[prev3(i)], 2));
+  return true;
+}
+
+TriId DelaunayBuilder::makeTriangle(VertexId a, VertexId b, VertexId c) {
+  const auto t = static_cast<TriId>(triangles_.size());
+  triangles_.push_back({});
+  triangles_[t].v = {a, b, c};
+  triangle_of_[a] = triangle_of_[b] = triangle_of_[c] = t;
+  return t;
+}
+
+void DelaunayBuilder::link(EdgeRef e, EdgeRef f) {
+  assert(origin(e) == target(f) && target(e) == origin(f));
+  triangles_[triOf(e)].adj[indexOf(e)] = f;
+  triangles_[triOf(f)].adj[indexOf(f)] = e;
+}
+
+// A triangle that is to go where x comes in: its circle holds x; of a ghost, the half-plane beyond its edge, or the edge
+// itself.
+bool DelaunayBuilder::isInConflict(TriId t, const Point& x) const {
+  const auto& v = triangles_[t].v;
+  if (!isGhost(t)) return inCircle(points_[v[0]], points_[v[1]], points_[v[2]], x) > 0;
+  const unsigned i = cornerOf(t, ghost_);
+  const Point &a = points_[v[next3(i)]], &b = points_[v[prev3(i)]];
+  const int side = orient2d(a, b, x);
+  return side > 0 || (side == 0 && dot(a - x, b - x) < 0.0);
+}
+
+// Without segments in the way the walk ends; with them it might go round in circles.
+TriId DelaunayBuilder::walkTo(const Point& x, TriId from) const {
+  TriId t = from;
+  if (isGhost(t)) t = triOf(triangles_[t].adj[cornerOf(t, ghost_)]);
+  EdgeRef came = kNone;
+  for (std::size_t steps = 0; steps <= triangles_.size(); ++steps) {
+    EdgeRef onward = kNone;
+    for (unsigned i = 0; i < 3 && onward == kNone; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (e != came && orient2d(points_[origin(e)], points_[target(e)], x) < 0) onward = e;
+    }
+    if (onward == kNone) return t;
+    came = twin(onward);
+    t = triOf(came);
+    if (isGhost(t)) return t;
+  }
+  return kNone;
+}
+
+TriId DelaunayBuilder::locate(const Point& x) const {
+  const TriId walked = walkTo(x, 0);
+  if (walked != kNone) return walked;
+  TriId ghost = kNone;
+  for (TriId t = 0; t < triangles_.size(); ++t) {
+    const auto& v = triangles_[t].v;
+    if (isGhost(t)) {
+      ghost = t;
+    } else if (orient2d(points_[v[0]], points_[v[1]], x) >= 0 && orient2d(points_[v[1]], points_[v[2]], x) >= 0 &&
+               orient2d(points_[v[2]], points_[v[0]], x) >= 0) {
+      return t;
+    }
+  }
+  return ghost;
+}
+
+// Bowyer and Watson: the triangles in conflict make room for a fan.
+void DelaunayBuilder::insertPoint(VertexId v) {
+  const Point x = points_[v];
+  const TriId start = walkTo(x, static_cast<TriId>(triangles_.size() - 1));
+  for (const VertexId corner : triangles_[start].v)
+    if (corner != ghost_ && points_[corner] == x) throw Clash(Clash::Kind::PointsCoincide, v, kNone);
+  cavity_.assign(1, start);
+  rim_.clear();
+  stack_.assign({edgeRef(start, 2), edgeRef(start, 1), edgeRef(start, 0)});
+  while (!stack_.empty()) {
+    const EdgeRef e = stack_.back();
+    stack_.pop_back();
+    const EdgeRef beyond = twin(e);
+    if (isInConflict(triOf(beyond), x)) {
+      cavity_.push_back(triOf(beyond));
+      stack_.push_back(edgeRef(triOf(beyond), prev3(indexOf(beyond))));
+      stack_.push_back(edgeRef(triOf(beyond), next3(indexOf(beyond))));
+    } else {
+      rim_.push_back({origin(e), target(e), beyond});
+    }
+  }
+  // Two more triangles than before. The last one made is where the next point starts to look.
+  TriId last = kNone, first = kNone;
+  for (std::size_t i = 0; i < rim_.size(); ++i) {
+    const RimEdge& r = rim_[i];
+    TriId t;
+    if (i < cavity_.size()) {
+      t = cavity_[i];
+      triangles_[t].v = {v, r.a, r.b};
+      triangle_of_[r.a] = triangle_of_[r.b] = t;
+    } else {
+      t = makeTriangle(v, r.a, r.b);
+    }
+    link(edgeRef(t, 0), r.beyond);
+    if (last == kNone) {
+      first = t;
+    } else {
+      link(edgeRef(t, 2), edgeRef(last, 1));
+    }
+    last = t;
+  }
+  link(edgeRef(first, 2), edgeRef(last, 1));
+  triangle_of_[v] = last;
+}
+
+// The edge from a to b; kNone where there is none.
+EdgeRef DelaunayBuilder::findEdge(VertexId a, VertexId b) const {
+  const TriId home = triangle_of_[a];
+  TriId t = home;
+  do {
+    const unsigned i = cornerOf(t, a);
+    if (triangles_[t].v[next3(i)] == b) return edgeRef(t, prev3(i));
+    t = triOf(triangles_[t].adj[next3(i)]);
+  } while (t != home);
+  return kNone;
+}
+
+// The triangles between a and b into cavity_, and what is beside them into sides_. No segment may be in the way, and no
+// vertex.
+void DelaunayBuilder::openChannel(VertexId a, VertexId b) {
+  const Point from = points_[a], to = points_[b];
+  cavity_.clear();
+  for (Side& side : sides_) {
+    side.corners.assign(1, a);
+    side.edges.clear();
+  }
+  const auto extend = [&](unsigned side, VertexId v, EdgeRef inside) {
+    sides_[side].corners.push_back(v);
+    sides_[side].edges.push_back({inside, twin(inside), segment(inside), kNoPartner});
+  };
+  // The triangle at a that the way leaves through the edge from right to left.
+  EdgeRef e = kNone;
+  const TriId home = triangle_of_[a];
+  TriId t = home;
+  do {
+    const unsigned i = cornerOf(t, a);
+    const VertexId right = triangles_[t].v[next3(i)], left = triangles_[t].v[prev3(i)];
+    if (right != ghost_) {
+      const int side = orient2d(from, to, points_[right]);
+      if (side == 0 && dot(points_[right] - from, to - from) > 0.0)
+        throw Clash(Clash::Kind::PointOnSegment, right, kNone);
+      if (left != ghost_ && side < 0 && orient2d(from, to, points_[left]) > 0) e = edgeRef(t, i);
+    }
+    t = triOf(triangles_[t].adj[next3(i)]);
+  } while (t != home);
+  assert(e != kNone);
+  cavity_.push_back(triOf(e));
+  extend(0, target(e), edgeRef(triOf(e), next3(indexOf(e))));
+  extend(1, origin(e), edgeRef(triOf(e), prev3(indexOf(e))));
+  for (VertexId v = kNone; v != b;) {
+    if (segment(e) != kNone) throw Clash(Clash::Kind::SegmentsCross, kNone, segment(e));
+    const EdgeRef beyond = twin(e);
+    const EdgeRef on_left = edgeRef(triOf(beyond), prev3(indexOf(beyond)));
+    const EdgeRef on_right = edgeRef(triOf(beyond), next3(indexOf(beyond)));
+    cavity_.push_back(triOf(beyond));
+    v = apex(beyond);
+    const int side = v == b ? 0 : orient2d(from, to, points_[v]);
+    if (v != b && side == 0) throw Clash(Clash::Kind::PointOnSegment, v, kNone);
+    if (side >= 0) extend(0, v, on_left);
+    if (side <= 0) extend(1, v, on_right);
+    e = side > 0 ? on_right : on_left;
+  }
+  // An edge that ends within has both its sides there.
+  std::vector<TriId> inside = cavity_;
+  std::ranges::sort(inside);
+  for (Side& side : sides_) {
+    for (SideEdge& edge : side.edges) {
+      if (!std::ranges::binary_search(inside, triOf(edge.beyond))) continue;
+      const auto partner = std::ranges::find(side.edges, edge.beyond, &SideEdge::inside);
+      assert(partner != side.edges.end());
+      edge.partner = static_cast<std::size_t>(partner - side.edges.begin());
+    }
+  }
+  filled_ = 0;
+}
+
+// Links an edge of a new triangle with what lies beyond.
+void DelaunayBuilder::attach(EdgeRef inside, unsigned side, std::size_t edge) {
+  std::vector<SideEdge>& edges = sides_[side].edges;
+  const SideEdge& beyond = edges[edge];
+  triangles_[triOf(inside)].seg[indexOf(inside)] = beyond.seg;
+  if (beyond.partner == kNoPartner) {
+    link(inside, beyond.beyond);
+  } else {
+    edges[beyond.partner].beyond = inside;
+    edges[beyond.partner].partner = kNoPartner;
+  }
+}
+
+// Triangulates what is between a side and the new segment: every corner sees the segment, so Graham's scan does it
+// (Toussaint, Avis, "On a convex hull algorithm for polygons and its application to triangulation problems", 1982).
+// Answers the edge along the segment.
+EdgeRef DelaunayBuilder::fillSide(unsigned side) {
+  const std::vector<VertexId>& corners = sides_[side].corners;
+  scan_.assign(1, {corners[0], 0});
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    Scanned next{corners[k], k - 1};
+    while (scan_.size() >= 2) {
+      const VertexId p = scan_[scan_.size() - 2].v;
+      const Scanned middle = scan_.back();
+      const int turn = orient2d(points_[p], points_[middle.v], points_[next.v]);
+      if (side == 0 ? turn >= 0 : turn <= 0) break;
+      const TriId t = cavity_[filled_++];
+      triangles_[t].v = {p, side == 0 ? next.v : middle.v, side == 0 ? middle.v : next.v};
+      triangles_[t].seg = {kNone, kNone, kNone};
+      for (const VertexId v : triangles_[t].v) triangle_of_[v] = t;
+      attach(edgeRef(t, 0), side, next.edge);
+      attach(edgeRef(t, side == 0 ? 1 : 2), side, middle.edge);
+      const EdgeRef inner = edgeRef(t, side == 0 ? 2 : 1);
+      next.edge = sides_[side].edges.size();
+      sides_[side].edges.push_back({kNone, inner, kNone, kNoPartner});
+      scan_.pop_back();
+    }
+    scan_.push_back(next);
+  }
+  assert(scan_.size() == 2);
+  return sides_[side].edges[scan_.back().edge].beyond;
+}
+
+// Turns the edge in the quadrilateral of its two triangles, where that is convex.
+bool DelaunayBuilder::flip(EdgeRef e) {
+  const EdgeRef f = twin(e);
+  const TriId t = triOf(e), n = triOf(f);
+  const VertexId a = apex(e), b = origin(e), c = target(e), d = apex(f);
+  if (orient2d(points_[a], points_[b], points_[d]) <= 0 || orient2d(points_[a], points_[d], points_[c]) <= 0)
+    return false;
+  const auto outer = [this](EdgeRef o) { return std::pair(twin(o), segment(o)); };
+  const auto ab = outer(edgeRef(t, prev3(indexOf(e)))), ca = outer(edgeRef(t, next3(indexOf(e))));
+  const auto bd = outer(edgeRef(n, next3(indexOf(f)))), dc = outer(edgeRef(n, prev3(indexOf(f))));
+  triangles_[t].v = {a, b, d};
+  triangles_[n].v = {a, d, c};
+  triangles_[t].seg = {bd.second, kNone, ab.second};
+  triangles_[n].seg = {dc.second, ca.second, kNone};
+  triangle_of_[a] = triangle_of_[b] = triangle_of_[d] = t;
+  triangle_of_[c] = n;
+  link(edgeRef(t, 0), bd.first);
+  link(edgeRef(t, 2), ab.first);
+  link(edgeRef(n, 0), dc.first);
+  link(edgeRef(n, 1), ca.first);
+  link(edgeRef(t, 1), edgeRef(n, 2));
+  return true;
+}
+
+void DelaunayBuilder::setSegment(EdgeRef e, SegmentId seg) {
+  triangles_[triOf(e)].seg[indexOf(e)] = seg;
+  const EdgeRef f = twin(e);
+  triangles_[triOf(f)].seg[indexOf(f)] = seg;
+}
+
+void DelaunayBuilder::insertSegment(VertexId a, VertexId b, SegmentId seg) {
+  const EdgeRef there = findEdge(a, b);
+  if (there != kNone) {
+    if (segment(there) != kNone) throw Clash(Clash::Kind::SegmentsCoincide, kNone, segment(there));
+    setSegment(there, seg);
+    return;
+  }
+  openChannel(a, b);
+  const EdgeRef left = fillSide(0), right = fillSide(1);
+  assert(filled_ == cavity_.size());
+  link(left, right);
+  setSegment(left, seg);
+  stack_.clear();
+  for (const TriId t : cavity_)
+    for (unsigned i = 0; i < 3; ++i) stack_.push_back(edgeRef(t, i));
+  restoreDelaunay();
+}
+
+// Lawson's flips, from the edges on the stack on.
+void DelaunayBuilder::restoreDelaunay() {
+  while (!stack_.empty()) {
+    const EdgeRef e = stack_.back();
+    stack_.pop_back();
+    const TriId t = triOf(e), n = triOf(twin(e));
+    if (segment(e) != kNone || isGhost(t) || isGhost(n)) continue;
+    const auto& v = triangles_[t].v;
+    if (inCircle(points_[v[0]], points_[v[1]], points_[v[2]], points_[apex(twin(e))]) <= 0 || !flip(e)) continue;
+    for (const EdgeRef f : {edgeRef(t, 0), edgeRef(t, 2), edgeRef(n, 0), edgeRef(n, 1)}) stack_.push_back(f);
+  }
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "core/point.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+// The constrained Delaunay triangulation of points that grows by a point or a segment at a time. What is outside the
+// convex hull is triangles too: with a ghost for their third corner, which is numbered after all points. So every edge
+// has two sides. Where the points are on one line there is no triangulation.
+class DelaunayBuilder {
+ public:
+  // What a point or a segment meets where it must not.
+  struct Clash : std::runtime_error {
+    enum class Kind { PointsCoincide, PointOnSegment, SegmentsCross, SegmentsCoincide };
+    Clash(Kind k, VertexId v, SegmentId s)
+        : std::runtime_error("no planar straight-line graph"), kind(k), at(v), other(s) {}
+    Kind kind;
+    VertexId at;      // the vertex that is met
+    SegmentId other;  // the segment that is met
+  };
+
+  // Inserts all points: in rounds, each along Hilbert's curve, so that each point lies near the one before and no order
+  // of them makes many triangles for nothing. Throws Clash for points at the same place.
+  explicit DelaunayBuilder(std::span<const Point> points);
+
+  bool hasTriangles() const { return !triangles_.empty(); }
+
+  // Makes the edge from a to b, if it is not there, and a segment of it. Throws Clash.
+  void insertSegment(VertexId a, VertexId b, SegmentId seg);
+
+  // Ghosts included; all linked.
+  std::span<const Triangle> triangles() const { return triangles_; }
+  bool isGhost(TriId t) const {
+    const auto& v = triangles_[t].v;
+    return v[0] == ghost_ || v[1] == ghost_ || v[2] == ghost_;
+  }
+  // A triangle that holds x, a ghost where x is outside the convex hull.
+  TriId locate(const Point& x) const;
+  // The places of points along Hilbert's curve.
+  const std::vector<std::uint32_t>& alongCurve() const { return along_; }
+
+ private:
+  bool startWith(std::vector<VertexId>& order);
+  void insertPoint(VertexId x);
+  TriId walkTo(const Point& x, TriId from) const;
+  bool isInConflict(TriId t, const Point& x) const;
+  TriId makeTriangle(VertexId a, VertexId b, VertexId c);
+  void link(EdgeRef e, EdgeRef f);
+  EdgeRef findEdge(VertexId a, VertexId b) const;
+  void openChannel(VertexId a, VertexId b);
+  EdgeRef fillSide(unsigned side);
+  void attach(EdgeRef inside, unsigned side, std::size_t edge);
+  void setSegment(EdgeRef e, SegmentId seg);
+  bool flip(EdgeRef e);
+  void restoreDelaunay();
+
+  VertexId origin(EdgeRef e) const { return triangles_[triOf(e)].v[next3(indexOf(e))]; }
+  VertexId target(EdgeRef e) const { return triangles_[triOf(e)].v[prev3(indexOf(e))]; }
+  VertexId apex(EdgeRef e) const { return triangles_[triOf(e)].v[indexOf(e)]; }
+  EdgeRef twin(EdgeRef e) const { return triangles_[triOf(e)].adj[indexOf(e)]; }
+  SegmentId segment(EdgeRef e) const { return triangles_[triOf(e)].seg[indexOf(e)]; }
+  unsigned cornerOf(TriId t, VertexId v) const {
+    const auto& c = triangles_[t].v;
+    return c[0] == v ? 0 : c[1] == v ? 1 : 2;
+  }
+
+  std::span<const Point> points_;
+  VertexId ghost_;
+  std::vector<std::uint32_t> along_;
+  std::vector<Triangle> triangles_;
+  std::vector<TriId> triangle_of_;  // one of the triangles round a vertex
+
+  // Scratch.
+  struct RimEdge {
+    VertexId a, b;
+    EdgeRef beyond;
+  };
+  std::vector<EdgeRef> stack_;
+  std::vector<TriId> cavity_;
+  std::vector<RimEdge> rim_;
+  // One side of what a new segment goes through, from its first end to its last. Edge k ends at corner k + 1; further
+  // edges are inner ones.
+  static constexpr std::size_t kNoPartner = ~std::size_t{0};
+  struct SideEdge {
+    EdgeRef inside, beyond;
+    SegmentId seg;
+    std::size_t partner;  // the same edge from its other side, where both are inside
+  };
+  struct Side {
+    std::vector<VertexId> corners;
+    std::vector<SideEdge> edges;
+  };
+  struct Scanned {
+    VertexId v;
+    std::size_t edge;  // that leads here from the one before
+  };
+  Side sides_[2];  // left, right
+  std::vector<Scanned> scan_;
+  std::size_t filled_ = 0;  // triangles of cavity_ that are in use again
+};
+
+}  // namespace coastmesh
