@@ -8,7 +8,6 @@
 
 #include "core/flip.hpp"
 #include "core/predicates.hpp"
-#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -146,14 +145,14 @@ std::vector<CutSide> place(const CutPiece& cut, std::size_t p, const Layout& lay
 }
 
 // Joins the two sides of every cut edge; answers the edges.
-std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of, TriMesh& mesh) {
+std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of, TriMesh& mesh, Recorder& recorder) {
   std::vector<CutSide> sides;
   for (const std::vector<CutSide>& some : sides_of) sides.insert(sides.end(), some.begin(), some.end());
   tbb::parallel_sort(sides.begin(), sides.end(), [](const CutSide& x, const CutSide& y) {
     return std::pair(x.name, x.edge) < std::pair(y.name, y.edge);
   });
   std::vector<EdgeRef> edges(sides.size() / 2);
-  forEachStretch(edges.size(), [&](std::size_t first, std::size_t last) {
+  recorder.forEachStretch(edges.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const CutSide &one = sides[2 * i], &other = sides[2 * i + 1];
       for (const auto& [from, to] : {std::pair(one, other), std::pair(other, one)}) {
@@ -168,7 +167,7 @@ std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of
 
 }  // namespace
 
-Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before) {
+Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& recorder) {
   const VertexId input_vertices = before.mesh.input_vertices;
   const Layout layout = layOut(pieces, input_vertices);
   Sheet sheet;
@@ -184,15 +183,19 @@ Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before) {
     if (!sheet.notes.spacing.empty()) sheet.notes.spacing[to] = before.notes.spacing[from];
     if (!sheet.due_vertices.empty()) sheet.due_vertices[to] = before.due_vertices[from];
   };
-  for (VertexId v = 0; v < input_vertices; ++v) keep(v, v);
-  for (VertexId i = 0; i < layout.on_cuts.size(); ++i) keep(layout.on_cuts[i], input_vertices + i);
+  recorder.forEachStretch(input_vertices + layout.on_cuts.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto to = static_cast<VertexId>(i);
+      keep(to < input_vertices ? to : layout.on_cuts[to - input_vertices], to);
+    }
+  });
 
   std::vector<std::vector<CutSide>> sides(pieces.size());
-  forEachItem(pieces.size(), {}, [&](std::size_t p) {
+  recorder.forEach(pieces.size(), {}, [&](std::size_t p) {
     sides[p] = place(pieces[p], p, layout, sheet);
     pieces[p] = {};
   });
-  std::vector<EdgeRef> edges = joinSides(sides, sheet.mesh);
+  std::vector<EdgeRef> edges = joinSides(sides, sheet.mesh, recorder);
   std::erase_if(edges, [&](EdgeRef e) {
     if (sheet.mesh.segment(e) != kNone) return true;
     const auto& v = sheet.mesh.triangle(triOf(e)).v;

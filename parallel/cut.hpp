@@ -39,6 +39,6 @@ CutPiece cutOut(const Sheet& sheet, const Partition& partition, PieceId piece, V
 // Puts pieces together again: all of one partition, in order, each worked on or not. Restores the Delaunay property across the
 // cuts and marks the triangles that this changes as due. Vertices are numbered anew: input vertices as before, then those on cuts, then
 // each piece's own.
-Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before);
+Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& recorder);
 
 }  // namespace coastmesh

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/metric.hpp"
-#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -71,12 +70,12 @@ class CutTree {
 };
 
 // The triangles in the order of their pieces.
-void sortByPiece(Partition& partition) {
+void sortByPiece(Partition& partition, Recorder& recorder) {
   constexpr std::size_t kStretches = 64;
   const std::size_t count = partition.piece_of.size();
   const auto begin = [&](std::size_t stretch) { return count * stretch / kStretches; };
   std::vector<std::vector<std::size_t>> counts(kStretches);
-  forEachItem(kStretches, {}, [&](std::size_t s) {
+  recorder.forEach(kStretches, {}, [&](std::size_t s) {
     counts[s].assign(partition.pieces, 0);
     for (std::size_t t = begin(s); t < begin(s + 1); ++t) ++counts[s][partition.piece_of[t]];
   });
@@ -89,7 +88,7 @@ void sortByPiece(Partition& partition) {
   partition.first[partition.pieces] = sum;
   partition.triangles.resize(count);
   partition.slot_of.resize(count);
-  forEachItem(kStretches, {}, [&](std::size_t s) {
+  recorder.forEach(kStretches, {}, [&](std::size_t s) {
     for (std::size_t t = begin(s); t < begin(s + 1); ++t) {
       const PieceId p = partition.piece_of[t];
       const std::size_t place = counts[s][p]++;
@@ -101,7 +100,8 @@ void sortByPiece(Partition& partition) {
 
 }  // namespace
 
-Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight) {
+Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
+                    Recorder& recorder) {
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto centre = [&](TriId t) -> std::array<double, 2> {
     const auto& v = mesh.triangle(t).v;
@@ -113,7 +113,7 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   const std::size_t count = mesh.triangles.size();
   const std::size_t stride = std::max<std::size_t>(1, count / (kSamples * pieces));
   std::vector<Sample> samples((count + stride - 1) / stride);
-  forEachStretch(samples.size(), [&](std::size_t first, std::size_t last) {
+  recorder.forEachStretch(samples.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const auto t = static_cast<TriId>(i * stride);
       samples[i] = {centre(t), weight(t)};
@@ -124,10 +124,10 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   Partition result;
   result.pieces = pieces;
   result.piece_of.resize(count);
-  forEachStretch(count, [&](std::size_t first, std::size_t last) {
+  recorder.forEachStretch(count, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) result.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t)));
   });
-  sortByPiece(result);
+  sortByPiece(result, recorder);
   return result;
 }
 

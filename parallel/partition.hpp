@@ -7,6 +7,7 @@
 
 #include "core/ids.hpp"
 #include "core/tri_mesh.hpp"
+#include "parallel/recorder.hpp"
 
 namespace coastmesh {
 
@@ -28,6 +29,7 @@ struct Partition {
 // and so on (Bentley's k-d tree). Depends on nothing but its arguments.
 //   weight(t)  what a triangle counts, above 0
 //   angle      radians: the directions are turned by so much; cuts under other angles meet these at single points
-Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight);
+Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
+                    Recorder& recorder);
 
 }  // namespace coastmesh

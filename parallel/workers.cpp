@@ -1,6 +1,5 @@
 #include "parallel/workers.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -77,14 +76,6 @@ void forEachItem(std::size_t count, const RunControl& control, const std::functi
         0, threadCount(), [&](int) { worker(); }, tbb::simple_partitioner());
   });
   failure.rethrow();
-}
-
-void forEachStretch(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
-  constexpr std::size_t kGrain = 8192;
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) { work(range.begin(), range.end()); });
-  });
 }
 
 }  // namespace coastmesh

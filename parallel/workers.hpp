@@ -22,7 +22,4 @@ int threadCount();
 // with the least i is rethrown once all running ones have ended). `control.progress` is called from one thread at a time.
 void forEachItem(std::size_t count, const RunControl& control, const std::function<void(std::size_t)>& work);
 
-// Runs `work(first, last)` for stretches that make up 0 to `count`.
-void forEachStretch(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work);
-
 }  // namespace coastmesh
