@@ -123,13 +123,13 @@ void checkUnused(const TriMesh& mesh, std::vector<MeshDefect>& defects) {
 }
 
 void checkBounds(const TriMesh& mesh, const CheckOptions& options, std::vector<MeshDefect>& defects) {
-  // The refinement aims a hair above the bound; here the bound itself counts, and an input angle that just cannot be
-  // divided at the refinement's bound explains as much as it does there.
-  constexpr double kMargin = TriangleBound::kMarginDeg;
+  // The refinement aims a hair above the bound; here the bound itself counts. What an input angle explains is the same
+  // in both: one of exactly the bound cannot be divided at a hair above it.
+  constexpr double kHair = 2.0 * TriangleBound::kMarginDeg;
   constexpr double kAnySize = std::numeric_limits<double>::infinity();
   const double least = options.min_angle_deg, most = options.max_angle_deg;
-  const TriangleBound asked(std::max(0.0, least - 2.0 * kMargin), std::min(180.0, most + 2.0 * kMargin), kAnySize);
-  const TriangleBound in_reach(least <= 0.0 ? 0.0 : least + kMargin, most >= 180.0 ? 180.0 : most - kMargin, kAnySize);
+  const TriangleBound asked(std::max(0.0, least - kHair), std::min(180.0, most + kHair), kAnySize);
+  const TriangleBound in_reach(least, most, kAnySize);
   for (const Shortfall& s : findShortfalls(mesh, asked, in_reach))
     defects.push_back({DefectKind::AngleBelowBound, s.place, kNone, s.min_angle_deg});
 }
