@@ -34,7 +34,7 @@ bool labelsTellAll(const Pslg& pslg) {
 
 Expected expectFromLabels(const Pslg& pslg) {
   Expected expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
-  // Relative to a point of the domain, lest large coordinates drown the area.
+  // Relative to a point of the input, lest large coordinates drown the area.
   const Point o = pslg.points.front();
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
     const Segment& seg = pslg.segments[s];
@@ -42,7 +42,7 @@ Expected expectFromLabels(const Pslg& pslg) {
     const bool inside = seg.left >= 0 || seg.right >= 0 || (seg.left == kUnlabelled && seg.right == kUnlabelled);
     if (!inside) continue;
     expected.segments[s] = expected.vertices[seg.a] = expected.vertices[seg.b] = true;
-    const double swept = 0.5 * cross(pslg.points[seg.a] - o, pslg.points[seg.b] - o);
+    const double swept = 0.5 * cross(pslg.points[seg.a] - o, pslg.points[seg.b] - pslg.points[seg.a]);
     if (seg.left >= 0) expected.area += swept;
     if (seg.right >= 0) expected.area -= swept;
   }

@@ -37,7 +37,7 @@ struct CaseLimits {
 
 // Meshes the input and judges every stage's result: valid by `checkMesh`; every shortfall listed, and nothing else;
 // areas of regions kept; counts that agree; no more vertices than a bound that follows from the input; shrinking
-// leaves no more vertices nor shortfalls than it found.
+// leaves no more vertices than it found, and no bad triangle where there was none.
 CaseResult runCase(const RefineCase& refine_case, const CaseLimits& limits = {});
 
 std::string_view nameOf(Algorithm algorithm);
