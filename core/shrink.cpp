@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -41,10 +42,15 @@ class Waiting {
 
 // How often every vertex gets its turn. A sweep shakes the mesh, so that the next finds more; where angles are large, dense
 // places are many, and sweeps pay for longer.
-int sweepsFor(double min_angle_deg) {
-  if (min_angle_deg < 32.0) return 2;
-  if (min_angle_deg < 37.0 || min_angle_deg > 43.0) return 3;
-  return 16;
+// Small meshes can afford more, up to as many visits of vertices as `work`.
+int sweepsFor(double min_angle_deg, std::size_t vertices) {
+  const auto between = [&](double fewest, double most, double work) {
+    return static_cast<int>(std::clamp(work / static_cast<double>(std::max<std::size_t>(1, vertices)), fewest, most));
+  };
+  if (min_angle_deg < 32.0) return between(2.0, 5.0, 5000.0);
+  if (min_angle_deg < 37.0) return between(3.0, 6.0, 10000.0);
+  if (min_angle_deg <= 43.0) return between(16.0, 64.0, 800000.0);
+  return between(3.0, 16.0, 20000.0);
 }
 
 class Shrinker {
@@ -136,14 +142,16 @@ Piece Shrinker::releasePiece() {
 
 RefineStats shrinkPiece(Piece& piece, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
   Shrinker shrinker(std::move(piece), pslg, options);
-  shrinker.run(sweepsFor(options.min_angle_deg), control);
+  // As the large mesh that it is a piece of.
+  shrinker.run(sweepsFor(options.min_angle_deg, std::numeric_limits<std::size_t>::max()), control);
   piece = shrinker.releasePiece();
   return std::move(shrinker.stats());
 }
 
 RefineStats shrink(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  const std::size_t vertices = mesh.points.size();
   Shrinker shrinker(std::move(mesh), pslg, options);
-  shrinker.run(sweepsFor(options.min_angle_deg), control);
+  shrinker.run(sweepsFor(options.min_angle_deg, vertices), control);
   mesh = shrinker.release();
   labelRegions(mesh, pslg);
   RefineStats stats = std::move(shrinker.stats());
