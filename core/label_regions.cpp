@@ -1,6 +1,7 @@
 #include "core/label_regions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace coastmesh {
@@ -14,10 +15,11 @@ void labelRegions(TriMesh& mesh, const Pslg& pslg) {
       const SegmentId s = mesh.triangles[t].seg[i];
       if (s == kNone) continue;
       const Segment& segment = pslg.segments[s];
-      // Pieces of a segment run with it or against it.
+      // Pieces of a segment run with it or against it: told by its longer side alone, since products underflow.
       const Point &a = pslg.points[segment.a], &b = pslg.points[segment.b];
       const Point &from = mesh.points[mesh.origin(edgeRef(t, i))], &to = mesh.points[mesh.target(edgeRef(t, i))];
-      const bool along = (b.x - a.x) * (to.x - from.x) + (b.y - a.y) * (to.y - from.y) > 0.0;
+      const bool by_x = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
+      const bool along = by_x ? (b.x > a.x) == (to.x > from.x) : (b.y > a.y) == (to.y > from.y);
       mesh.regions[t] = along ? segment.left : segment.right;
     }
     if (mesh.regions[t] == kUnlabelled) continue;
