@@ -179,13 +179,14 @@ CaseResult judgeCase(const RefineCase& c, const TriMesh& coarse, const CaseLimit
   CaseResult result;
   result.vertices = meshed.mesh.points.size();
   if (!meshed.refined.budget_reached || c.options.max_vertices <= limits.most_vertices) return result;
+  result.verdict = Verdict::TooLarge;
   constexpr std::uint64_t kMostTimes = 100, kRoom = 1000;
+  if (limits.most_vertices <= kRoom) return result;
   const auto needed = neededAtLeast(c, limits.most_vertices);
   if (needed && kRoom + kMostTimes * *needed < limits.most_vertices)
     throw Broken{
         "refine: more vertices than the input explains",
         std::to_string(*needed) + " at 20 degrees, more than " + std::to_string(limits.most_vertices) + " here"};
-  result.verdict = Verdict::TooLarge;
   return result;
 }
 
