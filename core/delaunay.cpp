@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/delaunay_builder.hpp"
+#include "core/hilbert.hpp"
 #include "core/metric.hpp"
 
 namespace coastmesh {
@@ -122,19 +123,23 @@ class Carver {
   std::vector<TriId> stack_;
 };
 
-// The new numbers of the triangles that are kept, along the curve by their first corner; kNone for the others.
-std::vector<TriId> numberAlongCurve(const DelaunayBuilder& builder, const std::vector<RegionId>& region, TriId& count) {
-  const std::span<const Triangle> triangles = builder.triangles();
-  std::vector<std::pair<std::uint32_t, TriId>> order;
-  for (TriId t = 0; t < triangles.size(); ++t) {
-    if (region[t] == kOutside) continue;
-    const auto along = [&](unsigned i) { return builder.alongCurve()[triangles[t].v[i]]; };
-    order.emplace_back(std::min({along(0), along(1), along(2)}), t);
-  }
-  std::ranges::sort(order);
+// The new numbers of the triangles that are kept, along Hilbert's curve by their last corner; kNone for the others.
+std::vector<TriId> numberAlongCurve(std::span<const Point> points, std::span<const Triangle> triangles,
+                                    const std::vector<RegionId>& region, TriId& count) {
+  std::vector<std::uint32_t> place(points.size());
+  for (std::uint32_t i = 0; const VertexId v : hilbertOrder(points)) place[v] = i++;
+  const auto last = [&](TriId t) {
+    const auto& v = triangles[t].v;
+    return std::max({place[v[0]], place[v[1]], place[v[2]]});
+  };
+  std::vector<TriId> first(points.size() + 1, 0);
+  for (TriId t = 0; t < triangles.size(); ++t)
+    if (region[t] != kOutside) ++first[last(t) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  count = first.back();
   std::vector<TriId> numbers(triangles.size(), kNone);
-  count = 0;
-  for (const auto& [place, t] : order) numbers[t] = count++;
+  for (TriId t = 0; t < triangles.size(); ++t)
+    if (region[t] != kOutside) numbers[t] = first[last(t)]++;
   return numbers;
 }
 
@@ -158,7 +163,7 @@ TriMesh constrainedDelaunay(const Pslg& pslg) {
 
   const std::vector<RegionId> region = Carver(pslg, builder).run();
   TriId count = 0;
-  const std::vector<TriId> numbers = numberAlongCurve(builder, region, count);
+  const std::vector<TriId> numbers = numberAlongCurve(pslg.points, builder.triangles(), region, count);
   if (count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
 
   TriMesh mesh;

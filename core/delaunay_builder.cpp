@@ -1,8 +1,10 @@
 #include "core/delaunay_builder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
 #include "core/hilbert.hpp"
@@ -21,26 +23,20 @@ std::uint32_t roundsLeft(VertexId v) {
   return static_cast<std::uint32_t>(std::countr_zero(h | 1u << 20)) / 2;
 }
 
-std::vector<VertexId> insertionOrder(const std::vector<std::uint32_t>& along) {
-  std::vector<std::uint64_t> keys(along.size());
-  for (VertexId v = 0; v < along.size(); ++v) keys[v] = std::uint64_t{along[v]} << 32 | v;
-  std::ranges::sort(keys);
-  std::vector<VertexId> order;
-  order.reserve(along.size());
-  for (std::uint32_t round = 11; round-- > 0;)
-    for (const std::uint64_t key : keys)
-      if (const auto v = static_cast<VertexId>(key); roundsLeft(v) == round) order.push_back(v);
+std::vector<VertexId> insertionOrder(const std::vector<VertexId>& along) {
+  std::array<std::size_t, 12> first{};
+  for (const VertexId v : along) ++first[11 - roundsLeft(v)];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<VertexId> order(along.size());
+  for (const VertexId v : along) order[first[10 - roundsLeft(v)]++] = v;
   return order;
 }
 
 }  // namespace
 
 DelaunayBuilder::DelaunayBuilder(std::span<const Point> points)
-    : points_(points),
-      ghost_(static_cast<VertexId>(points.size())),
-      along_(hilbertIndices(points)),
-      triangle_of_(points.size() + 1, kNone) {
-  std::vector<VertexId> order = insertionOrder(along_);
+    : points_(points), ghost_(static_cast<VertexId>(points.size())), triangle_of_(points.size() + 1, kNone) {
+  std::vector<VertexId> order = insertionOrder(hilbertOrder(points));
   if (!startWith(order)) return;
   for (std::size_t i = 3; i < order.size(); ++i) insertPoint(order[i]);
 }

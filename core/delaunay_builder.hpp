@@ -42,8 +42,6 @@ class DelaunayBuilder {
   }
   // A triangle that holds x, a ghost where x is outside the convex hull.
   TriId locate(const Point& x) const;
-  // The places of points along Hilbert's curve.
-  const std::vector<std::uint32_t>& alongCurve() const { return along_; }
 
  private:
   bool startWith(std::vector<VertexId>& order);
@@ -72,7 +70,6 @@ class DelaunayBuilder {
 
   std::span<const Point> points_;
   VertexId ghost_;
-  std::vector<std::uint32_t> along_;
   std::vector<Triangle> triangles_;
   std::vector<TriId> triangle_of_;  // one of the triangles round a vertex
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
 #include "core/flip.hpp"
@@ -29,46 +30,62 @@ EditMesh::EditMesh(TriMesh&& mesh)
 
 TriMesh EditMesh::release(Renumbering& by) {
   // Steiner points get their numbers along Hilbert's curve, so that what lies near in the plane lies near in memory.
-  std::vector<VertexId> steiner;
-  for (VertexId v = input_vertices_; v < points_.size(); ++v)
-    if (isLiveVertex(v)) steiner.push_back(v);
-  const std::vector<std::uint32_t> along = hilbertIndices(points_);
-  std::ranges::sort(steiner, {}, [&](VertexId v) { return std::pair(along[v], v); });
+  std::vector<VertexId>& number = by.vertex;
+  number.assign(points_.size(), kNone);
+  std::iota(number.begin(), number.begin() + input_vertices_, VertexId{0});
+  std::vector<Point> steiner;
+  steiner.reserve(points_.size() - input_vertices_);
+  for (const VertexId v : hilbertOrder(points_)) {
+    if (v < input_vertices_ || !isLiveVertex(v)) continue;
+    number[v] = input_vertices_ + static_cast<VertexId>(steiner.size());
+    steiner.push_back(points_[v]);
+  }
+  points_.resize(input_vertices_ + steiner.size());
+  std::ranges::copy(steiner, points_.begin() + input_vertices_);
+
+  // Triangles follow their last vertex.
+  std::vector<TriId> first(points_.size() + 1, 0);
+  for (Triangle& t : triangles_) {
+    if (t.v[0] == kNone) continue;
+    for (VertexId& v : t.v) v = number[v];
+    ++first[std::max({t.v[0], t.v[1], t.v[2]}) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  const std::size_t count = first.back();
+  std::vector<TriId>& slot = by.triangle;
+  slot.assign(triangles_.size(), kNone);
+  for (TriId t = 0; t < triangles_.size(); ++t) {
+    const auto& v = triangles_[t].v;
+    if (v[0] != kNone) slot[t] = first[std::max({v[0], v[1], v[2]})]++;
+  }
+  for (Triangle& t : triangles_) {
+    if (t.v[0] == kNone) continue;
+    for (EdgeRef& e : t.adj)
+      if (e != kNone) e = edgeRef(slot[triOf(e)], indexOf(e));
+  }
+  moveTriangles(slot);
+  triangles_.resize(count);
 
   TriMesh mesh;
   mesh.input_vertices = input_vertices_;
-  mesh.points.assign(points_.begin(), points_.begin() + input_vertices_);
-  std::vector<VertexId>& number = by.vertex;
-  number.assign(points_.size(), kNone);
-  for (VertexId v = 0; v < input_vertices_; ++v) number[v] = v;
-  for (const VertexId v : steiner) {
-    number[v] = static_cast<VertexId>(mesh.points.size());
-    mesh.points.push_back(points_[v]);
-  }
+  mesh.points = std::move(points_);
+  mesh.triangles = std::move(triangles_);
+  return mesh;
+}
 
-  // Triangles follow their last vertex.
-  const auto last = [&](TriId t) {
-    const auto& v = triangles_[t].v;
-    return std::max({number[v[0]], number[v[1]], number[v[2]]});
-  };
-  std::vector<TriId> first(mesh.points.size() + 1, 0);
-  for (TriId t = 0; t < triangles_.size(); ++t)
-    if (isLive(t)) ++first[last(t) + 1];
-  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  mesh.triangles.resize(first.back());
-  std::vector<TriId>& slot = by.triangle;
-  slot.assign(triangles_.size(), kNone);
-  for (TriId t = 0; t < triangles_.size(); ++t)
-    if (isLive(t)) slot[t] = first[last(t)]++;
-  for (TriId t = 0; t < triangles_.size(); ++t) {
-    if (slot[t] == kNone) continue;
-    Triangle& moved = mesh.triangles[slot[t]] = triangles_[t];
-    for (unsigned i = 0; i < 3; ++i) {
-      moved.v[i] = number[moved.v[i]];
-      if (moved.adj[i] != kNone) moved.adj[i] = edgeRef(slot[triOf(moved.adj[i])], indexOf(moved.adj[i]));
+// Puts every live triangle into its slot, in place: what it drives out goes next.
+void EditMesh::moveTriangles(const std::vector<TriId>& slot) {
+  std::vector<bool> moved(triangles_.size(), false);
+  for (TriId start = 0; start < triangles_.size(); ++start) {
+    if (slot[start] == kNone || moved[start]) continue;
+    Triangle carried = triangles_[start];
+    for (TriId from = start; from != kNone && !moved[from];) {
+      moved[from] = true;
+      const TriId to = slot[from];
+      if (to != kNone) std::swap(carried, triangles_[to]);
+      from = to;
     }
   }
-  return mesh;
 }
 
 bool EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite, std::size_t most) const {

@@ -51,7 +51,7 @@ class EditMesh {
     Renumbering by;
     return release(by);
   }
-  TriMesh release(Renumbering& by);
+  TriMesh release(Renumbering& by);  // the mesh is empty after it
 
   const Point& point(VertexId v) const { return points_[v]; }
   const Triangle& triangle(TriId t) const { return triangles_[t]; }
@@ -131,6 +131,7 @@ class EditMesh {
   void kill(TriId t);
   void write(TriId t, const Corners& corners);
   void link(EdgeRef e, EdgeRef f, SegmentId seg);
+  void moveTriangles(const std::vector<TriId>& slot);
   bool flip(EdgeRef e);
   void flipWaiting(std::vector<TriId>& touched);
   void collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const;

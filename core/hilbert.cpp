@@ -1,22 +1,52 @@
 #include "core/hilbert.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <array>
+#include <numeric>
 
 namespace coastmesh {
 
-std::uint32_t hilbertIndex(std::uint32_t x, std::uint32_t y) {
-  std::uint32_t index = 0;
-  for (std::uint32_t side = 1u << 15; side > 0; side >>= 1) {
-    const bool right = (x & side) != 0, upper = (y & side) != 0;
-    index = index << 2 | ((right ? 3u : 0u) ^ (upper ? 1u : 0u));
-    if (upper) continue;
-    // The lower quadrants hold the curve turned by a quarter.
-    if (right) {
-      x = ~x & 0xFFFFu;
-      y = ~y & 0xFFFFu;
+namespace {
+
+// How the curve lies in a square: coordinates turned over (both), exchanged, or both.
+struct Pose {
+  bool over = false;
+  bool exchanged = false;
+};
+
+constexpr Pose poseOf(unsigned state) { return {(state & 1u) != 0, (state & 2u) != 0}; }
+
+// Four levels of the curve at once: by pose and four bits of either coordinate, eight bits of the index, and the pose
+// below in the bits above these.
+constexpr std::array<std::uint16_t, 1024> makeSteps() {
+  std::array<std::uint16_t, 1024> steps{};
+  for (unsigned key = 0; key < steps.size(); ++key) {
+    Pose pose = poseOf(key >> 8);
+    unsigned index = 0;
+    for (unsigned bit = 8; bit > 0; bit >>= 1) {
+      const bool x = (key >> 4 & bit) != 0, y = (key & bit) != 0;
+      const bool right = (pose.exchanged ? y : x) != pose.over, upper = (pose.exchanged ? x : y) != pose.over;
+      index = index << 2 | ((right ? 3u : 0u) ^ (upper ? 1u : 0u));
+      // The lower quadrants hold the curve turned by a quarter.
+      if (upper) continue;
+      if (right) pose.over = !pose.over;
+      pose.exchanged = !pose.exchanged;
     }
-    std::swap(x, y);
+    steps[key] = static_cast<std::uint16_t>(index | (pose.over ? 1u : 0u) << 8 | (pose.exchanged ? 2u : 0u) << 8);
+  }
+  return steps;
+}
+
+constexpr std::array<std::uint16_t, 1024> kSteps = makeSteps();
+
+}  // namespace
+
+std::uint32_t hilbertIndex(std::uint32_t x, std::uint32_t y) {
+  std::uint32_t index = 0, state = 0;
+  for (int shift = 12; shift >= 0; shift -= 4) {
+    const std::uint32_t step = kSteps[state | (x >> shift & 15u) << 4 | (y >> shift & 15u)];
+    index = index << 8 | (step & 255u);
+    state = step & ~255u;
   }
   return index;
 }
@@ -32,6 +62,23 @@ std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points) {
     indices[i] = hilbertIndex(static_cast<std::uint32_t>((points[i].x - left.x) * scale),
                               static_cast<std::uint32_t>((points[i].y - lower.y) * scale));
   return indices;
+}
+
+std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points) {
+  const std::vector<std::uint32_t> indices = hilbertIndices(points);
+  std::vector<std::uint32_t> order(points.size()), sorted(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  // By their digits, last digit first; each pass keeps what the one before it did.
+  constexpr unsigned kDigitBits = 11;
+  for (unsigned shift = 0; shift < 32; shift += kDigitBits) {
+    std::array<std::uint32_t, (1u << kDigitBits) + 1> first{};
+    const auto digit = [&](std::uint32_t i) { return indices[i] >> shift & ((1u << kDigitBits) - 1); };
+    for (const std::uint32_t i : order) ++first[digit(i) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const std::uint32_t i : order) sorted[first[digit(i)]++] = i;
+    order.swap(sorted);
+  }
+  return order;
 }
 
 }  // namespace coastmesh

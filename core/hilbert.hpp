@@ -14,4 +14,7 @@ std::uint32_t hilbertIndex(std::uint32_t x, std::uint32_t y);
 // One index a point, on a grid that covers all of them.
 std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points);
 
+// The numbers of the points in their order along the curve; of one cell the lesser first.
+std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points);
+
 }  // namespace coastmesh
