@@ -17,7 +17,7 @@ namespace {
 // coarser one ends sooner.
 double freeShare(double min_angle_deg) {
   const double beyond = std::clamp((min_angle_deg - 42.0) / 2.0, 0.0, 1.0);
-  return 0.12 + 0.13 * beyond;
+  return 0.12 + 0.18 * beyond;
 }
 // New points aim above the bound where it is large: a mesh without any slack refines further. Algorithm 1 is the paper's.
 double aimAboveDeg(double min_angle_deg) { return std::clamp(0.5 * (min_angle_deg - 38.0), 0.0, 1.0); }

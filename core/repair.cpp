@@ -33,9 +33,11 @@ constexpr std::array kRings = {2u, 3u, 4u, 6u};
 constexpr std::uint64_t kGrowth = 2;
 constexpr std::uint64_t kGrowthRoom = 12;
 
-// Vertices that local runs may handle in all: a share of the mesh, and some for small ones.
-constexpr std::uint64_t kWorkShare = 3;
-constexpr std::uint64_t kWorkRoom = 6000;
+// Vertices that local runs may handle in vain: a share of the mesh, and some for small ones; at angles that no input has
+// reached, a third.
+std::uint64_t mostWork(double min_angle_deg, std::uint64_t vertices) {
+  return (6000 + 3 * vertices) / (min_angle_deg > 43.0 ? 3 : 1);
+}
 // Past so many failures, and twice the successes, the bound is out of reach; at angles that no input has reached, sooner.
 std::uint64_t hopeless(double min_angle_deg) { return min_angle_deg > 43.0 ? 4 : 24; }
 
@@ -110,7 +112,7 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
     const auto known = std::ranges::lower_bound(given_up, t, {}, &BadTriangle::triangle);
     return known != given_up.end() && known->triangle == t && known->corners == refiner.mesh().triangle(t).v;
   };
-  const std::uint64_t most_work = kWorkRoom + kWorkShare * refiner.mesh().vertexCount();
+  const std::uint64_t most_work = mostWork(options.min_angle_deg, refiner.mesh().vertexCount());
   std::uint64_t well_spent = 0, wasted = 0, successes = 0, failures = 0;
   // Where mending has failed the triangles beside wait for the next round.
   std::vector<bool> in_vain;
@@ -138,7 +140,7 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
         again = true;
         continue;
       }
-      if (wasted > most_work || well_spent > 4 * most_work || refiner.stats().budget_reached) return;
+      if (wasted > most_work || well_spent > 2 * most_work || refiner.stats().budget_reached) return;
       control.checkpoint(1.0);
       std::uint64_t work = 0;
       const Outcome outcome = mendPlace(refiner, t, pslg, options, control, work);
