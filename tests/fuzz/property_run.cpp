@@ -111,6 +111,8 @@ class Failures {
   std::map<std::string, unsigned> by_kind_;
 };
 
+constexpr std::uint64_t kReportEach = 10000;
+
 [[noreturn]] void work(std::uint64_t from, const Settings& settings, Progress& progress,
                        std::chrono::steady_clock::time_point end) {
   for (std::uint64_t run = from; run < settings.first + settings.runs; ++run) {
@@ -120,6 +122,10 @@ class Failures {
     const CaseResult result = runCase(caseOf(run, settings), limitsOf(run, settings));
     ++progress.by_verdict[static_cast<std::size_t>(result.verdict)];
     progress.vertices += result.vertices;
+    if ((run + 1 - settings.first) % kReportEach == 0) {
+      std::printf("up to run %llu\n", static_cast<unsigned long long>(run + 1));
+      std::fflush(stdout);
+    }
     if (result.verdict != Verdict::Failed) continue;
     progress.failed = true;
     _exit(0);
