@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/delaunay.hpp"
+#include "parallel/workers.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 
