@@ -72,7 +72,11 @@ class Carver {
       floodFromLabels();
     } else {
       if (!pslg_.segments.empty()) flood(firstGhost(), kOutside);
-      for (const Point& hole : pslg_.holes) flood(builder_.locate(hole), kOutside);
+      TriId at = 0;
+      for (const std::uint32_t hole : hilbertOrder(pslg_.holes)) {
+        at = builder_.locate(pslg_.holes[hole], at);
+        flood(at, kOutside);
+      }
       std::ranges::replace(region_, kUnvisited, 0);
     }
     for (TriId t = 0; t < triangles_.size(); ++t)

@@ -111,8 +111,8 @@ TriId DelaunayBuilder::walkTo(const Point& x, TriId from) const {
   return kNone;
 }
 
-TriId DelaunayBuilder::locate(const Point& x) const {
-  const TriId walked = walkTo(x, 0);
+TriId DelaunayBuilder::locate(const Point& x, TriId near) const {
+  const TriId walked = walkTo(x, near);
   if (walked != kNone) return walked;
   TriId ghost = kNone;
   for (TriId t = 0; t < triangles_.size(); ++t) {

@@ -40,8 +40,8 @@ class DelaunayBuilder {
     const auto& v = triangles_[t].v;
     return v[0] == ghost_ || v[1] == ghost_ || v[2] == ghost_;
   }
-  // A triangle that holds x, a ghost where x is outside the convex hull.
-  TriId locate(const Point& x) const;
+  // A triangle that holds x, a ghost where x is outside the convex hull. Looks from `near` on.
+  TriId locate(const Point& x, TriId near) const;
 
  private:
   bool startWith(std::vector<VertexId>& order);

@@ -4,6 +4,19 @@
 
 namespace coastmesh {
 
+bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& bound) {
+  if (bound.max_angle < std::numbers::pi) return true;
+  const VertexId v = mesh.triangle(t).v[i];
+  const Point along = mesh.point(mesh.triangle(t).v[next3(i)]) - mesh.point(v);
+  while (true) {
+    const unsigned c = mesh.cornerOf(t, v);
+    if (dot(along, mesh.point(mesh.triangle(t).v[prev3(c)]) - mesh.point(v)) <= 0.0) return false;
+    const EdgeRef in = edgeRef(t, next3(c));
+    if (mesh.segment(in) != kNone || mesh.twin(in) == kNone) return true;
+    t = triOf(mesh.twin(in));
+  }
+}
+
 std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound) {
   std::vector<bool> explained(mesh.triangles.size(), false);
   std::vector<TriId> first_ring;
@@ -15,6 +28,7 @@ std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& b
       if (mesh.segment(right) == kNone && mesh.twin(right) != kNone) continue;
       // Only at input vertices do segments meet at an angle.
       if (mesh.input_vertices != 0 && v >= mesh.input_vertices) continue;
+      if (!mayBeSmall(mesh, t, i, bound)) continue;
       const Sector sector = sectorAt(mesh, t, i);
       if (bound.canDivide(sector.angle)) continue;
       TriId s = t;

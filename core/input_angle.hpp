@@ -57,6 +57,11 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
   return sector;
 }
 
+// Whether the sector that begins at corner `i` of triangle `t`, with a constrained edge to its right, can be too small for the
+// bounds or have to be split on shells. Without a largest angle only sectors below a right angle can: no trigonometry for the
+// many others.
+bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& bound);
+
 // The triangles whose shortfall an input angle explains: those in a sector too small for the bounds, and those that share an edge
 // with them, be it a constraint: the corner's sides are long beside its width, and what lies behind them has to bear that.
 std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound);

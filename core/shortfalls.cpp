@@ -1,6 +1,7 @@
 #include "core/shortfalls.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/input_angle.hpp"
 #include "core/quality.hpp"
@@ -13,12 +14,19 @@ std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& 
 }
 
 std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach) {
+  const auto cornersOf = [&](TriId t) -> std::array<Point, 3> {
+    const auto& v = mesh.triangles[t].v;
+    return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
+  };
+  std::vector<TriId> bad;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t)
+    if (const auto [a, b, c] = cornersOf(t); isBad(a, b, c, asked)) bad.push_back(t);
+  if (bad.empty()) return {};
   const std::vector<bool> explained = explainedTriangles(mesh, in_reach);
   std::vector<Shortfall> shortfalls;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t].v;
-    const Point &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
-    if (explained[t] || !isBad(a, b, c, asked)) continue;
+  for (const TriId t : bad) {
+    if (explained[t]) continue;
+    const auto [a, b, c] = cornersOf(t);
     const auto [low, high] = std::ranges::minmax(anglesDeg(a, b, c));
     shortfalls.push_back({(1.0 / 3.0) * (a + b + c), low, high});
   }

@@ -15,21 +15,6 @@ constexpr double kShellAngle = std::numbers::pi / 3.0;
 
 bool isConstrained(const TriMesh& mesh, EdgeRef e) { return mesh.segment(e) != kNone || mesh.twin(e) == kNone; }
 
-// Without a largest angle only sectors below a right angle matter: no trigonometry for the many others.
-bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& bound) {
-  if (bound.max_angle < std::numbers::pi) return true;
-  const VertexId v = mesh.triangle(t).v[i];
-  const Point along = mesh.point(mesh.triangle(t).v[next3(i)]) - mesh.point(v);
-  while (true) {
-    const auto& corners = mesh.triangle(t).v;
-    const unsigned c = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
-    if (dot(along, mesh.point(corners[prev3(c)]) - mesh.point(v)) <= 0.0) return false;
-    const EdgeRef in = edgeRef(t, next3(c));
-    if (isConstrained(mesh, in)) return true;
-    t = triOf(mesh.twin(in));
-  }
-}
-
 void noteAngles(const TriMesh& mesh, const TriangleBound& bound, VertexNotes& notes) {
   notes.shell_unit.assign(mesh.input_vertices, 0.0);
   notes.small_angle.assign(mesh.input_vertices, false);
