@@ -44,7 +44,7 @@ TEST(Property, RandomInputsHold) {
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     Choices choices(seed);
     const RefineCase c = randomCase(choices);
-    const CaseResult result = runIsolated(c, {.most_vertices = 20000, .repeat = seed % 16 == 0}, kCpuSeconds);
+    const CaseResult result = runIsolated(c, {.most_vertices = 2000, .repeat = seed % 16 == 0}, kCpuSeconds);
     held += result.verdict == Verdict::Held;
     EXPECT_NE(result.verdict, Verdict::Failed)
         << "seed " << seed << ": " << caseText(c, result.failure + "\n" + result.detail);
