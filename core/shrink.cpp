@@ -80,7 +80,7 @@ class Shrinker {
           control.checkpoint((sweep + 1.0 - left) / sweeps);
         }
         const VertexId v = waiting_.pop();
-        if (mesh_.isLiveVertex(v)) handle(v);
+        if (mesh_.isLiveVertex(v)) handle(v, sweep + 1 < sweeps);
       }
     }
   }
@@ -92,15 +92,15 @@ class Shrinker {
  private:
   bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
   bool isAtFrozenEdge(VertexId v);
-  void handle(VertexId v) {
+  void handle(VertexId v, bool may_move) {
     touched_.clear();
     if (ops_.remove(v, touched_)) {
       ++stats_.removals;
     } else if (ops_.mergeWithNeighbour(v, true, touched_)) {
       ++stats_.merges;
     } else {
-      // To the middle of where it may be: that leaves room for its neighbours to go.
-      if (ops_.relocate(v, touched_)) ++stats_.relocations;
+      // To the middle of where it may be: that leaves room for its neighbours to go, and pays while more sweeps follow.
+      if (may_move && ops_.relocate(v, touched_)) ++stats_.relocations;
       return;
     }
     for (const TriId t : touched_) {
