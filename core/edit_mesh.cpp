@@ -213,15 +213,27 @@ bool EditMesh::findCavity(const Point& x, TriId start, Patch& cavity) const {
   return std::ranges::all_of(cavity.rim, [&](const RimEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
 }
 
+// What a point on a subsegment changes on one side of it. Answers false where rounding has put the point so far off a flat triangle
+// that it lies outside its circumcircle: then that triangle alone, and the fan needs flips.
+bool EditMesh::appendSide(EdgeRef side, const Point& x, Patch& cavity) const {
+  const TriId t = triOf(side);
+  const EdgeRef others[2] = {edgeRef(t, next3(indexOf(side))), edgeRef(t, prev3(indexOf(side)))};
+  cavity.triangles.push_back(t);
+  const Corners& c = triangles_[t].v;
+  const bool in_circle = inCircle(points_[c[0]], points_[c[1]], points_[c[2]], x) > 0;
+  if (in_circle) {
+    collectConflicts(x, others, cavity);
+  } else {
+    for (const EdgeRef e : others) cavity.rim.push_back({origin(e), target(e), twin(e), segment(e)});
+  }
+  return in_circle;
+}
+
 bool EditMesh::findSplitCavity(EdgeRef edge, const Point& x, Patch& cavity) const {
   cavity.triangles.clear();
   cavity.rim.clear();
-  for (const EdgeRef side : {edge, twin(edge)}) {
-    if (side == kNone) continue;
-    cavity.triangles.push_back(triOf(side));
-    const EdgeRef others[2] = {edgeRef(triOf(side), next3(indexOf(side))), edgeRef(triOf(side), prev3(indexOf(side)))};
-    collectConflicts(x, others, cavity);
-  }
+  for (const EdgeRef side : {edge, twin(edge)})
+    if (side != kNone) appendSide(side, x, cavity);
   return std::ranges::all_of(cavity.rim, [&](const RimEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
 }
 
@@ -296,24 +308,14 @@ VertexId EditMesh::insertInCavity(const Point& x, const Patch& cavity, std::vect
 VertexId EditMesh::splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>& touched) {
   const SegmentId seg = segment(edge);
   const EdgeRef sides[2] = {edge, twin(edge)};
+  bool in_circles = true;
   for (int s = 0; s < 2; ++s) {
     side_[s].triangles.clear();
     side_[s].rim.clear();
     if (sides[s] == kNone) continue;
-    const TriId t = triOf(sides[s]);
-    const unsigned i = indexOf(sides[s]);
-    side_[s].triangles.push_back(t);
-    const EdgeRef others[2] = {edgeRef(t, next3(i)), edgeRef(t, prev3(i))};
-    collectConflicts(x, others, side_[s]);
+    in_circles &= appendSide(sides[s], x, side_[s]);
     for (const RimEdge& r : side_[s].rim)
       if (orient2d(points_[r.a], points_[r.b], x) <= 0) return kNone;
-  }
-  // Where x is rounded to one side of a flat triangle on the other, it may lie outside its circumcircle.
-  bool in_circles = true;
-  for (const EdgeRef side : sides) {
-    if (side == kNone) continue;
-    const Corners& c = triangles_[triOf(side)].v;
-    in_circles &= inCircle(points_[c[0]], points_[c[1]], points_[c[2]], x) > 0;
   }
   const VertexId v = addVertex(x, VertexKind::Segment);
   for (int s = 0; s < 2; ++s) {

@@ -135,6 +135,7 @@ class EditMesh {
   bool flip(EdgeRef e);
   void flipWaiting(std::vector<TriId>& touched);
   void collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const;
+  bool appendSide(EdgeRef side, const Point& x, Patch& cavity) const;
   void fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan);
 
   std::vector<Point> points_;

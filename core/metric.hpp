@@ -102,9 +102,13 @@ inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c,
   return most > cot_min * std::abs(cross(ab, ca));
 }
 
+// cos(largest angle) is below the bound. By the product of the two edges at that corner: squared lengths cancel in needles.
 inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, double cos_max) {
-  const TriangleShape shape(a, b, c);
-  return shape.cosAt(shape.longest) < cos_max;
+  const Point ab = b - a, bc = c - b, ca = a - c;
+  const double la = squaredLength(bc), lb = squaredLength(ca), lc = squaredLength(ab);
+  if (la >= lb && la >= lc) return -dot(ab, ca) < cos_max * std::sqrt(lb * lc);
+  if (lb >= lc) return -dot(ab, bc) < cos_max * std::sqrt(la * lc);
+  return -dot(bc, ca) < cos_max * std::sqrt(la * lb);
 }
 
 // Whether a triangle falls short of what is asked.
