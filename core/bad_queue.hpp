@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/edit_mesh.hpp"
@@ -21,13 +24,23 @@ class BadQueue {
   std::size_t size() const { return size_; }
 
   void push(std::uint32_t rank, const BadTriangle& bad) {
-    buckets_[rank].items.push_back(bad);
+    cover(rank);
+    const std::size_t at = rank - lowest_;
+    buckets_[at].items.push_back(bad);
+    filled_[at / 64] |= std::uint64_t{1} << at % 64;
+    first_word_ = std::min(first_word_, at / 64);
     ++size_;
   }
+  // REQUIRES: not empty.
   BadTriangle pop() {
-    const auto first = buckets_.begin();
-    const BadTriangle bad = first->second.items[first->second.next++];
-    if (first->second.next == first->second.items.size()) buckets_.erase(first);
+    while (filled_[first_word_] == 0) ++first_word_;
+    const std::size_t at = 64 * first_word_ + static_cast<std::size_t>(std::countr_zero(filled_[first_word_]));
+    Bucket& bucket = buckets_[at];
+    const BadTriangle bad = bucket.items[bucket.next++];
+    if (bucket.next == bucket.items.size()) {
+      bucket = {};
+      filled_[at / 64] &= ~(std::uint64_t{1} << at % 64);
+    }
     --size_;
     return bad;
   }
@@ -37,7 +50,29 @@ class BadQueue {
     std::vector<BadTriangle> items;
     std::size_t next = 0;
   };
-  std::map<std::uint32_t, Bucket> buckets_;
+
+  // Makes buckets for all ranks from the lowest so far to this one, in words of 64.
+  void cover(std::uint32_t rank) {
+    if (buckets_.empty()) lowest_ = rank / 64 * 64;
+    if (rank < lowest_) {
+      const std::uint32_t fewer = rank / 64 * 64, more = lowest_ - fewer;
+      std::vector<Bucket> wider(more + buckets_.size());
+      std::ranges::move(buckets_, wider.begin() + more);
+      buckets_ = std::move(wider);
+      filled_.insert(filled_.begin(), more / 64, 0);
+      first_word_ += more / 64;
+      lowest_ = fewer;
+    }
+    if (rank - lowest_ >= buckets_.size()) {
+      filled_.resize((rank - lowest_) / 64 + 1, 0);
+      buckets_.resize(64 * filled_.size());
+    }
+  }
+
+  std::uint32_t lowest_ = 0;           // rank of the first bucket
+  std::vector<Bucket> buckets_;        // one a rank
+  std::vector<std::uint64_t> filled_;  // one bit a bucket
+  std::size_t first_word_ = 0;         // no bucket before this word's is filled
   std::size_t size_ = 0;
 };
 

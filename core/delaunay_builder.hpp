@@ -65,7 +65,7 @@ class DelaunayBuilder {
   SegmentId segment(EdgeRef e) const { return triangles_[triOf(e)].seg[indexOf(e)]; }
   unsigned cornerOf(TriId t, VertexId v) const {
     const auto& c = triangles_[t].v;
-    return c[0] == v ? 0 : c[1] == v ? 1 : 2;
+    return (c[1] == v ? 1u : 0u) | (c[2] == v ? 2u : 0u);  // no branch: there is nothing to predict
   }
 
   std::span<const Point> points_;

@@ -75,7 +75,7 @@ class EditMesh {
   // The index of v in t. REQUIRES: v is a corner of t.
   unsigned cornerOf(TriId t, VertexId v) const {
     const auto& c = triangles_[t].v;
-    return c[0] == v ? 0 : c[1] == v ? 1 : 2;
+    return (c[1] == v ? 1u : 0u) | (c[2] == v ? 2u : 0u);  // no branch: there is nothing to predict
   }
 
   // The edges opposite v in the triangles round it, counter-clockwise; from rim to rim where v is on the rim (then

@@ -20,9 +20,12 @@ constexpr std::size_t kMergedAway = 2;
 
 // The same for what is to be round a merged vertex, hardly ever so many that little is left.
 bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
-  constexpr double kMostTurn = toRadians(300.5);
+  constexpr double kMostTurn = toRadians(299.5);
   return static_cast<double>(triangles) * bound.min_angle > kMostTurn;
 }
+
+// One in a hundred merges is along an edge whose squared length is above this share of the mean round its end.
+constexpr double kLongestToMerge = 1.6;
 
 VertexId otherEnd(const RimEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
 
@@ -251,13 +254,17 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
   if (mesh_.kind(v) == VertexKind::Free) {
     walkRound(v, mesh_.triangleOf(v), ring_);
     if (ring_.corners.size() > most_triangles_ + kMergedAway) return false;
+    const Point here = mesh_.point(v);
+    double longest = 0.0;
+    for (const VertexId w : ring_.corners) longest += squaredDistance(here, mesh_.point(w));
+    longest *= kLongestToMerge / static_cast<double>(ring_.corners.size());
     for (std::size_t k = 0; k < ring_.corners.size(); ++k) {
       const VertexId w = ring_.corners[k];
       const VertexKind kind = mesh_.kind(w);
       if (kind == VertexKind::Input) continue;
       if (kind == VertexKind::Free) {
         if (each_gets_its_turn && w < v) continue;
-        if (cannotMerge(v, w, ring_.triangles[k])) continue;
+        if (squaredDistance(here, mesh_.point(w)) > longest || cannotMerge(v, w, ring_.triangles[k])) continue;
       }
       if (merge(v, w, touched)) return true;
     }
