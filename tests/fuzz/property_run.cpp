@@ -31,7 +31,7 @@ struct Settings {
   std::uint64_t seed = 1;
   double seconds = 1e9;  // wall clock
   std::uint64_t most_vertices = 60000;
-  std::uint64_t usual_vertices = 300;
+  std::uint64_t usual_vertices = 100;
   unsigned cpu_seconds = 60;  // for one run
   int reduce_trials = 2000;
   unsigned reduce_each = 3;  // failures of a kind that are made smaller; the rest is counted
