@@ -27,6 +27,9 @@ bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
 // One in a hundred merges is along an edge whose squared length is above this share of the mean round its end.
 constexpr double kLongestToMerge = 1.6;
 
+// Below this angle the mean of its neighbours, where that is feasible, is as good a place as the middle of all that is.
+constexpr double kMeanServesBelow = toRadians(36.5);
+
 VertexId otherEnd(const RimEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
 
 }  // namespace
@@ -155,6 +158,12 @@ bool VertexOps::cannotMerge(VertexId v, VertexId w, TriId beside) {
   return region_.isEmpty(link_, bound_);
 }
 
+Point VertexOps::meanOfLink() const {
+  Point sum;
+  for (const LinkEdge& e : link_) sum = sum + e.x;
+  return (1.0 / static_cast<double>(link_.size())) * sum;
+}
+
 bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
   walkRound(v, mesh_.triangleOf(v), ring_);
   if (ring_.corners.size() > most_triangles_) return false;
@@ -163,7 +172,9 @@ bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
   const Point& here = mesh_.point(v);
   const bool good = std::ranges::none_of(link_, [&](const LinkEdge& e) { return isBad(e.x, e.y, here, bound_); });
   if (!good && region_.isEmpty(link_, bound_)) return false;
-  const std::optional<Point> place = region_.findPoint(link_, bound_);
+  std::optional<Point> place;
+  if (good && bound_.min_angle < kMeanServesBelow) place = meanOfLink();
+  if (!place || !fits(*place)) place = region_.findPoint(link_, bound_);
   if (!place || !fits(*place)) return false;
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   if (clear_of_frozen_ && std::ranges::any_of(ring_.triangles, isFrozen)) return false;

@@ -49,6 +49,7 @@ class VertexOps {
 
   void walkRound(VertexId v, TriId home, Ring& ring) const;
   void appendLink(const Ring& ring, VertexId other);
+  Point meanOfLink() const;
   bool relocateFree(VertexId v, std::vector<TriId>& touched);
   bool cannotMerge(VertexId v, VertexId w, TriId beside);
   bool triangulateWell();
