@@ -80,7 +80,7 @@ class Shrinker {
           control.checkpoint((sweep + 1.0 - left) / sweeps);
         }
         const VertexId v = waiting_.pop();
-        if (mesh_.isLiveVertex(v)) handle(v, sweep + 1 < sweeps);
+        if (mesh_.isLiveVertex(v)) handle(v, sweep + 1 == sweeps);
       }
     }
   }
@@ -92,15 +92,16 @@ class Shrinker {
  private:
   bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
   bool isAtFrozenEdge(VertexId v);
-  void handle(VertexId v, bool may_move) {
+  // The last sweep only merges: it removes next to nothing, and moving pays while more sweeps follow.
+  void handle(VertexId v, bool is_last) {
     touched_.clear();
-    if (ops_.remove(v, touched_)) {
+    if (!is_last && ops_.remove(v, touched_)) {
       ++stats_.removals;
     } else if (ops_.mergeWithNeighbour(v, true, touched_)) {
       ++stats_.merges;
     } else {
-      // To the middle of where it may be: that leaves room for its neighbours to go, and pays while more sweeps follow.
-      if (may_move && ops_.relocate(v, touched_)) ++stats_.relocations;
+      // To the middle of where it may be: that leaves room for its neighbours to go.
+      if (!is_last && ops_.relocate(v, touched_)) ++stats_.relocations;
       return;
     }
     for (const TriId t : touched_) {
