@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace coastmesh {
@@ -58,6 +59,8 @@ std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points) {
   const auto [lower, upper] = std::ranges::minmax(points, {}, &Point::y);
   const double extent = std::max(right.x - left.x, upper.y - lower.y);
   const double scale = extent > 0.0 ? 65535.0 / extent : 0.0;
+  // Too far apart or too near for doubles: any order will do.
+  if (!std::isfinite(extent) || !std::isfinite(scale)) return indices;
   for (std::size_t i = 0; i < points.size(); ++i)
     indices[i] = hilbertIndex(static_cast<std::uint32_t>((points[i].x - left.x) * scale),
                               static_cast<std::uint32_t>((points[i].y - lower.y) * scale));

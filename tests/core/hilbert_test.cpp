@@ -46,6 +46,13 @@ TEST(HilbertIndices, OfNothingAndOfOnePlace) {
   EXPECT_EQ(indices, (std::vector<std::uint32_t>(3, indices.front())));
 }
 
+TEST(HilbertIndices, OfExtentsThatDoublesCannotScale) {
+  for (const double far : {5e-324, 1e-310, 1.7e308}) {
+    const std::vector<Point> points{{-far, far}, {far, far}, {0.0, 0.0}};
+    EXPECT_EQ(hilbertIndices(points).size(), points.size());
+  }
+}
+
 TEST(HilbertIndices, KeepNeighboursNear) {
   for (const double size : {1e-9, 1.0, 1e12}) {
     std::mt19937_64 random(1);
