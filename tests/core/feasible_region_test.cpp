@@ -187,5 +187,23 @@ TEST(FeasibleRegion, SizeAndPlaceDoNotMatter) {
   }
 }
 
+TEST(FeasibleRegion, IsEmptyOnlyWhereNoPlaceIsFound) {
+  FeasibleRegion region;
+  int empty = 0, found = 0;
+  for (unsigned seed = 1; seed <= 2000; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto link = randomLink(random, {3.0, -2.0}, 1.0);
+    const double angle = uniform(random, 5.0, 45.0);
+    const TriangleBound bound(angle, 180.0, kNoSize);
+    const auto place = region.findPoint(link, bound);
+    found += place.has_value();
+    if (!region.isEmpty(link, bound)) continue;
+    ++empty;
+    EXPECT_TRUE(!place || roomAt(*place, link, {angle, 180.0, kNoSize}) < 1e-6) << "seed " << seed;
+  }
+  EXPECT_GT(empty, 100);
+  EXPECT_GT(found, 100);
+}
+
 }  // namespace
 }  // namespace coastmesh

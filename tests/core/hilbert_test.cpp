@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -70,6 +71,22 @@ TEST(HilbertIndices, KeepNeighboursNear) {
     for (std::size_t i = 1; i < order.size(); ++i) along += distance(points[order[i]], points[order[i - 1]]);
     EXPECT_LT(along, 0.1 * as_drawn);
   }
+}
+
+TEST(HilbertOrder, IsTheOrderOfTheIndicesAndKeepsThatOfEqualOnes) {
+  std::mt19937_64 random(2);
+  std::vector<Point> points;
+  for (int i = 0; i < 3000; ++i) {
+    const double x = uniform(random, 0.0, 1.0);
+    points.push_back({x, uniform(random, 0.0, 1.0)});
+    if (i % 7 == 0) points.push_back(points.back());
+  }
+  const std::vector<std::uint32_t> indices = hilbertIndices(points);
+  std::vector<std::uint32_t> expected(points.size());
+  std::iota(expected.begin(), expected.end(), 0u);
+  std::ranges::stable_sort(expected, {}, [&](std::uint32_t i) { return indices[i]; });
+  EXPECT_EQ(hilbertOrder(points), expected);
+  EXPECT_TRUE(hilbertOrder({}).empty());
 }
 
 }  // namespace
