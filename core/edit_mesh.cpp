@@ -28,14 +28,21 @@ EditMesh::EditMesh(TriMesh&& mesh)
   }
 }
 
-TriMesh EditMesh::release(Renumbering& by) {
-  // Steiner points get their numbers along Hilbert's curve, so that what lies near in the plane lies near in memory.
+TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
+  // Along Hilbert's curve what lies near in the plane lies near in memory.
+  std::vector<VertexId> order;
+  if (along_curve) {
+    order = hilbertOrder(points_);
+  } else {
+    order.resize(points_.size());
+    std::iota(order.begin(), order.end(), VertexId{0});
+  }
   std::vector<VertexId>& number = by.vertex;
   number.assign(points_.size(), kNone);
   std::iota(number.begin(), number.begin() + input_vertices_, VertexId{0});
   std::vector<Point> steiner;
   steiner.reserve(points_.size() - input_vertices_);
-  for (const VertexId v : hilbertOrder(points_)) {
+  for (const VertexId v : order) {
     if (v < input_vertices_ || !isLiveVertex(v)) continue;
     number[v] = input_vertices_ + static_cast<VertexId>(steiner.size());
     steiner.push_back(points_[v]);

@@ -49,9 +49,10 @@ class EditMesh {
   // that keeps neighbours near in memory. Leaves `regions` empty.
   TriMesh release() {
     Renumbering by;
-    return release(by);
+    return release(by, true);
   }
-  TriMesh release(Renumbering& by);  // the mesh is empty after it
+  // The same, and the new numbers; unless `along_curve`, Steiner points stay in the order that they are in.
+  TriMesh release(Renumbering& by, bool along_curve);  // the mesh is empty after it
 
   const Point& point(VertexId v) const { return points_[v]; }
   const Triangle& triangle(TriId t) const { return triangles_[t]; }

@@ -321,7 +321,7 @@ TriMesh Refiner::release(VertexNotes& notes, std::vector<std::uint8_t>& due) {
   std::erase_if(deferred_, [this](const auto& entry) { return !isDeferred(entry.first); });
   Renumbering by;
   stats_.steiner_points = mesh_.vertexCount() - mesh_.inputVertices();
-  TriMesh mesh = mesh_.release(by);
+  TriMesh mesh = mesh_.release(by, false);
   due.assign(mesh.triangles.size(), 0);
   for (const auto& [t, corners] : deferred_) due[by.triangle[t]] = 1;
   notes = std::move(notes_);

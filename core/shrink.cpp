@@ -132,7 +132,7 @@ Piece Shrinker::releasePiece() {
     due_[v] = due_[v] && mesh_.isLiveVertex(v) && (v < mesh_.inputVertices() || isAtFrozenEdge(v));
   Piece piece;
   Renumbering by;
-  piece.mesh = mesh_.release(by);
+  piece.mesh = mesh_.release(by, false);
   piece.due_vertices.assign(piece.mesh.points.size(), 0);
   for (VertexId v = 0; v < by.vertex.size(); ++v)
     if (by.vertex[v] != kNone) piece.due_vertices[by.vertex[v]] = due_[v];
