@@ -112,6 +112,7 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   const bool any = result.regions > 0;
   if (any) outputs.writeGrids(result.grid, display);
   result.seconds.write = secondsSince(write_start);
+  result.log.addAlone("write", result.seconds.write);
   result.seconds.total = secondsSince(start);
   if (!usage.report.empty()) outputs.writeReport(meshReport(usage.job, result, threadsAsked(usage.job.parallel)));
   outputs.commit();

@@ -11,6 +11,7 @@
 #include "core/delaunay.hpp"
 #include "gis/error.hpp"
 #include "gis/poly_io.hpp"
+#include "parallel/recorder.hpp"
 
 namespace coastmesh {
 
@@ -67,7 +68,7 @@ void placeShortfalls(const RefineStats& stats, const Projection& projection, Gro
 
 // The group's part of the grid. It is given its own features alone, so that the work does not grow with the square of
 // their number.
-Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh) {
+Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh, const StretchLoop& loop) {
   Coastline names;
   names.crs = input.coastline().crs;
   if (!input.isPoly()) {
@@ -81,7 +82,7 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
           static_cast<RegionId>(std::ranges::lower_bound(members, static_cast<std::size_t>(region)) - members.begin());
     }
   }
-  Grid grid = makeGrid({{&domain, &mesh}}, names);
+  Grid grid = makeGrid({{&domain, &mesh}}, names, loop);
   grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
   return grid;
 }
@@ -96,6 +97,7 @@ void fillGroup(const MeshJob& job, const JobInput& input, std::size_t group, std
   result.projection = domain.projection.description();
   result.input_area_m2 = input.area(group);
   result.clean_s = cleaning.seconds();
+  result.log.addAlone("clean", result.clean_s);
 
   const MeshOptions options = optionsFor(job, domain, budget);
   MeshedRegion region = meshRegion(domain.pslg, options, control);
@@ -104,12 +106,22 @@ void fillGroup(const MeshJob& job, const JobInput& input, std::size_t group, std
   placeShortfalls(result.refine, domain.projection, result);
   result.refine.unresolved = {};
 
+  result.pieces = region.pieces;
+  result.log.append(std::move(region.log));
+
+  Recorder recorder;
   const Stopwatch checking;
-  requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()]);
-  result.quality = measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg);
-  result.digest = digestOf(region.mesh);
+  recorder.forEach("check", 2, control, [&](std::size_t i) {
+    if (i == 0) requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()]);
+    if (i == 1) {
+      result.quality = measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg);
+      result.digest = digestOf(region.mesh);
+    }
+  });
   result.check_s = checking.seconds();
-  result.grid = groupGrid(input, group, domain, region.mesh);
+  result.grid = groupGrid(input, group, domain, region.mesh,
+                          [&](std::size_t count, const auto& work) { recorder.forEachStretch("grid", count, work); });
+  result.log.append(recorder.finish());
 }
 
 std::string refusalText(const BadPslg& error, const JobInput& input, std::size_t group) {

@@ -18,6 +18,8 @@ struct GroupResult {
   double clean_s = 0.0;
   double check_s = 0.0;
   MeshSeconds mesh_s;
+  std::size_t pieces = 1;
+  WorkLog log;          // of all that was done
   std::string refusal;  // empty where it was meshed
 };
 

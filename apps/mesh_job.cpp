@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <mutex>
@@ -91,7 +92,8 @@ void appendGrid(Grid& whole, Grid&& part) {
   append(whole.boundaries, part.boundaries);
 }
 
-void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, MeshJobResult& result) {
+void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, MeshJobResult& result,
+              Stage& small_groups) {
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += part.edits[kind];
   result.seconds.clean += part.clean_s;
   if (!part.refusal.empty()) {
@@ -99,6 +101,12 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
     return;
   }
   ++result.regions;
+  result.pieces += part.pieces;
+  if (part.pieces > 1) {
+    result.log.append(std::move(part.log));
+  } else {
+    small_groups.items.push_back(part.log.work());
+  }
   ++result.projections[part.projection.substr(0, part.projection.find(','))];
   if (result.regions == 1) result.first_projection = part.projection;
   result.refine.add(part.refine);
@@ -129,10 +137,16 @@ class OrderedMerge {
     waiting_[group] = std::make_unique<GroupResult>(std::move(part));
     const Stopwatch stitching;
     for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
-      addGroup(input_, next_, std::move(*waiting_[next_]), result_);
+      addGroup(input_, next_, std::move(*waiting_[next_]), result_, small_groups_);
       waiting_[next_].reset();
     }
     result_.seconds.stitch += stitching.seconds();
+  }
+
+  void finish() {
+    std::ranges::sort(small_groups_.items, std::greater());
+    if (!small_groups_.items.empty()) result_.log.stages.push_back(std::move(small_groups_));
+    result_.log.addAlone("stitch", result_.seconds.stitch);
   }
 
  private:
@@ -140,6 +154,7 @@ class OrderedMerge {
   MeshJobResult& result_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<GroupResult>> waiting_;
+  Stage small_groups_{"regions", 0.0, {}};
   std::size_t next_ = 0;
 };
 
@@ -164,6 +179,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.read = input.report();
   result.crs = input.coastline().crs;
   result.seconds.read = whole.seconds();
+  result.log.addAlone("read", result.seconds.read);
   if (control.cancelled && control.cancelled()) throw Cancelled();
   if (control.progress) control.progress("read", 1.0);
 
@@ -180,6 +196,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     merge.add(g, meshGroup(job, input, g, budget, inner));
     progress.report(g, 1.0);
   });
+  merge.finish();
   result.grid.crs = result.crs;
   result.seconds.total = whole.seconds();
   return result;

@@ -71,6 +71,8 @@ struct MeshJobResult {
   std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
   std::string first_projection;                      // of the first region, with its parameters
   std::uint64_t regions = 0;                         // groups of features that were meshed
+  std::uint64_t pieces = 0;                          // that they were cut into
+  WorkLog log;                                       // groups that were cut, one after another, then the others
   RefineStats refine;                                // `unresolved` is empty: see below
   std::uint64_t unresolved = 0;
   std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them

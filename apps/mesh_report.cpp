@@ -2,9 +2,11 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 namespace coastmesh {
 
@@ -82,7 +84,7 @@ Json refineSection(const MeshJob& job, const MeshJobResult& result) {
           {"relocations", stats.relocations},
           {"removals", stats.removals},
           {"merges", stats.merges},
-          {"regions", result.regions},
+          {"regions", result.pieces},
           {"budget_reached", stats.budget_reached},
           {"unresolved", unresolvedSection(result)}};
 }
@@ -105,6 +107,31 @@ Json timeSection(const PhaseSeconds& seconds) {
   return {{"read", seconds.read},     {"clean", seconds.clean},   {"triangulate", seconds.triangulate},
           {"refine", seconds.refine}, {"shrink", seconds.shrink}, {"stitch", seconds.stitch},
           {"check", seconds.check},   {"write", seconds.write},   {"total", seconds.total}};
+}
+
+// How the work was shared out, and what more cores would give.
+Json parallelSection(const WorkLog& log) {
+  Json stages = Json::array();
+  for (const Stage& stage : log.stages) {
+    const double sum = std::accumulate(stage.items.begin(), stage.items.end(), 0.0);
+    const double longest = stage.items.empty() ? 0.0 : *std::ranges::max_element(stage.items);
+    stages.push_back({{"name", stage.name},
+                      {"alone_s", stage.alone},
+                      {"items", stage.items.size()},
+                      {"work_s", sum},
+                      {"longest_s", longest}});
+    constexpr std::size_t kMostListed = 1000;
+    const bool listed = stage.name == "refine" || stage.name == "shrink" || stage.name == "regions";
+    if (listed && stage.items.size() <= kMostListed) stages.back()["item_s"] = stage.items;
+  }
+  Json speedup = Json::object();
+  const double work = log.work();
+  for (const std::size_t cores : {2, 8, 64})
+    speedup[std::to_string(cores)] = work > 0.0 ? work / log.timeOn(cores) : 1.0;
+  return {{"work_s", work},
+          {"critical_path_s", log.criticalPath()},
+          {"speedup", std::move(speedup)},
+          {"stages", std::move(stages)}};
 }
 
 // 1234567 as "1,234,567".
@@ -132,10 +159,15 @@ std::string digestText(std::uint64_t digest) {
 }
 
 std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads) {
-  const Json report{{"coastmesh", COASTMESH_VERSION},     {"input", inputSection(job, result)},
-                    {"clean", cleanSection(result)},      {"refine", refineSection(job, result)},
-                    {"mesh", meshSection(result)},        {"time_s", timeSection(result.seconds)},
-                    {"peak_memory_mib", peakMemoryMib()}, {"threads", threads}};
+  const Json report{{"coastmesh", COASTMESH_VERSION},
+                    {"input", inputSection(job, result)},
+                    {"clean", cleanSection(result)},
+                    {"refine", refineSection(job, result)},
+                    {"mesh", meshSection(result)},
+                    {"time_s", timeSection(result.seconds)},
+                    {"parallel", parallelSection(result.log)},
+                    {"peak_memory_mib", peakMemoryMib()},
+                    {"threads", threads}};
   // Names in the input need not be UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

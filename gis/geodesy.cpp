@@ -90,33 +90,39 @@ double smallTriangleArea(const Vector& u, const Vector& v, const Vector& w, doub
 }  // namespace
 
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
-                                  const Crs& crs) {
+                                  const Crs& crs, const StretchLoop& loop) {
   std::vector<double> areas(triangles.size());
   if (crs.isPlane()) {
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const auto& [a, b, c] = triangles[t];
-      areas[t] = signedArea(nodes[a], nodes[b], nodes[c]);
-    }
+    loop(triangles.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last; ++t) {
+        const auto& [a, b, c] = triangles[t];
+        areas[t] = signedArea(nodes[a], nodes[b], nodes[c]);
+      }
+    });
     return areas;
   }
   const Geodetic geodetic = toGeodetic(nodes, crs);
   const double e2 = geodetic.f * (2.0 - geodetic.f);
   std::vector<Vector> places(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) places[i] = toEarthCentred(geodetic.lonlat[i], geodetic.a, e2);
+  loop(nodes.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) places[i] = toEarthCentred(geodetic.lonlat[i], geodetic.a, e2);
+  });
   const GeographicLib::Geodesic geodesic(geodetic.a, geodetic.f);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Vector &u = places[triangles[t][0]], &v = places[triangles[t][1]], &w = places[triangles[t][2]];
-    const double longest = std::sqrt(std::max({dot(v - u, v - u), dot(w - u, w - u), dot(w - v, w - v)}));
-    if (longest < kSmallEdge) {
-      areas[t] = smallTriangleArea(u, v, w, geodetic.a, e2);
-      continue;
+  loop(triangles.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const Vector &u = places[triangles[t][0]], &v = places[triangles[t][1]], &w = places[triangles[t][2]];
+      const double longest = std::sqrt(std::max({dot(v - u, v - u), dot(w - u, w - u), dot(w - v, w - v)}));
+      if (longest < kSmallEdge) {
+        areas[t] = smallTriangleArea(u, v, w, geodetic.a, e2);
+        continue;
+      }
+      GeographicLib::PolygonArea polygon(geodesic);
+      for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.lonlat[n].y, geodetic.lonlat[n].x);
+      double perimeter = 0.0;
+      polygon.Compute(false, true, perimeter, areas[t]);
+      areas[t] = std::abs(areas[t]);
     }
-    GeographicLib::PolygonArea polygon(geodesic);
-    for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.lonlat[n].y, geodetic.lonlat[n].x);
-    double perimeter = 0.0;
-    polygon.Compute(false, true, perimeter, areas[t]);
-    areas[t] = std::abs(areas[t]);
-  }
+  });
   return areas;
 }
 

@@ -30,7 +30,8 @@ LongitudeRange rangeOf(const std::vector<Point>& input) {
 }
 
 // Appends the used points of `part` and returns the new index of each, kNone for the unused.
-std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic, std::vector<Point>& nodes) {
+std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic, const StretchLoop& loop,
+                                       std::vector<Point>& nodes) {
   const Domain& domain = *part.domain;
   const TriMesh& mesh = *part.mesh;
   assert(domain.input_points.size() == mesh.input_vertices);
@@ -39,28 +40,40 @@ std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic
   std::vector<std::uint32_t> index_of(mesh.points.size(), kNone);
   for (const Triangle& triangle : mesh.triangles)
     for (VertexId v : triangle.v) index_of[v] = 0;
-  for (VertexId v = 0; v < mesh.points.size(); ++v) {
-    if (index_of[v] == kNone) continue;
-    index_of[v] = static_cast<std::uint32_t>(nodes.size());
-    if (v < mesh.input_vertices) {
-      nodes.push_back(domain.input_points[v]);
-    } else {
-      Point place = domain.projection.inverse(mesh.points[v]);
-      if (geographic) place.x = range.bring(place.x);
-      nodes.push_back(place);
+  auto count = static_cast<std::uint32_t>(nodes.size());
+  for (std::uint32_t& index : index_of)
+    if (index != kNone) index = count++;
+  nodes.resize(count);
+  loop(mesh.points.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      if (index_of[v] == kNone) continue;
+      Point& node = nodes[index_of[v]];
+      if (v < mesh.input_vertices) {
+        node = domain.input_points[v];
+      } else {
+        node = domain.projection.inverse(mesh.points[v]);
+        if (geographic) node.x = range.bring(node.x);
+      }
     }
-  }
+  });
   return index_of;
 }
 
 void appendTriangles(const TriMesh& mesh, const std::vector<std::uint32_t>& index_of,
-                     const std::vector<std::uint32_t>& feature_index, Grid& grid) {
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t].v;
-    grid.triangles.push_back({index_of[a], index_of[b], index_of[c]});
-    if (!feature_index.empty()) grid.feature_of.push_back(feature_index[static_cast<std::size_t>(mesh.regions[t])]);
-    grid.min_angle_deg.push_back(std::ranges::min(anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c])));
-  }
+                     const std::vector<std::uint32_t>& feature_index, const StretchLoop& loop, Grid& grid) {
+  const std::size_t before = grid.triangles.size(), after = before + mesh.triangles.size();
+  grid.triangles.resize(after);
+  if (!feature_index.empty()) grid.feature_of.resize(after);
+  grid.min_angle_deg.resize(after);
+  loop(mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& [a, b, c] = mesh.triangles[t].v;
+      grid.triangles[before + t] = {index_of[a], index_of[b], index_of[c]};
+      if (!feature_index.empty())
+        grid.feature_of[before + t] = feature_index[static_cast<std::size_t>(mesh.regions[t])];
+      grid.min_angle_deg[before + t] = std::ranges::min(anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c]));
+    }
+  });
 }
 
 // The features that triangles belong to, in the coastline's order; the answer is the new index of each of the
@@ -99,7 +112,7 @@ std::string_view toString(BoundaryRole role) {
   return {};
 }
 
-Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline) {
+Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const StretchLoop& loop) {
   Grid grid;
   grid.crs = coastline.crs;
   std::size_t triangle_count = 0, point_count = 0;
@@ -113,14 +126,14 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
   const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, grid.features);
   if (!feature_index.empty()) grid.feature_of.reserve(triangle_count);
   for (const MeshedDomain& part : parts) {
-    const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, grid.nodes);
-    appendTriangles(*part.mesh, index_of, feature_index, grid);
+    const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, loop, grid.nodes);
+    appendTriangles(*part.mesh, index_of, feature_index, loop, grid);
     for (Boundary& boundary : findBoundaries(*part.mesh)) {
       for (std::uint32_t& node : boundary.nodes) node = index_of[node];
       grid.boundaries.push_back(std::move(boundary));
     }
   }
-  grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs);
+  grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);
   return grid;
 }
 

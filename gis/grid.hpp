@@ -12,6 +12,7 @@
 #include "core/tri_mesh.hpp"
 #include "gis/clean.hpp"
 #include "gis/crs.hpp"
+#include "gis/stretch_loop.hpp"
 
 namespace coastmesh {
 
@@ -52,7 +53,8 @@ struct MeshedDomain {
   const Domain* domain = nullptr;
   const TriMesh* mesh = nullptr;
 };
-Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline);
+Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
+              const StretchLoop& loop = inOneStretch);
 
 // Rim loops as boundaries: the loop that goes counter-clockwise round each connected piece is land, the others islands.
 std::vector<Boundary> findBoundaries(const TriMesh& mesh);

@@ -152,7 +152,7 @@ std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of
     return std::pair(x.name, x.edge) < std::pair(y.name, y.edge);
   });
   std::vector<EdgeRef> edges(sides.size() / 2);
-  recorder.forEachStretch(edges.size(), [&](std::size_t first, std::size_t last) {
+  recorder.forEachStretch("stitch", edges.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const CutSide &one = sides[2 * i], &other = sides[2 * i + 1];
       for (const auto& [from, to] : {std::pair(one, other), std::pair(other, one)}) {
@@ -183,7 +183,7 @@ Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& reco
     if (!sheet.notes.spacing.empty()) sheet.notes.spacing[to] = before.notes.spacing[from];
     if (!sheet.due_vertices.empty()) sheet.due_vertices[to] = before.due_vertices[from];
   };
-  recorder.forEachStretch(input_vertices + layout.on_cuts.size(), [&](std::size_t first, std::size_t last) {
+  recorder.forEachStretch("stitch", input_vertices + layout.on_cuts.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const auto to = static_cast<VertexId>(i);
       keep(to < input_vertices ? to : layout.on_cuts[to - input_vertices], to);
@@ -191,7 +191,7 @@ Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& reco
   });
 
   std::vector<std::vector<CutSide>> sides(pieces.size());
-  recorder.forEach(pieces.size(), {}, [&](std::size_t p) {
+  recorder.forEach("stitch", pieces.size(), {}, [&](std::size_t p) {
     sides[p] = place(pieces[p], p, layout, sheet);
     pieces[p] = {};
   });

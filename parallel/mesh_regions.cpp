@@ -6,6 +6,7 @@
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
 #include "core/shortfalls.hpp"
+#include "parallel/recorder.hpp"
 #include "parallel/rounds.hpp"
 
 namespace coastmesh {
@@ -36,14 +37,14 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
     region.stats.unresolved.clear();
     region.stats.add(shrunk);
   }
-  region.log.addAlone(region.seconds.refine + region.seconds.shrink);
+  region.log.addAlone("refine", region.seconds.refine + region.seconds.shrink);
 }
 
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   const auto add = [&](RoundsReport&& report) {
     region.stats.add(report.stats);
     region.pieces = std::max(region.pieces, report.pieces);
-    for (Stage& stage : report.log.stages) region.log.stages.push_back(std::move(stage));
+    region.log.append(std::move(report.log));
   };
   Stopwatch watch;
   add(refineInRounds(region.mesh, pslg, options.refine, control));
@@ -52,10 +53,13 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
     add(shrinkInRounds(region.mesh, pslg, options.refine, control));
     region.seconds.shrink = watch.lap();
   }
-  labelRegions(region.mesh, pslg);
-  region.stats.unresolved = findShortfalls(region.mesh, options.refine);
+  Recorder recorder;
+  recorder.forEach("label", 2, control, [&](std::size_t i) {
+    if (i == 0) region.stats.unresolved = findShortfalls(region.mesh, options.refine);
+    if (i == 1) labelRegions(region.mesh, pslg);
+  });
+  region.log.append(recorder.finish());
   region.seconds.stitch = watch.lap();
-  region.log.addAlone(region.seconds.stitch);
 }
 
 }  // namespace
@@ -65,7 +69,7 @@ MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunC
   Stopwatch watch;
   region.mesh = constrainedDelaunay(pslg);
   region.seconds.triangulate = watch.lap();
-  region.log.addAlone(region.seconds.triangulate);
+  region.log.addAlone("triangulate", region.seconds.triangulate);
   const bool cut = !options.one_piece && expectedTriangles(region.mesh, options.refine) >= kWorthCutting;
   (cut ? meshInPieces : meshWhole)(region, pslg, options, control);
   region.stats.steiner_points = region.mesh.points.size() - region.mesh.input_vertices;

@@ -75,7 +75,7 @@ void sortByPiece(Partition& partition, Recorder& recorder) {
   const std::size_t count = partition.piece_of.size();
   const auto begin = [&](std::size_t stretch) { return count * stretch / kStretches; };
   std::vector<std::vector<std::size_t>> counts(kStretches);
-  recorder.forEach(kStretches, {}, [&](std::size_t s) {
+  recorder.forEach("cut", kStretches, {}, [&](std::size_t s) {
     counts[s].assign(partition.pieces, 0);
     for (std::size_t t = begin(s); t < begin(s + 1); ++t) ++counts[s][partition.piece_of[t]];
   });
@@ -88,7 +88,7 @@ void sortByPiece(Partition& partition, Recorder& recorder) {
   partition.first[partition.pieces] = sum;
   partition.triangles.resize(count);
   partition.slot_of.resize(count);
-  recorder.forEach(kStretches, {}, [&](std::size_t s) {
+  recorder.forEach("cut", kStretches, {}, [&](std::size_t s) {
     for (std::size_t t = begin(s); t < begin(s + 1); ++t) {
       const PieceId p = partition.piece_of[t];
       const std::size_t place = counts[s][p]++;
@@ -113,7 +113,7 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   const std::size_t count = mesh.triangles.size();
   const std::size_t stride = std::max<std::size_t>(1, count / (kSamples * pieces));
   std::vector<Sample> samples((count + stride - 1) / stride);
-  recorder.forEachStretch(samples.size(), [&](std::size_t first, std::size_t last) {
+  recorder.forEachStretch("cut", samples.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const auto t = static_cast<TriId>(i * stride);
       samples[i] = {centre(t), weight(t)};
@@ -124,7 +124,7 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   Partition result;
   result.pieces = pieces;
   result.piece_of.resize(count);
-  recorder.forEachStretch(count, [&](std::size_t first, std::size_t last) {
+  recorder.forEachStretch("cut", count, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) result.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t)));
   });
   sortByPiece(result, recorder);

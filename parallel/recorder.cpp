@@ -14,8 +14,9 @@ double secondsBetween(std::chrono::steady_clock::time_point from, std::chrono::s
 
 }  // namespace
 
-void Recorder::forEach(std::size_t count, const RunControl& control, const std::function<void(std::size_t)>& work) {
-  Stage stage{secondsBetween(last_, Clock::now()), std::vector<double>(count, 0.0)};
+void Recorder::forEach(std::string_view name, std::size_t count, const RunControl& control,
+                       const std::function<void(std::size_t)>& work) {
+  Stage stage{name, secondsBetween(last_, Clock::now()), std::vector<double>(count, 0.0)};
   forEachItem(count, control, [&](std::size_t i) {
     const Clock::time_point start = Clock::now();
     work(i);
@@ -25,14 +26,15 @@ void Recorder::forEach(std::size_t count, const RunControl& control, const std::
   last_ = Clock::now();
 }
 
-void Recorder::forEachStretch(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+void Recorder::forEachStretch(std::string_view name, std::size_t count,
+                              const std::function<void(std::size_t, std::size_t)>& work) {
   constexpr std::size_t kLeast = 8192, kMostStretches = 256;
   const std::size_t stretches = std::clamp<std::size_t>(count / kLeast, 1, kMostStretches);
-  forEach(stretches, {}, [&](std::size_t s) { work(count * s / stretches, count * (s + 1) / stretches); });
+  forEach(name, stretches, {}, [&](std::size_t s) { work(count * s / stretches, count * (s + 1) / stretches); });
 }
 
 WorkLog Recorder::finish() {
-  log_.addAlone(secondsBetween(last_, Clock::now()));
+  log_.addAlone("rest", secondsBetween(last_, Clock::now()));
   last_ = Clock::now();
   return std::exchange(log_, {});
 }

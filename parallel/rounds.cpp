@@ -68,12 +68,12 @@ class Rounds {
   // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `work(piece, share, control)` handles a piece with that share of the
   // whole weight, and answers what it did.
   template <typename Weigh, typename Work>
-  void round(const Weigh& weigh, bool whole, const Work& work) {
+  void round(std::string_view name, const Weigh& weigh, bool whole, const Work& work) {
     const double weight = total(weigh);
     const Partition parts = partition(sheet_.mesh, whole ? 1 : piecesFor(weight), cutAngle(count_++), weigh, recorder_);
     most_pieces_ = std::max<std::size_t>(most_pieces_, parts.pieces);
     std::vector<double> weights(parts.pieces, 0.0);
-    recorder_.forEach(parts.pieces, {}, [&](std::size_t p) {
+    recorder_.forEach("cut", parts.pieces, {}, [&](std::size_t p) {
       for (const TriId t : parts.of(static_cast<PieceId>(p))) weights[p] += weigh(t);
     });
     std::vector<std::size_t> order(parts.pieces);
@@ -84,7 +84,7 @@ class Rounds {
     std::vector<RefineStats> stats(parts.pieces);
     tbb::enumerable_thread_specific<VertexMarks> marks;
     const RunControl inner{control_.cancelled, {}};
-    recorder_.forEach(parts.pieces, inner, [&](std::size_t i) {
+    recorder_.forEach(name, parts.pieces, inner, [&](std::size_t i) {
       const std::size_t p = order[i];
       pieces[p] = cutOut(sheet_, parts, static_cast<PieceId>(p), marks.local());
       stats[p] = work(pieces[p].piece, weights[p] / weight, inner);
@@ -100,7 +100,7 @@ class Rounds {
     constexpr std::size_t kStretches = 256;
     const std::size_t count = sheet_.mesh.triangles.size();
     std::vector<double> sums(kStretches, 0.0);
-    recorder_.forEach(kStretches, {}, [&](std::size_t s) {
+    recorder_.forEach("cut", kStretches, {}, [&](std::size_t s) {
       for (std::size_t t = count * s / kStretches; t < count * (s + 1) / kStretches; ++t)
         sums[s] += weigh(static_cast<TriId>(t));
     });
@@ -150,7 +150,7 @@ std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& 
 void markBad(Rounds& run, const TriangleBound& bound) {
   Sheet& sheet = run.sheet();
   sheet.due_triangles.resize(sheet.mesh.triangles.size());
-  run.recorder().forEachStretch(sheet.mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+  run.recorder().forEachStretch("cut", sheet.mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
       const auto& v = sheet.mesh.triangles[t].v;
       sheet.due_triangles[t] = isBad(sheet.mesh.point(v[0]), sheet.mesh.point(v[1]), sheet.mesh.point(v[2]), bound);
@@ -165,7 +165,7 @@ void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, co
   const std::uint64_t room = options.max_vertices - std::min(options.max_vertices, vertices);
   const auto weigh = [&](TriId t) { return sheet.due_triangles[t] ? expectedOf(sheet.mesh, t, bound) : kOfACopy; };
   run.stats().budget_reached = false;
-  run.round(weigh, whole, [&](Piece& piece, double share, const RunControl& inner) {
+  run.round("refine", weigh, whole, [&](Piece& piece, double share, const RunControl& inner) {
     if (!anyOf(piece.due_triangles)) return RefineStats{};
     // What the whole may still hold is shared out by the work expected.
     RefineOptions own = options;
@@ -221,7 +221,7 @@ RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
       const auto& v = sheet.mesh.triangle(t).v;
       return kOfACopy + sheet.due_vertices[v[0]] + sheet.due_vertices[v[1]] + sheet.due_vertices[v[2]];
     };
-    run.round(weigh, false, [&](Piece& piece, double, const RunControl& inner) {
+    run.round("shrink", weigh, false, [&](Piece& piece, double, const RunControl& inner) {
       return anyOf(piece.due_vertices) ? shrinkPiece(piece, pslg, options, inner) : RefineStats{};
     });
   }

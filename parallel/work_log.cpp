@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <queue>
 
 namespace coastmesh {
+
+void WorkLog::append(WorkLog&& other) { std::ranges::move(other.stages, std::back_inserter(stages)); }
 
 double WorkLog::work() const {
   double sum = 0.0;

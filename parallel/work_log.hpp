@@ -8,6 +8,7 @@ namespace coastmesh {
 
 // A stretch of a run: what one thread did alone, then pieces of work for as many threads as there are. Seconds.
 struct Stage {
+  std::string_view name;  // of the pieces of work; lives as long as the program
   double alone = 0.0;
   std::vector<double> items;  // in the order in which threads take them
 };
@@ -16,7 +17,8 @@ struct Stage {
 struct WorkLog {
   std::vector<Stage> stages;
 
-  void addAlone(double seconds) { stages.push_back({seconds, {}}); }
+  void addAlone(std::string_view name, double seconds) { stages.push_back({name, seconds, {}}); }
+  void append(WorkLog&& other);
   // All the work, in seconds of one thread.
   double work() const;
   // What any number of threads has to wait for.
