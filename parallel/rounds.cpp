@@ -26,6 +26,8 @@ constexpr double kFirstAngleDeg = 1.0;
 constexpr int kMostRounds = 8;
 // Bad triangles that a step may leave to the next.
 constexpr double kFewDue = 200.0;
+// Of so few triangles the whole is gone through sooner than in one more round of pieces.
+constexpr std::size_t kSmallMesh = 1'000'000;
 // Work, in triangles, that is not worth a cut.
 constexpr double kLittleWork = 5000.0;
 // From an equilateral triangle's area to the number of triangles that refinement makes of it.
@@ -201,7 +203,8 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
       if (!last_step && (left < kFewDue || round == kMostRounds)) break;
       control.checkpoint((static_cast<double>(step) + static_cast<double>(round) / (kMostRounds + 1)) /
                          static_cast<double>(steps.size()));
-      refineRound(run, pslg, steps[step], bound, step == 0 || round == kMostRounds, last_step);
+      const bool soon_done = last_step && round > 0 && left < kFewDue && sheet.mesh.triangles.size() < kSmallMesh;
+      refineRound(run, pslg, steps[step], bound, step == 0 || round == kMostRounds || soon_done, last_step);
     }
   }
   return run.finish(mesh);

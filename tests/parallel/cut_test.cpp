@@ -1,0 +1,136 @@
+#include "parallel/cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "core/delaunay.hpp"
+#include "core/label_regions.hpp"
+#include "core/refine.hpp"
+#include "parallel/workers.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+TriMesh refined(const Pslg& pslg) {
+  TriMesh mesh = constrainedDelaunay(pslg);
+  refine(mesh, pslg, {.min_angle_deg = 30.0, .size_max = 0.05});
+  return mesh;
+}
+
+double one(TriId) { return 1.0; }
+
+class CutInto : public ::testing::TestWithParam<PieceId> {};
+
+TEST_P(CutInto, PartitionTakesEveryTriangleOnce) {
+  const TriMesh mesh = refined(fractalCoast(2, 3, 3));
+  for (const double angle : {0.0, 0.7, 1.3}) {
+    Recorder recorder;
+    const Partition parts = partition(mesh, GetParam(), angle, one, recorder);
+    ASSERT_EQ(parts.pieces, GetParam());
+    std::vector<int> seen(mesh.triangles.size(), 0);
+    for (PieceId p = 0; p < parts.pieces; ++p) {
+      const auto triangles = parts.of(p);
+      EXPECT_TRUE(std::ranges::is_sorted(triangles));
+      for (std::size_t slot = 0; slot < triangles.size(); ++slot) {
+        ++seen[triangles[slot]];
+        EXPECT_EQ(parts.piece_of[triangles[slot]], p);
+        EXPECT_EQ(parts.slot_of[triangles[slot]], slot);
+      }
+    }
+    EXPECT_TRUE(std::ranges::all_of(seen, [](int times) { return times == 1; }));
+  }
+}
+
+TEST_P(CutInto, PiecesAreOfLikeWeight) {
+  const TriMesh mesh = refined(squarePslg());
+  // The left half of the square weighs four times the right.
+  const auto weight = [&](TriId t) { return mesh.point(mesh.triangle(t).v[0]).x < 0.5 ? 4.0 : 1.0; };
+  Recorder recorder;
+  const Partition parts = partition(mesh, GetParam(), 0.3, weight, recorder);
+  double whole = 0.0;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) whole += weight(t);
+  const double fair = whole / GetParam();
+  for (PieceId p = 0; p < parts.pieces; ++p) {
+    double sum = 0.0;
+    for (const TriId t : parts.of(p)) sum += weight(t);
+    EXPECT_LT(sum, 1.3 * fair + 8.0);
+  }
+}
+
+TEST_P(CutInto, StitchedAgainIsTheSameMesh) {
+  for (const Pslg& pslg : {fractalCoast(2, 3, 3), touchingHoles(), openLines(), twoRegions()}) {
+    Sheet sheet;
+    sheet.mesh = refined(pslg);
+    sheet.notes = noteInput(sheet.mesh, TriangleBound(30.0, 180.0, 0.05));
+    sheet.due_triangles.resize(sheet.mesh.triangles.size());
+    for (TriId t = 0; t < sheet.mesh.triangles.size(); t += 3) sheet.due_triangles[t] = 1;
+    Recorder recorder;
+    const Partition parts = partition(sheet.mesh, GetParam(), 0.4, one, recorder);
+    std::vector<CutPiece> pieces;
+    VertexMarks marks;
+    for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(sheet, parts, p, marks));
+    const Sheet again = stitch(std::move(pieces), sheet, recorder);
+
+    TriMesh labelled = again.mesh;
+    labelRegions(labelled, pslg);
+    expectValidMesh(labelled, pslg);
+    ASSERT_EQ(again.mesh.points.size(), sheet.mesh.points.size());
+    for (VertexId v = 0; v < sheet.mesh.input_vertices; ++v) EXPECT_EQ(again.mesh.point(v), sheet.mesh.point(v));
+    // Triangles by their corners' places, with what hangs on them.
+    using Known =
+        std::tuple<std::array<std::pair<double, double>, 3>, std::array<SegmentId, 3>, std::array<double, 3>, int>;
+    const auto known = [](const Sheet& s) {
+      std::set<Known> all;
+      for (TriId t = 0; t < s.mesh.triangles.size(); ++t) {
+        const Triangle& tri = s.mesh.triangles[t];
+        Known k;
+        for (unsigned i = 0; i < 3; ++i) {
+          std::get<0>(k)[i] = {s.mesh.point(tri.v[i]).x, s.mesh.point(tri.v[i]).y};
+          std::get<1>(k)[i] = tri.seg[i];
+          std::get<2>(k)[i] = s.notes.spacing[tri.v[i]];
+        }
+        std::get<3>(k) = s.due_triangles[t];
+        all.insert(k);
+      }
+      return all;
+    };
+    EXPECT_EQ(known(again), known(sheet));
+  }
+}
+
+TEST_P(CutInto, PiecesShareFrozenEdgesOnly) {
+  Sheet sheet;
+  sheet.mesh = refined(twoRegions());
+  sheet.notes = noteInput(sheet.mesh, TriangleBound(30.0, 180.0, 0.05));
+  Recorder recorder;
+  const Partition parts = partition(sheet.mesh, GetParam(), 0.0, one, recorder);
+  VertexMarks marks;
+  std::size_t frozen = 0;
+  for (PieceId p = 0; p < parts.pieces; ++p) {
+    const CutPiece cut = cutOut(sheet, parts, p, marks);
+    for (const Triangle& t : cut.piece.mesh.triangles) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (t.seg[i] != kFrozen) continue;
+        ++frozen;
+        EXPECT_EQ(t.adj[i], kNone);
+        EXPECT_LT(t.v[next3(i)], cut.piece.mesh.input_vertices);
+        EXPECT_LT(t.v[prev3(i)], cut.piece.mesh.input_vertices);
+      }
+    }
+    EXPECT_TRUE(std::ranges::all_of(marks, [](VertexId mark) { return mark == kNone; }));
+  }
+  EXPECT_EQ(frozen > 0, GetParam() > 1);
+  EXPECT_EQ(frozen % 2, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pieces, CutInto, ::testing::Values(1, 2, 3, 7, 16));
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,136 @@
+#include "parallel/rounds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/delaunay.hpp"
+#include "core/label_regions.hpp"
+#include "core/metric.hpp"
+#include "core/shortfalls.hpp"
+#include "parallel/workers.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+struct Case {
+  std::string name;
+  Pslg pslg;
+  RefineOptions options;
+};
+
+// Large enough to be cut into several pieces.
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  all.push_back({"Coast", fractalCoast(1, 6, 8), {.min_angle_deg = 30.0}});
+  all.push_back({"CoastWithSize", fractalCoast(2, 3, 3), {.min_angle_deg = 30.0, .size_max = 0.02}});
+  all.push_back({"Square", squarePslg(), {.min_angle_deg = 33.0, .size_max = 0.012}});
+  all.push_back({"TwoRegions", twoRegions(), {.min_angle_deg = 28.0, .size_max = 0.02}});
+  return all;
+}
+
+struct Meshed {
+  TriMesh mesh;
+  RoundsReport refined, shrunk;
+};
+
+Meshed runInRounds(const Case& c, int threads) {
+  Meshed run;
+  withThreads({.threads = threads}, [&] {
+    run.mesh = constrainedDelaunay(c.pslg);
+    run.refined = refineInRounds(run.mesh, c.pslg, c.options, {});
+    run.shrunk = shrinkInRounds(run.mesh, c.pslg, c.options, {});
+  });
+  return run;
+}
+
+// Rounds leave the labels to the end of the whole.
+void expectValid(TriMesh mesh, const Pslg& pslg, const CheckOptions& options = {}) {
+  labelRegions(mesh, pslg);
+  expectValidMesh(mesh, pslg, options);
+}
+
+class InRounds : public ::testing::TestWithParam<Case> {};
+
+TEST_P(InRounds, IsOneMeshWithoutASeam) {
+  const Case& c = GetParam();
+  const Meshed run = runInRounds(c, 2);
+  EXPECT_GT(run.refined.pieces, 1u) << "nothing was cut";
+  EXPECT_GT(run.shrunk.pieces, 1u);
+  expectValid(run.mesh, c.pslg, {.min_angle_deg = c.options.min_angle_deg});
+  EXPECT_TRUE(findShortfalls(run.mesh, c.options).empty());
+}
+
+TEST_P(InRounds, ThreadsChangeNoBit) {
+  const Case& c = GetParam();
+  const std::uint64_t digest = digestOf(runInRounds(c, 1).mesh);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(digestOf(runInRounds(c, threads).mesh), digest) << threads;
+}
+
+TEST_P(InRounds, HasAsManyVerticesAsOnePiece) {
+  const Case& c = GetParam();
+  const Meshed run = runInRounds(c, 2);
+  TriMesh whole = constrainedDelaunay(c.pslg);
+  refine(whole, c.pslg, c.options);
+  shrink(whole, c.pslg, c.options);
+  const auto count = static_cast<double>(whole.points.size());
+  EXPECT_NEAR(static_cast<double>(run.mesh.points.size()), count, 0.03 * count);
+}
+
+TEST_P(InRounds, KeepsToTheBudgetOfVertices) {
+  Case c = GetParam();
+  const std::size_t wanted = runInRounds(c, 2).mesh.points.size();
+  c.options.max_vertices = c.pslg.points.size() + (wanted - c.pslg.points.size()) / 2;
+  std::uint64_t digest = 0;
+  for (const int threads : {1, 3}) {
+    TriMesh mesh = constrainedDelaunay(c.pslg);
+    RoundsReport report;
+    withThreads({.threads = threads}, [&] { report = refineInRounds(mesh, c.pslg, c.options, {}); });
+    EXPECT_TRUE(report.stats.budget_reached);
+    EXPECT_LE(mesh.points.size(), c.options.max_vertices);
+    expectValid(mesh, c.pslg);
+    if (threads == 1) digest = digestOf(mesh);
+    EXPECT_EQ(digestOf(mesh), digest);
+  }
+}
+
+TEST_P(InRounds, EndsWhereTheBoundIsOutOfReach) {
+  Case c = GetParam();
+  c.options.min_angle_deg = 44.5;
+  c.options.max_vertices = 20000;
+  const Meshed run = runInRounds(c, 2);
+  expectValid(run.mesh, c.pslg);
+}
+
+TEST_P(InRounds, WritesDownItsWork) {
+  const Meshed run = runInRounds(GetParam(), 2);
+  for (const WorkLog* log : {&run.refined.log, &run.shrunk.log}) {
+    EXPECT_GT(log->criticalPath(), 0.0);
+    EXPECT_LE(log->criticalPath(), log->work());
+    EXPECT_LE(log->timeOn(64), log->timeOn(2));
+    EXPECT_NEAR(log->timeOn(1), log->work(), 1e-9 * log->work());
+  }
+}
+
+TEST_P(InRounds, CanBeCancelled) {
+  const Case& c = GetParam();
+  for (const int most : {0, 3, 20}) {
+    int asked = 0;
+    RunControl control;
+    control.cancelled = [&] { return asked++ >= most; };
+    TriMesh mesh = constrainedDelaunay(c.pslg);
+    withThreads({.threads = 1},
+                [&] { EXPECT_THROW(refineInRounds(mesh, c.pslg, c.options, control), Cancelled) << most; });
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, InRounds, ::testing::ValuesIn(cases()),
+                         [](const auto& param_info) { return param_info.param.name; });
+
+}  // namespace
+}  // namespace coastmesh
