@@ -28,9 +28,9 @@ struct Case {
 std::vector<Case> cases() {
   std::vector<Case> all;
   all.push_back({"Coast", fractalCoast(1, 6, 8), {.min_angle_deg = 30.0}});
-  all.push_back({"CoastWithSize", fractalCoast(2, 3, 3), {.min_angle_deg = 30.0, .size_max = 0.02}});
+  all.push_back({"CoastWithSize", fractalCoast(2, 3, 3), {.min_angle_deg = 30.0, .size_max = 0.01}});
   all.push_back({"Square", squarePslg(), {.min_angle_deg = 33.0, .size_max = 0.012}});
-  all.push_back({"TwoRegions", twoRegions(), {.min_angle_deg = 28.0, .size_max = 0.02}});
+  all.push_back({"TwoRegions", twoRegions(), {.min_angle_deg = 28.0, .size_max = 0.01}});
   return all;
 }
 
