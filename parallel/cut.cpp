@@ -108,6 +108,16 @@ Layout layOut(const std::vector<CutPiece>& pieces, VertexId input_vertices) {
   return layout;
 }
 
+// Makes room for `count` items, all of which are to be written anew.
+template <typename Item>
+void fit(std::vector<Item>& items, std::size_t count) {
+  if (count > items.capacity()) {
+    items = {};
+    items.reserve(count + count / 8);
+  }
+  items.resize(count);
+}
+
 // Writes one piece to its place; lists its sides of cut edges.
 std::vector<CutSide> place(const CutPiece& cut, std::size_t p, const Layout& layout, Sheet& sheet) {
   const TriMesh& mesh = cut.piece.mesh;
@@ -167,17 +177,18 @@ std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of
 
 }  // namespace
 
-Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& recorder) {
+Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& recorder, Sheet&& reused) {
   const VertexId input_vertices = before.mesh.input_vertices;
   const Layout layout = layOut(pieces, input_vertices);
-  Sheet sheet;
+  Sheet sheet = std::move(reused);
   sheet.mesh.input_vertices = input_vertices;
-  sheet.mesh.points.resize(layout.vertex.back());
-  sheet.mesh.triangles.resize(layout.triangle.back());
-  sheet.notes = {{}, before.notes.shell_unit, before.notes.small_angle};
-  if (!before.notes.spacing.empty()) sheet.notes.spacing.resize(layout.vertex.back());
-  if (!before.due_vertices.empty()) sheet.due_vertices.resize(layout.vertex.back());
-  if (!before.due_triangles.empty()) sheet.due_triangles.resize(layout.triangle.back());
+  fit(sheet.mesh.points, layout.vertex.back());
+  fit(sheet.mesh.triangles, layout.triangle.back());
+  sheet.notes.shell_unit = before.notes.shell_unit;
+  sheet.notes.small_angle = before.notes.small_angle;
+  fit(sheet.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back());
+  fit(sheet.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back());
+  fit(sheet.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back());
   const auto keep = [&](VertexId from, VertexId to) {
     sheet.mesh.points[to] = before.mesh.points[from];
     if (!sheet.notes.spacing.empty()) sheet.notes.spacing[to] = before.notes.spacing[from];

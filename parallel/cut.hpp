@@ -38,7 +38,7 @@ CutPiece cutOut(const Sheet& sheet, const Partition& partition, PieceId piece, V
 
 // Puts pieces together again: all of one partition, in order, each worked on or not. Restores the Delaunay property across the
 // cuts and marks the triangles that this changes as due. Vertices are numbered anew: input vertices as before, then those on cuts, then
-// each piece's own.
-Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& recorder);
+// each piece's own. `reused` lends its memory: fresh memory costs more than what is written to it.
+Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& recorder, Sheet&& reused = {});
 
 }  // namespace coastmesh

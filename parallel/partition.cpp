@@ -101,7 +101,7 @@ void sortByPiece(Partition& partition, Recorder& recorder) {
 }  // namespace
 
 Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
-                    Recorder& recorder) {
+                    Recorder& recorder, Partition&& reused) {
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto centre = [&](TriId t) -> std::array<double, 2> {
     const auto& v = mesh.triangle(t).v;
@@ -121,7 +121,7 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   });
   const CutTree tree(std::move(samples), pieces);
 
-  Partition result;
+  Partition result = std::move(reused);
   result.pieces = pieces;
   result.piece_of.resize(count);
   recorder.forEachStretch("cut", count, [&](std::size_t first, std::size_t last) {

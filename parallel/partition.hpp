@@ -29,7 +29,8 @@ struct Partition {
 // and so on (Bentley's k-d tree). Depends on nothing but its arguments.
 //   weight(t)  what a triangle counts, above 0
 //   angle      radians: the directions are turned by so much; cuts under other angles meet these at single points
+//   reused     lends its memory
 Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
-                    Recorder& recorder);
+                    Recorder& recorder, Partition&& reused = {});
 
 }  // namespace coastmesh

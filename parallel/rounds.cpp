@@ -72,7 +72,9 @@ class Rounds {
   template <typename Weigh, typename Work>
   void round(std::string_view name, const Weigh& weigh, bool whole, const Work& work) {
     const double weight = total(weigh);
-    const Partition parts = partition(sheet_.mesh, whole ? 1 : piecesFor(weight), cutAngle(count_++), weigh, recorder_);
+    parts_ =
+        partition(sheet_.mesh, whole ? 1 : piecesFor(weight), cutAngle(count_++), weigh, recorder_, std::move(parts_));
+    const Partition& parts = parts_;
     most_pieces_ = std::max<std::size_t>(most_pieces_, parts.pieces);
     std::vector<double> weights(parts.pieces, 0.0);
     recorder_.forEach("cut", parts.pieces, {}, [&](std::size_t p) {
@@ -91,8 +93,8 @@ class Rounds {
       pieces[p] = cutOut(sheet_, parts, static_cast<PieceId>(p), marks.local());
       stats[p] = work(pieces[p].piece, weights[p] / weight, inner);
     });
-    sheet_.mesh.triangles = {};
-    sheet_ = stitch(std::move(pieces), sheet_, recorder_);
+    Sheet stitched = stitch(std::move(pieces), sheet_, recorder_, std::move(spare_));
+    spare_ = std::exchange(sheet_, std::move(stitched));
     for (const RefineStats& some : stats) stats_.add(some);
   }
 
@@ -115,7 +117,8 @@ class Rounds {
   }
 
  private:
-  Sheet sheet_;
+  Sheet sheet_, spare_;
+  Partition parts_;
   const RunControl& control_;
   Recorder recorder_;
   RefineStats stats_;

@@ -54,8 +54,11 @@ TEST_F(MeshRun, FormatIsTakenWhereTheEndingDoesNotTell) {
 
 TEST_F(MeshRun, ReportHasItsKeys) {
   const Json json = report();
-  EXPECT_EQ(keysOf(json), (std::set<std::string>{"coastmesh", "input", "clean", "refine", "mesh", "time_s",
+  EXPECT_EQ(keysOf(json), (std::set<std::string>{"coastmesh", "input", "clean", "refine", "mesh", "time_s", "parallel",
                                                  "peak_memory_mib", "threads"}));
+  EXPECT_EQ(keysOf(json["parallel"]), (std::set<std::string>{"work_s", "critical_path_s", "speedup", "stages"}));
+  EXPECT_EQ(keysOf(json["parallel"]["speedup"]), (std::set<std::string>{"2", "8", "64"}));
+  EXPECT_FALSE(json["parallel"]["stages"].empty());
   EXPECT_EQ(keysOf(json["input"]),
             (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
                                    "projection", "projections", "area_m2", "refused", "warnings"}));
