@@ -21,7 +21,7 @@ constexpr double kWantedPieces = 512.0;
 // Edges come to the length asked by steps of this factor: a piece begins with a ninth of its triangles.
 constexpr double kSizeStep = 3.0;
 // Degrees.
-constexpr double kFirstAngleDeg = 1.0;
+constexpr double kFirstAngleDeg = 0.5;
 // Rounds of a step.
 constexpr int kMostRounds = 8;
 // Bad triangles that a step may leave to the next.
