@@ -20,7 +20,7 @@ constexpr double kLeastGrain = 6000.0, kMostGrain = 40000.0;
 constexpr double kWantedPieces = 512.0;
 // Edges come to the length asked by steps of this factor: a piece begins with a ninth of its triangles.
 constexpr double kSizeStep = 3.0;
-// Degrees.
+// Triangles with a smaller angle than this, in degrees, are refined before anything is cut.
 constexpr double kFirstAngleDeg = 0.5;
 // Rounds of a step.
 constexpr int kMostRounds = 8;
@@ -35,7 +35,6 @@ constexpr double kExcess = 1.5;
 constexpr double kEquilateral = 0.43301270189221932;  // area for edges of length 1
 // Triangles that come of a bad one on a coast.
 constexpr double kOfABadOne = 3.0;
-
 // A triangle that is only copied.
 constexpr double kOfACopy = 0.1;
 
