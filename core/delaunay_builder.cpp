@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/flip.hpp"
 #include "core/hilbert.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
@@ -286,30 +287,6 @@ EdgeRef DelaunayBuilder::fillSide(unsigned side) {
   return sides_[side].edges[scan_.back().edge].beyond;
 }
 
-// Turns the edge in the quadrilateral of its two triangles, where that is convex.
-bool DelaunayBuilder::flip(EdgeRef e) {
-  const EdgeRef f = twin(e);
-  const TriId t = triOf(e), n = triOf(f);
-  const VertexId a = apex(e), b = origin(e), c = target(e), d = apex(f);
-  if (orient2d(points_[a], points_[b], points_[d]) <= 0 || orient2d(points_[a], points_[d], points_[c]) <= 0)
-    return false;
-  const auto outer = [this](EdgeRef o) { return std::pair(twin(o), segment(o)); };
-  const auto ab = outer(edgeRef(t, prev3(indexOf(e)))), ca = outer(edgeRef(t, next3(indexOf(e))));
-  const auto bd = outer(edgeRef(n, next3(indexOf(f)))), dc = outer(edgeRef(n, prev3(indexOf(f))));
-  triangles_[t].v = {a, b, d};
-  triangles_[n].v = {a, d, c};
-  triangles_[t].seg = {bd.second, kNone, ab.second};
-  triangles_[n].seg = {dc.second, ca.second, kNone};
-  triangle_of_[a] = triangle_of_[b] = triangle_of_[d] = t;
-  triangle_of_[c] = n;
-  link(edgeRef(t, 0), bd.first);
-  link(edgeRef(t, 2), ab.first);
-  link(edgeRef(n, 0), dc.first);
-  link(edgeRef(n, 1), ca.first);
-  link(edgeRef(t, 1), edgeRef(n, 2));
-  return true;
-}
-
 void DelaunayBuilder::setSegment(EdgeRef e, SegmentId seg) {
   triangles_[triOf(e)].seg[indexOf(e)] = seg;
   const EdgeRef f = twin(e);
@@ -341,8 +318,9 @@ void DelaunayBuilder::restoreDelaunay() {
     stack_.pop_back();
     const TriId t = triOf(e), n = triOf(twin(e));
     if (segment(e) != kNone || isGhost(t) || isGhost(n)) continue;
-    const auto& v = triangles_[t].v;
-    if (inCircle(points_[v[0]], points_[v[1]], points_[v[2]], points_[apex(twin(e))]) <= 0 || !flip(e)) continue;
+    if (!flipToDelaunay(points_, triangles_, e)) continue;
+    for (const TriId changed : {t, n})
+      for (const VertexId v : triangles_[changed].v) triangle_of_[v] = changed;
     for (const EdgeRef f : {edgeRef(t, 0), edgeRef(t, 2), edgeRef(n, 0), edgeRef(n, 1)}) stack_.push_back(f);
   }
 }

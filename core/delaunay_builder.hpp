@@ -55,7 +55,6 @@ class DelaunayBuilder {
   EdgeRef fillSide(unsigned side);
   void attach(EdgeRef inside, unsigned side, std::size_t edge);
   void setSegment(EdgeRef e, SegmentId seg);
-  bool flip(EdgeRef e);
   void restoreDelaunay();
 
   VertexId origin(EdgeRef e) const { return triangles_[triOf(e)].v[next3(indexOf(e))]; }

@@ -4,7 +4,7 @@
 
 namespace coastmesh {
 
-bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e) {
+bool flipEdge(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e) {
   const TriId t = triOf(e);
   const unsigned i = indexOf(e);
   const EdgeRef f = triangles[t].adj[i];
@@ -12,7 +12,6 @@ bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles
   const unsigned j = indexOf(f);
   const VertexId a = triangles[t].v[i], b = triangles[t].v[next3(i)], c = triangles[t].v[prev3(i)];
   const VertexId d = triangles[n].v[j];
-  if (inCircle(points[a], points[b], points[c], points[d]) <= 0) return false;
   if (orient2d(points[a], points[b], points[d]) <= 0 || orient2d(points[a], points[d], points[c]) <= 0) return false;
   struct Side {
     EdgeRef beyond;
@@ -35,6 +34,13 @@ bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles
   link(edgeRef(n, 1), ca);
   link(edgeRef(t, 1), {edgeRef(n, 2), kNone});
   return true;
+}
+
+bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e) {
+  const auto& v = triangles[triOf(e)].v;
+  const EdgeRef f = triangles[triOf(e)].adj[indexOf(e)];
+  const VertexId beyond = triangles[triOf(f)].v[indexOf(f)];
+  return inCircle(points[v[0]], points[v[1]], points[v[2]], points[beyond]) > 0 && flipEdge(points, triangles, e);
 }
 
 std::vector<TriId> restoreDelaunay(TriMesh& mesh, std::vector<EdgeRef> edges) {

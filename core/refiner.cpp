@@ -42,11 +42,6 @@ RefineVariant usualVariant(const RefineOptions& options) {
   return variant;
 }
 
-Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
-    : Refiner(std::move(mesh), pslg, options,
-              noteInput(mesh, TriangleBound(options.min_angle_deg, options.max_angle_deg, options.size_max)),
-              usualVariant(options)) {}
-
 Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes&& notes,
                  const RefineVariant& variant)
     : pslg_(pslg),

@@ -34,8 +34,7 @@ RefineVariant usualVariant(const RefineOptions& options);
 // The state of one refinement run.
 class Refiner {
  public:
-  Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options);
-  // On a part of a larger mesh: what is known of its vertices comes along.
+  // The notes are those of `noteInput`, or on a part of a larger mesh what is known of its vertices.
   Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes&& notes,
           const RefineVariant& variant);
 

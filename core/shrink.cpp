@@ -41,8 +41,7 @@ class Waiting {
 };
 
 // How often every vertex gets its turn. A sweep shakes the mesh, so that the next finds more; where angles are large, dense
-// places are many, and sweeps pay for longer.
-// Small meshes can afford more, up to as many visits of vertices as `work`.
+// places are many, and sweeps pay for longer. Small meshes can afford more, up to as many visits of vertices as `work`.
 int sweepsFor(double min_angle_deg, std::size_t vertices) {
   const auto between = [&](double fewest, double most, double work) {
     return static_cast<int>(std::clamp(work / static_cast<double>(std::max<std::size_t>(1, vertices)), fewest, most));
@@ -126,7 +125,7 @@ bool Shrinker::isAtFrozenEdge(VertexId v) {
   return std::ranges::any_of(star_, [this](EdgeRef e) { return mesh_.segment(e) == kFrozen; });
 }
 
-// A vertex stays due where it is fixed for now, or next to a frozen edge.
+// A vertex stays due where the piece's cut holds it, or runs beside it.
 Piece Shrinker::releasePiece() {
   for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
     due_[v] = due_[v] && mesh_.isLiveVertex(v) && (v < mesh_.inputVertices() || isAtFrozenEdge(v));

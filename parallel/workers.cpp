@@ -70,6 +70,12 @@ void forEachItem(std::size_t count, const RunControl& control, const std::functi
       if (control.progress) control.progress(static_cast<double>(done) / static_cast<double>(count));
     }
   };
+  // Small regions make many loops of one item.
+  if (count == 1) {
+    worker();
+    failure.rethrow();
+    return;
+  }
   // Isolated: who waits here for the last item must not start on one of the items that this call is a part of.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(

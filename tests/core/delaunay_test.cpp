@@ -14,35 +14,16 @@
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
 namespace {
 
-std::map<RegionId, double> areasByRegion(const TriMesh& mesh) {
-  std::map<RegionId, double> areas;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t].v;
-    areas[mesh.regions[t]] += signedArea(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-  }
-  return areas;
-}
-
 double totalArea(const TriMesh& mesh) {
   double area = 0.0;
   for (const auto& [region, share] : areasByRegion(mesh)) area += share;
   return area;
-}
-
-// Corners by coordinates, free of numbering.
-std::set<std::set<std::pair<double, double>>> trianglesByPlace(const TriMesh& mesh) {
-  std::set<std::set<std::pair<double, double>>> all;
-  for (const Triangle& t : mesh.triangles) {
-    std::set<std::pair<double, double>> corners;
-    for (const VertexId v : t.v) corners.insert({mesh.points[v].x, mesh.points[v].y});
-    all.insert(corners);
-  }
-  return all;
 }
 
 // Corners of the convex hull, by the definition: an edge has no point to its right.

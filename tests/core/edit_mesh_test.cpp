@@ -13,16 +13,11 @@
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
 namespace {
-
-TriMesh releasedCopy(EditMesh mesh) {
-  TriMesh released = mesh.release();
-  released.regions.assign(released.triangles.size(), 0);
-  return released;
-}
 
 // The mesh is a constrained Delaunay mesh of the PSLG, and the arrays of EditMesh agree with one another.
 void expectSound(const EditMesh& mesh, const Pslg& pslg) {

@@ -10,26 +10,11 @@
 #include "core/delaunay.hpp"
 #include "core/refine.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
 namespace {
-
-TriMesh releasedCopy(EditMesh mesh) {
-  TriMesh released = mesh.release();
-  released.regions.assign(released.triangles.size(), 0);
-  return released;
-}
-
-std::set<std::set<std::pair<double, double>>> trianglesByPlace(const TriMesh& mesh) {
-  std::set<std::set<std::pair<double, double>>> all;
-  for (const Triangle& t : mesh.triangles) {
-    std::set<std::pair<double, double>> corners;
-    for (const VertexId v : t.v) corners.insert({mesh.points[v].x, mesh.points[v].y});
-    all.insert(corners);
-  }
-  return all;
-}
 
 class LocalPatchOf : public ::testing::TestWithParam<NamedPslg> {
  protected:

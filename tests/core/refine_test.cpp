@@ -16,6 +16,7 @@
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
@@ -25,15 +26,6 @@ constexpr Algorithm kAlgorithms[] = {Algorithm::Circumcenter, Algorithm::Offcent
                                      Algorithm::Relocate};
 
 using Places = std::set<std::pair<double, double>>;
-
-std::map<RegionId, double> areasByRegion(const TriMesh& mesh) {
-  std::map<RegionId, double> areas;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t].v;
-    areas[mesh.regions[t]] += signedArea(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-  }
-  return areas;
-}
 
 // By how much a triangle falls short of what is asked: degrees below or above, or hundredths of the size. Negative
 // where it holds.

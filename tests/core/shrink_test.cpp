@@ -10,6 +10,7 @@
 #include "core/quality.hpp"
 #include "core/refine.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
@@ -31,15 +32,6 @@ BothRuns runBoth(const Pslg& pslg, RefineOptions options) {
   run.shrunk = run.refined;
   run.shrink_stats = shrink(run.shrunk, pslg, options);
   return run;
-}
-
-std::map<RegionId, double> areasByRegion(const TriMesh& mesh) {
-  std::map<RegionId, double> areas;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t].v;
-    areas[mesh.regions[t]] += signedArea(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-  }
-  return areas;
 }
 
 // Length of what each segment has as edges, from either side.

@@ -10,18 +10,13 @@
 #include "core/delaunay.hpp"
 #include "core/refine.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
 namespace {
 
 constexpr double kNoSize = std::numeric_limits<double>::infinity();
-
-TriMesh releasedCopy(EditMesh mesh) {
-  TriMesh released = mesh.release();
-  released.regions.assign(released.triangles.size(), 0);
-  return released;
-}
 
 std::size_t countBad(const EditMesh& mesh, const TriangleBound& bound) {
   std::size_t bad = 0;

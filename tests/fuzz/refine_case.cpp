@@ -15,6 +15,7 @@
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "tests/fuzz/unexpected_defects.hpp"
+#include "tests/support/mesh_figures.hpp"
 
 namespace coastmesh {
 
@@ -45,15 +46,6 @@ std::string_view toString(PslgDefect::Kind kind) {
       return "no area";
   }
   return "";
-}
-
-std::map<RegionId, double> areasByRegion(const TriMesh& mesh) {
-  std::map<RegionId, double> areas;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t].v;
-    areas[mesh.regions[t]] += signedArea(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-  }
-  return areas;
 }
 
 // Rounding of a coordinate moves a border by that much along its length; areas may differ so.

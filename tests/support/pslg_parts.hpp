@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "core/pslg.hpp"
+
+namespace coastmesh {
+
+VertexId addPoint(Pslg& pslg, const Point& p);
+
+// Tagged by its number, from 1 on.
+void addSegment(Pslg& pslg, VertexId a, VertexId b, RegionId left, RegionId right);
+
+void closeRing(Pslg& pslg, const std::vector<VertexId>& ring, RegionId left, RegionId right);
+
+// Answers the ring's vertices.
+std::vector<VertexId> addRing(Pslg& pslg, const std::vector<Point>& points, RegionId left, RegionId right);
+
+}  // namespace coastmesh
