@@ -46,8 +46,8 @@ std::string dumpRegion(const Pslg& pslg, std::uint64_t digest) {
   return path.string();
 }
 
-void requireSound(const TriMesh& mesh, const Domain& domain, const Feature& first) {
-  const std::vector<MeshDefect> defects = checkMesh(mesh, &domain.pslg, CheckOptions{});
+void requireSound(const TriMesh& mesh, const Domain& domain, const Feature& first, const ItemLoop& loop) {
+  const std::vector<MeshDefect> defects = checkMesh(mesh, &domain.pslg, CheckOptions{}, loop);
   if (defects.empty()) return;
   const MeshDefect& defect = defects.front();
   throw BadMesh("the mesh of " + featureText(first) + " has " + std::to_string(defects.size()) +
@@ -68,7 +68,7 @@ void placeShortfalls(const RefineStats& stats, const Projection& projection, Gro
 
 // The group's part of the grid. It is given its own features alone, so that the work does not grow with the square of
 // their number.
-Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh, const StretchLoop& loop) {
+Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh, const ItemLoop& loop) {
   Coastline names;
   names.crs = input.coastline().crs;
   if (!input.isPoly()) {
@@ -109,18 +109,17 @@ void fillGroup(const MeshJob& job, const JobInput& input, std::size_t group, std
   result.pieces = region.pieces;
   result.log.append(std::move(region.log));
 
+  // Small regions go without the clock, which would cost them more than the work.
   Recorder recorder;
+  const bool large = region.pieces > 1;
+  const auto loop = [&](std::string_view stage) { return large ? recorder.loop(stage, control) : ItemLoop(inOrder); };
   const Stopwatch checking;
-  recorder.forEach("check", 2, control, [&](std::size_t i) {
-    if (i == 0) requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()]);
-    if (i == 1) {
-      result.quality = measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg);
-      result.digest = digestOf(region.mesh);
-    }
-  });
+  requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()], loop("check"));
+  result.quality =
+      measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg, loop("check"));
+  result.digest = digestOf(region.mesh, 0, loop("check"));
   result.check_s = checking.seconds();
-  result.grid = groupGrid(input, group, domain, region.mesh,
-                          [&](std::size_t count, const auto& work) { recorder.forEachStretch("grid", count, work); });
+  result.grid = groupGrid(input, group, domain, region.mesh, loop("grid"));
   result.log.append(recorder.finish());
 }
 

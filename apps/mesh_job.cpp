@@ -10,6 +10,7 @@
 
 #include "apps/mesh_group.hpp"
 #include "apps/stopwatch.hpp"
+#include "parallel/recorder.hpp"
 
 namespace coastmesh {
 
@@ -135,18 +136,19 @@ class OrderedMerge {
   void add(std::size_t group, GroupResult&& part) {
     const std::lock_guard lock(mutex_);
     waiting_[group] = std::make_unique<GroupResult>(std::move(part));
-    const Stopwatch stitching;
+    const double before = threadSeconds();
     for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
       addGroup(input_, next_, std::move(*waiting_[next_]), result_, small_groups_);
       waiting_[next_].reset();
     }
-    result_.seconds.stitch += stitching.seconds();
+    merging_s_ += threadSeconds() - before;
   }
 
   void finish() {
     std::ranges::sort(small_groups_.items, std::greater());
     if (!small_groups_.items.empty()) result_.log.stages.push_back(std::move(small_groups_));
-    result_.log.addAlone("stitch", result_.seconds.stitch);
+    result_.log.addAlone("stitch", merging_s_);
+    result_.seconds.stitch += merging_s_;
   }
 
  private:
@@ -156,6 +158,7 @@ class OrderedMerge {
   std::vector<std::unique_ptr<GroupResult>> waiting_;
   Stage small_groups_{"regions", 0.0, {}};
   std::size_t next_ = 0;
+  double merging_s_ = 0.0;
 };
 
 // Large groups first, lest one of them be left for the end, when all other threads have nothing to do.

@@ -4,8 +4,8 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The interface of each room; its other headers are its own affair.
-set(core_headers check delaunay ids point pslg quality refine run_control tri_mesh)
-set(gis_headers clean coastline crs error grid grid_io poly_io projection read_coastline stretch_loop)
+set(core_headers check delaunay ids item_loop point pslg quality refine run_control tri_mesh)
+set(gis_headers clean coastline crs error grid grid_io poly_io projection read_coastline)
 set(parallel_headers mesh_regions work_log workers)
 
 set(coastmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/coastmesh)

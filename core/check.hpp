@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/tri_mesh.hpp"
 
@@ -40,6 +41,7 @@ struct CheckOptions {
 // Every defect of the mesh, by kind and then in order of triangles. `pslg` may be null: then the mesh is checked for
 // itself. With it, a mesh of ours (`input_vertices` set) is compared by index; one that was read from a file by
 // coordinates.
-std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const CheckOptions& options);
+std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const CheckOptions& options,
+                                  const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <unordered_map>
 
 #include "core/delaunay.hpp"
@@ -49,11 +51,15 @@ Expected expectFromLabels(const Pslg& pslg) {
   return expected;
 }
 
-double totalArea(const TriMesh& mesh) {
-  double area = 0.0;
-  for (const Triangle& t : mesh.triangles)
-    area += signedArea(mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]);
-  return area;
+double totalArea(const TriMesh& mesh, const ItemLoop& loop) {
+  const std::vector<double> areas =
+      overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        double area = 0.0;
+        for (const Triangle& t : std::span(mesh.triangles).subspan(first, last - first))
+          area += signedArea(mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]);
+        return area;
+      });
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 Expected expectFromTriangulation(const Pslg& pslg) {
@@ -65,24 +71,40 @@ Expected expectFromTriangulation(const Pslg& pslg) {
       if (t.seg[i] != kNone) expected.segments[t.seg[i]] = true;
     }
   }
-  expected.area = totalArea(coarse);
+  expected.area = totalArea(coarse, inOrder);
   return expected;
 }
 
 // How much area points on the rim may have moved it by, rounded as they are to the last place of a coordinate.
-double roundingOfRim(const TriMesh& mesh) {
+double roundingOfRim(const TriMesh& mesh, const ItemLoop& loop) {
   constexpr double kPlaces = 4.0;
-  double magnitude = 0.0, perimeter = 0.0;
-  for (const Point& p : mesh.points) magnitude = std::max({magnitude, std::abs(p.x), std::abs(p.y)});
-  for (const Triangle& t : mesh.triangles)
-    for (unsigned i = 0; i < 3; ++i)
-      if (t.adj[i] == kNone) perimeter += distance(mesh.points[t.v[next3(i)]], mesh.points[t.v[prev3(i)]]);
-  return kPlaces * std::numeric_limits<double>::epsilon() * magnitude * perimeter;
+  struct Rim {
+    double magnitude = 0.0;
+    double length = 0.0;
+  };
+  Rim whole;
+  for (const Rim& part : overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+         Rim rim;
+         for (const Triangle& t : std::span(mesh.triangles).subspan(first, last - first)) {
+           for (unsigned i = 0; i < 3; ++i) {
+             if (t.adj[i] != kNone) continue;
+             const Point &a = mesh.points[t.v[next3(i)]], &b = mesh.points[t.v[prev3(i)]];
+             rim.magnitude = std::max({rim.magnitude, std::abs(a.x), std::abs(a.y)});
+             rim.length += distance(a, b);
+           }
+         }
+         return rim;
+       })) {
+    whole.magnitude = std::max(whole.magnitude, part.magnitude);
+    whole.length += part.length;
+  }
+  return kPlaces * std::numeric_limits<double>::epsilon() * whole.magnitude * whole.length;
 }
 
-void checkArea(const TriMesh& mesh, double expected, double tolerance, std::vector<MeshDefect>& defects) {
-  const double difference = std::abs(totalArea(mesh) - expected);
-  if (difference <= tolerance * expected + roundingOfRim(mesh)) return;
+void checkArea(const TriMesh& mesh, double expected, double tolerance, const ItemLoop& loop,
+               std::vector<MeshDefect>& defects) {
+  const double difference = std::abs(totalArea(mesh, loop) - expected);
+  if (difference <= tolerance * expected + roundingOfRim(mesh, loop)) return;
   const double error = difference / expected;
   defects.push_back({DefectKind::WrongArea, mesh.points.empty() ? Point{} : mesh.points.front(), kNone, error});
 }
@@ -115,23 +137,28 @@ bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::vec
 
 }  // namespace
 
-void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects) {
+void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop, std::vector<MeshDefect>& defects) {
   const Expected expected = labelsTellAll(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
-  std::vector<bool> used(mesh.points.size(), false);
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  const std::vector<EdgeRef> constrained =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<EdgeRef> edges;
+        for (auto t = static_cast<TriId>(first); t < last; ++t)
+          for (unsigned i = 0; i < 3; ++i)
+            if (const EdgeRef e = edgeRef(t, i);
+                mesh.segment(e) != kNone && (mesh.twin(e) == kNone || mesh.twin(e) > e))
+              edges.push_back(e);
+        return edges;
+      }));
   std::vector<std::vector<HalfEdge>> halves(pslg.segments.size());
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      used[mesh.triangles[t].v[i]] = true;
-      const EdgeRef e = edgeRef(t, i);
-      const SegmentId s = mesh.segment(e);
-      if (s == kNone || (mesh.twin(e) != kNone && mesh.twin(e) < e)) continue;
-      if (s >= pslg.segments.size()) {
-        defects.push_back({DefectKind::BrokenTopology, mesh.points[mesh.origin(e)], t});
-        continue;
-      }
-      halves[s].push_back({mesh.origin(e), mesh.target(e)});
-      halves[s].push_back({mesh.target(e), mesh.origin(e)});
+  for (const EdgeRef e : constrained) {
+    const SegmentId s = mesh.segment(e);
+    if (s >= pslg.segments.size()) {
+      defects.push_back({DefectKind::BrokenTopology, mesh.points[mesh.origin(e)], triOf(e)});
+      continue;
     }
+    halves[s].push_back({mesh.origin(e), mesh.target(e)});
+    halves[s].push_back({mesh.target(e), mesh.origin(e)});
   }
   for (VertexId v = 0; v < pslg.points.size(); ++v) {
     const bool same =
@@ -144,7 +171,7 @@ void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, std::vector<MeshDe
     if (expected.segments[s] && !isChain(mesh, pslg, pslg.segments[s], halves[s]))
       defects.push_back(
           {DefectKind::MissingSegment, midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b])});
-  checkArea(mesh, expected.area, 1e-9, defects);
+  checkArea(mesh, expected.area, 1e-9, loop, defects);
 }
 
 namespace {
@@ -217,7 +244,7 @@ void checkAgainstInputByPlace(TriMesh& mesh, const Pslg& pslg, std::vector<MeshD
       defects.push_back(
           {DefectKind::MissingSegment, midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b])});
   }
-  checkArea(mesh, expected.area, 1e-6, defects);
+  checkArea(mesh, expected.area, 1e-6, inOrder, defects);
 }
 
 }  // namespace coastmesh

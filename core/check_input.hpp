@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "core/check.hpp"
+#include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
 
 // Compares a mesh of ours with the PSLG that it was made from: vertices bit for bit, segments as chains of edges, area.
-void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects);
+void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop, std::vector<MeshDefect>& defects);
 
 // The same for a mesh that was read from a file: vertices are matched by their coordinates, segments by walking along
 // edges. Edges that are found to be pieces of a segment are marked in the mesh.

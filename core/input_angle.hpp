@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
 
@@ -64,6 +65,6 @@ bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& b
 
 // The triangles whose shortfall an input angle explains: those in a sector too small for the bounds, and those that share an edge
 // with them, be it a constraint: the corner's sides are long beside its width, and what lies behind them has to bear that.
-std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound);
+std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

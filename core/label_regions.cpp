@@ -6,8 +6,26 @@
 
 namespace coastmesh {
 
+namespace {
+
+// The region that every triangle is in, where segments name no other; kUnlabelled where they name several.
+RegionId onlyRegion(const Pslg& pslg) {
+  RegionId only = kUnlabelled;
+  for (const Segment& s : pslg.segments) {
+    for (const RegionId side : {s.left, s.right}) {
+      if (side < 0 || side == only) continue;
+      if (only != kUnlabelled) return kUnlabelled;
+      only = side;
+    }
+  }
+  return only == kUnlabelled ? 0 : only;
+}
+
+}  // namespace
+
 void labelRegions(TriMesh& mesh, const Pslg& pslg) {
-  mesh.regions.assign(mesh.triangles.size(), kUnlabelled);
+  mesh.regions.assign(mesh.triangles.size(), onlyRegion(pslg));
+  if (mesh.regions.empty() || mesh.regions.front() != kUnlabelled) return;
   std::vector<TriId> stack;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     if (mesh.regions[t] != kUnlabelled) continue;

@@ -29,37 +29,41 @@ void MeshQuality::add(const MeshQuality& other) {
   for (std::size_t i = 0; i < angle_histogram.size(); ++i) angle_histogram[i] += other.angle_histogram[i];
 }
 
-MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg) {
+MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, const ItemLoop& loop) {
   const TriangleBound asked(min_angle_deg, max_angle_deg, std::numeric_limits<double>::infinity());
-  const std::vector<bool> explained = explainedTriangles(mesh, asked);
-  MeshQuality quality;
-  quality.triangles = mesh.triangles.size();
-  std::vector<bool> used(mesh.points.size(), false);
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t].v;
-    const Point* p[3] = {&mesh.points[v[0]], &mesh.points[v[1]], &mesh.points[v[2]]};
-    quality.area += signedArea(*p[0], *p[1], *p[2]);
-    const std::array<double, 3> angles = anglesDeg(*p[0], *p[1], *p[2]);
-    double least = 180.0, most = 0.0;
-    for (unsigned i = 0; i < 3; ++i) {
-      least = std::min(least, angles[i]);
-      most = std::max(most, angles[i]);
-      const auto bin = static_cast<std::size_t>(angles[i] / 5.0);
-      ++quality.angle_histogram[std::min(bin, quality.angle_histogram.size() - 1)];
-      const double length = distance(*p[i], *p[next3(i)]);
-      quality.shortest_edge = std::min(quality.shortest_edge, length);
-      quality.longest_edge = std::max(quality.longest_edge, length);
-      if (!used[v[i]]) ++quality.vertices;
-      used[v[i]] = true;
+  const std::vector<bool> explained = explainedTriangles(mesh, asked, loop);
+  const auto measure = [&](std::size_t first, std::size_t last) {
+    MeshQuality quality;
+    quality.triangles = last - first;
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& v = mesh.triangles[t].v;
+      const Point* p[3] = {&mesh.points[v[0]], &mesh.points[v[1]], &mesh.points[v[2]]};
+      quality.area += signedArea(*p[0], *p[1], *p[2]);
+      const std::array<double, 3> angles = anglesDeg(*p[0], *p[1], *p[2]);
+      double least = 180.0, most = 0.0;
+      for (unsigned i = 0; i < 3; ++i) {
+        least = std::min(least, angles[i]);
+        most = std::max(most, angles[i]);
+        const auto bin = static_cast<std::size_t>(angles[i] / 5.0);
+        ++quality.angle_histogram[std::min(bin, quality.angle_histogram.size() - 1)];
+        const double length = distance(*p[i], *p[next3(i)]);
+        quality.shortest_edge = std::min(quality.shortest_edge, length);
+        quality.longest_edge = std::max(quality.longest_edge, length);
+      }
+      quality.min_angle_deg = std::min(quality.min_angle_deg, least);
+      quality.max_angle_deg = std::max(quality.max_angle_deg, most);
+      if (least < min_angle_deg || most > max_angle_deg) {
+        ++quality.below_bound;
+        if (explained[t]) ++quality.below_bound_explained;
+      }
     }
-    quality.min_angle_deg = std::min(quality.min_angle_deg, least);
-    quality.max_angle_deg = std::max(quality.max_angle_deg, most);
-    if (least < min_angle_deg || most > max_angle_deg) {
-      ++quality.below_bound;
-      if (explained[t]) ++quality.below_bound_explained;
-    }
-  }
-  return quality;
+    return quality;
+  };
+  MeshQuality whole;
+  for (const MeshQuality& part : overStretches(loop, mesh.triangles.size(), measure)) whole.add(part);
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  whole.vertices = static_cast<std::uint64_t>(std::ranges::count(used, std::uint8_t{1}));
+  return whole;
 }
 
 }  // namespace coastmesh

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/item_loop.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -30,6 +31,7 @@ struct MeshQuality {
 
 // What an input angle explains is told from the mesh itself: its rim, its constraints, and which vertices are input
 // (`TriMesh::input_vertices`; where that is 0, every vertex of the rim may be).
-MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg = 180.0);
+MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg = 180.0,
+                           const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -8,21 +8,26 @@
 
 namespace coastmesh {
 
-std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options) {
+std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
   const TriangleBound bound(options.min_angle_deg, options.max_angle_deg, options.size_max);
-  return findShortfalls(mesh, bound, bound);
+  return findShortfalls(mesh, bound, bound, loop);
 }
 
-std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach) {
+std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
+                                      const ItemLoop& loop) {
   const auto cornersOf = [&](TriId t) -> std::array<Point, 3> {
     const auto& v = mesh.triangles[t].v;
     return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
   };
-  std::vector<TriId> bad;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t)
-    if (const auto [a, b, c] = cornersOf(t); isBad(a, b, c, asked)) bad.push_back(t);
+  const std::vector<TriId> bad =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<TriId> some;
+        for (auto t = static_cast<TriId>(first); t < last; ++t)
+          if (const auto [a, b, c] = cornersOf(t); isBad(a, b, c, asked)) some.push_back(t);
+        return some;
+      }));
   if (bad.empty()) return {};
-  const std::vector<bool> explained = explainedTriangles(mesh, in_reach);
+  const std::vector<bool> explained = explainedTriangles(mesh, in_reach, loop);
   std::vector<Shortfall> shortfalls;
   for (const TriId t : bad) {
     if (explained[t]) continue;

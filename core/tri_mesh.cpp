@@ -85,46 +85,82 @@ EdgeRef nextOnRim(const TriMesh& mesh, EdgeRef e) {
 
 }  // namespace
 
-std::vector<std::vector<VertexId>> rimLoops(const TriMesh& mesh) {
+std::vector<std::vector<VertexId>> rimLoops(const TriMesh& mesh, const ItemLoop& loop) {
+  const std::vector<EdgeRef> rim =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<EdgeRef> edges;
+        for (auto t = static_cast<TriId>(first); t < last; ++t)
+          for (unsigned i = 0; i < 3; ++i)
+            if (mesh.triangles[t].adj[i] == kNone) edges.push_back(edgeRef(t, i));
+        return edges;
+      }));
   std::vector<std::vector<VertexId>> loops;
-  std::vector<bool> seen(4 * mesh.triangles.size(), false);
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef start = edgeRef(t, i);
-      if (mesh.twin(start) != kNone || seen[start]) continue;
-      std::vector<VertexId> loop;
-      for (EdgeRef e = start; !seen[e]; e = nextOnRim(mesh, e)) {
-        seen[e] = true;
-        loop.push_back(mesh.origin(e));
-      }
-      const auto less = [&](VertexId a, VertexId b) { return lexLess(mesh.points[a], mesh.points[b]); };
-      std::ranges::rotate(loop, std::ranges::min_element(loop, less));
-      loops.push_back(std::move(loop));
+  std::vector<bool> seen(rim.size(), false);
+  for (std::size_t start = 0; start < rim.size(); ++start) {
+    if (seen[start]) continue;
+    std::vector<VertexId> vertices;
+    for (std::size_t at = start; !seen[at];) {
+      seen[at] = true;
+      vertices.push_back(mesh.origin(rim[at]));
+      at = static_cast<std::size_t>(std::ranges::lower_bound(rim, nextOnRim(mesh, rim[at])) - rim.begin());
     }
+    const auto less = [&](VertexId a, VertexId b) { return lexLess(mesh.points[a], mesh.points[b]); };
+    std::ranges::rotate(vertices, std::ranges::min_element(vertices, less));
+    loops.push_back(std::move(vertices));
   }
   std::ranges::stable_sort(
       loops, [&](const auto& a, const auto& b) { return lexLess(mesh.points[a.front()], mesh.points[b.front()]); });
   return loops;
 }
 
-std::uint64_t digestOf(const TriMesh& mesh, std::uint64_t seed) {
-  // Multiply and rotate a word at a time; the constants are odd fractions of the golden ratio and of pi.
-  std::uint64_t h = seed ^ 0x9E3779B97F4A7C15ull;
-  const auto mix = [&h](std::uint64_t word) {
-    h = std::rotl((h ^ word) * 0xC90FDAA22168C235ull, 29);
-    h ^= h >> 32;
-  };
-  mix(mesh.points.size());
-  for (const Point& p : mesh.points) {
-    mix(std::bit_cast<std::uint64_t>(p.x));
-    mix(std::bit_cast<std::uint64_t>(p.y));
+std::vector<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop) {
+  std::vector<std::uint8_t> used(mesh.points.size(), 0);
+  forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
+    // Several stretches may say the same of a vertex at the same time.
+    for (const VertexId v : mesh.triangles[t].v) __atomic_store_n(&used[v], std::uint8_t{1}, __ATOMIC_RELAXED);
+  });
+  return used;
+}
+
+namespace {
+
+// Multiplies and rotates a word at a time; the constants are odd fractions of the golden ratio and of pi.
+struct Hash {
+  std::uint64_t value;
+
+  explicit Hash(std::uint64_t seed) : value(seed ^ 0x9E3779B97F4A7C15ull) {}
+  void mix(std::uint64_t word) {
+    value = std::rotl((value ^ word) * 0xC90FDAA22168C235ull, 29);
+    value ^= value >> 32;
   }
-  mix(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    mix(std::uint64_t{t.v[0]} << 32 | t.v[1]);
-    mix(t.v[2]);
-  }
-  return h;
+};
+
+}  // namespace
+
+std::uint64_t digestOf(const TriMesh& mesh, std::uint64_t seed, const ItemLoop& loop) {
+  Hash whole(seed);
+  whole.mix(mesh.points.size());
+  for (const std::uint64_t part : overStretches(loop, mesh.points.size(), [&](std::size_t first, std::size_t last) {
+         Hash hash(0);
+         for (std::size_t v = first; v < last; ++v) {
+           hash.mix(std::bit_cast<std::uint64_t>(mesh.points[v].x));
+           hash.mix(std::bit_cast<std::uint64_t>(mesh.points[v].y));
+         }
+         return hash.value;
+       }))
+    whole.mix(part);
+  whole.mix(mesh.triangles.size());
+  for (const std::uint64_t part : overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+         Hash hash(0);
+         for (std::size_t t = first; t < last; ++t) {
+           const auto& v = mesh.triangles[t].v;
+           hash.mix(std::uint64_t{v[0]} << 32 | v[1]);
+           hash.mix(v[2]);
+         }
+         return hash.value;
+       }))
+    whole.mix(part);
+  return whole.value;
 }
 
 }  // namespace coastmesh

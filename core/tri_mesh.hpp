@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/item_loop.hpp"
 #include "core/point.hpp"
 
 namespace coastmesh {
@@ -76,9 +77,12 @@ std::vector<EdgeRef> outgoingEdges(const TriMesh& mesh);
 // The rim as closed loops of vertices with the mesh to the left: outer loops counter-clockwise, holes clockwise.
 // Every loop starts at its lexicographically least vertex; loops are sorted by that vertex. A loop passes a pinched
 // vertex once for every fan of triangles there.
-std::vector<std::vector<VertexId>> rimLoops(const TriMesh& mesh);
+std::vector<std::vector<VertexId>> rimLoops(const TriMesh& mesh, const ItemLoop& loop = inOrder);
+
+// One a vertex: 1 where a triangle has it as a corner.
+std::vector<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 // A hash of coordinates and corners, in order. Equal meshes, bit for bit, give equal digests on every machine.
-std::uint64_t digestOf(const TriMesh& mesh, std::uint64_t seed = 0);
+std::uint64_t digestOf(const TriMesh& mesh, std::uint64_t seed = 0, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

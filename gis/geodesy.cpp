@@ -24,10 +24,11 @@ struct Geodetic {
   double f = 0.0;  // flattening
 };
 
-Geodetic toGeodetic(std::span<const Point> points, const Crs& crs) {
+Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoop& loop = inOrder) {
   const OgrErrors errors;
   const OGRSpatialReference srs = toOgr(crs);
   Geodetic out;
+  reserveOn(loop, out.lonlat, points.size());
   out.lonlat.assign(points.begin(), points.end());
   out.a = crs.semi_major_m;
   out.f = crs.flattening;
@@ -90,38 +91,37 @@ double smallTriangleArea(const Vector& u, const Vector& v, const Vector& w, doub
 }  // namespace
 
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
-                                  const Crs& crs, const StretchLoop& loop) {
-  std::vector<double> areas(triangles.size());
+                                  const Crs& crs, const ItemLoop& loop) {
+  std::vector<double> areas;
+  reserveOn(loop, areas, triangles.size());
+  areas.resize(triangles.size());
   if (crs.isPlane()) {
-    loop(triangles.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t t = first; t < last; ++t) {
-        const auto& [a, b, c] = triangles[t];
-        areas[t] = signedArea(nodes[a], nodes[b], nodes[c]);
-      }
+    forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
+      const auto& [a, b, c] = triangles[t];
+      areas[t] = signedArea(nodes[a], nodes[b], nodes[c]);
     });
     return areas;
   }
-  const Geodetic geodetic = toGeodetic(nodes, crs);
+  const Geodetic geodetic = toGeodetic(nodes, crs, loop);
   const double e2 = geodetic.f * (2.0 - geodetic.f);
-  std::vector<Vector> places(nodes.size());
-  loop(nodes.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) places[i] = toEarthCentred(geodetic.lonlat[i], geodetic.a, e2);
-  });
+  std::vector<Vector> places;
+  reserveOn(loop, places, nodes.size());
+  places.resize(nodes.size());
+  forEachByStretches(loop, nodes.size(),
+                     [&](std::size_t i) { places[i] = toEarthCentred(geodetic.lonlat[i], geodetic.a, e2); });
   const GeographicLib::Geodesic geodesic(geodetic.a, geodetic.f);
-  loop(triangles.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const Vector &u = places[triangles[t][0]], &v = places[triangles[t][1]], &w = places[triangles[t][2]];
-      const double longest = std::sqrt(std::max({dot(v - u, v - u), dot(w - u, w - u), dot(w - v, w - v)}));
-      if (longest < kSmallEdge) {
-        areas[t] = smallTriangleArea(u, v, w, geodetic.a, e2);
-        continue;
-      }
-      GeographicLib::PolygonArea polygon(geodesic);
-      for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.lonlat[n].y, geodetic.lonlat[n].x);
-      double perimeter = 0.0;
-      polygon.Compute(false, true, perimeter, areas[t]);
-      areas[t] = std::abs(areas[t]);
+  forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
+    const Vector &u = places[triangles[t][0]], &v = places[triangles[t][1]], &w = places[triangles[t][2]];
+    const double longest = std::sqrt(std::max({dot(v - u, v - u), dot(w - u, w - u), dot(w - v, w - v)}));
+    if (longest < kSmallEdge) {
+      areas[t] = smallTriangleArea(u, v, w, geodetic.a, e2);
+      return;
     }
+    GeographicLib::PolygonArea polygon(geodesic);
+    for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.lonlat[n].y, geodetic.lonlat[n].x);
+    double perimeter = 0.0;
+    polygon.Compute(false, true, perimeter, areas[t]);
+    areas[t] = std::abs(areas[t]);
   });
   return areas;
 }

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "gis/crs.hpp"
-#include "gis/stretch_loop.hpp"
 
 namespace coastmesh {
 
@@ -16,7 +16,7 @@ namespace coastmesh {
 // over a mesh is its geodesic area to better than one part in ten million. Throws InputError where a node has no place
 // on the ellipsoid.
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
-                                  const Crs& crs, const StretchLoop& loop = inOneStretch);
+                                  const Crs& crs, const ItemLoop& loop = inOrder);
 
 // Length of each chain of points in metres along geodesics (in a plane: in its units).
 std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, const Crs& crs);

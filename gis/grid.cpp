@@ -30,49 +30,43 @@ LongitudeRange rangeOf(const std::vector<Point>& input) {
 }
 
 // Appends the used points of `part` and returns the new index of each, kNone for the unused.
-std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic, const StretchLoop& loop,
+std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic, const ItemLoop& loop,
                                        std::vector<Point>& nodes) {
   const Domain& domain = *part.domain;
   const TriMesh& mesh = *part.mesh;
   assert(domain.input_points.size() == mesh.input_vertices);
   const LongitudeRange range =
       geographic && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
   std::vector<std::uint32_t> index_of(mesh.points.size(), kNone);
-  for (const Triangle& triangle : mesh.triangles)
-    for (VertexId v : triangle.v) index_of[v] = 0;
   auto count = static_cast<std::uint32_t>(nodes.size());
-  for (std::uint32_t& index : index_of)
-    if (index != kNone) index = count++;
+  for (std::size_t v = 0; v < index_of.size(); ++v)
+    if (used[v]) index_of[v] = count++;
   nodes.resize(count);
-  loop(mesh.points.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) {
-      if (index_of[v] == kNone) continue;
-      Point& node = nodes[index_of[v]];
-      if (v < mesh.input_vertices) {
-        node = domain.input_points[v];
-      } else {
-        node = domain.projection.inverse(mesh.points[v]);
-        if (geographic) node.x = range.bring(node.x);
-      }
+  forEachByStretches(loop, mesh.points.size(), [&](std::size_t v) {
+    if (index_of[v] == kNone) return;
+    Point& node = nodes[index_of[v]];
+    if (v < mesh.input_vertices) {
+      node = domain.input_points[v];
+    } else {
+      node = domain.projection.inverse(mesh.points[v]);
+      if (geographic) node.x = range.bring(node.x);
     }
   });
   return index_of;
 }
 
 void appendTriangles(const TriMesh& mesh, const std::vector<std::uint32_t>& index_of,
-                     const std::vector<std::uint32_t>& feature_index, const StretchLoop& loop, Grid& grid) {
+                     const std::vector<std::uint32_t>& feature_index, const ItemLoop& loop, Grid& grid) {
   const std::size_t before = grid.triangles.size(), after = before + mesh.triangles.size();
   grid.triangles.resize(after);
   if (!feature_index.empty()) grid.feature_of.resize(after);
   grid.min_angle_deg.resize(after);
-  loop(mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const auto& [a, b, c] = mesh.triangles[t].v;
-      grid.triangles[before + t] = {index_of[a], index_of[b], index_of[c]};
-      if (!feature_index.empty())
-        grid.feature_of[before + t] = feature_index[static_cast<std::size_t>(mesh.regions[t])];
-      grid.min_angle_deg[before + t] = std::ranges::min(anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c]));
-    }
+  forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t].v;
+    grid.triangles[before + t] = {index_of[a], index_of[b], index_of[c]};
+    if (!feature_index.empty()) grid.feature_of[before + t] = feature_index[static_cast<std::size_t>(mesh.regions[t])];
+    grid.min_angle_deg[before + t] = std::ranges::min(anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c]));
   });
 }
 
@@ -112,7 +106,7 @@ std::string_view toString(BoundaryRole role) {
   return {};
 }
 
-Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const StretchLoop& loop) {
+Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop) {
   Grid grid;
   grid.crs = coastline.crs;
   std::size_t triangle_count = 0, point_count = 0;
@@ -120,15 +114,15 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
     triangle_count += part.mesh->triangles.size();
     point_count += part.mesh->points.size();
   }
-  grid.nodes.reserve(point_count);
-  grid.triangles.reserve(triangle_count);
-  grid.min_angle_deg.reserve(triangle_count);
+  reserveOn(loop, grid.nodes, point_count);
+  reserveOn(loop, grid.triangles, triangle_count);
+  reserveOn(loop, grid.min_angle_deg, triangle_count);
   const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, grid.features);
-  if (!feature_index.empty()) grid.feature_of.reserve(triangle_count);
+  if (!feature_index.empty()) reserveOn(loop, grid.feature_of, triangle_count);
   for (const MeshedDomain& part : parts) {
     const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, loop, grid.nodes);
     appendTriangles(*part.mesh, index_of, feature_index, loop, grid);
-    for (Boundary& boundary : findBoundaries(*part.mesh)) {
+    for (Boundary& boundary : findBoundaries(*part.mesh, loop)) {
       for (std::uint32_t& node : boundary.nodes) node = index_of[node];
       grid.boundaries.push_back(std::move(boundary));
     }
@@ -137,11 +131,11 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
   return grid;
 }
 
-std::vector<Boundary> findBoundaries(const TriMesh& mesh) {
+std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop) {
   std::vector<Boundary> boundaries;
-  for (std::vector<VertexId>& loop : rimLoops(mesh)) {
-    const BoundaryRole role = roleOfLoop(mesh.points, loop);
-    boundaries.push_back({role, true, std::move(loop)});
+  for (std::vector<VertexId>& vertices : rimLoops(mesh, loop)) {
+    const BoundaryRole role = roleOfLoop(mesh.points, vertices);
+    boundaries.push_back({role, true, std::move(vertices)});
   }
   return boundaries;
 }

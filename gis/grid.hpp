@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/clean.hpp"
 #include "gis/crs.hpp"
-#include "gis/stretch_loop.hpp"
 
 namespace coastmesh {
 
@@ -53,11 +53,10 @@ struct MeshedDomain {
   const Domain* domain = nullptr;
   const TriMesh* mesh = nullptr;
 };
-Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
-              const StretchLoop& loop = inOneStretch);
+Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop = inOrder);
 
 // Rim loops as boundaries: the loop that goes counter-clockwise round each connected piece is land, the others islands.
-std::vector<Boundary> findBoundaries(const TriMesh& mesh);
+std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 // Throws OutputError where a z is unknown; for formats that need one at every node.
 void requireZ(const Grid& grid, const std::string& path);

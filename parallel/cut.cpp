@@ -110,10 +110,10 @@ Layout layOut(const std::vector<CutPiece>& pieces, VertexId input_vertices) {
 
 // Makes room for `count` items, all of which are to be written anew.
 template <typename Item>
-void fit(std::vector<Item>& items, std::size_t count) {
+void fit(std::vector<Item>& items, std::size_t count, Recorder& recorder) {
   if (count > items.capacity()) {
     items = {};
-    items.reserve(count + count / 8);
+    reserveOn(recorder.loop("stitch"), items, count + count / 8);
   }
   items.resize(count);
 }
@@ -162,15 +162,13 @@ std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of
     return std::pair(x.name, x.edge) < std::pair(y.name, y.edge);
   });
   std::vector<EdgeRef> edges(sides.size() / 2);
-  recorder.forEachStretch("stitch", edges.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const CutSide &one = sides[2 * i], &other = sides[2 * i + 1];
-      for (const auto& [from, to] : {std::pair(one, other), std::pair(other, one)}) {
-        mesh.triangles[triOf(from.edge)].adj[indexOf(from.edge)] = to.edge;
-        mesh.triangles[triOf(from.edge)].seg[indexOf(from.edge)] = from.seg;
-      }
-      edges[i] = one.edge;
+  forEachByStretches(recorder.loop("stitch"), edges.size(), [&](std::size_t i) {
+    const CutSide &one = sides[2 * i], &other = sides[2 * i + 1];
+    for (const auto& [from, to] : {std::pair(one, other), std::pair(other, one)}) {
+      mesh.triangles[triOf(from.edge)].adj[indexOf(from.edge)] = to.edge;
+      mesh.triangles[triOf(from.edge)].seg[indexOf(from.edge)] = from.seg;
     }
+    edges[i] = one.edge;
   });
   return edges;
 }
@@ -182,23 +180,21 @@ Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& reco
   const Layout layout = layOut(pieces, input_vertices);
   Sheet sheet = std::move(reused);
   sheet.mesh.input_vertices = input_vertices;
-  fit(sheet.mesh.points, layout.vertex.back());
-  fit(sheet.mesh.triangles, layout.triangle.back());
+  fit(sheet.mesh.points, layout.vertex.back(), recorder);
+  fit(sheet.mesh.triangles, layout.triangle.back(), recorder);
   sheet.notes.shell_unit = before.notes.shell_unit;
   sheet.notes.small_angle = before.notes.small_angle;
-  fit(sheet.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back());
-  fit(sheet.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back());
-  fit(sheet.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back());
+  fit(sheet.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back(), recorder);
+  fit(sheet.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back(), recorder);
+  fit(sheet.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back(), recorder);
   const auto keep = [&](VertexId from, VertexId to) {
     sheet.mesh.points[to] = before.mesh.points[from];
     if (!sheet.notes.spacing.empty()) sheet.notes.spacing[to] = before.notes.spacing[from];
     if (!sheet.due_vertices.empty()) sheet.due_vertices[to] = before.due_vertices[from];
   };
-  recorder.forEachStretch("stitch", input_vertices + layout.on_cuts.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto to = static_cast<VertexId>(i);
-      keep(to < input_vertices ? to : layout.on_cuts[to - input_vertices], to);
-    }
+  forEachByStretches(recorder.loop("stitch"), input_vertices + layout.on_cuts.size(), [&](std::size_t i) {
+    const auto to = static_cast<VertexId>(i);
+    keep(to < input_vertices ? to : layout.on_cuts[to - input_vertices], to);
   });
 
   std::vector<std::vector<CutSide>> sides(pieces.size());

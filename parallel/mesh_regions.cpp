@@ -41,7 +41,9 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
 }
 
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
+  RoundsMemory memory;
   const auto add = [&](RoundsReport&& report) {
+    memory = std::move(report.memory);
     region.stats.add(report.stats);
     region.pieces = std::max(region.pieces, report.pieces);
     region.log.append(std::move(report.log));
@@ -50,14 +52,12 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   add(refineInRounds(region.mesh, pslg, options.refine, control));
   region.seconds.refine = watch.lap();
   if (options.shrink) {
-    add(shrinkInRounds(region.mesh, pslg, options.refine, control));
+    add(shrinkInRounds(region.mesh, pslg, options.refine, control, std::move(memory)));
     region.seconds.shrink = watch.lap();
   }
   Recorder recorder;
-  recorder.forEach("label", 2, control, [&](std::size_t i) {
-    if (i == 0) region.stats.unresolved = findShortfalls(region.mesh, options.refine);
-    if (i == 1) labelRegions(region.mesh, pslg);
-  });
+  region.stats.unresolved = findShortfalls(region.mesh, options.refine, recorder.loop("label", control));
+  labelRegions(region.mesh, pslg);
   region.log.append(recorder.finish());
   region.seconds.stitch = watch.lap();
 }

@@ -86,6 +86,8 @@ void sortByPiece(Partition& partition, Recorder& recorder) {
     for (std::vector<std::size_t>& of_stretch : counts) sum += std::exchange(of_stretch[p], sum);
   }
   partition.first[partition.pieces] = sum;
+  reserveOn(recorder.loop("cut"), partition.triangles, count);
+  reserveOn(recorder.loop("cut"), partition.slot_of, count);
   partition.triangles.resize(count);
   partition.slot_of.resize(count);
   recorder.forEach("cut", kStretches, {}, [&](std::size_t s) {
@@ -113,20 +115,19 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   const std::size_t count = mesh.triangles.size();
   const std::size_t stride = std::max<std::size_t>(1, count / (kSamples * pieces));
   std::vector<Sample> samples((count + stride - 1) / stride);
-  recorder.forEachStretch("cut", samples.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto t = static_cast<TriId>(i * stride);
-      samples[i] = {centre(t), weight(t)};
-    }
+  const ItemLoop loop = recorder.loop("cut");
+  forEachByStretches(loop, samples.size(), [&](std::size_t i) {
+    const auto t = static_cast<TriId>(i * stride);
+    samples[i] = {centre(t), weight(t)};
   });
   const CutTree tree(std::move(samples), pieces);
 
   Partition result = std::move(reused);
   result.pieces = pieces;
+  reserveOn(loop, result.piece_of, count);
   result.piece_of.resize(count);
-  recorder.forEachStretch("cut", count, [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) result.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t)));
-  });
+  forEachByStretches(loop, count,
+                     [&](std::size_t t) { result.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t))); });
   sortByPiece(result, recorder);
   return result;
 }

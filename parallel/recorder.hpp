@@ -1,33 +1,37 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string_view>
 #include <utility>
 
+#include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "parallel/work_log.hpp"
 
 namespace coastmesh {
 
-// Runs parallel loops and writes down, under a name that lives as long as the program, how long each of their items took. What lies between two loops is work that was done alone.
+// Seconds that the processor has spent on this thread.
+double threadSeconds();
+
+// Runs parallel loops and writes down, under a name that lives as long as the program, how long each of their items
+// took: seconds of the processor's, so that other programs on the machine do not count. What lies between two loops is
+// work that was done alone. Used from one thread.
 class Recorder {
  public:
   void forEach(std::string_view name, std::size_t count, const RunControl& control,
                const std::function<void(std::size_t)>& work);
 
-  // The same for `work(first, last)` on stretches that make up 0 to `count`; their number depends on nothing but `count`.
-  void forEachStretch(std::string_view name, std::size_t count,
-                      const std::function<void(std::size_t, std::size_t)>& work);
+  // The same as a loop to lend.
+  ItemLoop loop(std::string_view name, const RunControl& control = {}) {
+    return [this, name, control](std::size_t count, const auto& work) { forEach(name, count, control, work); };
+  }
 
   WorkLog finish();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   WorkLog log_;
-  Clock::time_point last_ = Clock::now();
+  double last_ = threadSeconds();
 };
 
 }  // namespace coastmesh

@@ -60,7 +60,10 @@ PieceId piecesFor(double weight) {
 // The mesh from round to round.
 class Rounds {
  public:
-  Rounds(TriMesh&& mesh, const RunControl& control) : control_(control) { sheet_.mesh = std::move(mesh); }
+  Rounds(TriMesh&& mesh, const RunControl& control, RoundsMemory&& memory)
+      : spare_(std::move(memory.spare)), parts_(std::move(memory.parts)), control_(control) {
+    sheet_.mesh = std::move(mesh);
+  }
 
   Sheet& sheet() { return sheet_; }
   Recorder& recorder() { return recorder_; }
@@ -112,7 +115,7 @@ class Rounds {
 
   RoundsReport finish(TriMesh& mesh) {
     mesh = std::move(sheet_.mesh);
-    return {std::move(stats_), most_pieces_, recorder_.finish()};
+    return {std::move(stats_), most_pieces_, recorder_.finish(), {std::move(spare_), std::move(parts_)}};
   }
 
  private:
@@ -154,11 +157,9 @@ std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& 
 void markBad(Rounds& run, const TriangleBound& bound) {
   Sheet& sheet = run.sheet();
   sheet.due_triangles.resize(sheet.mesh.triangles.size());
-  run.recorder().forEachStretch("cut", sheet.mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const auto& v = sheet.mesh.triangles[t].v;
-      sheet.due_triangles[t] = isBad(sheet.mesh.point(v[0]), sheet.mesh.point(v[1]), sheet.mesh.point(v[2]), bound);
-    }
+  forEachByStretches(run.recorder().loop("cut"), sheet.mesh.triangles.size(), [&](std::size_t t) {
+    const auto& v = sheet.mesh.triangles[t].v;
+    sheet.due_triangles[t] = isBad(sheet.mesh.point(v[0]), sheet.mesh.point(v[1]), sheet.mesh.point(v[2]), bound);
   });
 }
 
@@ -188,9 +189,10 @@ double expectedTriangles(const TriMesh& mesh, const RefineOptions& options) {
   return sum;
 }
 
-RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+                            RoundsMemory&& memory) {
   const std::vector<RefineOptions> steps = stepsTo(options, mesh);
-  Rounds run(std::move(mesh), control);
+  Rounds run(std::move(mesh), control, std::move(memory));
   Sheet& sheet = run.sheet();
   sheet.notes = noteInput(sheet.mesh, TriangleBound(options.min_angle_deg, options.max_angle_deg, options.size_max));
   for (std::size_t step = 0; step < steps.size() && !run.stats().budget_reached; ++step) {
@@ -212,9 +214,10 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   return run.finish(mesh);
 }
 
-RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+                            RoundsMemory&& memory) {
   constexpr int kRounds = 3;
-  Rounds run(std::move(mesh), control);
+  Rounds run(std::move(mesh), control, std::move(memory));
   Sheet& sheet = run.sheet();
   sheet.notes.shell_unit.assign(sheet.mesh.input_vertices, 0.0);
   sheet.notes.small_angle.assign(sheet.mesh.input_vertices, false);

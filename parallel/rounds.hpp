@@ -4,6 +4,8 @@
 #include "core/refine.hpp"
 #include "core/run_control.hpp"
 #include "core/tri_mesh.hpp"
+#include "parallel/cut.hpp"
+#include "parallel/partition.hpp"
 #include "parallel/work_log.hpp"
 
 namespace coastmesh {
@@ -11,20 +13,29 @@ namespace coastmesh {
 // About how many triangles refinement will make of a mesh.
 double expectedTriangles(const TriMesh& mesh, const RefineOptions& options);
 
+// What rounds keep from one another, and refining for shrinking: fresh memory costs more than what is written to it.
+struct RoundsMemory {
+  Sheet spare;
+  Partition parts;
+};
+
 // What rounds did, besides the mesh.
 struct RoundsReport {
   RefineStats stats;       // without `steiner_points` and `unresolved`
   std::size_t pieces = 0;  // of the round that was cut into the most
   WorkLog log;
+  RoundsMemory memory;  // to be handed on
 };
 
 // Refines a mesh made by `constrainedDelaunay(pslg)` in rounds: the mesh is cut into pieces along straight lines, the pieces are refined at
 // the same time, each clear of the cuts, and put together again; the next round cuts under another angle, so that what was left lies
 // inside its pieces. Where an edge length is asked, rounds come to it by steps, so that pieces never consist of few large triangles. The
 // result does not depend on the number of threads. Throws Cancelled.
-RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control);
+RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+                            RoundsMemory&& memory = {});
 
 // Shrinks in rounds of the same kind.
-RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control);
+RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+                            RoundsMemory&& memory = {});
 
 }  // namespace coastmesh

@@ -36,9 +36,7 @@ TEST(Recorder, WritesDownEveryItem) {
     std::atomic<int> calls = 0;
     recorder.forEach("calls", 17, {}, [&](std::size_t) { ++calls; });
     std::vector<int> touched(100'000, 0);
-    recorder.forEachStretch("stretches", touched.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) ++touched[i];
-    });
+    forEachByStretches(recorder.loop("stretches"), touched.size(), [&](std::size_t i) { ++touched[i]; });
     const WorkLog log = recorder.finish();
     EXPECT_EQ(calls, 17);
     for (const int times : touched) ASSERT_EQ(times, 1);

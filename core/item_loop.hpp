@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace coastmesh {
+
+// Calls `work(i)` for every i below `count`, in any order or at the same time: who calls lends this room its threads.
+using ItemLoop = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
+
+inline void inOrder(std::size_t count, const std::function<void(std::size_t)>& work) {
+  for (std::size_t i = 0; i < count; ++i) work(i);
+}
+
+// `make(first, last)` of stretches that make up 0 to `count`, in their order. Where the stretches end depends on nothing but
+// `count`: what is summed over them is the same on any number of threads.
+template <typename Make>
+auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make) {
+  constexpr std::size_t kLeast = 8192, kMostStretches = 256;
+  const std::size_t stretches = std::clamp<std::size_t>(count / kLeast, 1, kMostStretches);
+  std::vector<decltype(make(count, count))> made(stretches);
+  loop(stretches, [&](std::size_t s) { made[s] = make(count * s / stretches, count * (s + 1) / stretches); });
+  return made;
+}
+
+// `work(i)` for every i below `count`, by stretches.
+template <typename Work>
+void forEachByStretches(const ItemLoop& loop, std::size_t count, const Work& work) {
+  overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) work(i);
+    return char{};
+  });
+}
+
+// Makes room for `count` items, its memory touched by all threads: a page costs much more when it is first written than
+// later, and `resize` alone would do all of that in one thread.
+template <typename Item>
+void reserveOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count) {
+  if (count <= items.capacity()) return;
+  items.reserve(count);
+  constexpr std::size_t kPage = 4096;
+  volatile char* const memory = static_cast<char*>(static_cast<void*>(items.data()));
+  const std::size_t used = items.size() * sizeof(Item), bytes = count * sizeof(Item);
+  forEachByStretches(loop, (bytes - used) / kPage, [&](std::size_t page) { memory[used + page * kPage] = 0; });
+}
+
+// What several stretches listed, as one list.
+template <typename Item>
+std::vector<Item> joined(std::vector<std::vector<Item>>&& lists) {
+  if (lists.size() == 1) return std::move(lists.front());
+  std::vector<Item> all;
+  for (const std::vector<Item>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+}  // namespace coastmesh
