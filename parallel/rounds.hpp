@@ -27,4 +27,8 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
 // Shrinks in rounds of the same kind.
 RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control);
 
+// Fits edges to the lengths wanted, in rounds of the same kind: see `fit`.
+RoundsReport fitInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
+                         const RunControl& control);
+
 }  // namespace coastmesh
