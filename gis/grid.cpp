@@ -107,6 +107,8 @@ std::string_view toString(BoundaryRole role) {
       return "island";
     case BoundaryRole::Open:
       return "open";
+    case BoundaryRole::River:
+      return "river";
   }
   assert(false);
   return {};
