@@ -48,6 +48,9 @@ CLI::Validator rangeCheck(const NumberRange& range) {
       "");
 }
 
+bool isFile(const std::string& unit) { return unit == "FILE" || unit.starts_with("FILE:"); }
+std::string shownUnit(const std::string& unit) { return isFile(unit) ? "FILE" : unit; }
+
 // CLI11 shows "--shrink,--no-shrink{false}"; which of the two is on is said in the description.
 class HelpFormatter : public CLI::Formatter {
  public:
@@ -70,7 +73,8 @@ struct CommandLine::Impl {
 
   Json& record(const std::string& names, const std::string& type, const std::string& unit, const std::string& help) {
     Json entry{{"name", splitNames(names).back()}, {"names", splitNames(names)}, {"type", type}, {"help", help}};
-    if (!unit.empty()) entry["unit"] = unit;
+    if (!unit.empty()) entry["unit"] = shownUnit(unit);
+    if (isFile(unit)) entry["role"] = unit == "FILE" ? "input" : unit.substr(unit.find(':') + 1);
     options.push_back(std::move(entry));
     return options.back();
   }
@@ -139,22 +143,22 @@ void CommandLine::integer(const std::string& names, std::uint64_t& value, const 
 }
 
 void CommandLine::text(const std::string& names, std::string& value, const std::string& unit, const std::string& help) {
-  impl_->app->add_option(names, value, help)->type_name(unit)->default_str(value);
-  Json& entry = impl_->record(names, unit == "FILE" ? "file" : "text", unit, help);
+  impl_->app->add_option(names, value, help)->type_name(shownUnit(unit))->default_str(value);
+  Json& entry = impl_->record(names, isFile(unit) ? "file" : "text", unit, help);
   entry["default"] = value.empty() ? Json(nullptr) : Json(value);
 }
 
 void CommandLine::requiredText(const std::string& names, std::string& value, const std::string& unit,
                                const std::string& help) {
-  impl_->app->add_option(names, value, help)->type_name(unit)->required();
-  impl_->record(names, unit == "FILE" ? "file" : "text", unit, help)["required"] = true;
+  impl_->app->add_option(names, value, help)->type_name(shownUnit(unit))->required();
+  impl_->record(names, isFile(unit) ? "file" : "text", unit, help)["required"] = true;
 }
 
 void CommandLine::texts(const std::string& names, std::vector<std::string>& values, const std::string& unit,
                         bool required, const std::string& help) {
   // One value a flag, so that `-o a.gpkg INPUT` does not take the input for an output.
-  impl_->app->add_option(names, values, help)->type_name(unit)->allow_extra_args(false)->required(required);
-  Json& entry = impl_->record(names, unit == "FILE" ? "file" : "text", unit, help);
+  impl_->app->add_option(names, values, help)->type_name(shownUnit(unit))->allow_extra_args(false)->required(required);
+  Json& entry = impl_->record(names, isFile(unit) ? "file" : "text", unit, help);
   entry["multiple"] = true;
   entry["required"] = required;
 }

@@ -29,6 +29,12 @@ struct NumberRange {
   bool low_open = false;  // `low` itself is out
 };
 
+// Units of options that name files, shown as FILE; what follows the colon is their role in --json-usage, where "FILE" alone
+// says "input": programs offer layers of that kind, or ask before they replace a file.
+inline constexpr const char* kOutputFile = "FILE:output";
+inline constexpr const char* kVectorFile = "FILE:vector";
+inline constexpr const char* kRasterFile = "FILE:raster";
+
 // The options of one command. Each is declared once, by one call: that declaration parses it, checks it, and is what
 // --help and --json-usage print. An option's default is what its variable holds when it is declared; the variables must
 // outlive the parsing.

@@ -39,7 +39,7 @@ Command declareConvert(CLI::App& root) {
   auto usage = std::make_shared<ConvertUsage>();
   CommandLine line(root, "convert", "Write a mesh in other formats");
   declareMeshFile(line, "MESH", "mesh to read", usage->mesh);
-  line.texts("-o,--output", usage->outputs, "FILE", true, "mesh to write; repeat it for several");
+  line.texts("-o,--output", usage->outputs, kOutputFile, true, "mesh to write; repeat it for several");
   line.text("--format", usage->format, "NAME", "format of the output, where its ending does not tell");
   line.flag("--overwrite", usage->overwrite, "replace files that exist");
   return {std::move(line), [usage](Interrupt& interrupt) { return runConvert(*usage, interrupt); }};

@@ -13,6 +13,7 @@
 #include "apps/mesh_report.hpp"
 #include "apps/progress.hpp"
 #include "apps/staged_file.hpp"
+#include "core/run_control.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -73,6 +74,7 @@ class MeshOutputs {
       display.show("write", static_cast<double>(i) / static_cast<double>(grids_.size()));
       grids_.write(i, grid);
       interrupt_.check();
+      if (display.abandoned()) throw Cancelled();
     }
     display.show("write", 1.0);
     grids_written_ = true;
@@ -102,7 +104,7 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   };
   MeshOutputs outputs(usage, interrupt);
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
-  const JobControl control{[&interrupt] { return interrupt.requested(); },
+  const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
                            [&display](std::string_view phase, double share) { display.show(phase, share); }};
   MeshJobResult result = runMeshJob(usage.job, control);
   display.clear();
@@ -140,7 +142,7 @@ Command declareMesh(CLI::App& root) {
   CommandLine line(root, "mesh", "Mesh the polygons and closed lines of vector files, or a .poly");
   RefineOptions& refine = usage->job.mesh.refine;
   line.arguments("INPUT", usage->job.input.files, "vector files that GDAL reads, or one .poly");
-  line.texts("-o,--output", usage->outputs, "FILE", true, "mesh to write; repeat it for several");
+  line.texts("-o,--output", usage->outputs, kOutputFile, true, "mesh to write; repeat it for several");
   line.text("--format", usage->format, "NAME", "format of the output, where its ending does not tell");
   line.number("--min-angle", refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");
   double& max_angle = refine.max_angle_deg;
@@ -158,7 +160,7 @@ Command declareMesh(CLI::App& root) {
   line.flag("--cut,!--no-cut", usage->cut, "cut large seas into pieces, to be refined at the same time");
   line.integer("--threads", usage->threads, "N", 0, 1024,
                "threads to work on, 0 for all cores; never changes the result");
-  line.text("--report", usage->report, "FILE", "write a report as JSON");
+  line.text("--report", usage->report, kOutputFile, "write a report as JSON");
   line.choice("--progress", usage->progress, {"auto", "bar", "json", "none"},
               "how to show progress: a bar on stderr, or JSON lines on stdout");
   line.flag("--overwrite", usage->overwrite, "replace files that exist");

@@ -57,7 +57,7 @@ Command declarePlot(CLI::App& root) {
   auto usage = std::make_shared<PlotUsage>();
   CommandLine line(root, "plot", "Draw a mesh");
   declareMeshFile(line, "MESH", "mesh to draw", usage->mesh);
-  line.requiredText("-o,--output", usage->output, "FILE", "picture to write: .svg or .png");
+  line.requiredText("-o,--output", usage->output, kOutputFile, "picture to write: .svg or .png");
   line.integer("--size", usage->plot.size_px, "PX", 16, 20000, "longer side of the map");
   line.text("--bbox", usage->bbox, "W,S,E,N", "what to show, in the mesh's CRS; all of it by default");
   line.choice("--color", usage->color, kColorNames, "what the triangles' colour tells");
