@@ -44,12 +44,17 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
   }
   std::optional<Crs> working;
   if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
-  coastline_ = readCoastline(options_.files, report_);
+  std::vector<Source> sources;
+  for (const std::string& file : options_.files) sources.push_back({file, FeatureUse::Area});
+  coastline_ = readCoastline(sources, options_.filter, report_);
   if (working) chosen_ = Projection::to(coastline_.crs, *working);
   groups_ = groupFeatures(coastline_);
 }
 
 void JobInput::readPolyFile(const std::string& path) {
+  if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
+    throw UsageError("'" + path + "' has neither layers nor attributes; leave out --layer and --where");
+  }
   if (options_.crs != "auto" && options_.crs != "plane") {
     throw UsageError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
   }

@@ -14,6 +14,7 @@ namespace coastmesh {
 // What to read, and how it becomes domains of the plane.
 struct InputOptions {
   std::vector<std::string> files;   // vector files, or one .poly
+  ReadFilter filter;                // what of the files is read
   std::string crs = "auto";         // the working plane: "auto", "plane" or anything that PROJ knows
   double snap_m = 0.001;            // metres, 0 or more
   bool snap_in_plane = false;       // `snap_m` holds for a plane input too, where else nothing is snapped

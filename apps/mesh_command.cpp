@@ -141,7 +141,7 @@ Command declareMesh(CLI::App& root) {
   auto usage = std::make_shared<MeshUsage>();
   CommandLine line(root, "mesh", "Mesh the polygons and closed lines of vector files, or a .poly");
   RefineOptions& refine = usage->job.mesh.refine;
-  line.arguments("INPUT", usage->job.input.files, "vector files that GDAL reads, or one .poly");
+  line.arguments("INPUT", usage->job.input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
   line.texts("-o,--output", usage->outputs, kOutputFile, true, "mesh to write; repeat it for several");
   line.text("--format", usage->format, "NAME", "format of the output, where its ending does not tell");
   line.number("--min-angle", refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");

@@ -75,7 +75,10 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
     const std::vector<std::size_t>& members = input.members(group);
     for (std::size_t member : members) {
       const Feature& feature = input.coastline().features[member];
-      names.features.push_back({feature.fid, feature.source, {}, {}, feature.attributes});
+      Feature& name = names.features.emplace_back();
+      name.fid = feature.fid;
+      name.source = feature.source;
+      name.attributes = feature.attributes;
     }
     for (RegionId& region : mesh.regions) {
       region =
