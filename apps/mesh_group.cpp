@@ -127,11 +127,12 @@ void fillGroup(const MeshJob& job, const JobInput& input, std::size_t group, std
   result.log.append(recorder.finish());
 }
 
-std::string refusalText(const BadPslg& error, const JobInput& input, std::size_t group) {
+void refuse(const BadPslg& error, const JobInput& input, std::size_t group, GroupResult& result) {
   const Feature& first = input.coastline().features[input.members(group).front()];
   CleanReport ignored;
   const Projection projection = input.domain(group, ignored).projection;
-  return featureText(first) + ": " + error.what() + " at " + pointText(projection.inverse(error.defect.place));
+  result.refusal_place = projection.inverse(error.defect.place);
+  result.refusal = featureText(first) + ": " + error.what() + " at " + pointText(*result.refusal_place);
 }
 
 }  // namespace
@@ -144,7 +145,7 @@ GroupResult meshGroup(const MeshJob& job, const JobInput& input, std::size_t gro
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const BadPslg& error) {
-    result.refusal = refusalText(error, input, group);
+    refuse(error, input, group, result);
   }
   return result;
 }

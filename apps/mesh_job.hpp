@@ -40,6 +40,7 @@ struct Refusal {
   std::string source;
   std::vector<std::int64_t> fids;
   std::string reason;
+  std::optional<Point> place;  // in the input's CRS, where one is known
 };
 
 // A triangle short of the bounds that no input angle explains.
