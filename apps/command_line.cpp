@@ -165,18 +165,24 @@ void CommandLine::texts(const std::string& names, std::vector<std::string>& valu
 
 void CommandLine::choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
                          const std::string& help) {
+  choice(
+      names, value, choices, [&value](const std::string& chosen) { value = chosen; }, help);
+}
+
+void CommandLine::choice(const std::string& names, const std::string& initial, const std::vector<std::string>& choices,
+                         const std::function<void(const std::string&)>& store, const std::string& help) {
   const auto check = [choices](const std::string& text) -> std::string {
     for (const std::string& choice : choices) {
       if (text == choice) return {};
     }
     return "'" + text + "' is none of " + CLI::detail::join(choices, ", ");
   };
-  impl_->app->add_option(names, value, help)
+  impl_->app->add_option_function<std::string>(names, store, help)
       ->type_name(CLI::detail::join(choices, "|"))
       ->check(CLI::Validator(check, ""))
-      ->default_str(value);
+      ->default_str(initial);
   Json& entry = impl_->record(names, "choice", {}, help);
-  entry["default"] = value;
+  entry["default"] = initial;
   entry["choices"] = choices;
 }
 

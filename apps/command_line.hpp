@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -62,6 +63,9 @@ class CommandLine {
   void requiredText(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
               const std::string& help);
+  // The same for a value that is no text: `store` takes the user's choice.
+  void choice(const std::string& names, const std::string& initial, const std::vector<std::string>& choices,
+              const std::function<void(const std::string&)>& store, const std::string& help);
   // "--shrink,!--no-shrink" declares a flag and its opposite.
   void flag(const std::string& names, bool& value, const std::string& help, bool* given = nullptr);
 

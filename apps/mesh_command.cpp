@@ -30,6 +30,9 @@ void showWarnings(const MeshJobResult& result) {
   for (const std::string& warning : result.read.warnings) {
     std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
   }
+  for (const std::string& warning : result.finish.warnings()) {
+    std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
+  }
   if (result.regions == 0 && result.refusals.size() == 1) return;  // the error to come says it
   const std::size_t shown = std::min(kWarningsShown, result.refusals.size());
   for (std::size_t i = 0; i < shown; ++i) {

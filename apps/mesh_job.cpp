@@ -199,6 +199,14 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   });
   merge.finish();
   result.grid.crs = result.crs;
+  if (job.finish.any()) {
+    const Stopwatch finishing;
+    RunControl inner{control.cancelled, {}};
+    if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
+    result.finish = finishGrid(result.grid, job.finish, inner);
+    result.seconds.finish = finishing.seconds();
+    result.log.addAlone("finish", result.seconds.finish);
+  }
   result.seconds.total = whole.seconds();
   return result;
 }

@@ -34,6 +34,7 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   line.number("--size-max", usage.job.size_max_m, "M", {0.0, std::numeric_limits<double>::infinity(), true},
               "longest edge");
   declareInputOptions(line, usage.job.input);
+  declareFinishOptions(line, usage.job.finish);
   line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
                "stop refining at so many vertices, with exit code 1");
   line.flag("--cut,!--no-cut", usage.cut, "cut large seas into pieces, to be refined at the same time");
