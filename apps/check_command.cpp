@@ -86,7 +86,7 @@ Command declareCheck(CLI::App& root) {
   auto usage = std::make_shared<CheckUsage>();
   CommandLine line(root, "check", "Look for defects in a mesh; exit code 1 where there are any");
   declareMeshFile(line, "MESH", "mesh to check", usage->mesh);
-  line.texts("--input", usage->input.files, "FILE", false,
+  line.texts("--input", usage->input.files, kVectorFile, false,
              "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
   line.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
   line.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
@@ -95,7 +95,8 @@ Command declareCheck(CLI::App& root) {
             "cannot be known as constraints");
   line.flag("--pinches", usage->check.pinches, "also look for nodes in which the mesh touches itself");
   declareInputOptions(line, usage->input);
-  line.text("-o,--output", usage->output, "FILE", "write the defects as a layer of points: .gpkg, .geojson or .fgb");
+  line.text("-o,--output", usage->output, kOutputFile,
+            "write the defects as a layer of points: .gpkg, .geojson or .fgb");
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
   line.flag("--quiet", usage->quiet, "print nothing");
   return {std::move(line), [usage](Interrupt& interrupt) { return runCheck(*usage, interrupt); }};

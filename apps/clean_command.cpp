@@ -140,8 +140,8 @@ int runClean(const CleanUsage& usage, Interrupt& interrupt) {
 Command declareClean(CLI::App& root) {
   auto usage = std::make_shared<CleanUsage>();
   CommandLine line(root, "clean", "Write the plane graph that would be meshed, and what was changed for it");
-  line.arguments("INPUT", usage->input.files, "vector files that GDAL reads, or one .poly");
-  line.requiredText("-o,--output", usage->output, "FILE",
+  line.arguments("INPUT", usage->input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
+  line.requiredText("-o,--output", usage->output, kOutputFile,
                     "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
   declareInputOptions(line, usage->input);
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");

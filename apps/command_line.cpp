@@ -48,6 +48,9 @@ CLI::Validator rangeCheck(const NumberRange& range) {
       "");
 }
 
+bool isFile(const std::string& unit) { return unit == "FILE" || unit.starts_with("FILE:"); }
+std::string shownUnit(const std::string& unit) { return isFile(unit) ? "FILE" : unit; }
+
 // CLI11 shows "--shrink,--no-shrink{false}"; which of the two is on is said in the description.
 class HelpFormatter : public CLI::Formatter {
  public:
@@ -70,7 +73,8 @@ struct CommandLine::Impl {
 
   Json& record(const std::string& names, const std::string& type, const std::string& unit, const std::string& help) {
     Json entry{{"name", splitNames(names).back()}, {"names", splitNames(names)}, {"type", type}, {"help", help}};
-    if (!unit.empty()) entry["unit"] = unit;
+    if (!unit.empty()) entry["unit"] = shownUnit(unit);
+    if (isFile(unit)) entry["role"] = unit == "FILE" ? "input" : unit.substr(unit.find(':') + 1);
     options.push_back(std::move(entry));
     return options.back();
   }
@@ -139,40 +143,46 @@ void CommandLine::integer(const std::string& names, std::uint64_t& value, const 
 }
 
 void CommandLine::text(const std::string& names, std::string& value, const std::string& unit, const std::string& help) {
-  impl_->app->add_option(names, value, help)->type_name(unit)->default_str(value);
-  Json& entry = impl_->record(names, unit == "FILE" ? "file" : "text", unit, help);
+  impl_->app->add_option(names, value, help)->type_name(shownUnit(unit))->default_str(value);
+  Json& entry = impl_->record(names, isFile(unit) ? "file" : "text", unit, help);
   entry["default"] = value.empty() ? Json(nullptr) : Json(value);
 }
 
 void CommandLine::requiredText(const std::string& names, std::string& value, const std::string& unit,
                                const std::string& help) {
-  impl_->app->add_option(names, value, help)->type_name(unit)->required();
-  impl_->record(names, unit == "FILE" ? "file" : "text", unit, help)["required"] = true;
+  impl_->app->add_option(names, value, help)->type_name(shownUnit(unit))->required();
+  impl_->record(names, isFile(unit) ? "file" : "text", unit, help)["required"] = true;
 }
 
 void CommandLine::texts(const std::string& names, std::vector<std::string>& values, const std::string& unit,
                         bool required, const std::string& help) {
   // One value a flag, so that `-o a.gpkg INPUT` does not take the input for an output.
-  impl_->app->add_option(names, values, help)->type_name(unit)->allow_extra_args(false)->required(required);
-  Json& entry = impl_->record(names, unit == "FILE" ? "file" : "text", unit, help);
+  impl_->app->add_option(names, values, help)->type_name(shownUnit(unit))->allow_extra_args(false)->required(required);
+  Json& entry = impl_->record(names, isFile(unit) ? "file" : "text", unit, help);
   entry["multiple"] = true;
   entry["required"] = required;
 }
 
 void CommandLine::choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
                          const std::string& help) {
+  choice(
+      names, value, choices, [&value](const std::string& chosen) { value = chosen; }, help);
+}
+
+void CommandLine::choice(const std::string& names, const std::string& initial, const std::vector<std::string>& choices,
+                         const std::function<void(const std::string&)>& store, const std::string& help) {
   const auto check = [choices](const std::string& text) -> std::string {
     for (const std::string& choice : choices) {
       if (text == choice) return {};
     }
     return "'" + text + "' is none of " + CLI::detail::join(choices, ", ");
   };
-  impl_->app->add_option(names, value, help)
+  impl_->app->add_option_function<std::string>(names, store, help)
       ->type_name(CLI::detail::join(choices, "|"))
       ->check(CLI::Validator(check, ""))
-      ->default_str(value);
+      ->default_str(initial);
   Json& entry = impl_->record(names, "choice", {}, help);
-  entry["default"] = value;
+  entry["default"] = initial;
   entry["choices"] = choices;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -29,6 +30,12 @@ struct NumberRange {
   bool low_open = false;  // `low` itself is out
 };
 
+// Units of options that name files, shown as FILE; what follows the colon is their role in --json-usage, where "FILE" alone
+// says "input": programs offer layers of that kind, or ask before they replace a file.
+inline constexpr const char* kOutputFile = "FILE:output";
+inline constexpr const char* kVectorFile = "FILE:vector";
+inline constexpr const char* kRasterFile = "FILE:raster";
+
 // The options of one command. Each is declared once, by one call: that declaration parses it, checks it, and is what
 // --help and --json-usage print. An option's default is what its variable holds when it is declared; the variables must
 // outlive the parsing.
@@ -56,6 +63,9 @@ class CommandLine {
   void requiredText(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
               const std::string& help);
+  // The same for a value that is no text: `store` takes the user's choice.
+  void choice(const std::string& names, const std::string& initial, const std::vector<std::string>& choices,
+              const std::function<void(const std::string&)>& store, const std::string& help);
   // "--shrink,!--no-shrink" declares a flag and its opposite.
   void flag(const std::string& names, bool& value, const std::string& help, bool* given = nullptr);
 

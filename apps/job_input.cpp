@@ -33,6 +33,10 @@ Crs parseWorkingCrs(const std::string& text) {
 }  // namespace
 
 JobInput::JobInput(const InputOptions& options) : options_(options) {
+  if (options_.pslg) {
+    takePlaneGraph(*options_.pslg, "the plane graph given");
+    return;
+  }
   for (const std::string& file : options_.files) {
     if (isPolyFile(file) && options_.files.size() > 1) {
       throw UsageError("'" + file + "' is a ready plane graph and cannot be joined with other inputs; mesh it alone");
@@ -44,19 +48,28 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
   }
   std::optional<Crs> working;
   if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
-  coastline_ = readCoastline(options_.files, report_);
+  std::vector<Source> sources;
+  for (const std::string& file : options_.files) sources.push_back({file, FeatureUse::Area});
+  coastline_ = readCoastline(sources, options_.filter, report_);
   if (working) chosen_ = Projection::to(coastline_.crs, *working);
   groups_ = groupFeatures(coastline_);
 }
 
 void JobInput::readPolyFile(const std::string& path) {
+  if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
+    throw UsageError("'" + path + "' has neither layers nor attributes; leave out --layer and --where");
+  }
   if (options_.crs != "auto" && options_.crs != "plane") {
     throw UsageError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
   }
-  poly_ = readPoly(path);
+  takePlaneGraph(readPoly(path), path);
+}
+
+void JobInput::takePlaneGraph(Pslg pslg, const std::string& source) {
+  poly_ = std::move(pslg);
   Feature feature;
   feature.fid = -1;
-  feature.source = path;
+  feature.source = source;
   coastline_.features.push_back(feature);
   groups_ = {{0}};
   report_.features = 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,12 +14,14 @@ namespace coastmesh {
 
 // What to read, and how it becomes domains of the plane.
 struct InputOptions {
-  std::vector<std::string> files;   // vector files, or one .poly
-  std::string crs = "auto";         // the working plane: "auto", "plane" or anything that PROJ knows
-  double snap_m = 0.001;            // metres, 0 or more
-  bool snap_in_plane = false;       // `snap_m` holds for a plane input too, where else nothing is snapped
-  double simplify_m = 0.0;          // metres, 0 or more
-  double min_island_area_m2 = 0.0;  // square metres, 0 or more
+  std::vector<std::string> files;    // vector files, or one .poly
+  std::shared_ptr<const Pslg> pslg;  // in place of files: a ready plane graph; cleaning it is the caller's
+  ReadFilter filter;                 // what of the files is read
+  std::string crs = "auto";          // the working plane: "auto", "plane" or anything that PROJ knows
+  double snap_m = 0.001;             // metres, 0 or more
+  bool snap_in_plane = false;        // `snap_m` holds for a plane input too, where else nothing is snapped
+  double simplify_m = 0.0;           // metres, 0 or more
+  double min_island_area_m2 = 0.0;   // square metres, 0 or more
 };
 
 // An input that was read and split into groups of features, each of which is meshed apart. A .poly is one group.
@@ -41,6 +44,7 @@ class JobInput {
 
  private:
   void readPolyFile(const std::string& path);
+  void takePlaneGraph(Pslg pslg, const std::string& source);
   Projection projectionOf(std::size_t group) const;
 
   InputOptions options_;

@@ -8,11 +8,12 @@
 #include "apps/commands.hpp"
 #include "apps/exit_codes.hpp"
 #include "apps/grid_outputs.hpp"
-#include "apps/input_usage.hpp"
 #include "apps/mesh_job.hpp"
 #include "apps/mesh_report.hpp"
+#include "apps/mesh_usage.hpp"
 #include "apps/progress.hpp"
 #include "apps/staged_file.hpp"
+#include "core/run_control.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -21,32 +22,15 @@ namespace {
 
 constexpr std::size_t kWarningsShown = 20;
 
-struct MeshUsage {
-  MeshJob job;
-  std::vector<std::string> outputs;
-  std::string format;
-  std::string algorithm = "relocate";
-  bool shrink_given = false;
-  bool cut = true;
-  std::uint64_t threads = 0;
-  std::string report;
-  std::string progress = "auto";
-  bool overwrite = false;
-  bool quiet = false;
-};
-
-Algorithm algorithmNamed(const std::string& name) {
-  std::size_t index = 0;
-  while (name != kAlgorithmNames[index]) ++index;
-  return static_cast<Algorithm>(index);
-}
-
 int threadsAsked(const ParallelOptions& options) {
   return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 void showWarnings(const MeshJobResult& result) {
   for (const std::string& warning : result.read.warnings) {
+    std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
+  }
+  for (const std::string& warning : result.finish.warnings()) {
     std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
   }
   if (result.regions == 0 && result.refusals.size() == 1) return;  // the error to come says it
@@ -73,6 +57,7 @@ class MeshOutputs {
       display.show("write", static_cast<double>(i) / static_cast<double>(grids_.size()));
       grids_.write(i, grid);
       interrupt_.check();
+      if (display.abandoned()) throw Cancelled();
     }
     display.show("write", 1.0);
     grids_written_ = true;
@@ -102,7 +87,7 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   };
   MeshOutputs outputs(usage, interrupt);
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
-  const JobControl control{[&interrupt] { return interrupt.requested(); },
+  const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
                            [&display](std::string_view phase, double share) { display.show(phase, share); }};
   MeshJobResult result = runMeshJob(usage.job, control);
   display.clear();
@@ -137,40 +122,9 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
 
 Command declareMesh(CLI::App& root) {
   auto usage = std::make_shared<MeshUsage>();
-  CommandLine line(root, "mesh", "Mesh the polygons and closed lines of vector files, or a .poly");
-  RefineOptions& refine = usage->job.mesh.refine;
-  line.arguments("INPUT", usage->job.input.files, "vector files that GDAL reads, or one .poly");
-  line.texts("-o,--output", usage->outputs, "FILE", true, "mesh to write; repeat it for several");
-  line.text("--format", usage->format, "NAME", "format of the output, where its ending does not tell");
-  line.number("--min-angle", refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");
-  double& max_angle = refine.max_angle_deg;
-  line.number("--max-angle", max_angle, "DEG", {60.0, 180.0}, "largest angle asked for; 180 sets no bound");
-  line.choice("--algorithm", usage->algorithm, {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)},
-              "where the points go that mend bad triangles");
-  line.flag("--shrink,!--no-shrink", usage->job.mesh.shrink,
-            "take out vertices that the bounds do not need; the algorithms other than relocate do so only when asked",
-            &usage->shrink_given);
-  line.number("--size-max", usage->job.size_max_m, "M", {0.0, std::numeric_limits<double>::infinity(), true},
-              "longest edge");
-  declareInputOptions(line, usage->job.input);
-  line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
-               "stop refining at so many vertices, with exit code 1");
-  line.flag("--cut,!--no-cut", usage->cut, "cut large seas into pieces, to be refined at the same time");
-  line.integer("--threads", usage->threads, "N", 0, 1024,
-               "threads to work on, 0 for all cores; never changes the result");
-  line.text("--report", usage->report, "FILE", "write a report as JSON");
-  line.choice("--progress", usage->progress, {"auto", "bar", "json", "none"},
-              "how to show progress: a bar on stderr, or JSON lines on stdout");
-  line.flag("--overwrite", usage->overwrite, "replace files that exist");
-  line.flag("--quiet", usage->quiet, "print no summary");
-
-  Command command{std::move(line), {}};
+  Command command{declareMeshUsage(root, *usage), {}};
   command.run = [usage](Interrupt& interrupt) {
-    usage->job.mesh.refine.algorithm = algorithmNamed(usage->algorithm);
-    // The classical algorithms are there to compare with: they insert what their papers say.
-    if (!usage->shrink_given) usage->job.mesh.shrink = usage->job.mesh.refine.algorithm == Algorithm::Relocate;
-    usage->job.mesh.one_piece = !usage->cut;
-    usage->job.parallel.threads = static_cast<int>(usage->threads);
+    settle(*usage);
     return runMesh(*usage, interrupt);
   };
   return command;

@@ -75,7 +75,10 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
     const std::vector<std::size_t>& members = input.members(group);
     for (std::size_t member : members) {
       const Feature& feature = input.coastline().features[member];
-      names.features.push_back({feature.fid, feature.source, {}, {}, feature.attributes});
+      Feature& name = names.features.emplace_back();
+      name.fid = feature.fid;
+      name.source = feature.source;
+      name.attributes = feature.attributes;
     }
     for (RegionId& region : mesh.regions) {
       region =
@@ -123,11 +126,12 @@ void fillGroup(const MeshJob& job, const JobInput& input, std::size_t group, std
   result.log.append(recorder.finish());
 }
 
-std::string refusalText(const BadPslg& error, const JobInput& input, std::size_t group) {
+void refuse(const BadPslg& error, const JobInput& input, std::size_t group, GroupResult& result) {
   const Feature& first = input.coastline().features[input.members(group).front()];
   CleanReport ignored;
   const Projection projection = input.domain(group, ignored).projection;
-  return featureText(first) + ": " + error.what() + " at " + pointText(projection.inverse(error.defect.place));
+  result.refusal_place = projection.inverse(error.defect.place);
+  result.refusal = featureText(first) + ": " + error.what() + " at " + pointText(*result.refusal_place);
 }
 
 }  // namespace
@@ -140,7 +144,7 @@ GroupResult meshGroup(const MeshJob& job, const JobInput& input, std::size_t gro
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const BadPslg& error) {
-    result.refusal = refusalText(error, input, group);
+    refuse(error, input, group, result);
   }
   return result;
 }

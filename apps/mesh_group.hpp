@@ -21,6 +21,7 @@ struct GroupResult {
   std::size_t pieces = 1;
   WorkLog log;          // of all that was done
   std::string refusal;  // empty where it was meshed
+  std::optional<Point> refusal_place;
 };
 
 // Projects, cleans, meshes and checks a group of at most `budget` vertices. What cannot be meshed is told in `refusal`.

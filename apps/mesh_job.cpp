@@ -57,13 +57,14 @@ std::uint64_t combineDigests(std::uint64_t digest, std::uint64_t next) {
   return std::rotl((digest ^ next) * 0x9E3779B97F4A7C15ull, 31);
 }
 
-void addRefusal(const JobInput& input, std::size_t group, std::string reason, MeshJobResult& result) {
+void addRefusal(const JobInput& input, std::size_t group, GroupResult&& part, MeshJobResult& result) {
   Refusal refusal;
   for (std::size_t member : input.members(group)) {
     refusal.fids.push_back(input.coastline().features[member].fid);
   }
   refusal.source = input.coastline().features[input.members(group).front()].source;
-  refusal.reason = std::move(reason);
+  refusal.reason = std::move(part.refusal);
+  refusal.place = part.refusal_place;
   result.refusals.push_back(std::move(refusal));
 }
 
@@ -98,7 +99,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += part.edits[kind];
   result.seconds.clean += part.clean_s;
   if (!part.refusal.empty()) {
-    addRefusal(input, group, std::move(part.refusal), result);
+    addRefusal(input, group, std::move(part), result);
     return;
   }
   ++result.regions;
@@ -201,6 +202,14 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   });
   merge.finish();
   result.grid.crs = result.crs;
+  if (job.finish.any()) {
+    const Stopwatch finishing;
+    RunControl inner{control.cancelled, {}};
+    if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
+    result.finish = finishGrid(result.grid, job.finish, inner);
+    result.seconds.finish = finishing.seconds();
+    result.log.addAlone("finish", result.seconds.finish);
+  }
   result.seconds.total = whole.seconds();
   return result;
 }

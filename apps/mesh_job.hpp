@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/finish_grid.hpp"
 #include "apps/job_input.hpp"
 #include "core/quality.hpp"
 #include "core/refine.hpp"
@@ -26,10 +27,11 @@ struct MeshJob {
   MeshOptions mesh;  // `refine.max_vertices` holds for the whole; `refine.size_max` is set from `size_max_m`
   double size_max_m = std::numeric_limits<double>::infinity();  // longest edge, metres on the ellipsoid, above 0
   ParallelOptions parallel;
+  FinishOptions finish;
 };
 
 // How a job talks to whoever started it. Either function may be empty; `progress` is called from one thread at a time,
-// with the phases "read" and "refine" and the share of the phase that is done.
+// with the phases "read", "refine" and "finish" and the share of the phase that is done.
 struct JobControl {
   std::function<bool()> cancelled;
   std::function<void(std::string_view, double)> progress;
@@ -40,6 +42,7 @@ struct Refusal {
   std::string source;
   std::vector<std::int64_t> fids;
   std::string reason;
+  std::optional<Point> place;  // in the input's CRS, where one is known
 };
 
 // A triangle short of the bounds that no input angle explains.
@@ -50,7 +53,7 @@ struct ShortfallPlace {
 };
 inline constexpr std::size_t kShortfallPlaces = 1000;  // those past it are counted, not listed
 
-// Seconds; read, write and total are what a clock shows, the others are summed over threads.
+// Seconds; read, finish, write and total are what a clock shows, the others are summed over threads.
 struct PhaseSeconds {
   double read = 0.0;
   double clean = 0.0;
@@ -59,6 +62,7 @@ struct PhaseSeconds {
   double shrink = 0.0;
   double stitch = 0.0;
   double check = 0.0;
+  double finish = 0.0;
   double write = 0.0;
   double total = 0.0;
 };
@@ -82,6 +86,7 @@ struct MeshJobResult {
   double mesh_area_m2 = 0.0;
   std::uint64_t digest = 0;
   PhaseSeconds seconds;
+  FinishReport finish;  // depths, boundaries and repairs
 
   bool complete() const { return unresolved == 0 && !refine.budget_reached && refusals.empty(); }
 };
@@ -91,7 +96,7 @@ struct BadMesh : std::logic_error {
   using std::logic_error::logic_error;
 };
 
-// Reads, projects, cleans, meshes and checks. Nothing but `seconds` depends on the number of threads. Throws
+// Reads, projects, cleans, meshes, checks and finishes. Nothing but `seconds` depends on the number of threads. Throws
 // InputError, Cancelled, BadMesh.
 MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control = {});
 

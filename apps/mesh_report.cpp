@@ -106,7 +106,8 @@ Json meshSection(const MeshJobResult& result) {
 Json timeSection(const PhaseSeconds& seconds) {
   return {{"read", seconds.read},     {"clean", seconds.clean},   {"triangulate", seconds.triangulate},
           {"refine", seconds.refine}, {"shrink", seconds.shrink}, {"stitch", seconds.stitch},
-          {"check", seconds.check},   {"write", seconds.write},   {"total", seconds.total}};
+          {"check", seconds.check},   {"finish", seconds.finish}, {"write", seconds.write},
+          {"total", seconds.total}};
 }
 
 // How the work was shared out, and what more cores would give.
@@ -159,15 +160,12 @@ std::string digestText(std::uint64_t digest) {
 }
 
 std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads) {
-  const Json report{{"coastmesh", COASTMESH_VERSION},
-                    {"input", inputSection(job, result)},
-                    {"clean", cleanSection(result)},
-                    {"refine", refineSection(job, result)},
-                    {"mesh", meshSection(result)},
-                    {"time_s", timeSection(result.seconds)},
-                    {"parallel", parallelSection(result.log)},
-                    {"peak_memory_mib", peakMemoryMib()},
-                    {"threads", threads}};
+  const Json report{
+      {"coastmesh", COASTMESH_VERSION},        {"input", inputSection(job, result)},
+      {"clean", cleanSection(result)},         {"refine", refineSection(job, result)},
+      {"mesh", meshSection(result)},           {"depth", Json::parse(depthSection(job.finish, result.finish))},
+      {"time_s", timeSection(result.seconds)}, {"parallel", parallelSection(result.log)},
+      {"peak_memory_mib", peakMemoryMib()},    {"threads", threads}};
   // Names in the input need not be UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -187,6 +185,7 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     std::snprintf(bound, sizeof bound, "%g", job.mesh.refine.min_angle_deg);
     text += grouped(result.unresolved) + " triangles fall short of what was asked (at least " + bound + " degrees)\n";
   }
+  text += finishSummary(job.finish, result.finish);
   if (result.refine.budget_reached) text += "the vertex budget was reached before all angles were good\n";
   return text;
 }

@@ -12,8 +12,6 @@ namespace coastmesh {
 
 namespace {
 
-const std::vector<std::string> kColorNames = {"none", "angle", "feature", "size"};  // as in PlotColor
-
 struct PlotUsage {
   MeshFile mesh;
   std::string output;
@@ -38,9 +36,7 @@ std::array<double, 4> parseBox(const std::string& text) {
 
 int runPlot(PlotUsage& usage, Interrupt& interrupt) {
   if (!usage.bbox.empty()) usage.plot.bbox = parseBox(usage.bbox);
-  while (usage.color != kColorNames[static_cast<std::size_t>(usage.plot.color)]) {
-    usage.plot.color = static_cast<PlotColor>(static_cast<int>(usage.plot.color) + 1);
-  }
+  usage.plot.color = plotColorNamed(usage.color);
   requirePlotFormat(usage.output);
   StagedFile output(usage.output, usage.overwrite, interrupt);
   const Grid grid = readMeshFile(usage.mesh);
@@ -57,10 +53,10 @@ Command declarePlot(CLI::App& root) {
   auto usage = std::make_shared<PlotUsage>();
   CommandLine line(root, "plot", "Draw a mesh");
   declareMeshFile(line, "MESH", "mesh to draw", usage->mesh);
-  line.requiredText("-o,--output", usage->output, "FILE", "picture to write: .svg or .png");
+  line.requiredText("-o,--output", usage->output, kOutputFile, "picture to write: .svg or .png");
   line.integer("--size", usage->plot.size_px, "PX", 16, 20000, "longer side of the map");
   line.text("--bbox", usage->bbox, "W,S,E,N", "what to show, in the mesh's CRS; all of it by default");
-  line.choice("--color", usage->color, kColorNames, "what the triangles' colour tells");
+  line.choice("--color", usage->color, plotColorNames(), "what the triangles' colour tells");
   line.flag("--edges,!--no-edges", usage->plot.edges, "draw the triangles' edges");
   line.number("--min-angle", usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
               "show triangles with a smaller angle in red");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/check_grid.hpp"
+#include "apps/command_line.hpp"
 #include "apps/grid_pieces.hpp"
 #include "apps/plot_canvas.hpp"
 #include "core/quality.hpp"
@@ -337,6 +338,17 @@ class MeshPlot {
 };
 
 }  // namespace
+
+const std::vector<std::string>& plotColorNames() {
+  static const std::vector<std::string> kNames = {"none", "angle", "feature", "size"};  // as in PlotColor
+  return kNames;
+}
+
+PlotColor plotColorNamed(const std::string& name) {
+  const auto at = std::ranges::find(plotColorNames(), name);
+  if (at == plotColorNames().end()) throw UsageError("there is no colouring '" + name + "'");
+  return static_cast<PlotColor>(at - plotColorNames().begin());
+}
 
 void requirePlotFormat(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();

@@ -4,12 +4,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gis/grid.hpp"
 
 namespace coastmesh {
 
 enum class PlotColor { None, Angle, Feature, Size };
+
+// The names that --color takes; throws UsageError for another.
+const std::vector<std::string>& plotColorNames();
+PlotColor plotColorNamed(const std::string& name);
 
 struct PlotOptions {
   std::uint64_t size_px = 1600;               // longer side of the map, 16 to 20000

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "gis/grid_io.hpp"
 
 namespace coastmesh {
 
@@ -15,7 +16,14 @@ namespace {
 
 std::string wholeUsage(const std::vector<Command>& commands) {
   using Json = nlohmann::ordered_json;
-  Json usage{{"coastmesh", COASTMESH_VERSION}, {"commands", Json::array()}};
+  Json usage{{"coastmesh", COASTMESH_VERSION}, {"formats", Json::array()}, {"commands", Json::array()}};
+  for (const GridFormat& format : gridFormats()) {
+    usage["formats"].push_back({{"name", format.name},
+                                {"endings", format.endings},
+                                {"description", format.description},
+                                {"readable", format.readable},
+                                {"writable", format.writable}});
+  }
   for (const Command& command : commands) usage["commands"].push_back(Json::parse(command.line.jsonUsage()));
   return usage.dump(2) + "\n";
 }

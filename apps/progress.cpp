@@ -1,5 +1,6 @@
 #include "apps/progress.hpp"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -31,7 +32,7 @@ void ProgressDisplay::show(std::string_view phase, double share) {
   shown_at_ = now;
   if (style_ == Style::Json) {
     std::printf("{\"phase\":\"%s\",\"share\":%.4f}\n", phase_.c_str(), share);
-    std::fflush(stdout);
+    if (std::fflush(stdout) != 0) abandoned_ = true;
     return;
   }
   const int filled = static_cast<int>(share * kBarWidth);
@@ -39,6 +40,18 @@ void ProgressDisplay::show(std::string_view phase, double share) {
                std::string(static_cast<std::size_t>(filled), '#').c_str(), static_cast<int>(share * 100));
   std::fflush(stderr);
   bar_visible_ = true;
+}
+
+bool ProgressDisplay::abandoned() {
+  if (style_ != Style::Json || abandoned_) return abandoned_;
+  using namespace std::chrono;
+  const std::int64_t now = duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
+  std::int64_t asked = asked_ms_;
+  if (now - asked < kInterval.count() || !asked_ms_.compare_exchange_strong(asked, now)) return false;
+  // A pipe whose reader is gone shows as an error, without a line that would have to be written to it.
+  pollfd pipe{STDOUT_FILENO, 0, 0};
+  if (poll(&pipe, 1, 0) == 1 && (pipe.revents & POLLERR) != 0) abandoned_ = true;
+  return abandoned_;
 }
 
 void ProgressDisplay::clear() {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -20,6 +22,9 @@ class ProgressDisplay {
 
   // The start and the end of every phase are shown, what lies between at most ten times a second.
   void show(std::string_view phase, double share);
+  // Whether nobody reads the JSON lines any more: who asked for the run is gone.
+  // May be called from several threads, and often.
+  bool abandoned();
   // Takes the bar off the terminal, so that a message has the line to itself.
   void clear();
 
@@ -29,6 +34,8 @@ class ProgressDisplay {
   double shown_ = -1.0;
   std::chrono::steady_clock::time_point shown_at_;
   bool bar_visible_ = false;
+  std::atomic<bool> abandoned_{false};
+  std::atomic<std::int64_t> asked_ms_{0};  // when `abandoned` last looked, on the steady clock
 };
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/point.hpp"
+#include "core/size_function.hpp"
 
 namespace coastmesh {
 
@@ -50,7 +51,9 @@ struct TriangleBound {
   double petal_height;  // of its centre above the edge
   double place_angle;   // radians: the smallest angle that new points aim at
   double cos_max;
-  double squared_size;  // longest edge, squared; infinite where nothing is asked
+  double squared_size;                 // longest edge, squared; infinite where nothing is asked
+  const SizeFunction* size = nullptr;  // lengths wanted; null where none are
+  double longest_share = 0.0;          // longest edge as a share of the length wanted at the triangle's centre
 
   TriangleBound(double min_angle_deg, double max_angle_deg, double size_max)
       : min_angle(min_angle_deg <= 0.0 ? 0.0 : toRadians(min_angle_deg + kMarginDeg)),
@@ -63,6 +66,14 @@ struct TriangleBound {
         place_angle(min_angle + toRadians(kMarginDeg)),
         cos_max(std::cos(max_angle)),
         squared_size(size_max * size_max) {}
+
+  // With lengths wanted besides.
+  TriangleBound(double min_angle_deg, double max_angle_deg, double size_max, const SizeFunction* wanted, double share)
+      : TriangleBound(min_angle_deg, max_angle_deg,
+                      wanted == nullptr ? size_max : std::min(size_max, share * wanted->most())) {
+    size = wanted;
+    longest_share = share;
+  }
 
   static constexpr double kMarginDeg = 1e-6;
 
@@ -111,12 +122,20 @@ inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, 
   return -dot(bc, ca) < cos_max * std::sqrt(la * lb);
 }
 
+inline bool isLongerThanWanted(const Point& a, const Point& b, const Point& c, double squared_longest,
+                               const TriangleBound& bound) {
+  const double longest = bound.longest_share * bound.size->at((1.0 / 3.0) * (a + b + c));
+  return squared_longest > longest * longest;
+}
+
 // Whether a triangle falls short of what is asked.
 inline bool isBad(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
   if (bound.min_angle > 0.0 && isSmallestAngleBelow(a, b, c, bound.cot_min)) return true;
   if (bound.max_angle < std::numbers::pi && isLargestAngleAbove(a, b, c, bound.cos_max)) return true;
   if (std::isinf(bound.squared_size)) return false;
-  return std::max({squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)}) > bound.squared_size;
+  const double longest = std::max({squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)});
+  if (longest > bound.squared_size) return true;
+  return bound.size != nullptr && isLongerThanWanted(a, b, c, longest, bound);
 }
 
 }  // namespace coastmesh

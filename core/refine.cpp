@@ -7,6 +7,7 @@
 #include "core/refiner.hpp"
 #include "core/repair.hpp"
 #include "core/shortfalls.hpp"
+#include "core/split_segments.hpp"
 
 namespace coastmesh {
 
@@ -21,11 +22,21 @@ void RefineStats::add(const RefineStats& other) {
   unresolved.insert(unresolved.end(), other.unresolved.begin(), other.unresolved.end());
 }
 
+TriangleBound boundOf(const RefineOptions& options) {
+  return {options.min_angle_deg, options.max_angle_deg, options.size_max, options.size,
+          kLongestShare * options.size_scale};
+}
+
+TriangleBound strictBoundOf(const RefineOptions& options) {
+  return {options.min_angle_deg, options.max_angle_deg, options.size_max};
+}
+
 namespace {
 
 RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RefineVariant& variant,
                        const RunControl& control) {
-  VertexNotes notes = noteInput(mesh, TriangleBound(options.min_angle_deg, options.max_angle_deg, options.size_max));
+  VertexNotes notes = noteInput(mesh, boundOf(options));
+  if (options.size != nullptr) splitSegments(mesh, pslg, notes, options);
   Refiner refiner(std::move(mesh), pslg, options, std::move(notes), variant);
   refiner.run(control);
   if (options.algorithm == Algorithm::Relocate) repair(refiner, pslg, options, control);
@@ -60,7 +71,8 @@ std::size_t shrunkSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& opti
 }  // namespace
 
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
-  const bool few = mesh.input_vertices <= kFewPoints && options.algorithm == Algorithm::Relocate;
+  const bool few =
+      mesh.input_vertices <= kFewPoints && options.algorithm == Algorithm::Relocate && options.size == nullptr;
   const TriMesh unrefined = few ? mesh : TriMesh();
   RefineStats stats = refineOnce(mesh, pslg, options, usualVariant(options), control);
   if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;

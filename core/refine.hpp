@@ -6,8 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/metric.hpp"
 #include "core/pslg.hpp"
 #include "core/run_control.hpp"
+#include "core/size_function.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -26,7 +28,16 @@ struct RefineOptions {
   double size_max = std::numeric_limits<double>::infinity();  // longest edge, plane units, above 0
   Algorithm algorithm = Algorithm::Relocate;
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  // vertices in all, input included
+  const SizeFunction* size = nullptr;  // lengths that edges should have; outlives the run; null where none are wanted
+  double size_scale = 1.0;             // wanted are these times so much: a step on the way
 };
+
+// A triangle with an edge longer than this share of the length wanted there is refined: edges then come out about as wanted.
+inline constexpr double kLongestShare = 1.45;
+
+// What these options ask of a triangle; and what of that a mesh may not fall short of, which wanted lengths are no part of.
+TriangleBound boundOf(const RefineOptions& options);
+TriangleBound strictBoundOf(const RefineOptions& options);
 
 // A triangle that falls short of what was asked, with no input angle to explain it.
 struct Shortfall {

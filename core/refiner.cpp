@@ -47,9 +47,10 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options,
     : pslg_(pslg),
       options_(options),
       variant_(variant),
-      bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
+      bound_(boundOf(options)),
+      strict_(strictBoundOf(options)),
       mesh_(std::move(mesh)),
-      search_(options.algorithm, bound_, toRadians(variant.aim_deg)),
+      search_(options.algorithm, bound_, toRadians(variant.aim_deg), options.size_scale),
       ops_(mesh_, pslg_, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
       squared_grain_(squaredGrain()),
@@ -130,7 +131,10 @@ void Refiner::mend(TriId t) {
   const auto isFrozen = [this](VertexId v) { return v < frozen_.size() && frozen_[v]; };
   if (std::ranges::any_of(mesh_.triangle(t).v, isFrozen)) return defer(t);
   if (isLeftAlone(t, shape)) return;
-  if (options_.algorithm == Algorithm::Relocate && mendWithoutInsertion(t)) {
+  // No move brings edges to the length wanted where there are too few.
+  const bool is_only_long =
+      options_.size != nullptr && !isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), strict_);
+  if (options_.algorithm == Algorithm::Relocate && !is_only_long && mendWithoutInsertion(t)) {
     enqueueTouched();
     return;
   }
@@ -140,7 +144,11 @@ void Refiner::mend(TriId t) {
 // Whether every place where a vertex would make a good triangle with the shortest edge is nearer to that edge than the
 // input's spacing lets any vertex come: between two segments that meet at a tiny angle.
 bool Refiner::isOutOfReach(TriId t, const TriangleShape& shape) const {
-  if (shape.squared[shape.longest] > bound_.squared_size) return false;
+  const double longest = shape.squared[shape.longest];
+  if (longest > bound_.squared_size) return false;
+  if (bound_.size != nullptr &&
+      isLongerThanWanted(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), longest, bound_))
+    return false;
   const auto& v = mesh_.triangle(t).v;
   const double spacing = std::min(notes_.spacing[v[next3(shape.shortest)]], notes_.spacing[v[prev3(shape.shortest)]]);
   // The petal's diameter is the edge over the sine.
@@ -210,7 +218,7 @@ bool Refiner::isEncroached(const Point& x, const Point& a, const Point& b) const
 // The local feature size of the input, from above: that of a vertex nearby and the distance to it. It grows with the
 // distance from what is fine in the input as fast as any good mesh can.
 double Refiner::spacingAt(const Point& x, const Patch& cavity) const {
-  double spacing = options_.size_max;
+  double spacing = bound_.size == nullptr ? options_.size_max : bound_.size->at(x);
   for (const RimEdge& r : cavity.rim) spacing = std::min(spacing, notes_.spacing[r.a] + distance(x, mesh_.point(r.a)));
   return spacing;
 }
@@ -299,7 +307,7 @@ bool Refiner::isExplained(TriId t) const {
 }
 
 bool Refiner::isShort(TriId t) const {
-  return isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_) && !isExplained(t);
+  return isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), strict_) && !isExplained(t);
 }
 
 bool Refiner::isDeferred(TriId t) const {

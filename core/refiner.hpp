@@ -88,6 +88,7 @@ class Refiner {
   const RefineOptions& options_;
   RefineVariant variant_;
   TriangleBound bound_;
+  TriangleBound strict_;  // the same without wanted lengths
   EditMesh mesh_;
   RefineStats stats_;
   SteinerSearch search_;

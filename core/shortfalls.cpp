@@ -9,7 +9,7 @@
 namespace coastmesh {
 
 std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
-  const TriangleBound bound(options.min_angle_deg, options.max_angle_deg, options.size_max);
+  const TriangleBound bound = strictBoundOf(options);
   return findShortfalls(mesh, bound, bound, loop);
 }
 

@@ -52,10 +52,15 @@ int sweepsFor(double min_angle_deg, std::size_t vertices) {
   return between(3.0, 16.0, 20000.0);
 }
 
+// Round a vertex that shrinking looks at all edges are shorter than this share of the length wanted: merging two makes the edges there
+// longer by a half at most.
+constexpr double kFineShare = 0.75;
+
 class Shrinker {
  public:
   Shrinker(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
-      : bound_(options.min_angle_deg, options.max_angle_deg, options.size_max),
+      : size_(options.size),
+        bound_(strictBoundOf(options)),
         mesh_(std::move(mesh)),
         ops_(mesh_, pslg, bound_),
         waiting_(mesh_.vertexSlots()) {}
@@ -79,7 +84,7 @@ class Shrinker {
           control.checkpoint((sweep + 1.0 - left) / sweeps);
         }
         const VertexId v = waiting_.pop();
-        if (mesh_.isLiveVertex(v)) handle(v, sweep + 1 == sweeps);
+        if (mesh_.isLiveVertex(v) && (size_ == nullptr || isFinerThanWanted(v))) handle(v, sweep + 1 == sweeps);
       }
     }
   }
@@ -91,6 +96,7 @@ class Shrinker {
  private:
   bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
   bool isAtFrozenEdge(VertexId v);
+  bool isFinerThanWanted(VertexId v);
   // The last sweep only merges: it removes next to nothing, and moving pays while more sweeps follow.
   void handle(VertexId v, bool is_last) {
     touched_.clear();
@@ -110,6 +116,7 @@ class Shrinker {
     }
   }
 
+  const SizeFunction* size_;  // may be null
   TriangleBound bound_;
   EditMesh mesh_;
   VertexOps ops_;
@@ -119,6 +126,18 @@ class Shrinker {
   std::vector<EdgeRef> star_;
   std::vector<std::uint8_t> due_;  // one a vertex; empty where all are
 };
+
+// Where edges are about as long as wanted nothing is to be taken out.
+bool Shrinker::isFinerThanWanted(VertexId v) {
+  const Point here = mesh_.point(v);
+  mesh_.star(v, star_);
+  double longest = 0.0;
+  for (const EdgeRef e : star_)
+    longest = std::max({longest, squaredDistance(here, mesh_.point(mesh_.origin(e))),
+                        squaredDistance(here, mesh_.point(mesh_.target(e)))});
+  const double most = kFineShare * size_->at(here);
+  return longest < most * most;
+}
 
 bool Shrinker::isAtFrozenEdge(VertexId v) {
   mesh_.star(v, star_);

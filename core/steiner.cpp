@@ -9,12 +9,18 @@ namespace {
 
 // Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where the
 // triangle is bad for its size, the disk in which an equilateral triangle of that size fits. Never more than the triangle's own
-// circumcircle, which no vertex lies in.
-double petalRadius(double length, double circumradius, const TriangleBound& bound, double sin_place, bool bad_angle) {
+// circumcircle, which no vertex lies in. Where lengths are wanted, the equilateral triangle's of that length in either case: the new
+// edges come out near it.
+double petalRadius(double length, double circumradius, double wanted, const TriangleBound& bound, double sin_place,
+                   bool bad_angle) {
   double radius = circumradius;
   if (bound.min_angle > 0.0) radius = std::min(radius, 0.5 * length / sin_place);
   constexpr double kInverseRoot3 = 0.57735026918962576;
-  if (!bad_angle) radius = std::min(radius, kInverseRoot3 * std::sqrt(bound.squared_size));
+  if (bound.size != nullptr) {
+    radius = std::min(radius, kInverseRoot3 * wanted);
+  } else if (!bad_angle) {
+    radius = std::min(radius, kInverseRoot3 * std::sqrt(bound.squared_size));
+  }
   return std::max(radius, 0.5 * length);
 }
 
@@ -35,8 +41,9 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
 
   const double length = std::sqrt(squaredLength(q));
   const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cot_min);
-  const double radius = petalRadius(length, std::sqrt(own_clearance), bound_, sin_place_, bad_angle);
   const Point normal{-q.y / length, q.x / length};
+  const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(p + 0.5 * q);
+  const double radius = petalRadius(length, std::sqrt(own_clearance), wanted, bound_, sin_place_, bad_angle);
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
   // Type I where the circumcentre lies outside the petal; both are on the bisector of pq.
   if (dot(normal, own) > height + radius) {

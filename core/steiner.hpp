@@ -28,8 +28,8 @@ struct SteinerPoint {
 class SteinerSearch {
  public:
   // Points aim at an angle that is `aim` (radians) above the bound.
-  SteinerSearch(Algorithm algorithm, const TriangleBound& bound, double aim)
-      : algorithm_(algorithm), bound_(bound), sin_place_(std::sin(bound.place_angle + aim)) {}
+  SteinerSearch(Algorithm algorithm, const TriangleBound& bound, double aim, double scale = 1.0)
+      : algorithm_(algorithm), bound_(bound), sin_place_(std::sin(bound.place_angle + aim)), scale_(scale) {}
 
   // `t` is bad and its shortest edge is opposite its corner `apex`.
   SteinerPoint find(const EditMesh& mesh, TriId t, unsigned apex);
@@ -43,6 +43,7 @@ class SteinerSearch {
   Algorithm algorithm_;
   const TriangleBound& bound_;
   double sin_place_;
+  double scale_;  // wanted lengths are aimed at times this
   std::vector<Step> steps_;
 };
 

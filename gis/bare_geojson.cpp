@@ -166,7 +166,7 @@ class GeometryHandler : public nlohmann::json_sax<nlohmann::json> {
         if (parts_.lines.back().empty()) parts_.lines.pop_back();
       }
     } else if (frame.type != "GeometryCollection") {
-      parts_.points += coordinates.points().size();
+      parts_.points.insert(parts_.points.end(), coordinates.points().begin(), coordinates.points().end());
     }
     return true;
   }

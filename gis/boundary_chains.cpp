@@ -123,7 +123,7 @@ std::int64_t boundaryMarker(std::size_t index, BoundaryRole role) {
 }
 
 std::optional<BoundaryRole> roleOfMarker(std::int64_t marker, std::size_t index) {
-  for (const BoundaryRole role : {BoundaryRole::Land, BoundaryRole::Island, BoundaryRole::Open})
+  for (const BoundaryRole role : kBoundaryRoles)
     if (marker == boundaryMarker(index, role)) return role;
   return std::nullopt;
 }

@@ -28,7 +28,7 @@ void keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
 std::vector<Boundary> chainEdges(std::span<const NodePair> edges);
 
 // One number for a boundary in formats that have room for one: ten times its number, counted from 1, plus 1 for land,
-// 2 for an island, 3 for open water.
+// 2 for an island, 3 for open water, 4 for a river.
 std::int64_t boundaryMarker(std::size_t index, BoundaryRole role);
 std::optional<BoundaryRole> roleOfMarker(std::int64_t marker, std::size_t index);  // none: not that boundary's marker
 

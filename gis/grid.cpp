@@ -8,6 +8,7 @@
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
 #include "gis/geodesy.hpp"
+#include "gis/segment_tags.hpp"
 
 namespace coastmesh {
 namespace {
@@ -91,6 +92,47 @@ std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts
   return index_of;
 }
 
+// Edges of the rim that lie on the frame's, with the mesh to the left, sorted.
+std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh) {
+  std::vector<NodePair> open;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const SegmentId segment = triangle.seg[i];
+      if (triangle.adj[i] != kNone || segment >= domain.pslg.segments.size()) continue;
+      if (domain.pslg.segments[segment].tag == kOpenTag) open.push_back({triangle.v[next3(i)], triangle.v[prev3(i)]});
+    }
+  }
+  std::ranges::sort(open);
+  return open;
+}
+
+// Cuts a loop where open water and land meet, so that each piece is one or the other; they share their end nodes.
+std::vector<Boundary> splitLoop(Boundary&& loop, const std::vector<NodePair>& open) {
+  const std::size_t n = loop.nodes.size();
+  std::vector<char> is_open(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    is_open[i] = std::ranges::binary_search(open, NodePair{loop.nodes[i], loop.nodes[(i + 1) % n]});
+  }
+  const auto roleOf = [&](std::size_t i) { return is_open[i] ? BoundaryRole::Open : loop.role; };
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_open[i] != is_open[(i + n - 1) % n]) starts.push_back(i);
+  }
+  std::vector<Boundary> pieces;
+  if (starts.empty()) {
+    loop.role = roleOf(0);
+    pieces.push_back(std::move(loop));
+    return pieces;
+  }
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const std::size_t first = starts[s], last = starts[(s + 1) % starts.size()];
+    Boundary& piece = pieces.emplace_back(Boundary{roleOf(first), false, {}});
+    for (std::size_t i = first; i != last; i = (i + 1) % n) piece.nodes.push_back(loop.nodes[i]);
+    piece.nodes.push_back(loop.nodes[last]);
+  }
+  return pieces;
+}
+
 }  // namespace
 
 std::string_view toString(BoundaryRole role) {
@@ -101,6 +143,8 @@ std::string_view toString(BoundaryRole role) {
       return "island";
     case BoundaryRole::Open:
       return "open";
+    case BoundaryRole::River:
+      return "river";
   }
   assert(false);
   return {};
@@ -122,9 +166,12 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
   for (const MeshedDomain& part : parts) {
     const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, loop, grid.nodes);
     appendTriangles(*part.mesh, index_of, feature_index, loop, grid);
-    for (Boundary& boundary : findBoundaries(*part.mesh, loop)) {
-      for (std::uint32_t& node : boundary.nodes) node = index_of[node];
-      grid.boundaries.push_back(std::move(boundary));
+    const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh);
+    for (Boundary& rim : findBoundaries(*part.mesh, loop)) {
+      for (Boundary& boundary : splitLoop(std::move(rim), open)) {
+        for (std::uint32_t& node : boundary.nodes) node = index_of[node];
+        grid.boundaries.push_back(std::move(boundary));
+      }
     }
   }
   grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);

@@ -16,14 +16,21 @@
 
 namespace coastmesh {
 
-enum class BoundaryRole { Land, Island, Open };
+// River: water comes in by a discharge; Open: by a level.
+enum class BoundaryRole { Land, Island, Open, River };
+inline constexpr std::array kBoundaryRoles{BoundaryRole::Land, BoundaryRole::Island, BoundaryRole::Open,
+                                           BoundaryRole::River};
 std::string_view toString(BoundaryRole role);
 
-// A chain of nodes on the rim with the mesh to the left; closed loops do not repeat their first node.
+// A chain of nodes on the rim with the mesh to the left; closed loops do not repeat their first node. Where one chain
+// ends and another begins, both have the node.
 struct Boundary {
   BoundaryRole role = BoundaryRole::Land;
   bool closed = true;
   std::vector<std::uint32_t> nodes;
+  int ibtype = -1;                          // ADCIRC's type where a file or the user says one, else -1: the role's own
+  std::vector<std::uint32_t> back_nodes{};  // of a weir between two shores: the node across, one a node
+  std::vector<double> weir{};               // of a weir: heights and coefficients, the same number a node
 };
 
 // Where a triangle came from.
@@ -45,6 +52,7 @@ struct Grid {
   std::vector<double> area_m2;                          // empty or one a triangle, on the ellipsoid
   std::vector<GridFeature> features;
   std::vector<Boundary> boundaries;
+  std::vector<std::string> notes;  // what a file says of itself and is not so: "NETA is 12, but 11 nodes follow"
 };
 
 // The grid of several meshed domains, in their order. `coastline.features` gives names; nodes of the PSLG come back

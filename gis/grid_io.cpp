@@ -9,84 +9,33 @@
 #include "gis/grid_formats.hpp"
 #include "gis/grid_layers.hpp"
 #include "gis/prj_file.hpp"
-#include "gis/read_2dm.hpp"
-#include "gis/read_gmsh.hpp"
-#include "gis/read_ogr_grid.hpp"
-#include "gis/read_triangle.hpp"
-#include "gis/read_ugrid.hpp"
-#include "gis/write_2dm.hpp"
-#include "gis/write_geojson.hpp"
-#include "gis/write_gmsh.hpp"
-#include "gis/write_ogr.hpp"
-#include "gis/write_triangle.hpp"
-#include "gis/write_ugrid.hpp"
-#include "gis/write_vtu.hpp"
 
 namespace coastmesh {
 namespace {
 
-std::string withEnding(const std::string& path, const char* ending) {
-  return std::filesystem::path(path).replace_extension(ending).string();
-}
-
-OutputFiles withPrj(const std::string& path) { return {{path}, {}, prjBeside(path)}; }
-
-OutputFiles triangleFiles(const std::string& path) {
-  return {{withEnding(path, ".node"), withEnding(path, ".ele"), withEnding(path, ".poly")}, {}, prjBeside(path)};
-}
-
-// SQLite would play a log that an older file of the name left into the new one.
-OutputFiles geoPackageFiles(const std::string& path) {
-  return {{path}, {path + "-wal", path + "-shm", path + "-journal"}, {}};
-}
-
-OutputFiles layerFiles(const std::string& path) {
-  return {{path, pathOfLayer(path, kNodeLayer), pathOfLayer(path, kBoundaryLayer)}, {}, {}};
-}
-
-OutputFiles shapefileFiles(const std::string& path) {
-  OutputFiles files;
-  for (const std::string& layer : layerFiles(path).targets) {
-    for (const char* ending : {".shp", ".shx", ".dbf", ".cpg"}) files.targets.push_back(withEnding(layer, ending));
-    for (const char* ending : {".prj", ".qix", ".qpj", ".sbn", ".sbx", ".fbn", ".fbx", ".ain", ".aih", ".atx", ".ixs",
-                               ".mxs", ".idm", ".ind", ".cst", ".shp.xml"})
-      files.stale.push_back(withEnding(layer, ending));
-  }
-  files.prj = prjBeside(path);
-  return files;
-}
-
-struct Record {
-  GridFormat format;
-  FormatFunctions functions;
-};
-
-const std::vector<Record>& records() {
-  static const std::vector<Record> known = {
-      {{"gpkg", {".gpkg"}, "GeoPackage with layers of triangles, nodes and boundaries", true, true},
-       {writeGeoPackage, readOgrGrid, geoPackageFiles}},
-      {{"geojson", {".geojson", ".json"}, "GeoJSON, three files", true, true}, {writeGeoJson, readOgrGrid, layerFiles}},
-      {{"shp", {".shp"}, "Shapefile, three sets of files", true, true}, {writeShapefile, readOgrGrid, shapefileFiles}},
-      {{"fgb", {".fgb"}, "FlatGeobuf, three files", true, true}, {writeFlatGeobuf, readOgrGrid, layerFiles}},
-      {{"ugrid", {".nc"}, "UGRID NetCDF for QGIS, xugrid and D-FlowFM", true, true}, {writeUgrid, readUgrid, nullptr}},
-      {{"2dm", {".2dm"}, "SMS 2dm for QGIS and TUFLOW, z positive up", true, true}, {write2dm, read2dm, withPrj}},
-      {{"gmsh", {".msh"}, "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS", true, true},
-       {writeGmsh, readGmsh, withPrj}},
-      {{"gmsh22", {}, "Gmsh 2.2", true, true}, {writeGmsh22, readGmsh, withPrj}},
-      {{"triangle", {".node", ".ele"}, "Triangle's .node, .ele and .poly", true, true},
-       {writeTriangle, readTriangle, triangleFiles}},
-      {{"vtu", {".vtu"}, "VTK unstructured grid for ParaView", false, true}, {writeVtu, nullptr, nullptr}},
+const std::vector<FormatRecord>& records() {
+  static const std::vector<FormatRecord> known = {
+#define COASTMESH_FORMAT(name) name(),
+      COASTMESH_GRID_FORMATS(COASTMESH_FORMAT)
+#undef COASTMESH_FORMAT
   };
   return known;
 }
 
+// The longest of the endings that fit: "_22.msh" before ".msh".
 const GridFormat* formatByEnding(const std::string& path) {
   std::string lower = path;
   std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const GridFormat& format : gridFormats())
-    for (const std::string_view ending : format.endings)
-      if (lower.ends_with(ending)) return &format;
-  return nullptr;
+  const GridFormat* found = nullptr;
+  std::size_t longest = 0;
+  for (const GridFormat& format : gridFormats()) {
+    for (const std::string_view ending : format.endings) {
+      if (ending.size() <= longest || !lower.ends_with(ending)) continue;
+      found = &format;
+      longest = ending.size();
+    }
+  }
+  return found;
 }
 
 std::string endingList(bool GridFormat::*able) {
@@ -106,7 +55,7 @@ std::string endingList(bool GridFormat::*able) {
 const std::vector<GridFormat>& gridFormats() {
   static const std::vector<GridFormat> formats = [] {
     std::vector<GridFormat> all;
-    for (const Record& record : records()) all.push_back(record.format);
+    for (const FormatRecord& record : records()) all.push_back(record.format);
     return all;
   }();
   return formats;
@@ -128,9 +77,20 @@ const GridFormat& gridFormatFor(const std::string& path, const std::string& name
 }
 
 const FormatFunctions& functionsOf(const GridFormat& format) {
-  const auto found = std::ranges::find(records(), format.name, [](const Record& record) { return record.format.name; });
+  const auto found =
+      std::ranges::find(records(), format.name, [](const FormatRecord& record) { return record.format.name; });
   assert(found != records().end());
   return found->functions;
+}
+
+std::string withEnding(const std::string& path, const char* ending) {
+  return std::filesystem::path(path).replace_extension(ending).string();
+}
+
+OutputFiles withPrjBeside(const std::string& path) { return {{path}, {}, prjBeside(path)}; }
+
+OutputFiles layerFiles(const std::string& path) {
+  return {{path, pathOfLayer(path, kNodeLayer), pathOfLayer(path, kBoundaryLayer)}, {}, {}};
 }
 
 OutputFiles filesOf(const GridFormat& format, const std::string& path) {

@@ -15,6 +15,7 @@ struct GridFormat {
   std::string_view description;
   bool readable = false;
   bool writable = false;
+  bool says_depth = false;  // every file of it tells a depth at each node: 0 where the grid has none
 };
 const std::vector<GridFormat>& gridFormats();
 
@@ -52,7 +53,7 @@ class StagedOutput {
   bool keep_prj_ = false;
 };
 
-// Reads a mesh back: UGRID, Gmsh, 2dm, .node/.ele, GIS layers of triangles. Nodes, triangles and their winding are as
+// Reads a mesh back, in any format of `gridFormats` that is readable. Nodes, triangles and their winding are as
 // the file has them, also unused nodes; `boundaries` is empty where the file tells none. Throws InputError.
 Grid readGrid(const std::string& path);
 

@@ -32,6 +32,14 @@ std::vector<Point> takeChain(const OGRSimpleCurve& curve, GeometryParts& parts, 
   return chain;
 }
 
+void takePoint(const OGRPoint& point, const std::string& what, GeometryParts& parts) {
+  if (!std::isfinite(point.getX()) || !std::isfinite(point.getY())) {
+    throw InputError(what + " is a point that is no place (" + inWords(point.getX()) + ", " + inWords(point.getY()) +
+                     "): mend or remove this feature");
+  }
+  parts.points.push_back({point.getX(), point.getY()});
+}
+
 void takePolygon(const OGRPolygon& polygon, const std::string& what, GeometryParts& parts) {
   const std::size_t number = parts.polygons.size() + 1;
   Polygon taken;
@@ -66,7 +74,7 @@ void takeLinear(const OGRGeometry& geometry, const std::string& what, GeometryPa
   if (geometry.IsEmpty()) return;
   switch (wkbFlatten(geometry.getGeometryType())) {
     case wkbPoint:
-      ++parts.points;
+      takePoint(*geometry.toPoint(), what, parts);
       break;
     case wkbPolygon:
     case wkbTriangle:

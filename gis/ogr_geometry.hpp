@@ -16,13 +16,13 @@ namespace coastmesh {
 struct GeometryParts {
   std::vector<Polygon> polygons;
   std::vector<std::vector<Point>> lines;  // as given: a closed one repeats its first point
-  std::uint64_t points = 0;               // point geometries, not taken
+  std::vector<Point> points;
   std::uint64_t coordinates = 0;
   std::uint64_t rings = 0;
   std::uint64_t unclosed_rings = 0;
   std::optional<Point> unclosed_place;  // of the first unclosed ring
 
-  bool empty() const { return polygons.empty() && lines.empty(); }
+  bool empty() const { return polygons.empty() && lines.empty() && points.empty(); }
 };
 
 // Drops the last point of a ring that repeats the first, counts the ring, and tells of one that does not close.

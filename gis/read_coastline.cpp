@@ -2,6 +2,7 @@
 
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -93,6 +94,7 @@ void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport&
       for (Ring& hole : polygon.holes) reprojection.apply(hole, feature.fid);
     }
   }
+  for (Feature& feature : layer.line_features) reprojection.apply(feature.points, feature.fid);
   for (RawLayer::Line& line : layer.lines) {
     reprojection.apply(line.points, layer.line_features[line.feature].fid);
   }
@@ -106,10 +108,20 @@ struct LineOrigin {
   Feature named() const { return layer->line_features[feature]; }
 };
 
-void addLines(std::vector<RawLayer>& layers, Coastline& coastline, ReadReport& report) {
+// Lines that stay as they are: constraints and weirs, each feature with its own.
+void addPlainLines(RawLayer& layer, Coastline& coastline) {
+  std::vector<Feature> features = std::move(layer.line_features);
+  for (RawLayer::Line& line : layer.lines) features[line.feature].lines.push_back(std::move(line.points));
+  std::move(features.begin(), features.end(), std::back_inserter(coastline.features));
+}
+
+bool joinsLines(FeatureUse use) { return use == FeatureUse::Area || use == FeatureUse::Frame; }
+
+void addJoinedLines(std::vector<RawLayer>& layers, FeatureUse use, Coastline& coastline, ReadReport& report) {
   std::vector<std::vector<Point>> lines;
   std::vector<LineOrigin> origins;
   for (RawLayer& layer : layers) {
+    if (layer.use != use) continue;
     for (RawLayer::Line& line : layer.lines) {
       lines.push_back(std::move(line.points));
       origins.push_back({&layer, line.feature});
@@ -123,6 +135,7 @@ void addLines(std::vector<RawLayer>& layers, Coastline& coastline, ReadReport& r
   report.rings += rings.size();
   for (const NestedRing& nested : nestRings(rings)) {
     Feature feature = origins[joined.rings[nested.outer].origin].named();
+    feature.from_lines = true;
     Polygon& polygon = feature.polygons.emplace_back();
     polygon.outer = std::move(rings[nested.outer]);
     for (const std::size_t hole : nested.holes) polygon.holes.push_back(std::move(rings[hole]));
@@ -130,6 +143,7 @@ void addLines(std::vector<RawLayer>& layers, Coastline& coastline, ReadReport& r
   }
   for (JoinedLines::Part& part : joined.open) {
     Feature feature = origins[part.origin].named();
+    feature.from_lines = true;
     feature.lines.push_back(std::move(part.points));
     coastline.features.push_back(std::move(feature));
   }
@@ -137,11 +151,18 @@ void addLines(std::vector<RawLayer>& layers, Coastline& coastline, ReadReport& r
 
 }  // namespace
 
-Coastline readCoastline(const std::vector<std::string>& sources, ReadReport& report) {
+Coastline readCoastline(const std::vector<std::string>& paths, ReadReport& report) {
+  std::vector<Source> sources;
+  for (const std::string& path : paths) sources.push_back({path, FeatureUse::Area});
+  return readCoastline(sources, {}, report);
+}
+
+Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report) {
   if (sources.empty()) throw InputError("no input was given: name at least one vector source");
   std::vector<RawLayer> layers;
-  for (const std::string& source : sources) {
-    for (RawLayer& layer : readLayers(source, report)) layers.push_back(std::move(layer));
+  for (const Source& source : sources) {
+    const ReadFilter& own_filter = source.use == FeatureUse::Area ? filter : ReadFilter{};
+    for (RawLayer& layer : readLayers(source, own_filter, report)) layers.push_back(std::move(layer));
   }
   Coastline coastline;
   coastline.crs = crsOfFirst(layers.front(), report);
@@ -153,8 +174,12 @@ Coastline readCoastline(const std::vector<std::string>& sources, ReadReport& rep
       std::move(layer.features.begin(), layer.features.end(), std::back_inserter(coastline.features));
     }
   }
-  addLines(layers, coastline, report);
-  report.features = coastline.features.size();
+  for (const FeatureUse use : {FeatureUse::Area, FeatureUse::Frame}) addJoinedLines(layers, use, coastline, report);
+  for (RawLayer& layer : layers) {
+    if (!joinsLines(layer.use)) addPlainLines(layer, coastline);
+  }
+  report.features = static_cast<std::uint64_t>(
+      std::ranges::count(coastline.features, FeatureUse::Area, [](const Feature& feature) { return feature.use; }));
   return coastline;
 }
 

@@ -14,8 +14,23 @@ struct ReadReport {
   std::uint64_t rings = 0;           // of polygons, those made of lines included
   std::uint64_t skipped_empty = 0;   // features without a geometry, or with an empty one
   std::uint64_t skipped_points = 0;  // point geometries: nothing to mesh in them
+  std::uint64_t filtered = 0;        // features that a filter of the user's left out
   std::uint64_t unclosed_rings = 0;  // rings of polygons whose last point is not the first: closed
   std::vector<std::string> warnings;
+};
+
+// A source, and what its features are for.
+struct Source {
+  // What OGR opens: a file, "file|layer", a folder, a URL, "/vsizip/…"; a .zip, .gz or .tar is looked into, and "-" is
+  // standard input.
+  std::string path;
+  FeatureUse use = FeatureUse::Area;
+};
+
+// Which features of the sources with FeatureUse::Area are read.
+struct ReadFilter {
+  std::vector<std::string> layers;  // only layers of these names; empty: all
+  std::string where;                // only features for which this SQL condition holds; empty: all
 };
 
 // Reads every vector layer of every source that OGR opens, in their order. Z and M are dropped, curves become straight
@@ -28,11 +43,15 @@ struct ReadReport {
 // A source without a CRS is taken to be in that of the first; a first one without a CRS is taken for WGS 84 where all
 // its coordinates lie within ±180, ±90, else for a plane. Either is warned of.
 // Throws InputError: no such file, empty file, no vector file, no polygon or line in it, a coordinate that is not
-// finite (with feature and vertex), CRS that do not go together.
+// finite (with feature and vertex), CRS that do not go together, a layer or field that is not there.
+// Sources of another use than Area give their polygons (Frame, Region), lines (Weir) or lines and points (Constraint);
+// closed lines are polygons of a frame.
+Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report);
 Coastline readCoastline(const std::vector<std::string>& sources, ReadReport& report);
 
 // Features that touch, cross or contain one another have to be meshed as one; one that lies in a hole of another does
-// not. Every feature is in one group; members ascend, groups are ordered by their first member. Longitudes are taken as
+// not. Water between land and a frame is one whatever lies in it; frames, constraints and regions belong to each group
+// that their extent meets. Every feature is in one group; members ascend, groups are ordered by their first member. Longitudes are taken as
 // given, but where they span exactly 360 degrees, the first and the last meridian are one. Cost O(n log n) for features that lie apart.
 std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline);
 

@@ -278,7 +278,7 @@ void readFeatures(const Contents& contents, Grid& grid) {
 
 std::optional<BoundaryRole> roleOfName(std::string name) {
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const BoundaryRole role : {BoundaryRole::Land, BoundaryRole::Island, BoundaryRole::Open})
+  for (const BoundaryRole role : kBoundaryRoles)
     if (name.starts_with(toString(role))) return role;
   return std::nullopt;
 }

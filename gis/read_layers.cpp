@@ -1,6 +1,5 @@
 #include "gis/read_layers.hpp"
 
-#include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
@@ -10,25 +9,11 @@
 #include "gis/error.hpp"
 #include "gis/ogr_geometry.hpp"
 #include "gis/ogr_support.hpp"
+#include "gis/open_source.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-using Dataset = std::unique_ptr<GDALDataset>;
-
-Dataset open(const std::string& source, const OgrErrors& errors) {
-  GDALAllRegister();
-  Dataset dataset(GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
-  if (dataset) return dataset;
-  VSIStatBufL stat;
-  if (VSIStatL(source.c_str(), &stat) != 0) {
-    throw InputError(source + ": no such file; check the path, or name a source that OGR can open");
-  }
-  if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(source + ": the file is empty");
-  throw InputError(source + ": not a vector file that GDAL can read" +
-                   (errors.text().empty() ? "" : " (" + errors.text() + ")"));
-}
 
 // OGR gives coordinates in the order that the layer's axis mapping says: true where that is y, x.
 bool axesSwapped(const OGRSpatialReference& srs) {
@@ -53,6 +38,7 @@ void forEachChain(GeometryParts& parts, Act&& act) {
     for (Ring& hole : polygon.holes) act(hole);
   }
   for (auto& line : parts.lines) act(line);
+  act(parts.points);
 }
 
 std::string placeInWords(const Point& p) {
@@ -64,8 +50,9 @@ std::string placeInWords(const Point& p) {
 // One layer while it is read.
 class LayerReader {
  public:
-  LayerReader(OGRLayer& layer, std::string source) {
+  LayerReader(OGRLayer& layer, std::string source, FeatureUse use) {
     raw_.source = std::move(source);
+    raw_.use = use;
     const OGRSpatialReference* srs = layer.GetSpatialRef();
     if (!srs || srs->IsEmpty()) return;
     try {
@@ -76,8 +63,9 @@ class LayerReader {
     swap_axes_ = axesSwapped(*srs);
   }
 
-  LayerReader(const Crs& crs, std::string source) {
+  LayerReader(const Crs& crs, std::string source, FeatureUse use) {
     raw_.source = std::move(source);
+    raw_.use = use;
     raw_.crs = crs;
   }
 
@@ -90,6 +78,7 @@ class LayerReader {
     Feature feature;
     feature.fid = given.GetFID() == OGRNullFID ? count_ : given.GetFID();
     feature.source = raw_.source;
+    feature.use = raw_.use;
     GeometryParts parts;
     takeApart(*geometry, describe(feature), parts);
     if (!parts.empty()) feature.attributes = attributesOf(given);
@@ -106,9 +95,11 @@ class LayerReader {
         raw_.bounds.add(p);
       }
     });
-    if (!parts.lines.empty()) {
+    if (raw_.use == FeatureUse::Constraint) feature.points = std::move(parts.points);
+    if (!parts.lines.empty() || !feature.points.empty()) {
       for (auto& line : parts.lines) raw_.lines.push_back({std::move(line), raw_.line_features.size()});
       raw_.line_features.push_back(feature);
+      feature.points.clear();
     }
     if (!parts.polygons.empty()) {
       feature.polygons = std::move(parts.polygons);
@@ -117,7 +108,9 @@ class LayerReader {
   }
 
   RawLayer finish() {
-    if (count_ == 1 && raw_.features.size() == 1 && raw_.features.front().attributes.empty()) takeBareApart();
+    if (raw_.use == FeatureUse::Area && count_ == 1 && raw_.features.size() == 1 &&
+        raw_.features.front().attributes.empty())
+      takeBareApart();
     return std::move(raw_);
   }
 
@@ -129,7 +122,7 @@ class LayerReader {
   void tally(const GeometryParts& parts, const std::string& what, ReadReport& report) {
     report.points += parts.coordinates;
     report.rings += parts.rings;
-    report.skipped_points += parts.points;
+    if (raw_.use != FeatureUse::Constraint) report.skipped_points += parts.points.size();
     if (parts.unclosed_place && report.unclosed_rings == 0) {
       report.warnings.push_back(what + ": a ring of a polygon is not closed (it ends at " +
                                 placeInWords(*parts.unclosed_place) + "): such rings are closed");
@@ -146,6 +139,7 @@ class LayerReader {
       Feature& feature = raw_.features.emplace_back();
       feature.fid = whole.polygons.size() > 1 ? static_cast<std::int64_t>(raw_.features.size()) - 1 : whole.fid;
       feature.source = whole.source;
+      feature.use = whole.use;
       feature.polygons.push_back(std::move(polygon));
     }
   }
@@ -155,7 +149,7 @@ class LayerReader {
   bool swap_axes_ = false;
 };
 
-void refuseEmpty(const std::string& source, std::uint64_t points) {
+[[noreturn]] void refuseEmpty(const std::string& source, std::uint64_t points) {
   throw InputError(source + (points > 0 ? ": holds points only" : ": holds no feature with a geometry") +
                    "; polygons or lines are needed");
 }
@@ -172,36 +166,38 @@ std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, const std::st
 
 }  // namespace
 
-std::vector<RawLayer> readLayers(const std::string& source, ReadReport& report) {
+std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, ReadReport& report) {
+  const bool filtered = !filter.layers.empty() || !filter.where.empty();
   const std::uint64_t points_before = report.skipped_points;
   std::vector<LayerReader> readers;
-  if (std::optional<GeometryParts> bare = readBareGeojson(source)) {
+  if (std::optional<GeometryParts> bare = filtered ? std::nullopt : readBareGeojson(given.path)) {
     Feature feature;
-    feature.source = source;
-    readers.emplace_back(wgs84(), source);
+    feature.source = given.path;
+    feature.use = given.use;
+    readers.emplace_back(wgs84(), given.path, given.use);
     readers.front().add(std::move(*bare), std::move(feature), report);
-    return finishAll(readers, source, report.skipped_points - points_before);
+    return finishAll(readers, given.path, report.skipped_points - points_before);
   }
 
   OgrErrors errors;
   const OgrOption any_size("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
-  const Dataset dataset = open(source, errors);
-  std::vector<OGRLayer*> layers;
-  for (OGRLayer* layer : dataset->GetLayers()) {
-    const bool only = dataset->GetLayerCount() == 1;
-    layers.push_back(layer);
-    readers.emplace_back(*layer, only ? source : source + "|" + layer->GetName());
+  const OpenSource source = openSource(given.path, filter.layers, errors);
+  if (!filter.where.empty()) report.filtered += keepWhere(source, filter.where, errors);
+  const bool only = source.dataset->GetLayerCount() == 1;
+  for (OGRLayer* layer : source.layers) {
+    readers.emplace_back(*layer, only ? source.name : source.name + "|" + layer->GetName(), given.use);
   }
   // Through the dataset, not layer by layer: OpenStreetMap files come interleaved.
-  dataset->ResetReading();
+  source.dataset->ResetReading();
   OGRLayer* layer = nullptr;
-  while (const std::unique_ptr<OGRFeature> feature{dataset->GetNextFeature(&layer, nullptr, nullptr, nullptr)}) {
-    const auto at = std::find(layers.begin(), layers.end(), layer);
-    readers[static_cast<std::size_t>(at - layers.begin())].add(*feature, report);
+  while (const std::unique_ptr<OGRFeature> feature{source.dataset->GetNextFeature(&layer, nullptr, nullptr, nullptr)}) {
+    const auto at = std::find(source.layers.begin(), source.layers.end(), layer);
+    if (at == source.layers.end()) continue;
+    readers[static_cast<std::size_t>(at - source.layers.begin())].add(*feature, report);
   }
-  if (errors.failed()) throw InputError(source + ": cannot be read to its end (" + errors.text() + ")");
-  if (!errors.text().empty()) report.warnings.push_back(source + ": " + errors.text());
-  return finishAll(readers, source, report.skipped_points - points_before);
+  if (errors.failed()) throw InputError(source.name + ": cannot be read to its end (" + errors.text() + ")");
+  if (!errors.text().empty()) report.warnings.push_back(source.name + ": " + errors.text());
+  return finishAll(readers, source.name, report.skipped_points - points_before);
 }
 
 }  // namespace coastmesh

@@ -16,7 +16,8 @@ struct RawLayer {
     std::vector<Point> points;
     std::size_t feature = 0;  // index into `line_features`
   };
-  std::string source;                  // "file" or "file|layer"
+  std::string source;  // "file" or "file|layer"
+  FeatureUse use = FeatureUse::Area;
   std::optional<Crs> crs;              // none: the file does not say
   std::vector<Feature> features;       // those with polygons
   std::vector<Feature> line_features;  // those with lines: name and attributes
@@ -26,7 +27,8 @@ struct RawLayer {
   bool empty() const { return features.empty() && lines.empty(); }
 };
 
-// Layers of one source that hold polygons or lines, in the file's order; at least one. Counts go to `report`.
-std::vector<RawLayer> readLayers(const std::string& source, ReadReport& report);
+// Layers of one source that hold polygons or lines (or points, for constraints), in the file's order; at least one.
+// Counts go to `report`.
+std::vector<RawLayer> readLayers(const Source& source, const ReadFilter& filter, ReadReport& report);
 
 }  // namespace coastmesh

@@ -266,9 +266,9 @@ void readBoundaries(const Companion& companion, const OgrErrors& errors, const N
     Boundary boundary;
     const std::string role = feature->GetFieldAsString(role_field);
     std::optional<BoundaryRole> known;
-    for (const BoundaryRole candidate : {BoundaryRole::Land, BoundaryRole::Island, BoundaryRole::Open})
+    for (const BoundaryRole candidate : kBoundaryRoles)
       if (role == toString(candidate)) known = candidate;
-    if (!known) reader.fail("its role is \"" + role + "\", not land, island or open");
+    if (!known) reader.fail("its role is \"" + role + "\", not land, island, open or river");
     boundary.role = *known;
     for (int i = 0; i < line.getNumPoints(); ++i) {
       const auto node = index.find(placeOf(line, i));

@@ -149,7 +149,8 @@ void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& gri
   std::vector<BoundaryRole> roles;
   for (std::size_t e = 0; e < number.size(); ++e) {
     if (e == 0 || number[e] != number[e - 1]) {
-      if (role[e] < 0 || role[e] > 2) file.fail("\"" + role_name + "\" holds " + std::to_string(role[e]));
+      if (role[e] < 0 || role[e] >= static_cast<std::int64_t>(kBoundaryRoles.size()))
+        file.fail("\"" + role_name + "\" holds " + std::to_string(role[e]));
       groups.emplace_back();
       roles.push_back(static_cast<BoundaryRole>(role[e]));
     }

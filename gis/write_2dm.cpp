@@ -1,7 +1,9 @@
 #include "gis/write_2dm.hpp"
 
 #include "gis/boundary_chains.hpp"
+#include "gis/grid_formats.hpp"
 #include "gis/prj_file.hpp"
+#include "gis/read_2dm.hpp"
 #include "gis/text_writer.hpp"
 
 namespace coastmesh {
@@ -39,6 +41,11 @@ void write2dm(const Grid& grid, const std::string& path) {
   }
   file.close();
   writePrjBeside(path, grid.crs);
+}
+
+FormatRecord sms2dmFormat() {
+  return {{"2dm", {".2dm"}, "SMS 2dm for QGIS and TUFLOW, z positive up", true, true, true},
+          {write2dm, read2dm, withPrjBeside}};
 }
 
 }  // namespace coastmesh

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "gis/error.hpp"
+#include "gis/grid_formats.hpp"
 #include "gis/grid_layers.hpp"
+#include "gis/read_ogr_grid.hpp"
 #include "gis/text_writer.hpp"
 
 namespace coastmesh {
@@ -114,6 +116,11 @@ void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs
 void writeGeoJson(const Grid& grid, const std::string& path) {
   const std::string crs_member = crsMember(grid.crs, path);
   for (const GridLayer& layer : layersOf(grid)) writeLayer(grid, layer, crs_member, pathOfLayer(path, layer.name));
+}
+
+FormatRecord geoJsonFormat() {
+  return {{"geojson", {".geojson", ".json"}, "GeoJSON, three files", true, true},
+          {writeGeoJson, readOgrGrid, layerFiles}};
 }
 
 }  // namespace coastmesh

@@ -7,7 +7,9 @@
 #include <set>
 
 #include "gis/boundary_chains.hpp"
+#include "gis/grid_formats.hpp"
 #include "gis/prj_file.hpp"
+#include "gis/read_gmsh.hpp"
 #include "gis/text_writer.hpp"
 
 namespace coastmesh {
@@ -217,6 +219,15 @@ void writeGmsh22(const Grid& grid, const std::string& path) {
   writeNodeData(file, grid);
   file.close();
   writePrjBeside(path, grid.crs);
+}
+
+FormatRecord gmshFormat() {
+  return {{"gmsh", {".msh"}, "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS", true, true},
+          {writeGmsh, readGmsh, withPrjBeside}};
+}
+
+FormatRecord gmsh22Format() {
+  return {{"gmsh22", {"_22.msh"}, "Gmsh 2.2", true, true}, {writeGmsh22, readGmsh, withPrjBeside}};
 }
 
 }  // namespace coastmesh

@@ -11,8 +11,11 @@
 
 #include "gis/error.hpp"
 #include "gis/gpkg_index.hpp"
+#include "gis/grid_formats.hpp"
 #include "gis/grid_layers.hpp"
 #include "gis/ogr_support.hpp"
+#include "gis/prj_file.hpp"
+#include "gis/read_ogr_grid.hpp"
 
 namespace coastmesh {
 namespace {
@@ -266,6 +269,41 @@ void requireShapefileSize(const std::string& path, std::uint64_t rows, std::uint
   if (rows * std::max(shape_bytes, table_bytes) + kHeader <= kLimit) return;
   throw OutputError("cannot write '" + path + "': " + std::to_string(rows) +
                     " triangles are more than the 2 GB of a shapefile hold; choose .gpkg or .fgb");
+}
+
+namespace {
+
+// SQLite would play a log that an older file of the name left into the new one.
+OutputFiles geoPackageFiles(const std::string& path) {
+  return {{path}, {path + "-wal", path + "-shm", path + "-journal"}, {}};
+}
+
+OutputFiles shapefileFiles(const std::string& path) {
+  OutputFiles files;
+  for (const std::string& layer : layerFiles(path).targets) {
+    for (const char* ending : {".shp", ".shx", ".dbf", ".cpg"}) files.targets.push_back(withEnding(layer, ending));
+    for (const char* ending : {".prj", ".qix", ".qpj", ".sbn", ".sbx", ".fbn", ".fbx", ".ain", ".aih", ".atx", ".ixs",
+                               ".mxs", ".idm", ".ind", ".cst", ".shp.xml"})
+      files.stale.push_back(withEnding(layer, ending));
+  }
+  files.prj = prjBeside(path);
+  return files;
+}
+
+}  // namespace
+
+FormatRecord geoPackageFormat() {
+  return {{"gpkg", {".gpkg"}, "GeoPackage with layers of triangles, nodes and boundaries", true, true},
+          {writeGeoPackage, readOgrGrid, geoPackageFiles}};
+}
+
+FormatRecord shapefileFormat() {
+  return {{"shp", {".shp"}, "Shapefile, three sets of files", true, true},
+          {writeShapefile, readOgrGrid, shapefileFiles}};
+}
+
+FormatRecord flatGeobufFormat() {
+  return {{"fgb", {".fgb"}, "FlatGeobuf, three files", true, true}, {writeFlatGeobuf, readOgrGrid, layerFiles}};
 }
 
 }  // namespace coastmesh

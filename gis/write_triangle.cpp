@@ -2,20 +2,16 @@
 
 #include <ogr_geometry.h>
 
-#include <filesystem>
-
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
+#include "gis/grid_formats.hpp"
 #include "gis/ogr_support.hpp"
 #include "gis/prj_file.hpp"
+#include "gis/read_triangle.hpp"
 #include "gis/text_writer.hpp"
 
 namespace coastmesh {
 namespace {
-
-std::string withEnding(const std::string& path, const char* ending) {
-  return std::filesystem::path(path).replace_extension(ending).string();
-}
 
 void writeNodes(const Grid& grid, const std::string& path) {
   std::vector<std::int64_t> markers(grid.nodes.size(), 0);
@@ -88,6 +84,14 @@ void writeTriangle(const Grid& grid, const std::string& path) {
   writeElements(grid, withEnding(path, ".ele"));
   writeSegments(grid, withEnding(path, ".poly"));
   writePrjBeside(path, grid.crs);
+}
+
+FormatRecord triangleFormat() {
+  const auto files = [](const std::string& path) -> OutputFiles {
+    return {{withEnding(path, ".node"), withEnding(path, ".ele"), withEnding(path, ".poly")}, {}, prjBeside(path)};
+  };
+  return {{"triangle", {".node", ".ele"}, "Triangle's .node, .ele and .poly", true, true},
+          {writeTriangle, readTriangle, files}};
 }
 
 }  // namespace coastmesh

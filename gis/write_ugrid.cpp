@@ -9,9 +9,11 @@
 
 #include "gis/boundary_chains.hpp"
 #include "gis/cf_grid_mapping.hpp"
+#include "gis/grid_formats.hpp"
 #include "gis/mesh_edges.hpp"
 #include "gis/netcdf_file.hpp"
 #include "gis/ogr_support.hpp"
+#include "gis/read_ugrid.hpp"
 
 namespace coastmesh {
 namespace {
@@ -184,8 +186,8 @@ void writeUgrid(const Grid& grid, const std::string& path) {
     boundary_number = defineData(file, {}, "boundary_number", NC_INT, boundary_dim, "boundary",
                                  "boundary that the edge belongs to, from 1", {});
     boundary_role = defineData(file, {}, "boundary_role", NC_BYTE, boundary_dim, "boundary", "role of the edge", {});
-    file.attribute(boundary_role, "flag_values", std::vector<signed char>{0, 1, 2});
-    file.attribute(boundary_role, "flag_meanings", "land island open");
+    file.attribute(boundary_role, "flag_values", std::vector<signed char>{0, 1, 2, 3});
+    file.attribute(boundary_role, "flag_meanings", "land island open river");
   }
   int angle = -1, area = -1, feature = -1;
   if (!grid.min_angle_deg.empty())
@@ -222,6 +224,11 @@ void writeUgrid(const Grid& grid, const std::string& path) {
   if (area >= 0) file.put(area, grid.area_m2.data());
   if (feature >= 0) file.put(feature, fids.data());
   file.close();
+}
+
+FormatRecord ugridFormat() {
+  return {{"ugrid", {".nc"}, "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)", true, true},
+          {writeUgrid, readUgrid, nullptr}};
 }
 
 }  // namespace coastmesh

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/delaunay.hpp"
+#include "core/fit.hpp"
 #include "core/label_regions.hpp"
 #include "core/shortfalls.hpp"
 #include "parallel/recorder.hpp"
@@ -27,6 +28,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+int fitSweeps(const MeshOptions& options) {
+  if (options.smooth) return kSmoothSweeps;
+  return options.refine.size != nullptr && options.shrink ? kFitSweeps : 0;
+}
+
 void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   Stopwatch watch;
   region.stats = refine(region.mesh, pslg, options.refine, control);
@@ -37,7 +43,13 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
     region.stats.unresolved.clear();
     region.stats.add(shrunk);
   }
-  region.log.addAlone("refine", region.seconds.refine + region.seconds.shrink);
+  if (const int sweeps = fitSweeps(options); sweeps > 0) {
+    RefineStats fitted = fit(region.mesh, pslg, options.refine, sweeps, control);
+    region.seconds.fit = watch.lap();
+    region.stats.unresolved.clear();
+    region.stats.add(fitted);
+  }
+  region.log.addAlone("refine", region.seconds.refine + region.seconds.shrink + region.seconds.fit);
 }
 
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
@@ -54,6 +66,10 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   if (options.shrink) {
     add(shrinkInRounds(region.mesh, pslg, options.refine, control, std::move(memory)));
     region.seconds.shrink = watch.lap();
+  }
+  if (const int sweeps = fitSweeps(options); sweeps > 0) {
+    add(fitInRounds(region.mesh, pslg, options.refine, sweeps, control, std::move(memory)));
+    region.seconds.fit = watch.lap();
   }
   Recorder recorder;
   region.stats.unresolved = findShortfalls(region.mesh, options.refine, recorder.loop("label", control));

@@ -13,6 +13,7 @@ namespace coastmesh {
 struct MeshOptions {
   RefineOptions refine;
   bool shrink = true;
+  bool smooth = false;     // sweeps on towards the lengths wanted; where none are, towards even ones
   bool one_piece = false;  // never cuts a region, however large
 };
 
@@ -21,6 +22,7 @@ struct MeshSeconds {
   double triangulate = 0.0;
   double refine = 0.0;
   double shrink = 0.0;
+  double fit = 0.0;
   double stitch = 0.0;
 };
 

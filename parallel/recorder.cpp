@@ -1,6 +1,6 @@
 #include "parallel/recorder.hpp"
 
-#include <time.h>
+#include <ctime>
 
 #include "parallel/workers.hpp"
 

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/fit.hpp"
+#include "core/split_segments.hpp"
 #include "parallel/cut.hpp"
 #include "parallel/recorder.hpp"
 
@@ -35,6 +37,8 @@ constexpr double kExcess = 1.5;
 constexpr double kEquilateral = 0.43301270189221932;  // area for edges of length 1
 // Triangles that come of a bad one on a coast.
 constexpr double kOfABadOne = 3.0;
+// Halvings of a triangle's sides in adding up what it will become: four to this power of places.
+constexpr int kMostDepth = 9;
 // A triangle that is only copied.
 constexpr double kOfACopy = 0.1;
 
@@ -44,10 +48,22 @@ double cutAngle(int round) {
   return kRightAngle * std::fmod(kGoldenShare * round, 1.0);
 }
 
+// How many triangles of the lengths wanted a triangle is worth.
+double wantedIn(const Point& a, const Point& b, const Point& c, const TriangleBound& bound, int depth) {
+  constexpr double kFine = 16.0;
+  const double size = bound.longest_share / kLongestShare * bound.size->at((1.0 / 3.0) * (a + b + c));
+  const double count = 0.5 * std::abs(cross(b - a, c - a)) / (kEquilateral * size * size);
+  if (count < kFine || depth == 0) return count;
+  const Point ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
+  return wantedIn(a, ab, ca, bound, depth - 1) + wantedIn(ab, b, bc, bound, depth - 1) +
+         wantedIn(ca, bc, c, bound, depth - 1) + wantedIn(ab, bc, ca, bound, depth - 1);
+}
+
 double expectedOf(const TriMesh& mesh, TriId t, const TriangleBound& bound) {
   const auto& v = mesh.triangle(t).v;
   const Point &a = mesh.point(v[0]), &b = mesh.point(v[1]), &c = mesh.point(v[2]);
   if (!isBad(a, b, c, bound)) return 1.0;
+  if (bound.size != nullptr) return std::max(kOfABadOne, wantedIn(a, b, c, bound, kMostDepth));
   const double area = 0.5 * std::abs(cross(b - a, c - a));
   return std::max(kOfABadOne, kExcess * area / (kEquilateral * bound.squared_size));
 }
@@ -141,8 +157,15 @@ std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& 
     area += 0.5 * cross(b - a, c - a);
     longest = std::max({longest, squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)});
   }
+  if (options.size != nullptr) {
+    const double all = expectedTriangles(mesh, options);
+    for (double scale = kSizeStep; all > kLittleWork * scale * scale; scale *= kSizeStep) {
+      steps.push_back(options);
+      steps.back().size_scale = scale;
+    }
+  }
   const double large_enough = std::min(std::sqrt(longest), std::sqrt(kExcess * area / (kEquilateral * kLittleWork)));
-  for (double size = options.size_max; size * kSizeStep < large_enough;) {
+  for (double size = options.size_max; options.size == nullptr && size * kSizeStep < large_enough;) {
     size *= kSizeStep;
     steps.push_back(options);
     steps.back().size_max = size;
@@ -183,7 +206,7 @@ void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, co
 }  // namespace
 
 double expectedTriangles(const TriMesh& mesh, const RefineOptions& options) {
-  const TriangleBound bound(options.min_angle_deg, options.max_angle_deg, options.size_max);
+  const TriangleBound bound = boundOf(options);
   double sum = 0.0;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) sum += expectedOf(mesh, t, bound);
   return sum;
@@ -194,10 +217,11 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   const std::vector<RefineOptions> steps = stepsTo(options, mesh);
   Rounds run(std::move(mesh), control, std::move(memory));
   Sheet& sheet = run.sheet();
-  sheet.notes = noteInput(sheet.mesh, TriangleBound(options.min_angle_deg, options.max_angle_deg, options.size_max));
+  sheet.notes = noteInput(sheet.mesh, boundOf(options));
+  if (options.size != nullptr) splitSegments(sheet.mesh, pslg, sheet.notes, options);
   for (std::size_t step = 0; step < steps.size() && !run.stats().budget_reached; ++step) {
     const bool last_step = step + 1 == steps.size();
-    const TriangleBound bound(steps[step].min_angle_deg, steps[step].max_angle_deg, steps[step].size_max);
+    const TriangleBound bound = boundOf(steps[step]);
     markBad(run, bound);
     const auto due = [&] { return run.total([&](TriId t) { return static_cast<double>(sheet.due_triangles[t]); }); };
     for (int round = 0; round <= kMostRounds; ++round) {
@@ -214,8 +238,12 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   return run.finish(mesh);
 }
 
-RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsMemory&& memory) {
+namespace {
+
+// Gives every Steiner point its turn in some round: `work(piece, control)` handles the due vertices of a piece.
+template <typename Work>
+RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunControl& control, RoundsMemory&& memory,
+                           const Work& work) {
   constexpr int kRounds = 3;
   Rounds run(std::move(mesh), control, std::move(memory));
   Sheet& sheet = run.sheet();
@@ -229,11 +257,26 @@ RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
       const auto& v = sheet.mesh.triangle(t).v;
       return kOfACopy + sheet.due_vertices[v[0]] + sheet.due_vertices[v[1]] + sheet.due_vertices[v[2]];
     };
-    run.round("shrink", weigh, false, [&](Piece& piece, double, const RunControl& inner) {
-      return anyOf(piece.due_vertices) ? shrinkPiece(piece, pslg, options, inner) : RefineStats{};
+    run.round(name, weigh, false, [&](Piece& piece, double, const RunControl& inner) {
+      return anyOf(piece.due_vertices) ? work(piece, inner) : RefineStats{};
     });
   }
   return run.finish(mesh);
+}
+
+}  // namespace
+
+RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+                            RoundsMemory&& memory) {
+  return sweepInRounds("shrink", mesh, control, std::move(memory),
+                       [&](Piece& piece, const RunControl& inner) { return shrinkPiece(piece, pslg, options, inner); });
+}
+
+RoundsReport fitInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
+                         const RunControl& control, RoundsMemory&& memory) {
+  return sweepInRounds("fit", mesh, control, std::move(memory), [&](Piece& piece, const RunControl& inner) {
+    return fitPiece(piece, pslg, options, sweeps, inner);
+  });
 }
 
 }  // namespace coastmesh

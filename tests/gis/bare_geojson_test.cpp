@@ -36,7 +36,7 @@ TEST(BareGeojson, ReadsEveryTypeOfGeometry) {
   EXPECT_EQ(parts->polygons[2].outer, (Ring{{7, 7}, {8, 7}, {8, 8}}));
   EXPECT_EQ(parts->lines,
             (std::vector<std::vector<Point>>{{{-0.1, 2.5}, {3, -4}}, {{0, 1}, {2, 3}}, {{4, 5}, {6, 7}}}));
-  EXPECT_EQ(parts->points, 3u);
+  EXPECT_EQ(parts->points.size(), 3u);
   EXPECT_EQ(parts->rings, 4u);
   EXPECT_EQ(parts->unclosed_rings, 1u);
   EXPECT_EQ(parts->unclosed_place, (Point{8, 8}));

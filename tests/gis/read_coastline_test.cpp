@@ -1,11 +1,13 @@
 #include "gis/read_coastline.hpp"
 
+#include <cpl_conv.h>
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -267,6 +269,79 @@ TEST_F(ReadCoastline, LargeObjectsAreReadWhateverTheirSize) {
   const Coastline coastline = read(geojson("large.geojson", {R"({"type":"Polygon","coordinates":[)" + ring + "]}"}));
   CPLSetThreadLocalConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", nullptr);
   EXPECT_EQ(coastline.features[0].polygons[0].outer.size(), 2000u);
+}
+
+// A square with its south-western corner at x, 0.
+std::string squareAt(int x) {
+  const auto at = [](int u, int v) { return "[" + std::to_string(u) + "," + std::to_string(v) + "]"; };
+  return R"({"type":"Polygon","coordinates":[[)" + at(x, 0) + "," + at(x + 1, 0) + "," + at(x + 1, 1) + "," + at(x, 1) +
+         "," + at(x, 0) + "]]}";
+}
+
+TEST_F(ReadCoastline, LayersByName) {
+  layer("two.gpkg", "GPKG", "EPSG:4326", {"POLYGON((0 0,1 0,1 1,0 0))"}, "lakes");
+  const std::string file = layer("two.gpkg", "GPKG", "EPSG:4326",
+                                 {"POLYGON((5 0,6 0,6 1,5 0))", "POLYGON((8 0,9 0,9 1,8 0))"}, "ponds", true);
+  ReadReport report;
+  EXPECT_EQ(readCoastline({{file}}, {}, report).features.size(), 3u);
+  EXPECT_EQ(readCoastline({{file}}, {{"ponds"}, ""}, report).features.size(), 2u);
+  EXPECT_EQ(readCoastline({{file + "|lakes"}}, {}, report).features.size(), 1u);
+  EXPECT_EQ(readCoastline({{file + "|layername=lakes"}}, {}, report).features.size(), 1u);
+  try {
+    readCoastline({{file}}, {{"seas"}, ""}, report);
+    FAIL() << "took a layer that is not there";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no layer 'seas'; there are lakes, ponds"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(ReadCoastline, FeaturesByAttribute) {
+  const std::string file = geojson("three.geojson", {squareAt(0), squareAt(3), squareAt(6)});
+  ReadReport report;
+  const Coastline kept = readCoastline({{file}}, {{}, "name <> 'f1'"}, report);
+  ASSERT_EQ(kept.features.size(), 2u);
+  EXPECT_EQ(kept.features[1].polygons[0].outer[0].x, 6);
+  EXPECT_EQ(report.filtered, 1u);
+  EXPECT_THROW(readCoastline({{file}}, {{}, "depth > 5"}, report), InputError);  // no such field
+  EXPECT_THROW(readCoastline({{file}}, {{}, "name <"}, report), InputError);     // no SQL
+  EXPECT_THROW(readCoastline({{file}}, {{}, "name = 'none'"}, report), InputError);
+}
+
+TEST_F(ReadCoastline, Archives) {
+  geojson("lake.geojson", {squareAt(0)});
+  ASSERT_EQ(std::system(("cd '" + path("") + "' && mkdir -p deep && cp lake.geojson deep && gzip -k lake.geojson && " +
+                         "tar czf lake.tgz deep")
+                            .c_str()),
+            0);
+  const auto zip = [&](const std::string& archive, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      const std::string target = "/vsizip/" + path(archive) + "/" + name;
+      ASSERT_EQ(CPLCopyFile(target.c_str(), path("lake.geojson").c_str()), 0);
+    }
+  };
+  zip("one.zip", {"some/folder/lake.geojson", "some/readme.txt"});
+  zip("two.zip", {"a.geojson", "b.geojson"});
+  ReadReport report;
+  for (const std::string archive : {"lake.geojson.gz", "lake.tgz", "one.zip"}) {
+    EXPECT_EQ(readCoastline({path(archive)}, report).features.size(), 1u) << archive;
+  }
+  EXPECT_EQ(readCoastline({path("two.zip") + "/b.geojson"}, report).features.size(), 1u);
+  EXPECT_THROW(readCoastline({path("two.zip")}, report), InputError);
+}
+
+// Sources of other uses keep their lines apart from the coast's, and points where they are wanted.
+TEST_F(ReadCoastline, SourcesOfOtherUses) {
+  const std::string coast = geojson("coast.geojson", {squareAt(0)});
+  const std::string wharf = geojson("wharf.geojson", {R"({"type":"LineString","coordinates":[[0,0],[0.5,0.5]]})",
+                                                      R"({"type":"Point","coordinates":[0.25,0.75]})"});
+  ReadReport report;
+  const Coastline read = readCoastline({{coast}, {wharf, FeatureUse::Constraint}}, {}, report);
+  ASSERT_EQ(read.features.size(), 3u);
+  EXPECT_EQ(report.features, 1u);
+  EXPECT_EQ(read.features[1].use, FeatureUse::Constraint);
+  EXPECT_EQ(read.features[1].lines.size(), 1u);
+  EXPECT_EQ(read.features[2].points, (std::vector<Point>{{0.25, 0.75}}));
 }
 
 }  // namespace

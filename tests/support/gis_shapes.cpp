@@ -22,7 +22,9 @@ Feature lineFeature(std::int64_t fid, std::vector<Point> line) {
   return feature;
 }
 
-Coastline coastlineOf(std::vector<Feature> features, Crs crs) { return {std::move(features), std::move(crs)}; }
+Coastline coastlineOf(std::vector<Feature> features, Crs crs) {
+  return {std::move(features), std::move(crs), std::nullopt};
+}
 
 std::vector<std::size_t> allMembers(const Coastline& coastline) {
   std::vector<std::size_t> members(coastline.features.size());

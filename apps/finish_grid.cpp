@@ -1,0 +1,96 @@
+#include "apps/finish_grid.hpp"
+
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "apps/stopwatch.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array kMethods{"bilinear", "average"};
+constexpr std::array kFills{"neighbours", "nearest", "none"};
+
+// Declares a choice of names, in the order of the enumerators of `value`.
+template <typename Enum, std::size_t N>
+void declareEnum(CommandLine& line, const std::string& names, Enum& value, const std::array<const char*, N>& choices,
+                 const std::string& help) {
+  const std::vector<std::string> all(choices.begin(), choices.end());
+  line.choice(
+      names, all[static_cast<std::size_t>(value)], all,
+      [&value, all](const std::string& chosen) {
+        for (std::size_t i = 0; i < all.size(); ++i)
+          if (all[i] == chosen) value = static_cast<Enum>(i);
+      },
+      help);
+}
+
+}  // namespace
+
+std::vector<std::string> FinishReport::warnings() const { return depth.warnings; }
+
+void declareFinishOptions(CommandLine& line, FinishOptions& options) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  DepthOptions& depth = options.depth;
+  line.texts("--bathymetry", depth.files, kRasterFile, false,
+             "raster that gives the nodes their depth; repeat it for several, the first that has a value counts");
+  declareEnum(line, "--depth-method", depth.method, kMethods,
+              "depth between the four pixels round a node, or the average over the pixels in its triangles");
+  line.choice(
+      "--depth-sign", "up", {"up", "down"},
+      [&depth](const std::string& chosen) { depth.positive_down = chosen == "down"; },
+      "whether the rasters tell elevations (positive up) or depths (positive down)");
+  line.number("--water-level", depth.water_level_m, "M", {-kInfinity, kInfinity},
+              "height of the still water above the rasters' zero, which depths are counted from");
+  line.number("--min-depth", depth.min_depth_m, "M", {-kInfinity, kInfinity}, "nodes shallower than this are lowered");
+  declareEnum(line, "--depth-fill", depth.fill, kFills,
+              "what nodes get for which no raster has a value: the mean of their neighbours, the value of the nearest "
+              "node, or none");
+}
+
+FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control) {
+  FinishReport report;
+  const Stopwatch depth;
+  if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control);
+  report.depth_s = depth.seconds();
+  return report;
+}
+
+std::string finishSummary(const FinishOptions& options, const FinishReport& report) {
+  std::string text;
+  if (!options.depth.files.empty()) {
+    char line[160];
+    std::snprintf(line, sizeof line, "depths from %.6g to %.6g m; %zu nodes filled, %zu unknown, %zu above the water\n",
+                  report.depth.least_m, report.depth.greatest_m, report.depth.filled, report.depth.unknown,
+                  report.depth.above_water);
+    text += line;
+  }
+  return text;
+}
+
+std::string depthSection(const FinishOptions& options, const FinishReport& report) {
+  if (options.depth.files.empty()) return "null";
+  const DepthReport& depth = report.depth;
+  Json files = Json::array();
+  for (std::size_t i = 0; i < depth.nodes_of_file.size(); ++i)
+    files.push_back({{"file", options.depth.files[i]}, {"nodes", depth.nodes_of_file[i]}});
+  return Json{{"method", kMethods[static_cast<std::size_t>(options.depth.method)]},
+              {"positive", options.depth.positive_down ? "down" : "up"},
+              {"files", std::move(files)},
+              {"averaged", depth.averaged},
+              {"partial", depth.partial},
+              {"filled", depth.filled},
+              {"unknown", depth.unknown},
+              {"lowered", depth.lowered},
+              {"above_water", depth.above_water},
+              {"least_m", depth.least_m},
+              {"greatest_m", depth.greatest_m}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace coastmesh

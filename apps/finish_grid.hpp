@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/command_line.hpp"
+#include "core/run_control.hpp"
+#include "gis/depth.hpp"
+#include "gis/grid.hpp"
+
+namespace coastmesh {
+
+// What is done to a mesh before it is written: depths, boundaries, and what a model needs.
+struct FinishOptions {
+  DepthOptions depth;
+
+  bool any() const { return !depth.files.empty(); }
+};
+
+struct FinishReport {
+  DepthReport depth;
+  double depth_s = 0.0;
+
+  std::vector<std::string> warnings() const;
+};
+
+// Declares the options of FinishOptions.
+void declareFinishOptions(CommandLine& line, FinishOptions& options);
+
+// Throws InputError, Cancelled.
+FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control = {});
+
+// For people: a line each on what was done; empty where nothing was asked for.
+std::string finishSummary(const FinishOptions& options, const FinishReport& report);
+
+// The report's sections "depth" and "boundaries" as JSON text, each null where it was not asked for.
+std::string depthSection(const FinishOptions& options, const FinishReport& report);
+
+}  // namespace coastmesh

@@ -1,0 +1,59 @@
+#include "apps/mesh_usage.hpp"
+
+#include <limits>
+
+#include "apps/input_usage.hpp"
+#include "apps/mesh_report.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+Algorithm algorithmNamed(const std::string& name) {
+  std::size_t index = 0;
+  while (name != kAlgorithmNames[index]) ++index;
+  return static_cast<Algorithm>(index);
+}
+
+}  // namespace
+
+CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
+  CommandLine line(root, "mesh", "Mesh the polygons and closed lines of vector files, or a .poly");
+  RefineOptions& refine = usage.job.mesh.refine;
+  line.arguments("INPUT", usage.job.input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
+  line.texts("-o,--output", usage.outputs, kOutputFile, true, "mesh to write; repeat it for several");
+  line.text("--format", usage.format, "NAME", "format of the output, where its ending does not tell");
+  line.number("--min-angle", refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");
+  double& max_angle = refine.max_angle_deg;
+  line.number("--max-angle", max_angle, "DEG", {60.0, 180.0}, "largest angle asked for; 180 sets no bound");
+  line.choice("--algorithm", usage.algorithm, {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)},
+              "where the points go that mend bad triangles");
+  line.flag("--shrink,!--no-shrink", usage.job.mesh.shrink,
+            "take out vertices that the bounds do not need; the algorithms other than relocate do so only when asked",
+            &usage.shrink_given);
+  line.number("--size-max", usage.job.size_max_m, "M", {0.0, std::numeric_limits<double>::infinity(), true},
+              "longest edge");
+  declareInputOptions(line, usage.job.input);
+  declareFinishOptions(line, usage.job.finish);
+  line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
+               "stop refining at so many vertices, with exit code 1");
+  line.flag("--cut,!--no-cut", usage.cut, "cut large seas into pieces, to be refined at the same time");
+  line.integer("--threads", usage.threads, "N", 0, 1024,
+               "threads to work on, 0 for all cores; never changes the result");
+  line.text("--report", usage.report, kOutputFile, "write a report as JSON");
+  line.choice("--progress", usage.progress, {"auto", "bar", "json", "none"},
+              "how to show progress: a bar on stderr, or JSON lines on stdout");
+  line.flag("--overwrite", usage.overwrite, "replace files that exist");
+  line.flag("--quiet", usage.quiet, "print no summary");
+  return line;
+}
+
+void settle(MeshUsage& usage) {
+  usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
+  // The classical algorithms are there to compare with: they insert what their papers say.
+  if (!usage.shrink_given) usage.job.mesh.shrink = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
+  usage.job.mesh.one_piece = !usage.cut;
+  usage.job.parallel.threads = static_cast<int>(usage.threads);
+}
+
+}  // namespace coastmesh

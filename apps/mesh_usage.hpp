@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/command_line.hpp"
+#include "apps/mesh_job.hpp"
+
+namespace coastmesh {
+
+// What `coastmesh mesh` is told.
+struct MeshUsage {
+  MeshJob job;
+  std::vector<std::string> outputs;
+  std::string format;
+  std::string algorithm = "relocate";
+  bool shrink_given = false;
+  bool cut = true;
+  std::uint64_t threads = 0;
+  std::string report;
+  std::string progress = "auto";
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+// Declares the options of `mesh`, bound to `usage`, which must outlive the parsing.
+CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage);
+
+// Once parsed: makes `usage.job` what the options say.
+void settle(MeshUsage& usage);
+
+}  // namespace coastmesh

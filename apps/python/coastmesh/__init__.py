@@ -1,0 +1,291 @@
+"""Triangle meshes for ocean and lake models from coastlines and lakes.
+
+>>> import coastmesh
+>>> mesh = coastmesh.mesh("lake.geojson", min_angle=35, size_max=500)
+>>> mesh.points.shape, mesh.triangles.shape
+>>> mesh.write("lake.nc")
+"""
+import contextlib
+import difflib
+import json
+import os
+import warnings as _warnings
+
+import numpy as np
+
+from . import _coastmesh
+
+__all__ = ["Error", "InputError", "OptionError", "OutputError", "CoastmeshWarning", "Mesh", "mesh", "options", "read"]
+__version__ = _coastmesh.version
+
+# Options of the program that have no place here: where results go is the caller's affair.
+_NOT_HERE = {"output", "format", "report", "progress", "overwrite", "quiet"}
+
+
+class Error(Exception):
+    """Whatever coastmesh raises, but for KeyboardInterrupt and MemoryError."""
+
+
+class OptionError(Error, ValueError):
+    """An option's value is outside its range, or of the wrong kind."""
+
+
+class InputError(Error, ValueError):
+    """The input cannot be read or meshed.
+
+    Attributes:
+        refusals: a dict for each part that could not be meshed, with "source", "fids" (numbers of the features),
+            "reason", and "place": (x, y) in the input's CRS, or None.
+    """
+
+    def __init__(self, message, refusals=()):
+        super().__init__(message)
+        self.refusals = list(refusals)
+
+
+class OutputError(Error, OSError):
+    """A file cannot be written; none was left in part."""
+
+
+class CoastmeshWarning(UserWarning):
+    """Something about the input that was mended or left out."""
+
+
+@contextlib.contextmanager
+def _own_errors():
+    try:
+        yield
+    except _coastmesh.UsageError as error:
+        raise OptionError(str(error)) from None
+    except _coastmesh.InputError as error:
+        raise InputError(str(error)) from None
+    except _coastmesh.OutputError as error:
+        raise OutputError(str(error)) from None
+
+
+class Mesh:
+    """A triangle mesh. Arrays are views of the mesh's own memory: free to make, not to be written to."""
+
+    def __init__(self, made):
+        self._made = made
+        self._parsed_report = None
+
+    @property
+    def points(self):
+        """float64 array (n, 2): x or longitude, y or latitude, in the CRS of the input."""
+        return self._made.points
+
+    @property
+    def triangles(self):
+        """uint32 array (m, 3): indices of points, counter-clockwise."""
+        return self._made.triangles
+
+    @property
+    def z(self):
+        """float64 array (n,): metres, positive up, NaN where unknown; None where there is no depth."""
+        return self._made.z
+
+    @property
+    def min_angle(self):
+        """float64 array (m,): the smallest angle of each triangle on the ground, degrees; None where not known."""
+        return self._made.min_angle
+
+    @property
+    def area(self):
+        """float64 array (m,): square metres on the ellipsoid; None where not known."""
+        return self._made.area
+
+    @property
+    def feature(self):
+        """uint32 array (m,): for each triangle the index in `features` that it lies in; None where not known."""
+        return self._made.feature
+
+    @property
+    def features(self):
+        """The features that were meshed: dicts with "fid", "source", "attributes"."""
+        return self._made.features
+
+    @property
+    def boundaries(self):
+        """Chains of points on the rim, the mesh to their left: dicts with "role" ("land", "island", "open"),
+        "closed" (the first point is not repeated) and "nodes" (uint32 array of indices of points)."""
+        return self._made.boundaries
+
+    @property
+    def crs(self):
+        """"EPSG:4326" or the like, else WKT, or "" for a plane without a place on Earth."""
+        return self._made.crs
+
+    @property
+    def complete(self):
+        """Whether all that was asked was reached: angles wherever the input allows them, budget, every feature."""
+        return self._made._complete
+
+    @property
+    def report(self):
+        """The report as a dict, its keys as in `coastmesh mesh --report`; None for a mesh that was read."""
+        if self._parsed_report is None and self._made._report:
+            self._parsed_report = json.loads(self._made._report)
+        return self._parsed_report
+
+    def write(self, path, format=None, overwrite=False):
+        """Writes the mesh in the format that the ending of `path`, or `format`, names. Raises OutputError."""
+        with _own_errors():
+            self._made._write(os.fspath(path), format or "", overwrite)
+
+    def plot(self, path, color="angle", size=1600, edges=True, overwrite=False):
+        """Draws the mesh as .png or .svg, `size` pixels on its longer side; `color` as in `coastmesh plot --color`."""
+        with _own_errors():
+            self._made._plot(os.fspath(path), color, size, edges, overwrite)
+
+    def __repr__(self):
+        return f"<coastmesh.Mesh: {len(self.points)} points, {len(self.triangles)} triangles>"
+
+
+def options():
+    """The options of `mesh`: name as a keyword, and what `coastmesh mesh --json-usage` says of it."""
+    found = {}
+    for option in json.loads(_coastmesh.usage())["options"]:
+        name = option["name"].lstrip("-").replace("-", "_")
+        if name not in _NOT_HERE:
+            found[name] = option
+    return found
+
+
+def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
+    """Meshes polygons, closed lines or a plane graph; returns a Mesh.
+
+    Args:
+        source: what to mesh, one of
+            - the path of a vector file that GDAL reads or of a .poly, or a list of paths,
+            - GeoJSON as a dict or a str, or whatever has a __geo_interface__ (shapely, geopandas),
+            - points in a plane as an array (n, 2), with `segments` and `holes`; also as a tuple of two or three
+              arrays, or as a dict with "vertices", "segments" and perhaps "holes".
+        segments: array (m, 2) of indices into the points; none: the convex hull is meshed.
+        holes: array (k, 2) of points, each of which empties the face that it lies in.
+        progress: called as progress(phase, share) with a str and a number from 0 to 1, in this thread. What it raises
+            ends the run and is raised here.
+        **keywords: the options listed below. Lengths are metres on the ground, or the plane's units.
+
+    Raises:
+        OptionError, InputError, KeyboardInterrupt (on Ctrl-C; nothing is left), TypeError for an unknown option.
+
+    Where angles cannot be reached, the best mesh is returned: `complete` is False and `report["refine"]["unresolved"]`
+    tells the places. Features that cannot be meshed are left out with a CoastmeshWarning.
+    """
+    files, text, graph = _split(source, segments, holes)
+    if progress is not None and not callable(progress):
+        raise TypeError("progress is not callable")
+    with _own_errors():
+        made = _coastmesh.run(_arguments(keywords), files, text, graph, progress)
+    refusals = made._refusals
+    if len(made.triangles) == 0:
+        reasons = refusals[0]["reason"] if len(refusals) == 1 else f"none of the {len(refusals)} parts can be meshed"
+        raise InputError(reasons, refusals)
+    for warning in made._warnings + [f"left out: {refusal['reason']}" for refusal in refusals[:20]]:
+        _warnings.warn(warning, CoastmeshWarning, stacklevel=2)
+    return Mesh(made)
+
+
+def read(path):
+    """Reads a mesh from a file in any format that coastmesh reads; returns a Mesh. Raises InputError."""
+    with _own_errors():
+        return Mesh(_coastmesh.read(os.fspath(path)))
+
+
+def _split(source, segments, holes):
+    """What to mesh as (files, GeoJSON text or None, plane graph or None)."""
+    if segments is not None or holes is not None:
+        return [], None, (source, segments, holes)
+    if isinstance(source, str):
+        if source.lstrip().startswith("{"):
+            try:
+                return [], _geojson_text(json.loads(source)), None
+            except json.JSONDecodeError as error:
+                raise InputError(f"GeoJSON: {error}") from None
+        return [source], None, None
+    if isinstance(source, os.PathLike):
+        return [os.fspath(source)], None, None
+    if isinstance(source, dict):
+        if "vertices" in source:
+            return [], None, (source["vertices"], source.get("segments"), source.get("holes"))
+        return [], _geojson_text(source), None
+    if hasattr(source, "__geo_interface__"):
+        return [], _geojson_text(source.__geo_interface__, getattr(source, "crs", None)), None
+    if isinstance(source, (list, tuple)):
+        if not source:
+            raise InputError("there is nothing to mesh")
+        if all(isinstance(part, (str, os.PathLike)) for part in source):
+            return [os.fspath(part) for part in source], None, None
+        if isinstance(source, tuple) and len(source) in (2, 3) and np.ndim(source[0]) == 2:
+            return [], None, (*source, None)[:3]
+        return [], None, (source, None, None)
+    if isinstance(source, np.ndarray):
+        return [], None, (source, None, None)
+    raise TypeError(f"cannot mesh a {type(source).__name__}: give a path, GeoJSON, or points and segments")
+
+
+def _geojson_text(geojson, crs=None):
+    kind = geojson.get("type")
+    if kind not in ("Feature", "FeatureCollection"):
+        geojson = {"type": "Feature", "properties": {}, "geometry": geojson}
+    authority = crs.to_authority() if hasattr(crs, "to_authority") else None
+    if authority:
+        name = f"urn:ogc:def:crs:{authority[0]}::{authority[1]}"
+        geojson = {**geojson, "crs": {"type": "name", "properties": {"name": name}}}
+    try:
+        return json.dumps(geojson)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"GeoJSON: {error}") from None
+
+
+def _arguments(keywords):
+    """Keywords as arguments of the program."""
+    known = options()
+    arguments = []
+    for name, value in keywords.items():
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            raise TypeError(f"mesh() has no option '{name}'" + (f"; did you mean '{near[0]}'?" if near else ""))
+        if value is None:
+            continue
+        option = known[name]
+        if option["type"] == "flag":
+            if not isinstance(value, (bool, np.bool_)):
+                raise OptionError(f"{name}: {value!r} is neither True nor False")
+            wanted = option["name"] if value else next((n for n in option["names"] if n.startswith("--no-")), None)
+            if wanted:
+                arguments.append(wanted)
+            continue
+        for each in value if option.get("multiple") and isinstance(value, (list, tuple)) else [value]:
+            arguments.append(f"{option['name']}={_text(name, option, each)}")
+    return arguments
+
+
+def _text(name, option, value):
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if hasattr(value, "to_wkt"):  # a CRS of pyproj
+        return value.to_wkt()
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating, list, tuple)):
+        raise OptionError(f"{name}: {value!r} is no {option['type']}")
+    if isinstance(value, (list, tuple)):  # a box
+        return ",".join(_text(name, option, part) for part in value)
+    return repr(int(value)) if isinstance(value, (int, np.integer)) else repr(float(value))
+
+
+def _describe(option):
+    said = option["help"]
+    unit = option.get("unit")
+    default = option.get("default")
+    bounds = [f"from {option['minimum']:g}" if "minimum" in option else "",
+              f"above {option['exclusive_minimum']:g}" if "exclusive_minimum" in option else "",
+              f"to {option['maximum']:g}" if "maximum" in option else ""]
+    facts = [unit or "", *bounds, f"default {default}" if default is not None else ""]
+    if "choices" in option:
+        facts.insert(0, " | ".join(option["choices"]))
+    facts = ", ".join(fact for fact in facts if fact)
+    return f"{said} ({facts})" if facts else said
+
+
+mesh.__doc__ += "\n    Options:\n" + "".join(f"        {name}: {_describe(o)}\n" for name, o in options().items())

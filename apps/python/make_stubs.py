@@ -1,0 +1,86 @@
+#!/usr/bin/python3
+"""Writes the type stubs of the module, with every option of mesh(): make_stubs.py OUT.pyi (PYTHONPATH finds coastmesh)."""
+import sys
+
+del sys.path[0]  # the sources lie there, without the compiled half
+import coastmesh  # noqa: E402
+
+HEAD = '''from os import PathLike
+from typing import Any, Callable, Optional, Sequence, Union
+
+from numpy import float64, uint32
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+class Error(Exception): ...
+class OptionError(Error, ValueError): ...
+
+class InputError(Error, ValueError):
+    refusals: list[dict[str, Any]]
+
+class OutputError(Error, OSError): ...
+class CoastmeshWarning(UserWarning): ...
+
+class Mesh:
+    @property
+    def points(self) -> NDArray[float64]: ...
+    @property
+    def triangles(self) -> NDArray[uint32]: ...
+    @property
+    def z(self) -> Optional[NDArray[float64]]: ...
+    @property
+    def min_angle(self) -> Optional[NDArray[float64]]: ...
+    @property
+    def area(self) -> Optional[NDArray[float64]]: ...
+    @property
+    def feature(self) -> Optional[NDArray[uint32]]: ...
+    @property
+    def features(self) -> list[dict[str, Any]]: ...
+    @property
+    def boundaries(self) -> list[dict[str, Any]]: ...
+    @property
+    def crs(self) -> str: ...
+    @property
+    def complete(self) -> bool: ...
+    @property
+    def report(self) -> Optional[dict[str, Any]]: ...
+    def write(self, path: Union[str, PathLike[str]], format: Optional[str] = None, overwrite: bool = False) -> None: ...
+    def plot(
+        self,
+        path: Union[str, PathLike[str]],
+        color: str = "angle",
+        size: int = 1600,
+        edges: bool = True,
+        overwrite: bool = False,
+    ) -> None: ...
+
+def options() -> dict[str, dict[str, Any]]: ...
+def read(path: Union[str, PathLike[str]]) -> Mesh: ...
+def mesh(
+    source: Any,
+    segments: Optional[ArrayLike] = None,
+    holes: Optional[ArrayLike] = None,
+    *,
+    progress: Optional[Callable[[str, float], object]] = None,
+'''
+PATH = "Union[str, PathLike[str]]"
+
+
+def type_of(option):
+    kind = {"number": "float", "integer": "int", "flag": "bool", "file": PATH}.get(option["type"], "Any")
+    if option["type"] == "choice":
+        kind = "str"
+    return f"Union[{kind}, Sequence[{kind}]]" if option.get("multiple") and kind != "Any" else kind
+
+
+def main():
+    with open(sys.argv[1], "w", encoding="utf-8") as file:
+        file.write(HEAD)
+        for name, option in coastmesh.options().items():
+            file.write(f"    {name}: Optional[{type_of(option)}] = None,\n")
+        file.write(") -> Mesh: ...\n")
+
+
+if __name__ == "__main__":
+    main()

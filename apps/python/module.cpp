@@ -1,0 +1,154 @@
+// The compiled half of the Python module: coastmesh/__init__.py is what users import.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <string>
+
+#include "apps/command_line.hpp"
+#include "apps/plot_mesh.hpp"
+#include "apps/python/arrays.hpp"
+#include "apps/python/run.hpp"
+#include "gis/error.hpp"
+#include "gis/grid_io.hpp"
+
+namespace py = pybind11;
+
+namespace coastmesh {
+
+namespace {
+
+// Where an array's elements are an own struct: `columns` numbers of type T one after another.
+template <typename T, typename Row>
+py::array rowsOf(const std::vector<Row>& rows, py::ssize_t columns, const py::object& owner) {
+  static_assert(sizeof(Row) % sizeof(T) == 0);
+  return viewOf(reinterpret_cast<const T*>(rows.data()), {static_cast<py::ssize_t>(rows.size()), columns}, owner);
+}
+
+template <typename T>
+py::object columnOf(const std::vector<T>& values, const py::object& owner) {
+  if (values.empty()) return py::none();
+  return viewOf(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
+}
+
+const Grid& gridOf(const py::object& mesh) { return mesh.cast<const MeshResult&>().grid; }
+
+py::list featuresOf(const Grid& grid) {
+  py::list list;
+  for (const GridFeature& feature : grid.features) {
+    py::dict attributes;
+    for (const auto& [name, value] : feature.attributes) attributes[py::str(name)] = value;
+    py::dict entry;
+    entry["fid"] = feature.fid;
+    entry["source"] = feature.source;
+    entry["attributes"] = attributes;
+    list.append(entry);
+  }
+  return list;
+}
+
+py::list boundariesOf(const Grid& grid) {
+  py::list list;
+  for (const Boundary& boundary : grid.boundaries) {
+    py::dict entry;
+    entry["role"] = std::string(toString(boundary.role));
+    entry["closed"] = boundary.closed;
+    entry["nodes"] = py::array_t<std::uint32_t>(static_cast<py::ssize_t>(boundary.nodes.size()), boundary.nodes.data());
+    list.append(entry);
+  }
+  return list;
+}
+
+void writeFile(const MeshResult& mesh, const std::string& path, const std::string& format, bool overwrite) {
+  const py::gil_scoped_release release;
+  StagedOutput output(path, gridFormatFor(path, format), overwrite);
+  output.write(mesh.grid);
+  output.commit();
+}
+
+void plotFile(const MeshResult& mesh, const std::string& path, const std::string& color, std::uint64_t size, bool edges,
+              bool overwrite) {
+  PlotOptions options;
+  options.color = plotColorNamed(color);
+  options.size_px = size;
+  options.edges = edges;
+  requirePlotFormat(path);
+  if (!overwrite && std::filesystem::exists(path)) {
+    throw OutputError("'" + path + "' exists; give overwrite=True to replace it");
+  }
+  const py::gil_scoped_release release;
+  // Drawn aside, so that it appears whole or not at all.
+  const std::filesystem::path target(path);
+  const std::filesystem::path aside = target.parent_path() / (".part-" + target.filename().string());
+  try {
+    plotMesh(mesh.grid, options, aside.string());
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(aside, ignored);
+    throw;
+  }
+  std::filesystem::rename(aside, target);
+}
+
+MeshResult readMesh(const std::string& path) {
+  const py::gil_scoped_release release;
+  MeshResult result;
+  result.grid = readGrid(path);
+  return result;
+}
+
+}  // namespace
+
+}  // namespace coastmesh
+
+PYBIND11_MODULE(_coastmesh, m) {
+  using namespace coastmesh;
+  m.doc() = "The compiled half of coastmesh; import coastmesh instead.";
+  m.attr("version") = COASTMESH_VERSION;
+
+  // coastmesh/__init__.py makes classes of these.
+  static PyObject* usage_error = PyErr_NewException("coastmesh._coastmesh.UsageError", nullptr, nullptr);
+  static PyObject* input_error = PyErr_NewException("coastmesh._coastmesh.InputError", nullptr, nullptr);
+  static PyObject* output_error = PyErr_NewException("coastmesh._coastmesh.OutputError", nullptr, nullptr);
+  m.attr("UsageError") = py::reinterpret_borrow<py::object>(usage_error);
+  m.attr("InputError") = py::reinterpret_borrow<py::object>(input_error);
+  m.attr("OutputError") = py::reinterpret_borrow<py::object>(output_error);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const UsageError& error) {
+      PyErr_SetString(usage_error, error.what());
+    } catch (const InputError& error) {
+      PyErr_SetString(input_error, error.what());
+    } catch (const OutputError& error) {
+      PyErr_SetString(output_error, error.what());
+    }
+  });
+
+  py::class_<MeshResult>(m, "Mesh")
+      .def_property_readonly("points", [](const py::object& o) { return rowsOf<double>(gridOf(o).nodes, 2, o); })
+      .def_property_readonly("triangles",
+                             [](const py::object& o) { return rowsOf<std::uint32_t>(gridOf(o).triangles, 3, o); })
+      .def_property_readonly("z", [](const py::object& o) { return columnOf(gridOf(o).z, o); })
+      .def_property_readonly("min_angle", [](const py::object& o) { return columnOf(gridOf(o).min_angle_deg, o); })
+      .def_property_readonly("area", [](const py::object& o) { return columnOf(gridOf(o).area_m2, o); })
+      .def_property_readonly("feature", [](const py::object& o) { return columnOf(gridOf(o).feature_of, o); })
+      .def_property_readonly("features", [](const py::object& o) { return featuresOf(gridOf(o)); })
+      .def_property_readonly("boundaries", [](const py::object& o) { return boundariesOf(gridOf(o)); })
+      .def_property_readonly("crs",
+                             [](const py::object& o) {
+                               const Crs& crs = gridOf(o).crs;
+                               return crs.authority.empty() ? crs.wkt : crs.authority;
+                             })
+      .def_property_readonly("_report", [](const MeshResult& mesh) { return mesh.report; })
+      .def_property_readonly("_warnings", [](const MeshResult& mesh) { return mesh.warnings; })
+      .def_property_readonly("_refusals", [](const MeshResult& mesh) { return refusalsOf(mesh); })
+      .def_property_readonly("_complete", [](const MeshResult& mesh) { return mesh.complete; })
+      .def("_write", &writeFile)
+      .def("_plot", &plotFile);
+
+  m.def("run", &runFromPython, py::arg("arguments"), py::arg("files"), py::arg("text"), py::arg("graph"),
+        py::arg("progress"));
+  m.def("read", &readMesh);
+  m.def("usage", &usageOfMesh);
+}

@@ -1,0 +1,223 @@
+#include "apps/python/run.hpp"
+
+#include <cpl_vsi.h>
+#include <pybind11/stl.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "apps/mesh_report.hpp"
+#include "apps/mesh_usage.hpp"
+#include "apps/python/arrays.hpp"
+#include "core/run_control.hpp"
+#include "gis/error.hpp"
+
+namespace py = pybind11;
+
+namespace coastmesh {
+
+namespace {
+
+constexpr auto kPollEvery = std::chrono::milliseconds(50);  // how long a Ctrl-C or a progress call may wait
+
+// The job on a thread of its own, and what it tells.
+class Background {
+ public:
+  explicit Background(const MeshJob& job) : thread_([this, &job] { work(job); }) {}
+  ~Background() {
+    cancelled_ = true;
+    thread_.join();
+  }
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  // True once the job has ended; false after kPollEvery.
+  bool wait() {
+    std::unique_lock lock(mutex_);
+    return ended_changed_.wait_for(lock, kPollEvery, [this] { return ended_; });
+  }
+
+  // The last phase and share told; false where nothing new was.
+  bool takeProgress(std::string& phase, double& share) {
+    const std::lock_guard lock(mutex_);
+    phase = phase_;
+    share = share_;
+    return std::exchange(news_, false);
+  }
+
+  // Once it has ended. Throws what the job threw.
+  MeshJobResult take() {
+    if (error_) std::rethrow_exception(error_);
+    return std::move(result_);
+  }
+
+ private:
+  void work(const MeshJob& job) {
+    const JobControl control{[this] { return cancelled_.load(std::memory_order_relaxed); },
+                             [this](std::string_view phase, double share) {
+                               const std::lock_guard lock(mutex_);
+                               phase_ = phase;
+                               share_ = share;
+                               news_ = true;
+                             }};
+    try {
+      result_ = runMeshJob(job, control);
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    ended_changed_.notify_all();
+  }
+
+  std::atomic<bool> cancelled_{false};
+  std::mutex mutex_;
+  std::condition_variable ended_changed_;
+  bool ended_ = false;
+  std::string phase_;
+  double share_ = 0.0;
+  bool news_ = false;
+  MeshJobResult result_;
+  std::exception_ptr error_;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+// GeoJSON that came as text, as a file for GDAL.
+class MemoryFile {
+ public:
+  static constexpr const char* kName = "GeoJSON";
+
+  explicit MemoryFile(std::string text) : text_(std::move(text)) {
+    static std::atomic<unsigned> number{0};
+    path_ = "/vsimem/coastmesh-" + std::to_string(number++) + "/input.geojson";
+    VSILFILE* file = VSIFileFromMemBuffer(path_.c_str(), reinterpret_cast<GByte*>(text_.data()), text_.size(), FALSE);
+    if (file == nullptr) throw std::bad_alloc();
+    VSIFCloseL(file);
+  }
+  ~MemoryFile() { VSIUnlink(path_.c_str()); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  // `text` as its reader knows the file.
+  std::string named(std::string text) const {
+    for (std::size_t at = text.find(path_); at != std::string::npos; at = text.find(path_, at)) {
+      text.replace(at, path_.size(), kName);
+    }
+    return text;
+  }
+
+ private:
+  std::string text_;
+  std::string path_;
+};
+
+void parse(CLI::App& app, std::vector<std::string> arguments) {
+  std::ranges::reverse(arguments);  // as CLI11 takes them
+  try {
+    app.parse(std::move(arguments));
+  } catch (const CLI::ParseError& error) {
+    std::string text = error.what();
+    std::ranges::replace(text, '\n', ' ');
+    throw UsageError(text);
+  }
+}
+
+MeshJobResult runInBackground(const MeshJob& job, const py::object& progress) {
+  Background background(job);
+  const auto tell = [&] {
+    std::string phase;
+    double share = 0.0;
+    if (!progress.is_none() && background.takeProgress(phase, share)) progress(phase, share);
+  };
+  // Where a signal or `progress` raises, the destructor stops the job; it may wait without Python's lock: the job's
+  // threads never take it.
+  for (bool ended = false; !ended;) {
+    {
+      const py::gil_scoped_release release;
+      ended = background.wait();
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    tell();
+  }
+  return background.take();
+}
+
+}  // namespace
+
+py::list refusalsOf(const MeshResult& result) {
+  py::list list;
+  for (const Refusal& refusal : result.refusals) {
+    py::dict entry;
+    entry["source"] = refusal.source;
+    entry["fids"] = refusal.fids;
+    entry["reason"] = refusal.reason;
+    entry["place"] = refusal.place ? py::object(py::make_tuple(refusal.place->x, refusal.place->y)) : py::none();
+    list.append(entry);
+  }
+  return list;
+}
+
+MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::string> files,
+                         std::optional<std::string> text, const py::object& graph, const py::object& progress) {
+  MeshUsage usage;
+  CLI::App app("", "coastmesh");
+  const CommandLine line = declareMeshUsage(app, usage);
+  // What the command line insists on; neither is used.
+  arguments.insert(arguments.begin(), {"mesh", "--output=none"});
+  arguments.emplace_back("none");
+  parse(app, std::move(arguments));
+  settle(usage);
+  std::optional<MemoryFile> geojson;
+  if (text) {
+    geojson.emplace(std::move(*text));
+    files = {geojson->path()};
+  }
+  usage.job.input.files = std::move(files);
+  if (!graph.is_none()) {
+    const auto parts = graph.cast<std::tuple<py::object, py::object, py::object>>();
+    usage.job.input.pslg = pslgOf(std::get<0>(parts), std::get<1>(parts), std::get<2>(parts));
+  }
+
+  MeshJobResult done = [&] {
+    try {
+      return runInBackground(usage.job, progress);
+    } catch (const InputError& error) {
+      throw InputError(geojson ? geojson->named(error.what()) : error.what());
+    }
+  }();
+  if (geojson) {
+    for (std::string& warning : done.read.warnings) warning = geojson->named(warning);
+    for (Refusal& refusal : done.refusals) {
+      refusal.source = geojson->named(refusal.source);
+      refusal.reason = geojson->named(refusal.reason);
+    }
+    for (GridFeature& feature : done.grid.features) feature.source = geojson->named(feature.source);
+    usage.job.input.files = {MemoryFile::kName};
+  }
+  MeshResult result;
+  const int threads = usage.job.parallel.threads;
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  result.report = meshReport(usage.job, done, threads > 0 ? threads : static_cast<int>(cores));
+  result.warnings = std::move(done.read.warnings);
+  result.complete = done.complete();
+  result.refusals = std::move(done.refusals);
+  result.grid = std::move(done.grid);
+  return result;
+}
+
+std::string usageOfMesh() {
+  MeshUsage usage;
+  CLI::App app("", "coastmesh");
+  return declareMeshUsage(app, usage).jsonUsage();
+}
+
+}  // namespace coastmesh

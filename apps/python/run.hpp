@@ -1,0 +1,35 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/mesh_job.hpp"
+
+namespace coastmesh {
+
+// What a run leaves behind; the arrays that Python sees lie in `grid`.
+struct MeshResult {
+  Grid grid;
+  std::string report;  // JSON, as --report writes it; empty for a mesh that was read
+  std::vector<std::string> warnings;
+  std::vector<Refusal> refusals;
+  bool complete = true;
+};
+
+pybind11::list refusalsOf(const MeshResult& result);
+
+// `coastmesh mesh` with what it reads from `files`, from `text` (GeoJSON), or from `graph`, a tuple (points, segments,
+// holes), where that is not None. `arguments` are options as on the command line. The work is done on threads of its own, without Python's lock;
+// `progress(phase, share)` is called, and signals are handled, in the caller's thread. What either raises ends the run
+// and is raised again. Throws UsageError, InputError. A result without a triangle says in `refusals` why.
+MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::string> files,
+                         std::optional<std::string> text, const pybind11::object& graph,
+                         const pybind11::object& progress);
+
+// `coastmesh mesh --json-usage`.
+std::string usageOfMesh();
+
+}  // namespace coastmesh

@@ -1,0 +1,173 @@
+"""Options of the program as parameters of Processing, and back."""
+from qgis.core import (
+    QgsProcessing,
+    QgsProcessingParameterBoolean,
+    QgsProcessingParameterCrs,
+    QgsProcessingParameterDefinition,
+    QgsProcessingParameterDistance,
+    QgsProcessingParameterEnum,
+    QgsProcessingParameterExtent,
+    QgsProcessingParameterFileDestination,
+    QgsProcessingParameterMapLayer,
+    QgsProcessingParameterMultipleLayers,
+    QgsProcessingParameterNumber,
+    QgsProcessingParameterString,
+    QgsUnitTypes,
+)
+
+from .verbs import BASIC
+
+EXTENT_UNIT = "W,S,E,N"
+WORKING_PLANES = ("auto", "plane")  # what --crs takes besides a CRS
+
+
+def parameter_name(option):
+    """"--min-angle" is MIN_ANGLE; INPUT is what every algorithm reads, so that the option --input is MADE_FROM."""
+    if option["name"] == "--input":
+        return "MADE_FROM"
+    return option["name"].lstrip("-").replace("-", "_").upper()
+
+
+def make_parameter(option):
+    """The parameter that stands for an option; its default is the program's own."""
+    parameter = _make(option, parameter_name(option), _title(option))
+    parameter.setHelp(option["help"])
+    if option["name"] not in BASIC and not option.get("required"):
+        parameter.setFlags(parameter.flags() | QgsProcessingParameterDefinition.FlagAdvanced)
+    return parameter
+
+
+def _title(option):
+    words = parameter_name(option).replace("_", " ").capitalize()
+    unit = {"DEG": "degrees", "M": "metres", "M2": "square metres"}.get(option.get("unit"))
+    return f"{words} [{unit}]" if unit else words
+
+
+def _make(option, name, title):
+    optional = not option.get("required", False)
+    default = option.get("default")
+    kind, unit = option["type"], option.get("unit")
+    if kind == "flag":
+        return QgsProcessingParameterBoolean(name, title, default, optional)
+    if kind == "choice":
+        return QgsProcessingParameterEnum(
+            name, title, option["choices"], defaultValue=default, optional=optional, usesStaticStrings=True
+        )
+    if kind in ("number", "integer"):
+        return _number(option, name, title, optional)
+    if kind == "file":
+        return _file(option, name, title, optional)
+    if unit == "CRS":
+        return QgsProcessingParameterCrs(name, title, None, True)
+    if unit == EXTENT_UNIT:
+        return QgsProcessingParameterExtent(name, title, default, optional)
+    several = option.get("multiple", False)
+    return QgsProcessingParameterString(name, title, default, multiLine=several, optional=optional)
+
+
+def _number(option, name, title, optional):
+    low, high = option.get("minimum", option.get("exclusive_minimum")), option.get("maximum")
+    default = option.get("default")
+    if option["type"] == "number" and option.get("unit") == "M":
+        parameter = QgsProcessingParameterDistance(name, title, default, "", optional)
+        parameter.setDefaultUnit(QgsUnitTypes.DistanceMeters)
+    else:
+        whole = option["type"] == "integer"
+        type_ = QgsProcessingParameterNumber.Integer if whole else QgsProcessingParameterNumber.Double
+        parameter = QgsProcessingParameterNumber(name, title, type_, default, optional)
+    # Processing keeps six decimals in its boxes and knows no open ranges: what lies on the rim, the program refuses.
+    if low is not None:
+        parameter.setMinimum(low)
+    if high is not None:
+        parameter.setMaximum(high)
+    return parameter
+
+
+def _file(option, name, title, optional):
+    if option.get("role") == "output":
+        # Without a folder to write it to there is nothing to write.
+        return QgsProcessingParameterFileDestination(name, title, _filter_of(option), None, True, False)
+    kinds = {"vector": QgsProcessing.TypeVector, "raster": QgsProcessing.TypeRaster}
+    kind = kinds.get(option.get("role"), QgsProcessing.TypeMapLayer)
+    if option.get("multiple"):
+        return QgsProcessingParameterMultipleLayers(name, title, kind, None, optional)
+    return QgsProcessingParameterMapLayer(name, title, None, optional, [] if kind == QgsProcessing.TypeMapLayer else [kind])
+
+
+def _filter_of(option):
+    return "JSON (*.json)" if option["name"] == "--report" else "All files (*)"
+
+
+def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
+    """The program's arguments for one option; none where its value is the default.
+
+    `path_of_layer` gives the file of a map layer; extents are brought into `crs`.
+    """
+    name = parameter_name(option)
+    value = parameters.get(name)
+    if value is None or value == "":
+        return []
+    flag, kind, unit = option["name"], option["type"], option.get("unit")
+    if kind == "flag":
+        return _flag(option, algorithm.parameterAsBoolean(parameters, name, context))
+    if kind == "choice":
+        values = [algorithm.parameterAsEnumString(parameters, name, context)]
+    elif kind == "number":
+        values = [repr(algorithm.parameterAsDouble(parameters, name, context))]
+    elif kind == "integer":
+        values = [str(_integer(algorithm, parameters, name, context))]
+    elif kind == "file":
+        values = _files(option, algorithm, parameters, context, path_of_layer)
+    elif unit == "CRS":
+        values = [_crs(algorithm, parameters, name, context)]
+    elif unit == EXTENT_UNIT:
+        box = algorithm.parameterAsExtent(parameters, name, context, crs)
+        values = [",".join(repr(side) for side in (box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()))]
+    else:
+        text = algorithm.parameterAsString(parameters, name, context)
+        values = [line for line in text.splitlines() if line.strip()] if option.get("multiple") else [text]
+    if not option.get("multiple") and _is_default(option, values[0]):
+        return []
+    # In one word, so that a value that begins with a dash is none of the options.
+    return [f"{flag}={value}" for value in values]
+
+
+def _is_default(option, text):
+    default = option.get("default")
+    if default is None:
+        return False
+    return float(text) == default if option["type"] in ("number", "integer") else text == default
+
+
+def _integer(algorithm, parameters, name, context):
+    # parameterAsInt stops at 32 bits.
+    return int(round(algorithm.parameterAsDouble(parameters, name, context)))
+
+
+def _flag(option, on):
+    if on == option["default"]:
+        return []
+    if on:
+        return [option["name"]]
+    return [next(name for name in option["names"] if name.startswith("--no-"))]
+
+
+def _crs(algorithm, parameters, name, context):
+    value = parameters[name]
+    if value in WORKING_PLANES:
+        return value
+    crs = algorithm.parameterAsCrs(parameters, name, context)
+    if not crs.isValid():
+        return str(value)  # the program says what is wrong with it
+    return crs.authid() if crs.authid() and not crs.authid().startswith("USER:") else crs.toWkt()
+
+
+def _files(option, algorithm, parameters, context, path_of_layer):
+    name = parameter_name(option)
+    if option.get("role") == "output":
+        return [algorithm.parameterAsFileOutput(parameters, name, context)]
+    if option.get("multiple"):
+        layers = algorithm.parameterAsLayerList(parameters, name, context)
+    else:
+        layers = [algorithm.parameterAsLayer(parameters, name, context)]
+    return [path_of_layer(layer) for layer in layers]

@@ -1,0 +1,31 @@
+"""What usage cannot tell of a verb: what Processing shows first, and which layers lie in its outputs."""
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Verb:
+    title: str
+    reads_mesh: bool = False  # the argument is a mesh; else vector layers
+    progress: bool = False  # the program tells its progress
+    tags: list = field(default_factory=list)
+    # Options that do not become parameters, besides those that no verb shows.
+    hidden: tuple = ()
+
+
+VERBS = {
+    "mesh": Verb("Mesh polygons or closed lines", progress=True, hidden=("--format",),
+                 tags=["triangulate", "triangulation", "delaunay", "grid", "coast", "lake", "sea", "ugrid", "adcirc"]),
+    "clean": Verb("Clean polygons or lines for meshing", tags=["fix", "repair", "pslg", "coast"]),
+    "check": Verb("Check a mesh", reads_mesh=True, tags=["validate", "quality", "defects", "grid"]),
+    "convert": Verb("Convert a mesh", reads_mesh=True, tags=["export", "grid", "ugrid", "adcirc", "gmsh", "2dm"]),
+}
+
+# How the program is run is the provider's affair.
+NEVER_SHOWN = ("--output", "--overwrite", "--progress", "--quiet", "--assume-crs")
+
+# What most users look for; the others are under "Advanced parameters".
+BASIC = (
+    "--min-angle", "--domain", "--bbox", "--clip", "--size", "--size-min", "--size-max", "--grade", "--size-raster",
+    "--bathymetry", "--depth", "--simplify", "--min-island-area", "--input", "--target", "--delaunay", "--pinches",
+    "--format",
+)

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+// How long edges should be, place by place: the sizing interface of the core, in plane units. Implementations hold no state that
+// reading changes: any number of threads may ask at the same time.
+class SizeFunction {
+ public:
+  virtual ~SizeFunction() = default;
+
+  // The length wanted at x: finite, above 0, for every finite x.
+  virtual double at(const Point& x) const = 0;
+  // Bounds of what `at` answers anywhere.
+  virtual double least() const = 0;
+  virtual double most() const = 0;
+};
+
+class ConstantSize final : public SizeFunction {
+ public:
+  explicit ConstantSize(double size) : size_(size) {}
+
+  double at(const Point&) const override { return size_; }
+  double least() const override { return size_; }
+  double most() const override { return size_; }
+
+ private:
+  double size_;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,254 @@
+#!/usr/bin/python3
+"""The Python module: arrays in and out, files, GeoJSON, errors, interruption. PYTHONPATH finds coastmesh.
+
+usage: module_test.py PROGRAM DATA   (the program coastmesh, the folder data/)
+"""
+import gc
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+import weakref
+
+import numpy as np
+
+import coastmesh
+
+PROGRAM, DATA = sys.argv[1:3]
+LAKE = os.path.join(DATA, "lake_superior.geojson")
+SQUARE = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4]])
+RIM = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+POLYGON = {"type": "Polygon", "coordinates": [[[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2], [0, 0]]]}
+
+
+def areas(mesh):
+    a, b, c = (mesh.points[mesh.triangles[:, i]] for i in range(3))
+    return ((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])) / 2
+
+
+def smallest_angles(mesh):
+    corners = mesh.points[mesh.triangles]
+    found = np.full(len(mesh.triangles), 180.0)
+    for i in range(3):
+        u, v = corners[:, i - 1] - corners[:, i], corners[:, i - 2] - corners[:, i]
+        cross = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+        found = np.minimum(found, np.degrees(np.arctan2(np.abs(cross), (u * v).sum(axis=1))))
+    return found
+
+
+class ArraysTest(unittest.TestCase):
+    def test_a_square_is_filled_and_its_points_come_back(self):
+        mesh = coastmesh.mesh(SQUARE, RIM, min_angle=30, size_max=0.5)
+        self.assertEqual((mesh.points.dtype, mesh.triangles.dtype), (np.float64, np.uint32))
+        np.testing.assert_array_equal(mesh.points[:4], SQUARE)
+        self.assertTrue((areas(mesh) > 0).all())
+        self.assertAlmostEqual(areas(mesh).sum(), 16)
+        self.assertGreaterEqual(smallest_angles(mesh).min(), 30 - 1e-9)
+        np.testing.assert_allclose(smallest_angles(mesh), mesh.min_angle, atol=1e-6)
+        self.assertEqual(mesh.crs, "")
+        self.assertTrue(mesh.complete)
+
+    def test_forms_of_a_plane_graph_give_the_same(self):
+        hole = [[2.0, 2.0]]
+        points = np.vstack([SQUARE, SQUARE / 4 + 1.5])
+        segments = np.vstack([RIM, RIM + 4])
+        expected = coastmesh.mesh(points, segments, hole)
+        self.assertAlmostEqual(areas(expected).sum(), 15)
+        for given in ((points, segments, hole), {"vertices": points, "segments": segments, "holes": hole}):
+            np.testing.assert_array_equal(coastmesh.mesh(given).triangles, expected.triangles)
+        # Memory of any order and type that holds the same numbers.
+        same = coastmesh.mesh(np.asfortranarray(points), segments.astype(np.uint8), hole)
+        np.testing.assert_array_equal(same.points, expected.points)
+        listed = coastmesh.mesh(points.tolist(), segments.tolist(), hole)
+        np.testing.assert_array_equal(listed.triangles, expected.triangles)
+
+    def test_arrays_are_views_that_keep_the_mesh_and_cannot_be_written(self):
+        mesh = coastmesh.mesh(SQUARE, RIM)
+        first, second = mesh.points, mesh.points
+        self.assertEqual(first.__array_interface__["data"][0], second.__array_interface__["data"][0])
+        with self.assertRaises(ValueError):
+            first[0, 0] = 1
+        copy = first.copy()
+        gone = weakref.ref(mesh)
+        del mesh, second
+        gc.collect()
+        self.assertIsNone(gone())
+        np.testing.assert_array_equal(first, copy)
+
+    def test_wrong_input_raises_with_evidence(self):
+        def refused(kind, pattern, *arguments, **options):
+            with self.assertRaisesRegex(kind, pattern) as caught:
+                coastmesh.mesh(*arguments, **options)
+            return caught.exception
+
+        refused(coastmesh.InputError, "names point 9", SQUARE, [[0, 9]])
+        refused(coastmesh.InputError, "names point -1", SQUARE, [[0, -1]])
+        refused(coastmesh.InputError, "whole numbers", SQUARE, [[0.5, 1]])
+        refused(coastmesh.InputError, r"shape \(4, 3\)", np.zeros((4, 3)), RIM)
+        refused(coastmesh.InputError, "no array of numbers", [["a", "b"]] * 4, RIM)
+        refused(coastmesh.InputError, "three or more", [], [])
+        refused(coastmesh.InputError, "segments", SQUARE, "segments")
+        refused(coastmesh.InputError, "holes", SQUARE, RIM, [[1, 2, 3]])
+        crossing = refused(coastmesh.InputError, "cross", SQUARE, [[0, 2], [1, 3]])
+        self.assertEqual(crossing.refusals[0]["place"], (2.0, 2.0))
+        refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.nan, SQUARE), RIM)
+        refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.inf, SQUARE), RIM)
+        refused(coastmesh.InputError, "same place", np.zeros((4, 2)), RIM)
+        refused(coastmesh.InputError, "nowhere.shp", "nowhere.shp")
+        refused(coastmesh.InputError, "GeoJSON", '{"type":')
+        refused(coastmesh.InputError, "GeoJSON", {"type": "Point", "coordinates": [0, 0]})
+        refused(coastmesh.InputError, "GeoJSON", {"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [2, 2], [0, 0]]]})
+        refused(coastmesh.InputError, "nothing to mesh", [])
+        refused(coastmesh.OptionError, "min-angle.*50", SQUARE, RIM, min_angle=50)
+        refused(coastmesh.OptionError, "min_angle", SQUARE, RIM, min_angle=True)
+        refused(coastmesh.OptionError, "shrink", SQUARE, RIM, shrink="yes")
+        refused(coastmesh.OptionError, "--size-max", SQUARE, RIM, size_max=float("nan"))
+        refused(TypeError, "did you mean 'min_angle'", SQUARE, RIM, min_angel=30)
+        refused(TypeError, "NoneType", None)
+        refused(TypeError, "not callable", SQUARE, RIM, progress=3)
+        self.assertTrue(issubclass(coastmesh.InputError, ValueError))
+
+
+class FilesTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def test_a_file_gives_what_the_program_makes_of_it(self):
+        mesh = coastmesh.mesh(LAKE, min_angle=34, threads=1)
+        report = self.path("report.json")
+        command = [PROGRAM, "mesh", LAKE, "-o", self.path("lake.nc"), "--min-angle", "34", "--report", report, "--quiet"]
+        subprocess.run(command, check=True)
+        with open(report, encoding="utf-8") as file:
+            said = json.load(file)
+        self.assertEqual(mesh.report["mesh"]["digest"], said["mesh"]["digest"])
+        self.assertEqual(mesh.report["refine"], said["refine"])
+        self.assertEqual(len(mesh.triangles), said["mesh"]["triangles"])
+        self.assertEqual(mesh.crs, "EPSG:4326")
+        self.assertEqual(mesh.features[0]["attributes"]["name"], "Lake Superior")
+        self.assertEqual({b["role"] for b in mesh.boundaries}, {"land", "island"})
+        read = coastmesh.read(self.path("lake.nc"))
+        np.testing.assert_array_equal(read.points, mesh.points)
+        np.testing.assert_array_equal(read.triangles, mesh.triangles)
+        self.assertIsNone(read.report)
+
+    def test_geojson_as_dict_text_and_interface(self):
+        expected = coastmesh.mesh(POLYGON)
+        self.assertEqual(expected.crs, "EPSG:4326")
+
+        class Shape:
+            __geo_interface__ = POLYGON
+
+        for given in (json.dumps(POLYGON), {"type": "Feature", "properties": {}, "geometry": POLYGON}, Shape()):
+            np.testing.assert_array_equal(coastmesh.mesh(given).points, expected.points)
+        self.assertEqual(expected.features[0]["source"], "GeoJSON")
+
+    def test_what_is_left_out_is_warned_of(self):
+        flat = {"type": "Polygon", "coordinates": [[[5, 5], [6, 6], [7, 7], [5, 5]]]}
+        features = [{"type": "Feature", "properties": {}, "geometry": g} for g in (POLYGON, flat)]
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            mesh = coastmesh.mesh({"type": "FeatureCollection", "features": features})
+        self.assertFalse(mesh.complete)
+        self.assertTrue(any("left out" in str(w.message) for w in caught))
+
+    def test_writes_and_draws_whole_files(self):
+        mesh = coastmesh.mesh(POLYGON)
+        mesh.write(self.path("lake.2dm"))
+        with self.assertRaises(coastmesh.OutputError):
+            mesh.write(self.path("lake.2dm"))
+        mesh.write(self.path("lake.2dm"), overwrite=True)
+        with self.assertRaises(coastmesh.OutputError):
+            mesh.write(self.path("lake.unheard-of"))
+        mesh.plot(self.path("lake.png"), size=200)
+        with open(self.path("lake.png"), "rb") as file:
+            self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+        with self.assertRaises(coastmesh.OptionError):
+            mesh.plot(self.path("other.png"), color="pink")
+        with self.assertRaises(coastmesh.OutputError):
+            mesh.plot(self.path("missing/lake.png"))
+        self.assertEqual(sorted(n for n in os.listdir(self.folder) if not n.endswith(".prj")), ["lake.2dm", "lake.png"])
+
+
+class RunTest(unittest.TestCase):
+    LONG = {"size_max": 0.004}  # some seconds of work
+
+    def test_progress_is_told_in_this_thread_and_what_it_raises_ends_the_run(self):
+        told = []
+        coastmesh.mesh(SQUARE, RIM, size_max=0.02, progress=lambda p, s: told.append((p, s, threading.get_ident())))
+        self.assertTrue(told)
+        self.assertEqual({thread for _, _, thread in told}, {threading.get_ident()})
+        self.assertTrue(all(0 <= share <= 1 for _, share, _ in told))
+
+        def stop(phase, share):
+            raise RuntimeError("enough")
+
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            coastmesh.mesh(SQUARE, RIM, progress=stop, **self.LONG)
+
+    def test_ctrl_c_ends_a_long_run(self):
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            coastmesh.mesh(SQUARE, RIM, **self.LONG)
+        self.assertEqual(len(coastmesh.mesh(SQUARE, RIM).triangles), 2)
+
+    def test_other_threads_run_meanwhile(self):
+        counted = 0
+        done = threading.Event()
+
+        def work():
+            coastmesh.mesh(SQUARE, RIM, size_max=0.02)
+            done.set()
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        while not done.is_set():
+            counted += 1
+            time.sleep(0.001)
+        thread.join()
+        self.assertGreater(counted, 5)
+
+    def test_several_runs_at_once_give_the_same(self):
+        meshes = [None] * 4
+
+        def work(i):
+            meshes[i] = coastmesh.mesh(SQUARE, RIM, size_max=0.1)
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(len(meshes))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for mesh in meshes[1:]:
+            np.testing.assert_array_equal(mesh.points, meshes[0].points)
+
+
+class DocumentationTest(unittest.TestCase):
+    def test_every_option_is_in_docstring_and_stubs(self):
+        usage = json.loads(subprocess.run([PROGRAM, "mesh", "--json-usage"], capture_output=True, check=True).stdout)
+        with open(os.path.join(os.path.dirname(coastmesh.__file__), "__init__.pyi"), encoding="utf-8") as file:
+            stubs = file.read()
+        self.assertTrue(set(coastmesh.options()) <= {o["name"][2:].replace("-", "_") for o in usage["options"]})
+        self.assertIn("min_angle", coastmesh.options())
+        for name in coastmesh.options():
+            self.assertIn(f"{name}: ", coastmesh.mesh.__doc__)
+            self.assertIn(f"    {name}: Optional[", stubs)
+        compile(stubs, "stubs", "exec")
+        for name in coastmesh.__all__:
+            self.assertTrue(getattr(coastmesh, name).__doc__, name)
+            self.assertIn(name, stubs)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -1,0 +1,287 @@
+#!/usr/bin/python3
+"""The provider in PyQGIS, without a window: from layers to loaded layers, cancelled runs, errors. 77: no QGIS here.
+
+usage: provider_test.py PROGRAM PLUGINS   (the program coastmesh, the folder that holds coastmesh_qgis)
+"""
+import os
+import shutil
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+try:
+    from qgis.core import (
+        QgsApplication,
+        QgsCoordinateReferenceSystem,
+        QgsFeature,
+        QgsGeometry,
+        QgsGraduatedSymbolRenderer,
+        QgsMeshLayer,
+        QgsPointXY,
+        QgsProcessingContext,
+        QgsProcessingException,
+        QgsProcessingFeatureSourceDefinition,
+        QgsProcessingFeedback,
+        QgsProcessingModelAlgorithm,
+        QgsProcessingModelChildAlgorithm,
+        QgsProcessingModelChildParameterSource,
+        QgsProcessingModelParameter,
+        QgsProcessingParameterFeatureSource,
+        QgsProject,
+        QgsVectorLayer,
+    )
+except ImportError as error:
+    print(f"skipped: no QGIS for {sys.executable}: {error}")
+    sys.exit(77)
+
+PROGRAM, PLUGINS = sys.argv[1:3]
+LAKE = "POLYGON((0 0, 0.2 0, 0.2 0.2, 0 0.2, 0 0), (0.05 0.05, 0.05 0.1, 0.1 0.1, 0.1 0.05, 0.05 0.05))"
+POND = "POLYGON((1 0, 1.1 0, 1.1 0.1, 1 0.1, 1 0))"
+
+
+class Log(QgsProcessingFeedback):
+    """Remembers what the user would read."""
+
+    def __init__(self):
+        super().__init__(False)
+        self.lines = []
+
+    def pushInfo(self, text):
+        self.lines.append("info: " + text)
+
+    def pushWarning(self, text):
+        self.lines.append("warning: " + text)
+
+    def reportError(self, text, fatalError=False):
+        self.lines.append("error: " + text)
+
+    def pushCommandInfo(self, text):
+        self.lines.append("command: " + text)
+
+    def text(self):
+        return "\n".join(self.lines)
+
+
+def memory_layer(*shapes, crs="EPSG:4326", kind="Polygon"):
+    layer = QgsVectorLayer(f"{kind}?crs={crs}&field=name:string", "my lakes", "memory")
+    for i, shape in enumerate(shapes):
+        feature = QgsFeature(layer.fields())
+        feature.setGeometry(QgsGeometry.fromWkt(shape))
+        feature.setAttributes([f"lake {i}"])
+        layer.dataProvider().addFeature(feature)
+    return layer
+
+
+class ProviderTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.log = Log()
+
+    def tearDown(self):
+        QgsProject.instance().clear()
+        shutil.rmtree(self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_algorithm(self, name, **parameters):
+        return processing.run("coastmesh:" + name, parameters, feedback=self.log)
+
+    def mesh(self, layer, **parameters):
+        return self.run_algorithm("mesh", INPUT=layer, OUTPUT=self.path("lake.nc"), **parameters)
+
+    def test_every_verb_is_an_algorithm_and_every_option_of_theirs_a_parameter(self):
+        provider = QgsApplication.processingRegistry().providerById("coastmesh")
+        self.assertEqual(provider.warningMessage(), "")
+        self.assertEqual({a.name() for a in provider.algorithms()}, {"mesh", "clean", "check", "convert"})
+        mesh = provider.algorithm("mesh")
+        angle = mesh.parameterDefinition("MIN_ANGLE")
+        self.assertEqual((angle.defaultValue(), angle.minimum(), angle.maximum()), (33.0, 0.0, 45.0))
+        self.assertEqual(mesh.parameterDefinition("SIZE_MAX").type(), "distance")
+        self.assertEqual(mesh.parameterDefinition("ALGORITHM").type(), "enum")
+        self.assertEqual(mesh.parameterDefinition("CRS").type(), "crs")
+        for algorithm in provider.algorithms():
+            self.assertTrue(algorithm.shortHelpString())
+            for parameter in algorithm.parameterDefinitions():
+                self.assertTrue(parameter.description(), parameter.name())
+
+    def test_from_a_layer_to_loaded_and_styled_layers(self):
+        layer = memory_layer(LAKE)
+        QgsProject.instance().addMapLayer(layer)
+        results = processing.runAndLoadResults(
+            "coastmesh:mesh",
+            {"INPUT": layer, "MIN_ANGLE": 30, "OUTPUT": self.path("a.nc"), "OUTPUT_LAYERS": self.path("a.gpkg")},
+            feedback=self.log,
+        )
+        loaded = {l.name(): l for l in QgsProject.instance().mapLayers().values()}
+        self.assertEqual(set(loaded), {"my lakes", "Mesh", "Triangles", "Boundaries"})
+        mesh = loaded["Mesh"]
+        self.assertIsInstance(mesh, QgsMeshLayer)
+        self.assertTrue(mesh.isValid())
+        self.assertEqual(mesh.crs().authid(), "EPSG:4326")
+        self.assertEqual(mesh.dataProvider().faceCount(), results["TRIANGLE_COUNT"])
+        active = mesh.rendererSettings().activeScalarDatasetGroup()
+        self.assertGreaterEqual(active, 0)
+        self.assertTrue(mesh.rendererSettings().nativeMeshSettings().isEnabled())
+        triangles = loaded["Triangles"]
+        self.assertIsInstance(triangles.renderer(), QgsGraduatedSymbolRenderer)
+        self.assertEqual(triangles.featureCount(), results["TRIANGLE_COUNT"])
+        angles = [f["min_angle"] for f in triangles.getFeatures()]
+        self.assertGreaterEqual(min(angles), 30)
+        # Each triangle has a class of the style.
+        ranges = triangles.renderer().ranges()
+        for angle in angles:
+            self.assertTrue(any(r.lowerValue() <= angle <= r.upperValue() for r in ranges), angle)
+        area = sum(f.geometry().area() for f in triangles.getFeatures())
+        self.assertAlmostEqual(area, 0.2 * 0.2 - 0.05 * 0.05, places=9)
+        self.assertEqual({f["role"] for f in loaded["Boundaries"].getFeatures()}, {"land", "island"})
+
+    def test_without_load_nothing_is_loaded(self):
+        parameters = {"INPUT": memory_layer(LAKE), "OUTPUT": self.path("a.nc"), "LOAD": False}
+        processing.runAndLoadResults("coastmesh:mesh", parameters, feedback=self.log)
+        self.assertEqual(len(QgsProject.instance().mapLayers()), 0)
+        self.assertTrue(os.path.exists(self.path("a.nc")))
+
+    def test_selected_features_alone(self):
+        layer = memory_layer(LAKE, POND)
+        QgsProject.instance().addMapLayer(layer)
+        layer.selectByIds([f.id() for f in layer.getFeatures() if f["name"] == "lake 1"])
+        source = QgsProcessingFeatureSourceDefinition(layer.id(), True)
+        results = self.mesh(source, OUTPUT_LAYERS=self.path("a.gpkg"))
+        triangles = QgsVectorLayer(results["TRIANGLES"], "", "ogr")
+        box = triangles.extent()
+        self.assertGreaterEqual(box.xMinimum(), 1.0)
+        chosen = layer.selectedFeatureIds()[0]
+        self.assertEqual({f["src_fid"] for f in triangles.getFeatures()}, {chosen})
+
+    def test_lines_a_subset_and_a_crs_given_in_qgis(self):
+        ring = "LINESTRING(0 0, 1000 0, 1000 1000, 0 1000, 0 0)"
+        layer = memory_layer(ring, ring.replace("1000", "77"), crs="EPSG:32631", kind="LineString")
+        layer.setSubsetString("\"name\" = 'lake 0'") if layer.dataProvider().supportsSubsetString() else None
+        results = self.mesh(layer)
+        mesh = QgsMeshLayer(results["OUTPUT"], "", "mdal")
+        self.assertEqual(mesh.crs().authid(), "EPSG:32631")
+        self.assertAlmostEqual(mesh.extent().width(), 1000)
+        # A file that says another CRS than the user does.
+        results = self.run_algorithm("clean", INPUT=memory_layer(LAKE), OUTPUT=self.path("lake.gpkg"))
+        wrong = QgsVectorLayer(results["PSLG"], "", "ogr")
+        wrong.setCrs(QgsCoordinateReferenceSystem("EPSG:4258"))
+        mesh = QgsMeshLayer(self.mesh(wrong)["OUTPUT"], "", "mdal")
+        self.assertEqual(mesh.crs().authid(), "EPSG:4258")
+
+    def test_one_layer_of_a_file_with_many(self):
+        cleaned = self.run_algorithm("clean", INPUT=memory_layer(LAKE), OUTPUT=self.path("two.gpkg"))
+        self.assertTrue(QgsVectorLayer(cleaned["EDITS"], "", "ogr").isValid())
+        results = self.mesh(cleaned["PSLG"])
+        self.assertGreater(results["TRIANGLE_COUNT"], 2)
+
+    def test_a_cancelled_run_leaves_nothing(self):
+        layer = memory_layer("POLYGON((0 0, 8 0, 8 8, 0 8, 0 0))")
+        stopped = []
+
+        def cancel_once_it_writes_aside():
+            # The program has begun when the folder in which it writes aside is there.
+            for _ in range(600):
+                if any(name.startswith(".") for name in os.listdir(self.folder)):
+                    stopped.append(time.monotonic())
+                    self.log.cancel()
+                    return
+                time.sleep(0.05)
+
+        thread = threading.Thread(target=cancel_once_it_writes_aside)
+        thread.start()
+        results = self.mesh(layer, SIZE_MAX=300, OUTPUT_LAYERS=self.path("lake.gpkg"), REPORT=self.path("r.json"))
+        ended = time.monotonic()
+        thread.join()
+        self.assertTrue(stopped, "the run ended before it could be cancelled")
+        self.assertLess(ended - stopped[0], 10)
+        self.assertEqual(results, {})
+        self.assertEqual(os.listdir(self.folder), [])
+        self.assertIn("Cancelled", self.log.text())
+
+    def test_an_error_reaches_the_log_and_names_layer_and_feature(self):
+        layer = memory_layer("POLYGON((0 0, 1 1, 2 2, 0 0))")
+        with self.assertRaises(QgsProcessingException) as caught:
+            self.mesh(layer)
+        self.assertIn("my lakes", str(caught.exception))
+        self.assertNotIn("input.gpkg", str(caught.exception))
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_what_falls_short_is_told_and_written(self):
+        results = self.mesh(memory_layer(LAKE), SIZE_MAX=200, MAX_VERTICES=500)
+        self.assertIn("warning: ", self.log.text())
+        self.assertTrue(os.path.exists(results["OUTPUT"]))
+
+    def test_a_crs_given_by_hand_and_a_flag(self):
+        self.mesh(memory_layer(LAKE), CRS="EPSG:32631", SHRINK=False)
+        self.assertIn("--crs=EPSG:32631 --no-shrink", self.log.text().replace("--no-shrink --crs=EPSG:32631",
+                                                                           "--crs=EPSG:32631 --no-shrink"))
+
+    def test_check_and_convert_take_layers_and_files_that_qgis_cannot_open(self):
+        layer = memory_layer(LAKE)
+        mesh = self.mesh(layer)["OUTPUT"]
+        other = self.run_algorithm("convert", INPUT=QgsMeshLayer(mesh, "", "mdal"), OUTPUT=self.path("b.msh"))["OUTPUT"]
+        sound = self.run_algorithm("check", INPUT=other, MADE_FROM=[], OUTPUT=self.path("defects.gpkg"))
+        self.assertEqual(sound["SOUND"], 1)
+        short = self.run_algorithm("check", INPUT=mesh, MADE_FROM=[layer], MIN_ANGLE=59, OUTPUT=self.path("d.gpkg"))
+        self.assertEqual(short["SOUND"], 0)
+        defects = QgsVectorLayer(short["OUTPUT"], "", "ogr")
+        self.assertGreater(defects.featureCount(), 0)
+        self.assertTrue(all("angle" in f["kind"] for f in defects.getFeatures()))
+
+    def test_in_a_model(self):
+        model = QgsProcessingModelAlgorithm("two steps", "tests")
+        model.addModelParameter(
+            QgsProcessingParameterFeatureSource("LAKES", "lakes"), QgsProcessingModelParameter("LAKES")
+        )
+        clean = QgsProcessingModelChildAlgorithm("coastmesh:clean")
+        clean.setChildId("clean")
+        clean.addParameterSources("INPUT", [QgsProcessingModelChildParameterSource.fromModelParameter("LAKES")])
+        clean.addParameterSources("LOAD", [QgsProcessingModelChildParameterSource.fromStaticValue(False)])
+        model.addChildAlgorithm(clean)
+        mesh = QgsProcessingModelChildAlgorithm("coastmesh:mesh")
+        mesh.setChildId("mesh")
+        mesh.addParameterSources("INPUT", [QgsProcessingModelChildParameterSource.fromChildOutput("clean", "PSLG")])
+        mesh.addParameterSources("LOAD", [QgsProcessingModelChildParameterSource.fromStaticValue(False)])
+        model.addChildAlgorithm(mesh)
+        results, ok = model.run({"LAKES": memory_layer(LAKE)}, QgsProcessingContext(), self.log)
+        self.assertTrue(ok, self.log.text())
+        self.assertGreater(results["CHILD_RESULTS"]["mesh"]["TRIANGLE_COUNT"], 2)
+
+    def test_without_the_program_the_provider_says_so(self):
+        os.environ["COASTMESH_PROGRAM"] = "/nowhere/coastmesh"
+        provider = QgsApplication.processingRegistry().providerById("coastmesh")
+        try:
+            provider.refreshAlgorithms()
+            self.assertEqual(provider.algorithms(), [])
+            self.assertIn("/nowhere/coastmesh", provider.warningMessage())
+        finally:
+            os.environ["COASTMESH_PROGRAM"] = PROGRAM
+            provider.refreshAlgorithms()
+
+
+os.environ["COASTMESH_PROGRAM"] = PROGRAM
+settings = tempfile.mkdtemp()  # the user's own settings are none of the tests' business
+QgsApplication.setPrefixPath("/usr", True)
+application = QgsApplication([], False, settings)
+application.initQgis()
+sys.path[:0] = [os.path.join(QgsApplication.pkgDataPath(), "python", "plugins"), PLUGINS]
+import processing  # noqa: E402
+from processing.core.Processing import Processing  # noqa: E402
+
+import coastmesh_qgis  # noqa: E402
+
+Processing.initialize()
+plugin = coastmesh_qgis.classFactory(None)
+plugin.initProcessing()
+try:
+    outcome = unittest.main(argv=sys.argv[:1] + sys.argv[3:], exit=False, verbosity=2).result
+finally:
+    plugin.unload()
+    application.exitQgis()
+    shutil.rmtree(settings, ignore_errors=True)
+sys.stdout.flush()
+os._exit(not outcome.wasSuccessful())  # QGIS may stumble on its own way out

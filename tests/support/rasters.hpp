@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "gis/crs.hpp"
+
+namespace coastmesh::testing {
+
+struct RasterShape {
+  int columns = 0;
+  int rows = 0;
+  double west = 0.0;  // left and upper rim of the raster
+  double north = 0.0;
+  double pixel = 1.0;  // size of a pixel, in units of the CRS
+};
+
+inline constexpr double kNoValue = -9999.0;
+
+// A GeoTIFF of doubles that holds `value(x, y)` of each pixel's centre, kNoValue being its nodata.
+void writeRaster(const std::string& path, const std::string& crs, const RasterShape& shape,
+                 const std::function<double(double x, double y)>& value);
+
+}  // namespace coastmesh::testing
