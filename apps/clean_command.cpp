@@ -146,6 +146,7 @@ Command declareClean(CLI::App& root) {
   declareInputOptions(line, usage->input);
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
   line.flag("--quiet", usage->quiet, "print no summary");
+  line.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");
   return {std::move(line), [usage](Interrupt& interrupt) { return runClean(*usage, interrupt); }};
 }
 

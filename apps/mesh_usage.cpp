@@ -41,10 +41,17 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   line.integer("--threads", usage.threads, "N", 0, 1024,
                "threads to work on, 0 for all cores; never changes the result");
   line.text("--report", usage.report, kOutputFile, "write a report as JSON");
-  line.choice("--progress", usage.progress, {"auto", "bar", "json", "none"},
-              "how to show progress: a bar on stderr, or JSON lines on stdout");
+  line.choice(
+      "--progress", usage.progress, {"auto", "bar", "log", "json", "none"},
+      "how to show progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, else lines); "
+      "or JSON lines on stdout");
   line.flag("--overwrite", usage.overwrite, "replace files that exist");
   line.flag("--quiet", usage.quiet, "print no summary");
+  line.example("coastmesh mesh lake.geojson -o lake.gpkg -o lake.nc", "a lake as GIS layers and as a UGRID grid");
+  line.example("coastmesh mesh sea.shp -o fort.14 --min-angle 35 --size-max 5000",
+               "a sea for ADCIRC: angles of 35 degrees and more, no edge longer than 5 km");
+  line.example("coastmesh mesh lakes.gpkg -o lakes.msh --min-island-area 10000 --report lakes.json",
+               "many lakes for Gmsh's readers, islands below a hectare filled, with a report for scripts");
   return line;
 }
 
