@@ -16,6 +16,7 @@ struct GroupResult {
   std::optional<double> input_area_m2;
   std::uint64_t digest = 0;
   double clean_s = 0.0;
+  double size_s = 0.0;
   double check_s = 0.0;
   MeshSeconds mesh_s;
   std::size_t pieces = 1;
@@ -26,7 +27,7 @@ struct GroupResult {
 
 // Projects, cleans, meshes and checks a group of at most `budget` vertices. What cannot be meshed is told in `refusal`.
 // Throws Cancelled, BadMesh.
-GroupResult meshGroup(const MeshJob& job, const JobInput& input, std::size_t group, std::uint64_t budget,
-                      const RunControl& control);
+GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
+                      std::uint64_t budget, const RunControl& control);
 
 }  // namespace coastmesh

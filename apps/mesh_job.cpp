@@ -120,8 +120,10 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   for (double area : part.grid.area_m2) result.mesh_area_m2 += area;
   result.digest = result.regions == 1 ? part.digest : combineDigests(result.digest, part.digest);
   result.seconds.triangulate += part.mesh_s.triangulate;
+  result.seconds.size += part.size_s;
   result.seconds.refine += part.mesh_s.refine;
   result.seconds.shrink += part.mesh_s.shrink;
+  result.seconds.fit += part.mesh_s.fit;
   result.seconds.stitch += part.mesh_s.stitch;
   result.seconds.check += part.check_s;
   appendGrid(result.grid, std::move(part.grid));
@@ -179,6 +181,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const JobInput input(job.input);
   result.read = input.report();
   result.crs = input.coastline().crs;
+  const SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
   result.seconds.read = whole.seconds();
   result.log.addAlone("read", result.seconds.read);
   if (control.cancelled && control.cancelled()) throw Cancelled();
@@ -194,7 +197,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     const std::size_t g = order[i];
     const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
-    merge.add(g, meshGroup(job, input, g, budget, inner));
+    merge.add(g, meshGroup(job, input, sizes, g, budget, inner));
     progress.report(g, 1.0);
   });
   merge.finish();

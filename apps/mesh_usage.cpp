@@ -31,8 +31,9 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   line.flag("--shrink,!--no-shrink", usage.job.mesh.shrink,
             "take out vertices that the bounds do not need; the algorithms other than relocate do so only when asked",
             &usage.shrink_given);
-  line.number("--size-max", usage.job.size_max_m, "M", {0.0, std::numeric_limits<double>::infinity(), true},
-              "longest edge");
+  declareSizing(line, usage.job.sizes, usage.sizing);
+  line.flag("--smooth,!--no-smooth", usage.job.mesh.smooth,
+            "move vertices on towards the sizes asked for, or towards even ones, where the angles allow it");
   declareInputOptions(line, usage.job.input);
   declareFinishOptions(line, usage.job.finish);
   line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
@@ -56,6 +57,7 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
 }
 
 void settle(MeshUsage& usage) {
+  settleSizing(usage.sizing, usage.job.sizes);
   usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
   // The classical algorithms are there to compare with: they insert what their papers say.
   if (!usage.shrink_given) usage.job.mesh.shrink = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
