@@ -96,9 +96,10 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   CleanReport clean;
   const Domain domain = input.domain(group, clean);
   result.edits = clean.counts;
+  result.notes = std::move(clean.notes);
   clean = {};
   result.projection = domain.projection.description();
-  result.input_area_m2 = input.area(group);
+  result.input_area_m2 = input.area(group, domain);
   result.clean_s = cleaning.seconds();
   result.log.addAlone("clean", result.clean_s);
 
@@ -152,6 +153,8 @@ GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInput
   GroupResult result;
   try {
     fillGroup(job, input, sizes, group, budget, control, result);
+  } catch (const NothingWanted& nothing) {
+    result.unwanted = nothing.what();
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const BadPslg& error) {

@@ -21,8 +21,10 @@ struct GroupResult {
   MeshSeconds mesh_s;
   std::size_t pieces = 1;
   WorkLog log;          // of all that was done
-  std::string refusal;  // empty where it was meshed
+  std::string refusal;  // empty where it was meshed, or nothing of it was wanted
   std::optional<Point> refusal_place;
+  std::string unwanted;            // why nothing of it was wanted, where that is so
+  std::vector<std::string> notes;  // what cleaning decided
 };
 
 // Projects, cleans, meshes and checks a group of at most `budget` vertices. What cannot be meshed is told in `refusal`.

@@ -97,6 +97,12 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
               Stage& small_groups) {
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += part.edits[kind];
   result.seconds.clean += part.clean_s;
+  std::ranges::move(part.notes, std::back_inserter(result.read.notes));
+  if (!part.unwanted.empty()) {
+    ++result.read.beyond_frame;
+    result.last_unwanted = part.unwanted;
+    return;
+  }
   if (!part.refusal.empty()) {
     addRefusal(input, group, std::move(part), result);
     return;

@@ -84,6 +84,7 @@ struct MeshJobResult {
   std::uint64_t unresolved = 0;
   std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them
   std::vector<Refusal> refusals;
+  std::string last_unwanted;  // why a group was passed over that lies outside of what was asked for
   MeshQuality quality;
   std::optional<double> input_area_m2;  // of what was meshed; none for a .poly
   double mesh_area_m2 = 0.0;

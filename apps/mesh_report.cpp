@@ -36,6 +36,9 @@ Json inputSection(const MeshJob& job, const MeshJobResult& result) {
           {"projections", std::move(projections)},
           {"area_m2", orNull(result.input_area_m2)},
           {"refused", std::move(refused)},
+          {"filtered", result.read.filtered},
+          {"beyond_frame", result.read.beyond_frame},
+          {"notes", result.read.notes},
           {"warnings", result.read.warnings}};
 }
 
