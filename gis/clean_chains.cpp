@@ -202,6 +202,12 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   for (const InputChain& chain : input) count += chain.points.size();
 
   CleanChains result;
+  for (const std::size_t member : members) {
+    const FeatureUse use = coastline.features[member].use;
+    result.framed = result.framed || use == FeatureUse::Frame;
+    result.land = result.land || use == FeatureUse::Land;
+    result.coast = result.coast || use == FeatureUse::Coast;
+  }
   result.seam = seam;
   result.snap = snapInPlane(input, coastline, projection, options.snap_m);
   if (const std::optional<Point> beyond = projection.infinity()) {

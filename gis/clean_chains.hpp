@@ -33,6 +33,8 @@ struct CleanChains {
   std::vector<CleanChain> chains;
   double snap = 0;  // the snap distance in the plane; 0 where it is too small to matter
   std::optional<Seam> seam;
+  // Whether features of these uses are there; a frame round the whole globe leaves no chain.
+  bool framed = false, land = false, coast = false;
   std::vector<std::uint32_t> beyond;  // features that hold what lies beyond all of the plane, ascending
 };
 

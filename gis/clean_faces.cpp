@@ -35,16 +35,13 @@ class Labeller {
         ends_(listEdges()),
         map_(chains.vertices.plane, ends_) {
     for (const CleanChain& chain : chains.chains) {
-      const FeatureUse use = coastline.features[chain.feature].use;
-      framed_ = framed_ || use == FeatureUse::Frame;
-      land_ = land_ || use == FeatureUse::Land;
-      coast_ = coast_ || use == FeatureUse::Coast;
+      if (useOf(chain.feature) == FeatureUse::Coast) first_coast_ = std::min(first_coast_, chain.feature);
     }
   }
 
   LabelledEdges run() {
     fillFaces();
-    if (coast_) findWaterFaces();
+    if (chains_.coast) findWaterFaces();
     tellOverlaps();
     tellMisplacedRings();
     LabelledEdges result{keepEdges(), {}};
@@ -115,13 +112,15 @@ class Labeller {
   }
 
   RegionId label(std::uint32_t face) const {
-    const RegionId frame = framed_ ? holderOf(face, FeatureUse::Frame) : kOutside;
-    if (framed_ && frame == kOutside) return kOutside;
-    if (coast_) {
+    const RegionId frame = chains_.framed ? holderOf(face, FeatureUse::Frame) : kOutside;
+    if (chains_.framed && frame == kOutside) return kOutside;
+    if (chains_.coast) {
       if (!water_[face]) return kOutside;
-      return framed_ ? frame : holderOf(face, FeatureUse::Coast);
+      if (chains_.framed) return frame;
+      const RegionId holder = holderOf(face, FeatureUse::Coast);
+      return holder == kOutside ? static_cast<RegionId>(first_coast_) : holder;
     }
-    if (land_) return holderOf(face, FeatureUse::Land) == kOutside ? frame : kOutside;
+    if (chains_.land) return holderOf(face, FeatureUse::Land) == kOutside ? frame : kOutside;
     return holderOf(face, FeatureUse::Area);
   }
 
@@ -143,7 +142,8 @@ class Labeller {
       edge.parts = edge.line || rings % 2 == 1;
     }
     for (std::uint32_t face = 0; face < map_.faceCount(); ++face) {
-      coast.framed[face] = framed_ ? holderOf(face, FeatureUse::Frame) != kOutside : face != PlanarMap::kOuterFace;
+      coast.framed[face] =
+          chains_.framed ? holderOf(face, FeatureUse::Frame) != kOutside : face != PlanarMap::kOuterFace;
     }
     if (coastline_.water_at) {
       const Point place = projection_.forward(*coastline_.water_at);
@@ -151,7 +151,7 @@ class Labeller {
       if (!coast.framed[*coast.seed]) {
         throw NothingWanted("--water-at " + std::to_string(coastline_.water_at->x) + "," +
                             std::to_string(coastline_.water_at->y) + ": lies outside of all that the coasts enclose" +
-                            (framed_ ? ", and of the frame" : ": close the water with --bbox or --clip"));
+                            (chains_.framed ? ", and of the frame" : ": close the water with --bbox or --clip"));
       }
     }
     water_ = findWater(coast, chains_.vertices, coastline_, projection_, report_);
@@ -207,7 +207,7 @@ class Labeller {
   }
 
   void tellOverlaps() {
-    if (coast_ || land_) return;
+    if (chains_.coast || chains_.land) return;
     for (std::uint32_t face = 0; face < holders_.size(); ++face) {
       bool first = true;
       for (const std::uint32_t feature : holders_[face]) {
@@ -268,7 +268,7 @@ class Labeller {
   const Coastline& coastline_;
   const Projection& projection_;
   CleanReport& report_;
-  bool framed_ = false, land_ = false, coast_ = false;  // whether features of such a use are there
+  std::uint32_t first_coast_ = kNone;
   std::vector<MapEdge> edges_;
   std::vector<std::pair<VertexId, VertexId>> ends_;
   PlanarMap map_;

@@ -62,7 +62,8 @@ class PolarMap final : public ConformalMap {
     library_.Reverse(north_, plane.x, plane.y, lat, lon, convergence, scale);
     return scale;
   }
-  std::optional<Point> infinity() const override { return Point{0.0, north_ ? -90.0 : 90.0}; }
+  // A little beside the pole, where data that reach it have an edge.
+  std::optional<Point> infinity() const override { return Point{17.123, north_ ? -89.999 : 89.999}; }
 
  private:
   GeographicLib::PolarStereographic library_;

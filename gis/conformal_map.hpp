@@ -21,7 +21,7 @@ class ConformalMap {
   virtual Point forward(const Point& lonlat) const = 0;
   virtual Point inverse(const Point& plane) const = 0;
   virtual double scaleAt(const Point& plane) const = 0;  // plane length over length on the ellipsoid
-  // The one place that lies beyond all of the plane, where the map shows all others.
+  // The one place that lies beyond all of the plane, where the map shows all others, to a thousandth of a degree.
   virtual std::optional<Point> infinity() const { return std::nullopt; }
 };
 
