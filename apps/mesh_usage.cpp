@@ -61,6 +61,7 @@ void settle(MeshUsage& usage) {
   usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
   // The classical algorithms are there to compare with: they insert what their papers say.
   if (!usage.shrink_given) usage.job.mesh.shrink = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
+  if (!usage.job.finish.boundaries.column.empty()) usage.job.finish.boundaries.inputs = usage.job.input.files;
   usage.job.mesh.one_piece = !usage.cut;
   usage.job.parallel.threads = static_cast<int>(usage.threads);
 }
