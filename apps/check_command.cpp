@@ -99,6 +99,9 @@ Command declareCheck(CLI::App& root) {
             "write the defects as a layer of points: .gpkg, .geojson or .fgb");
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
   line.flag("--quiet", usage->quiet, "print nothing");
+  line.example("coastmesh check lake.nc --input lake.geojson --min-angle 33",
+               "is the mesh sound, does it hold the angle, is all of the input in it?");
+  line.example("coastmesh check grid.2dm -o defects.gpkg", "the defects as a layer of points");
   return {std::move(line), [usage](Interrupt& interrupt) { return runCheck(*usage, interrupt); }};
 }
 

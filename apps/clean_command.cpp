@@ -27,6 +27,7 @@ struct CleanedInput {
   std::vector<Domain> domains;
   CleanReport report;
   std::vector<std::string> refused;
+  std::string last_unwanted;
 };
 
 CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
@@ -35,11 +36,15 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
     interrupt.check();
     try {
       cleaned.domains.push_back(input.domain(g, cleaned.report));
+    } catch (const NothingWanted& nothing) {
+      cleaned.last_unwanted = nothing.what();
     } catch (const InputError& error) {
       cleaned.refused.emplace_back(error.what());
     }
   }
-  if (cleaned.domains.empty()) throw InputError(cleaned.refused.front());
+  if (cleaned.domains.empty()) {
+    throw InputError(cleaned.refused.empty() ? cleaned.last_unwanted : cleaned.refused.front());
+  }
   return cleaned;
 }
 
@@ -146,6 +151,7 @@ Command declareClean(CLI::App& root) {
   declareInputOptions(line, usage->input);
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
   line.flag("--quiet", usage->quiet, "print no summary");
+  line.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");
   return {std::move(line), [usage](Interrupt& interrupt) { return runClean(*usage, interrupt); }};
 }
 

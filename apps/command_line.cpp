@@ -66,9 +66,21 @@ struct CommandLine::Impl {
   Json arguments = Json::array();
   Json options = Json::array();
 
+  Json examples = Json::array();
+
   Json usage() const {
-    return {
+    Json usage{
         {"command", app->get_name()}, {"help", app->get_description()}, {"arguments", arguments}, {"options", options}};
+    if (!examples.empty()) usage["examples"] = examples;
+    return usage;
+  }
+
+  std::string examplesText() const {
+    std::string text = "Examples:";
+    for (const Json& example : examples) {
+      text += "\n  " + example["help"].get<std::string>() + "\n    " + example["command"].get<std::string>();
+    }
+    return text + "\n";
   }
 
   Json& record(const std::string& names, const std::string& type, const std::string& unit, const std::string& help) {
@@ -193,6 +205,11 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
   Json& entry = impl_->record(names, "flag", {}, help);
   entry["name"] = names.find('!') == std::string::npos ? splitNames(names).back() : splitNames(names).front();
   entry["default"] = value;
+}
+
+void CommandLine::example(const std::string& command, const std::string& help) {
+  impl_->examples.push_back({{"command", command}, {"help", help}});
+  impl_->app->footer(impl_->examplesText());
 }
 
 const std::string& CommandLine::name() const { return impl_->app->get_name(); }

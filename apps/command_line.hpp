@@ -69,6 +69,9 @@ class CommandLine {
   // "--shrink,!--no-shrink" declares a flag and its opposite.
   void flag(const std::string& names, bool& value, const std::string& help, bool* given = nullptr);
 
+  // A command line as a user might type it, and what it does; shown below the options.
+  void example(const std::string& command, const std::string& help);
+
   const std::string& name() const;
   bool chosen() const;  // whether this command is the one that was called
 

@@ -53,6 +53,7 @@ Command declareConvert(CLI::App& root) {
   declareFinishOptions(line, usage->finish);
   line.flag("--overwrite", usage->overwrite, "replace files that exist");
   line.flag("--quiet", usage->quiet, "print no summary");
+  line.example("coastmesh convert lake.nc -o lake.2dm -o lake.msh", "a grid in two other formats");
   return {std::move(line), [usage](Interrupt& interrupt) { return runConvert(*usage, interrupt); }};
 }
 

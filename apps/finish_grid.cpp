@@ -1,5 +1,6 @@
 #include "apps/finish_grid.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <limits>
@@ -51,12 +52,25 @@ void declareFinishOptions(CommandLine& line, FinishOptions& options) {
   declareEnum(line, "--depth-fill", depth.fill, kFills,
               "what nodes get for which no raster has a value: the mean of their neighbours, the value of the nearest "
               "node, or none");
+  BoundaryOptions& boundaries = options.boundaries;
+  line.texts("--boundaries", boundaries.files, kVectorFile, false,
+             "polygons, or lines along the shore, whose column says what the rim is there: land, open or river, or a "
+             "number of ADCIRC's; repeat it for several, the last counts");
+  line.text(
+      "--boundary-column", boundaries.column, "NAME",
+      "the column with the types of boundaries, in INPUT too where it is given; else the first called type, role, "
+      "boundary, ibtype or kind");
+  line.number("--open-deeper", boundaries.open_deeper_m, "M", {-kInfinity, kInfinity},
+              "boundaries of outer loops are open where they are deeper than this");
+  line.number("--min-boundary", boundaries.least_length_m, "M", {0.0, kInfinity},
+              "boundaries shorter than this become part of the longer one beside them");
 }
 
 FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control) {
   FinishReport report;
   const Stopwatch depth;
   if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control);
+  if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
   report.depth_s = depth.seconds();
   return report;
 }
@@ -71,6 +85,20 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
     text += line;
   }
   return text;
+}
+
+std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid) {
+  Json section = Json::object();
+  for (const BoundaryRole role : kBoundaryRoles) {
+    const auto isOfRole = [role](const Boundary& boundary) { return boundary.role == role; };
+    section[std::string(toString(role))] = std::ranges::count_if(grid.boundaries, isOfRole);
+  }
+  if (options.boundaries.any()) {
+    section["edges_told"] = report.boundaries.edges_told;
+    section["edges_by_depth"] = report.boundaries.edges_by_depth;
+    section["merged"] = report.boundaries.merged;
+  }
+  return section.dump();
 }
 
 std::string depthSection(const FinishOptions& options, const FinishReport& report) {

@@ -5,6 +5,7 @@
 
 #include "apps/command_line.hpp"
 #include "core/run_control.hpp"
+#include "gis/assign_boundaries.hpp"
 #include "gis/depth.hpp"
 #include "gis/grid.hpp"
 
@@ -13,12 +14,14 @@ namespace coastmesh {
 // What is done to a mesh before it is written: depths, boundaries, and what a model needs.
 struct FinishOptions {
   DepthOptions depth;
+  BoundaryOptions boundaries;
 
-  bool any() const { return !depth.files.empty(); }
+  bool any() const { return !depth.files.empty() || boundaries.any(); }
 };
 
 struct FinishReport {
   DepthReport depth;
+  BoundaryReport boundaries;
   double depth_s = 0.0;
 
   std::vector<std::string> warnings() const;
@@ -35,5 +38,6 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
 
 // The report's sections "depth" and "boundaries" as JSON text, each null where it was not asked for.
 std::string depthSection(const FinishOptions& options, const FinishReport& report);
+std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid);
 
 }  // namespace coastmesh

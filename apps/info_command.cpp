@@ -62,6 +62,8 @@ Command declareInfo(CLI::App& root) {
   CommandLine line(root, "info", "Tell what a mesh, a vector file or a .poly holds");
   declareMeshFile(line, "FILE", "mesh, vector file or .poly", usage->file);
   line.flag("--json", usage->json, "print it as JSON");
+  line.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");
+  line.example("coastmesh info lakes.shp", "what there is to mesh");
   return {std::move(line), [usage](Interrupt&) {
             std::fputs(describe(*usage).c_str(), stdout);
             return static_cast<int>(kExitDone);

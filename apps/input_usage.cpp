@@ -9,6 +9,22 @@ void declareInputOptions(CommandLine& line, InputOptions& options) {
   line.texts("--layer", options.filter.layers, "NAME", false, "read only this layer; repeat it for several");
   line.text("--where", options.filter.where, "SQL",
             "read only features for which this holds, such as \"kind = 'sea' AND area > 5\"");
+  line.choice("--domain", options.domain, {"auto", "inside", "outside"},
+              "what is meshed: the inside of polygons, or the water outside of land polygons, as far as --bbox or "
+              "--clip; auto: "
+              "inside polygons, and beside lines within a frame on the side of the water");
+  line.text("--bbox", options.bbox, "W,S,E,N",
+            "mesh only within this box, in the input's CRS; its sides become open boundaries; across the antimeridian "
+            "where E "
+            "is less than W");
+  line.text("--clip", options.clip, kVectorFile, "mesh only within these polygons; their sides become open boundaries");
+  line.text("--water-at", options.water_at, "LON,LAT",
+            "a place in the water, in the input's CRS: mesh this side of the coasts");
+  line.texts("--constraints", options.constraints, kVectorFile, false,
+             "lines and points in the water that become edges and vertices of the mesh");
+  line.texts("--weirs", options.weirs, kVectorFile, false,
+             "lines in the water that become edges of the mesh, marked as weirs");
+  line.texts("--regions", options.regions, kVectorFile, false, "polygons that mark the triangles in them");
   line.number("--snap", options.snap_m, "M", kNotNegative,
               "points nearer than this become one; in a plane only where it is given", &options.snap_in_plane);
   line.number("--simplify", options.simplify_m, "M", kNotNegative,

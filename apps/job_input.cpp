@@ -1,6 +1,10 @@
 #include "apps/job_input.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <locale>
+#include <sstream>
 
 #include "apps/command_line.hpp"
 #include "gis/error.hpp"
@@ -30,6 +34,53 @@ Crs parseWorkingCrs(const std::string& text) {
   }
 }
 
+// "1,2.5" as so many numbers.
+std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t count,
+                                 const std::string& form) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  for (double number; stream >> number;) {
+    if (!std::isfinite(number)) break;
+    numbers.push_back(number);
+    char comma = 0;
+    if (numbers.size() < count && !(stream >> comma && comma == ',')) break;
+    if (numbers.size() == count) break;
+  }
+  std::string rest;
+  if (numbers.size() == count && !(stream >> rest)) return numbers;
+  throw UsageError(option + ": '" + text + "' is not " + form);
+}
+
+FrameOptions frameOptions(const InputOptions& options) {
+  FrameOptions frame;
+  if (options.domain == "inside") frame.side = DomainSide::Inside;
+  if (options.domain == "outside") frame.side = DomainSide::Outside;
+  if (!options.bbox.empty()) {
+    const std::vector<double> n = parseNumbers("--bbox", options.bbox, 4, "four numbers W,S,E,N");
+    frame.box = Box{n[0], n[1], n[2], n[3]};
+  }
+  if (!options.water_at.empty()) {
+    const std::vector<double> n = parseNumbers("--water-at", options.water_at, 2, "two numbers LON,LAT");
+    frame.water_at = Point{n[0], n[1]};
+  }
+  if (frame.box && !options.clip.empty()) throw UsageError("--bbox and --clip both bound the domain: give one of them");
+  return frame;
+}
+
+std::vector<Source> sourcesOf(const InputOptions& options) {
+  std::vector<Source> sources;
+  const auto add = [&sources](const std::vector<std::string>& files, FeatureUse use) {
+    for (const std::string& file : files) sources.push_back({file, use});
+  };
+  add(options.files, FeatureUse::Area);
+  if (!options.clip.empty()) add({options.clip}, FeatureUse::Frame);
+  add(options.constraints, FeatureUse::Constraint);
+  add(options.weirs, FeatureUse::Weir);
+  add(options.regions, FeatureUse::Region);
+  return sources;
+}
+
 }  // namespace
 
 JobInput::JobInput(const InputOptions& options) : options_(options) {
@@ -48,14 +99,20 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
   }
   std::optional<Crs> working;
   if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
-  std::vector<Source> sources;
-  for (const std::string& file : options_.files) sources.push_back({file, FeatureUse::Area});
-  coastline_ = readCoastline(sources, options_.filter, report_);
+  const FrameOptions frame = frameOptions(options_);
+  coastline_ = readCoastline(sourcesOf(options_), options_.filter, report_);
+  frameCoastline(coastline_, frame, report_);
   if (working) chosen_ = Projection::to(coastline_.crs, *working);
   groups_ = groupFeatures(coastline_);
 }
 
 void JobInput::readPolyFile(const std::string& path) {
+  if (sourcesOf(options_).size() > 1 || options_.domain != "auto" || !options_.bbox.empty() ||
+      !options_.water_at.empty()) {
+    throw UsageError("'" + path +
+                     "' says itself what is meshed; leave out --domain, --bbox, --clip, --water-at, --constraints, "
+                     "--weirs and --regions");
+  }
   if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
     throw UsageError("'" + path + "' has neither layers nor attributes; leave out --layer and --where");
   }
@@ -102,6 +159,16 @@ Domain JobInput::domain(std::size_t group, CleanReport& report) const {
 std::optional<double> JobInput::area(std::size_t group) const {
   if (poly_) return std::nullopt;
   return geodesicArea(coastline_, groups_[group]);
+}
+
+std::optional<double> JobInput::area(std::size_t group, const Domain& domain) const {
+  if (poly_) return std::nullopt;
+  const auto plain = [&](std::size_t member) {
+    const FeatureUse use = coastline_.features[member].use;
+    return use != FeatureUse::Frame && use != FeatureUse::Coast;
+  };
+  if (std::ranges::all_of(groups_[group], plain)) return geodesicArea(coastline_, groups_[group]);
+  return geodesicArea(domain, coastline_.crs);
 }
 
 }  // namespace coastmesh

@@ -7,6 +7,7 @@
 
 #include "gis/clean.hpp"
 #include "gis/coastline.hpp"
+#include "gis/frame.hpp"
 #include "gis/projection.hpp"
 #include "gis/read_coastline.hpp"
 
@@ -14,14 +15,21 @@ namespace coastmesh {
 
 // What to read, and how it becomes domains of the plane.
 struct InputOptions {
-  std::vector<std::string> files;    // vector files, or one .poly
-  std::shared_ptr<const Pslg> pslg;  // in place of files: a ready plane graph; cleaning it is the caller's
-  ReadFilter filter;                 // what of the files is read
-  std::string crs = "auto";          // the working plane: "auto", "plane" or anything that PROJ knows
-  double snap_m = 0.001;             // metres, 0 or more
-  bool snap_in_plane = false;        // `snap_m` holds for a plane input too, where else nothing is snapped
-  double simplify_m = 0.0;           // metres, 0 or more
-  double min_island_area_m2 = 0.0;   // square metres, 0 or more
+  std::vector<std::string> files;        // vector files, or one .poly
+  std::shared_ptr<const Pslg> pslg;      // in place of files: a ready plane graph; cleaning it is the caller's
+  ReadFilter filter;                     // what of the files is read
+  std::string domain = "auto";           // "auto", "inside" or "outside": see DomainSide
+  std::string bbox;                      // "W,S,E,N" in the input's CRS; empty: none
+  std::string clip;                      // polygons that bound the domain; empty: none
+  std::string water_at;                  // "LON,LAT" in the input's CRS; empty: none
+  std::vector<std::string> constraints;  // files of lines and points that become edges and vertices
+  std::vector<std::string> weirs;        // files of lines
+  std::vector<std::string> regions;      // files of polygons
+  std::string crs = "auto";              // the working plane: "auto", "plane" or anything that PROJ knows
+  double snap_m = 0.001;                 // metres, 0 or more
+  bool snap_in_plane = false;            // `snap_m` holds for a plane input too, where else nothing is snapped
+  double simplify_m = 0.0;               // metres, 0 or more
+  double min_island_area_m2 = 0.0;       // square metres, 0 or more
 };
 
 // An input that was read and split into groups of features, each of which is meshed apart. A .poly is one group.
@@ -37,10 +45,12 @@ class JobInput {
   std::size_t pointsOf(std::size_t group) const;
 
   // Projects and cleans a group. Throws InputError where nothing of it can be meshed. May be called from several
-  // threads at once.
+  // threads at once. Throws NothingWanted for one that lies outside of the frame or apart from the water asked for.
   Domain domain(std::size_t group, CleanReport& report) const;
   // Square metres on the ellipsoid; none for a .poly, which says only with its holes what is inside.
   std::optional<double> area(std::size_t group) const;
+  // The same of what was made of a group, where frames and coasts leave but a part of it.
+  std::optional<double> area(std::size_t group, const Domain& domain) const;
 
  private:
   void readPolyFile(const std::string& path);

@@ -101,6 +101,7 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   result.seconds.total = secondsSince(start);
   if (!usage.report.empty()) outputs.writeReport(meshReport(usage.job, result, threadsAsked(usage.job.parallel)));
   outputs.commit();
+  if (!any && result.refusals.empty()) throw InputError(result.last_unwanted);
   if (!any) {
     throw InputError(result.refusals.size() == 1 ? result.refusals.front().reason
                                                  : "none of the " + std::to_string(result.refusals.size()) +
@@ -111,6 +112,7 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   display.clear();
   if (!usage.quiet && usage.progress != "json") {
     std::string text = meshSummary(usage.job, result);
+    for (const std::string& note : result.read.notes) text += note + "\n";
     for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
     if (!usage.report.empty()) text += "wrote " + usage.report + "\n";
     std::fputs(text.c_str(), stdout);

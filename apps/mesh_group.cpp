@@ -30,8 +30,8 @@ Point centreOf(const Pslg& pslg) {
 MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t budget) {
   MeshOptions options = job.mesh;
   options.refine.max_vertices = budget;
-  options.refine.size_max = job.size_max_m;
-  if (std::isfinite(job.size_max_m)) {
+  if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
+    options.refine.size_max = job.sizes.most_m;
     options.refine.size_max *= domain.projection.scaleAt(centreOf(domain.pslg));
   }
   return options;
@@ -90,19 +90,30 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
   return grid;
 }
 
-void fillGroup(const MeshJob& job, const JobInput& input, std::size_t group, std::uint64_t budget,
-               const RunControl& control, GroupResult& result) {
+void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
+               std::uint64_t budget, const RunControl& control, GroupResult& result) {
   const Stopwatch cleaning;
   CleanReport clean;
   const Domain domain = input.domain(group, clean);
   result.edits = clean.counts;
+  result.notes = std::move(clean.notes);
   clean = {};
   result.projection = domain.projection.description();
-  result.input_area_m2 = input.area(group);
+  result.input_area_m2 = input.area(group, domain);
   result.clean_s = cleaning.seconds();
   result.log.addAlone("clean", result.clean_s);
 
-  const MeshOptions options = optionsFor(job, domain, budget);
+  MeshOptions options = optionsFor(job, domain, budget);
+  std::unique_ptr<SizeFunction> size;
+  if (job.sizes.any()) {
+    Recorder recorder;
+    const Stopwatch sizing;
+    size = makeSizeFunction(job.sizes, sizes, domain,
+                            [&](std::size_t count, const auto& work) { recorder.forEachStretch("size", count, work); });
+    options.refine.size = size.get();
+    result.size_s = sizing.seconds();
+    result.log.append(recorder.finish());
+  }
   MeshedRegion region = meshRegion(domain.pslg, options, control);
   result.mesh_s = region.seconds;
   result.refine = std::move(region.stats);
@@ -136,11 +147,13 @@ void refuse(const BadPslg& error, const JobInput& input, std::size_t group, Grou
 
 }  // namespace
 
-GroupResult meshGroup(const MeshJob& job, const JobInput& input, std::size_t group, std::uint64_t budget,
-                      const RunControl& control) {
+GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
+                      std::uint64_t budget, const RunControl& control) {
   GroupResult result;
   try {
-    fillGroup(job, input, group, budget, control, result);
+    fillGroup(job, input, sizes, group, budget, control, result);
+  } catch (const NothingWanted& nothing) {
+    result.unwanted = nothing.what();
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const BadPslg& error) {

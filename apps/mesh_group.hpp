@@ -16,17 +16,20 @@ struct GroupResult {
   std::optional<double> input_area_m2;
   std::uint64_t digest = 0;
   double clean_s = 0.0;
+  double size_s = 0.0;
   double check_s = 0.0;
   MeshSeconds mesh_s;
   std::size_t pieces = 1;
   WorkLog log;          // of all that was done
-  std::string refusal;  // empty where it was meshed
+  std::string refusal;  // empty where it was meshed, or nothing of it was wanted
   std::optional<Point> refusal_place;
+  std::string unwanted;            // why nothing of it was wanted, where that is so
+  std::vector<std::string> notes;  // what cleaning decided
 };
 
 // Projects, cleans, meshes and checks a group of at most `budget` vertices. What cannot be meshed is told in `refusal`.
 // Throws Cancelled, BadMesh.
-GroupResult meshGroup(const MeshJob& job, const JobInput& input, std::size_t group, std::uint64_t budget,
-                      const RunControl& control);
+GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
+                      std::uint64_t budget, const RunControl& control);
 
 }  // namespace coastmesh

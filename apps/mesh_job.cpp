@@ -98,6 +98,12 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
               Stage& small_groups) {
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += part.edits[kind];
   result.seconds.clean += part.clean_s;
+  std::ranges::move(part.notes, std::back_inserter(result.read.notes));
+  if (!part.unwanted.empty()) {
+    ++result.read.beyond_frame;
+    result.last_unwanted = part.unwanted;
+    return;
+  }
   if (!part.refusal.empty()) {
     addRefusal(input, group, std::move(part), result);
     return;
@@ -121,8 +127,10 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   for (double area : part.grid.area_m2) result.mesh_area_m2 += area;
   result.digest = result.regions == 1 ? part.digest : combineDigests(result.digest, part.digest);
   result.seconds.triangulate += part.mesh_s.triangulate;
+  result.seconds.size += part.size_s;
   result.seconds.refine += part.mesh_s.refine;
   result.seconds.shrink += part.mesh_s.shrink;
+  result.seconds.fit += part.mesh_s.fit;
   result.seconds.stitch += part.mesh_s.stitch;
   result.seconds.check += part.check_s;
   appendGrid(result.grid, std::move(part.grid));
@@ -182,6 +190,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const JobInput input(job.input);
   result.read = input.report();
   result.crs = input.coastline().crs;
+  const SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
   result.seconds.read = whole.seconds();
   result.log.addAlone("read", result.seconds.read);
   if (control.cancelled && control.cancelled()) throw Cancelled();
@@ -197,7 +206,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     const std::size_t g = order[i];
     const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
-    merge.add(g, meshGroup(job, input, g, budget, inner));
+    merge.add(g, meshGroup(job, input, sizes, g, budget, inner));
     progress.report(g, 1.0);
   });
   merge.finish();

@@ -16,6 +16,7 @@
 #include "core/quality.hpp"
 #include "core/refine.hpp"
 #include "gis/grid.hpp"
+#include "gis/size_source.hpp"
 #include "parallel/mesh_regions.hpp"
 #include "parallel/workers.hpp"
 
@@ -24,8 +25,8 @@ namespace coastmesh {
 // What to mesh, and how.
 struct MeshJob {
   InputOptions input;
-  MeshOptions mesh;  // `refine.max_vertices` holds for the whole; `refine.size_max` is set from `size_max_m`
-  double size_max_m = std::numeric_limits<double>::infinity();  // longest edge, metres on the ellipsoid, above 0
+  MeshOptions mesh;   // `refine.max_vertices` holds for the whole; what it says of sizes is set from `sizes`
+  SizeOptions sizes;  // where nothing but `most_m` is asked for, no edge is longer than that
   ParallelOptions parallel;
   FinishOptions finish;
 };
@@ -57,9 +58,11 @@ inline constexpr std::size_t kShortfallPlaces = 1000;  // those past it are coun
 struct PhaseSeconds {
   double read = 0.0;
   double clean = 0.0;
+  double size = 0.0;
   double triangulate = 0.0;
   double refine = 0.0;
   double shrink = 0.0;
+  double fit = 0.0;
   double stitch = 0.0;
   double check = 0.0;
   double finish = 0.0;
@@ -81,6 +84,7 @@ struct MeshJobResult {
   std::uint64_t unresolved = 0;
   std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them
   std::vector<Refusal> refusals;
+  std::string last_unwanted;  // why a group was passed over that lies outside of what was asked for
   MeshQuality quality;
   std::optional<double> input_area_m2;  // of what was meshed; none for a .poly
   double mesh_area_m2 = 0.0;

@@ -36,6 +36,9 @@ Json inputSection(const MeshJob& job, const MeshJobResult& result) {
           {"projections", std::move(projections)},
           {"area_m2", orNull(result.input_area_m2)},
           {"refused", std::move(refused)},
+          {"filtered", result.read.filtered},
+          {"beyond_frame", result.read.beyond_frame},
+          {"notes", result.read.notes},
           {"warnings", result.read.warnings}};
 }
 
@@ -75,8 +78,11 @@ Json refineSection(const MeshJob& job, const MeshJobResult& result) {
   return {{"algorithm", kAlgorithmNames[static_cast<std::size_t>(options.algorithm)]},
           {"min_angle_deg", options.min_angle_deg},
           {"max_angle_deg", options.max_angle_deg},
-          {"size_max_m", finiteOrNull(job.size_max_m)},
+          {"size_max_m", finiteOrNull(job.sizes.most_m)},
+          {"sized", job.sizes.any()},
+          {"grade", job.sizes.grade},
           {"shrink", job.mesh.shrink},
+          {"smooth", job.mesh.smooth},
           {"steiner_points", stats.steiner_points},
           {"by_type",
            {{"I", stats.by_type[0]}, {"II", stats.by_type[1]}, {"III", stats.by_type[2]}, {"IV", stats.by_type[3]}}},
@@ -104,10 +110,12 @@ Json meshSection(const MeshJobResult& result) {
 }
 
 Json timeSection(const PhaseSeconds& seconds) {
-  return {{"read", seconds.read},     {"clean", seconds.clean},   {"triangulate", seconds.triangulate},
-          {"refine", seconds.refine}, {"shrink", seconds.shrink}, {"stitch", seconds.stitch},
-          {"check", seconds.check},   {"finish", seconds.finish}, {"write", seconds.write},
-          {"total", seconds.total}};
+  return {{"read", seconds.read},     {"clean", seconds.clean},
+          {"size", seconds.size},     {"triangulate", seconds.triangulate},
+          {"refine", seconds.refine}, {"shrink", seconds.shrink},
+          {"fit", seconds.fit},       {"stitch", seconds.stitch},
+          {"check", seconds.check},   {"finish", seconds.finish},
+          {"write", seconds.write},   {"total", seconds.total}};
 }
 
 // How the work was shared out, and what more cores would give.
@@ -122,7 +130,8 @@ Json parallelSection(const WorkLog& log) {
                       {"work_s", sum},
                       {"longest_s", longest}});
     constexpr std::size_t kMostListed = 1000;
-    const bool listed = stage.name == "refine" || stage.name == "shrink" || stage.name == "regions";
+    const bool listed =
+        stage.name == "refine" || stage.name == "shrink" || stage.name == "fit" || stage.name == "regions";
     if (listed && stage.items.size() <= kMostListed) stages.back()["item_s"] = stage.items;
   }
   Json speedup = Json::object();

@@ -31,8 +31,9 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   line.flag("--shrink,!--no-shrink", usage.job.mesh.shrink,
             "take out vertices that the bounds do not need; the algorithms other than relocate do so only when asked",
             &usage.shrink_given);
-  line.number("--size-max", usage.job.size_max_m, "M", {0.0, std::numeric_limits<double>::infinity(), true},
-              "longest edge");
+  declareSizing(line, usage.job.sizes, usage.sizing);
+  line.flag("--smooth,!--no-smooth", usage.job.mesh.smooth,
+            "move vertices on towards the sizes asked for, or towards even ones, where the angles allow it");
   declareInputOptions(line, usage.job.input);
   declareFinishOptions(line, usage.job.finish);
   line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
@@ -41,17 +42,26 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   line.integer("--threads", usage.threads, "N", 0, 1024,
                "threads to work on, 0 for all cores; never changes the result");
   line.text("--report", usage.report, kOutputFile, "write a report as JSON");
-  line.choice("--progress", usage.progress, {"auto", "bar", "json", "none"},
-              "how to show progress: a bar on stderr, or JSON lines on stdout");
+  line.choice(
+      "--progress", usage.progress, {"auto", "bar", "log", "json", "none"},
+      "how to show progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, else lines); "
+      "or JSON lines on stdout");
   line.flag("--overwrite", usage.overwrite, "replace files that exist");
   line.flag("--quiet", usage.quiet, "print no summary");
+  line.example("coastmesh mesh lake.geojson -o lake.gpkg -o lake.nc", "a lake as GIS layers and as a UGRID grid");
+  line.example("coastmesh mesh sea.shp -o fort.14 --min-angle 35 --size-max 5000",
+               "a sea for ADCIRC: angles of 35 degrees and more, no edge longer than 5 km");
+  line.example("coastmesh mesh lakes.gpkg -o lakes.msh --min-island-area 10000 --report lakes.json",
+               "many lakes for Gmsh's readers, islands below a hectare filled, with a report for scripts");
   return line;
 }
 
 void settle(MeshUsage& usage) {
+  settleSizing(usage.sizing, usage.job.sizes);
   usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
   // The classical algorithms are there to compare with: they insert what their papers say.
   if (!usage.shrink_given) usage.job.mesh.shrink = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
+  if (!usage.job.finish.boundaries.column.empty()) usage.job.finish.boundaries.inputs = usage.job.input.files;
   usage.job.mesh.one_piece = !usage.cut;
   usage.job.parallel.threads = static_cast<int>(usage.threads);
 }

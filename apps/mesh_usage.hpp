@@ -6,6 +6,7 @@
 
 #include "apps/command_line.hpp"
 #include "apps/mesh_job.hpp"
+#include "apps/sizing_usage.hpp"
 
 namespace coastmesh {
 
@@ -14,6 +15,7 @@ struct MeshUsage {
   MeshJob job;
   std::vector<std::string> outputs;
   std::string format;
+  SizingUsage sizing;
   std::string algorithm = "relocate";
   bool shrink_given = false;
   bool cut = true;

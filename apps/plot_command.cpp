@@ -61,6 +61,8 @@ Command declarePlot(CLI::App& root) {
   line.number("--min-angle", usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
               "show triangles with a smaller angle in red");
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
+  line.example("coastmesh plot lake.nc -o lake.png --color angle", "a picture coloured by the smallest angle");
+  line.example("coastmesh plot lake.nc -o bay.svg --bbox=-90.5,46.5,-90,47", "a part of it, as a vector drawing");
   return {std::move(line), [usage](Interrupt& interrupt) { return runPlot(*usage, interrupt); }};
 }
 

@@ -2,12 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/usage_pages.hpp"
 #include "gis/grid_io.hpp"
 
 namespace coastmesh {
@@ -37,18 +39,49 @@ std::string oneLine(std::string text) {
   return text;
 }
 
+// For somebody who typed the program's name to see what it is.
+std::string welcome(const std::vector<Command>& commands) {
+  using Json = nlohmann::ordered_json;
+  std::string text =
+      "coastmesh turns coastlines and lakes into triangle meshes for ocean and lake models.\n\n"
+      "Mesh the polygons of any vector file that GDAL reads, and look at the result:\n"
+      "  coastmesh mesh lake.geojson -o lake.gpkg -o lake.nc\n"
+      "  coastmesh info lake.nc\n"
+      "  coastmesh plot lake.nc -o lake.png --color angle\n\n"
+      "Commands:\n";
+  for (const Command& command : commands) {
+    const Json usage = Json::parse(command.line.jsonUsage());
+    const std::string name = usage["command"];
+    text += "  " + name + std::string(10 - std::min<std::size_t>(9, name.size()), ' ') +
+            usage["help"].get<std::string>() + "\n";
+  }
+  return text + "\ncoastmesh COMMAND --help shows the options of a command, with examples; man coastmesh has it all.\n";
+}
+
 }  // namespace
 
 int runProgram(int argc, char** argv, Interrupt& interrupt) {
   CLI::App app("Turns coastlines and lakes into triangle meshes for ocean and lake models", "coastmesh");
   app.set_version_flag("--version", std::string("coastmesh ") + COASTMESH_VERSION);
-  app.require_subcommand(1);
+  app.footer(
+      "coastmesh COMMAND --help shows the options of a command, with examples. Start with:\n"
+      "  coastmesh mesh lake.geojson -o lake.gpkg\n");
   std::vector<Command> commands;
   app.add_flag_callback(
          "--json-usage", [&commands] { throw UsageText{wholeUsage(commands)}; }, "print all commands' usage as JSON")
       ->trigger_on_parse();
+  app.add_option_function<std::string>(
+         "--usage-as", [&commands](const std::string& asked) { throw UsageText{usageAs(asked, wholeUsage(commands))}; },
+         "print usage for other programs: bash, zsh, fish (completion), man, man:COMMAND, markdown")
+      ->type_name("FORM")
+      ->trigger_on_parse();
   for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareClean}) {
     commands.push_back(declare(app));
+  }
+  if (argc < 2) {
+    std::fputs(welcome(commands).c_str(), stdout);
+    std::fflush(stdout);
+    throw UsageError("no command was given; start with one of those above");
   }
   const auto isNamed = [&](const Command& command) { return command.line.name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, isNamed)) {

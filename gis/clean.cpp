@@ -1,7 +1,9 @@
 #include "gis/clean.hpp"
 
+#include <algorithm>
 #include <cassert>
 
+#include "gis/chain_index.hpp"
 #include "gis/clean_faces.hpp"
 #include "gis/clean_simplify.hpp"
 #include "gis/error.hpp"
@@ -23,19 +25,55 @@ void refuseEmpty(const Coastline& coastline, const std::vector<std::size_t>& mem
   for (const Segment& segment : segments) {
     if (segment.left >= 0 || segment.right >= 0) return;
   }
-  bool has_polygon = false;
-  for (const std::size_t member : members) has_polygon |= !coastline.features[member].polygons.empty();
+  bool has_polygon = false, has_frame = false, has_land = false;
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    has_frame = has_frame || feature.use == FeatureUse::Frame;
+    has_polygon = has_polygon || !feature.polygons.empty();
+    has_land = has_land || feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
+  }
+  if (has_frame && !has_land) throw NothingWanted(namesOf(coastline, members) + ": lies outside of the frame");
+  if (has_frame) throw InputError("the frame holds no water: all of it is land");
   throw InputError(namesOf(coastline, members) + ": " +
                    (has_polygon ? "the polygons enclose no area"
-                                : "the lines close no ring, so there is nothing to mesh: join their ends bit for bit"));
+                                : "the lines close no ring, so there is nothing to mesh: join their ends, or close "
+                                  "them with --bbox W,S,E,N or --clip FILE"));
 }
 
-// Only the vertices that segments use, in their order.
-Domain compact(const CleanVertices& vertices, std::vector<Segment> segments, const Projection& projection) {
+// Edits beyond the frame tell of what is not meshed anyway.
+void keepFramedEdits(const Coastline& coastline, const std::vector<std::size_t>& members, std::size_t first,
+                     CleanReport& report) {
+  ChainIndex frame(ChainIndex::Kind::Rings);
+  for (const std::size_t member : members) {
+    if (coastline.features[member].use != FeatureUse::Frame) continue;
+    for (const Polygon& polygon : coastline.features[member].polygons) {
+      frame.add(polygon.outer);
+      for (const Ring& hole : polygon.holes) frame.add(hole);
+    }
+  }
+  frame.build();
+  if (frame.edgeCount() == 0) return;
+  const auto beyond = [&](const Edit& edit) {
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (frame.locate({edit.place.x + turn, edit.place.y}) != Location::Outside) return false;
+      if (!coastline.crs.geographic) break;
+    }
+    return edit.kind != EditKind::OutsideWater;
+  };
+  const auto from = report.edits.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto kept = std::stable_partition(from, report.edits.end(), [&](const Edit& edit) { return !beyond(edit); });
+  for (auto edit = kept; edit != report.edits.end(); ++edit) --report.counts[static_cast<std::size_t>(edit->kind)];
+  report.edits.erase(kept, report.edits.end());
+}
+
+// Only the vertices that are used, in their order.
+Domain compact(const CleanVertices& vertices, LabelledEdges&& edges, const Projection& projection) {
+  std::vector<Segment>& segments = edges.segments;
   Domain domain;
   domain.projection = projection;
   std::vector<VertexId> renumbered(vertices.plane.size(), kNone);
   for (const Segment& s : segments) renumbered[s.a] = renumbered[s.b] = 0;
+  for (const VertexId v : edges.points) renumbered[v] = 0;
   for (VertexId v = 0; v < renumbered.size(); ++v) {
     if (renumbered[v] == kNone) continue;
     renumbered[v] = static_cast<VertexId>(domain.pslg.points.size());
@@ -73,6 +111,8 @@ std::string_view toString(EditKind kind) {
       return "features overlap";
     case EditKind::MisplacedRing:
       return "misplaced ring";
+    case EditKind::OutsideWater:
+      return "point outside the water";
   }
   assert(false);
   return "";
@@ -80,14 +120,16 @@ std::string_view toString(EditKind kind) {
 
 Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
                      const CleanOptions& options, CleanReport& report) {
+  const std::size_t edits_before = report.edits.size();
   CleanChains chains = makeChains(coastline, members, projection, options, report);
   const NodedEdges edges = nodeChains(chains, coastline, projection, report);
-  std::vector<Segment> segments = labelFaces(chains, edges, coastline, report);
-  refuseEmpty(coastline, members, segments);
+  LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, report);
+  refuseEmpty(coastline, members, labelled.segments);
+  keepFramedEdits(coastline, members, edits_before, report);
   if (options.simplify_m > 0) {
-    segments = simplifyEdges(chains.vertices, segments, coastline, projection, options.simplify_m, report);
+    labelled.segments = simplifyEdges(chains.vertices, labelled, coastline, projection, options.simplify_m, report);
   }
-  return compact(chains.vertices, std::move(segments), projection);
+  return compact(chains.vertices, std::move(labelled), projection);
 }
 
 }  // namespace coastmesh

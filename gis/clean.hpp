@@ -8,6 +8,7 @@
 
 #include "core/pslg.hpp"
 #include "gis/coastline.hpp"
+#include "gis/error.hpp"
 #include "gis/projection.hpp"
 
 namespace coastmesh {
@@ -30,8 +31,9 @@ enum class EditKind {
   SimplifiedPoint,  // dropped for `simplify_m`
   FeaturesOverlap,  // a place lies in two features: the first of them keeps it; the edit names the other
   MisplacedRing,    // a hole outside its outer ring, or an outer ring inside another: taken by the even-odd rule
+  OutsideWater,     // a point asked for as a vertex lies outside of the domain: dropped
 };
-inline constexpr std::size_t kEditKinds = 11;
+inline constexpr std::size_t kEditKinds = 12;
 std::string_view toString(EditKind kind);  // "repeated point"
 
 // One change made to the input.
@@ -43,6 +45,7 @@ struct Edit {
 
 struct CleanReport {
   std::vector<Edit> edits;
+  std::vector<std::string> notes;  // what was decided where the input left a choice
   std::array<std::uint64_t, kEditKinds> counts{};
 
   void add(EditKind kind, const Point& place, std::int64_t fid) {
@@ -58,16 +61,24 @@ struct Domain {
   Projection projection = Projection::plane();
 };
 
-// Projects and cleans `coastline.features[members]`. A polygon's inside is even-odd over the rings of its feature;
+// The group lies outside of the frame, or apart from the water asked for: there is nothing to mesh, and nothing wrong.
+struct NothingWanted : InputError {
+  using InputError::InputError;
+};
+
+// Projects and cleans `coastline.features[members]`, each feature by its use. A polygon's inside is even-odd over the rings of its feature;
 // where two features overlap, the one that comes first keeps the place. Open lines inside become segments with the same
 // label on both sides; those outside vanish. Where longitudes span exactly 360 degrees and the projection brings the
 // first and the last meridian together, the cut along them is healed. Points of the PSLG come in the order of the
-// input, new ones last. Throws InputError for a group that encloses no area, and for a point that the projection cannot
-// map.
+// input, new ones last. Throws NothingWanted, and InputError for a group that encloses no area, for coasts that do not part water
+// from land, and for a point that the projection cannot map.
 Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
                      const CleanOptions& options, CleanReport& report);
 
 // Area of the group's polygons on the ellipsoid (or in the plane), holes taken out, in square metres, edges geodesic.
 double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members);
+
+// Area of what the domain's labels hold, as above.
+double geodesicArea(const Domain& domain, const Crs& crs);
 
 }  // namespace coastmesh

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
+#include "gis/chain_index.hpp"
 #include "gis/clean_touches.hpp"
 #include "gis/error.hpp"
 #include "gis/geodesic_area.hpp"
@@ -30,11 +32,19 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
     const auto index = static_cast<std::uint32_t>(member);
+    // On land an island is a polygon of its own; of what the frame cuts off nobody knows the size.
+    const bool land = feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
     for (const Polygon& polygon : feature.polygons) {
+      if (land && area && !feature.clipped && !polygon.outer.empty() &&
+          area->of(polygon.outer) < options.min_island_area_m2) {
+        report.add(EditKind::SmallIsland, polygon.outer.front(), feature.fid);
+        continue;
+      }
       if (!polygon.outer.empty()) chains.push_back({Role::Outer, index, polygon.outer});
       for (const Ring& hole : polygon.holes) {
         if (hole.empty()) continue;
-        if (area && area->of(hole) < options.min_island_area_m2) {
+        if (area && feature.use == FeatureUse::Area && !feature.clipped &&
+            area->of(hole) < options.min_island_area_m2) {
           report.add(EditKind::SmallIsland, hole.front(), feature.fid);
         } else {
           chains.push_back({Role::Hole, index, hole});
@@ -44,6 +54,7 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
     for (const auto& line : feature.lines) {
       if (!line.empty()) chains.push_back({Role::Line, index, line});
     }
+    for (const Point& point : feature.points) chains.push_back({Role::Point, index, {point}});
   }
   return chains;
 }
@@ -51,8 +62,11 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
 void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, CleanReport& report) {
   std::vector<TouchChain> touching;
   touching.reserve(chains.size());
-  for (InputChain& chain : chains) touching.push_back({&chain.points, chain.role != CleanChain::Role::Line});
+  for (InputChain& chain : chains) {
+    touching.push_back({&chain.points, chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole});
+  }
   for (const Touch& touch : insertTouchingPoints(touching)) {
+    if (coastline.features[chains[touch.chain].feature].use == FeatureUse::Frame) continue;
     report.add(EditKind::OverlappingEdge, touch.place, coastline.features[chains[touch.chain].feature].fid);
   }
 }
@@ -121,14 +135,56 @@ std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& s
   return {kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-// The snap distance in plane units, by the scale at the first point; 0 where it drowns in the coordinates' own grain.
+// The snap distance in plane units, by the least scale (of a sample), so that nowhere more is snapped than asked; 0 where
+// it drowns in the coordinates' own grain.
 double snapInPlane(const std::vector<InputChain>& chains, const Coastline& coastline, const Projection& projection,
                    double snap_m) {
+  constexpr std::size_t kSample = 256;
   if (snap_m <= 0 || chains.empty()) return 0;
-  const Point first = project(chains.front().points.front(), coastline.features[chains.front().feature], projection);
-  const double snap = snap_m * projection.scaleAt(first);
-  const double grain = std::ldexp(std::max(std::abs(first.x), std::abs(first.y)), -46);
-  return snap > grain ? snap : 0;
+  double scale = std::numeric_limits<double>::infinity(), grain = scale;
+  const auto take = [&](const InputChain& chain, const Point& point) {
+    const Point plane = project(point, coastline.features[chain.feature], projection);
+    scale = std::min(scale, projection.scaleAt(plane));
+    grain = std::min(grain, std::ldexp(std::max(std::abs(plane.x), std::abs(plane.y)), -46));
+  };
+  std::size_t count = 0, passed = 0;
+  for (const InputChain& chain : chains) count += chain.points.size();
+  const std::size_t step = std::max<std::size_t>(1, count / kSample);
+  for (const InputChain& chain : chains) {
+    for (std::size_t i = (step - passed % step) % step; i < chain.points.size(); i += step)
+      take(chain, chain.points[i]);
+    passed += chain.points.size();
+  }
+  return snap_m * scale > grain ? snap_m * scale : 0;
+}
+
+// Features whose rings hold the place that lies beyond all of the plane.
+std::vector<std::uint32_t> holdersOf(const Point& place, const Coastline& coastline,
+                                     const std::vector<std::size_t>& members) {
+  std::vector<std::uint32_t> holders;
+  const auto holds = [&](const Feature& feature) {
+    ChainIndex index(ChainIndex::Kind::Rings);
+    for (const Polygon& polygon : feature.polygons) {
+      index.add(polygon.outer);
+      for (const Ring& hole : polygon.holes) index.add(hole);
+    }
+    index.build();
+    for (const double turn : {-360.0, 0.0, 360.0}) {
+      if (index.edgeCount() > 0 && index.locate({place.x + turn, place.y}) == Location::Inside) return true;
+    }
+    return false;
+  };
+  for (const bool frames : {true, false}) {  // most often no frame does, and all else lies in frames
+    for (const std::size_t member : members) {
+      const Feature& feature = coastline.features[member];
+      if ((feature.use == FeatureUse::Frame) == frames && holds(feature)) {
+        holders.push_back(static_cast<std::uint32_t>(member));
+      }
+    }
+    if (holders.empty()) break;
+  }
+  std::ranges::sort(holders);
+  return holders;
 }
 
 }  // namespace
@@ -138,7 +194,7 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   std::vector<InputChain> input = gather(coastline, members, options, report);
   std::vector<Ring*> rings;
   for (InputChain& chain : input) {
-    if (chain.role != CleanChain::Role::Line) rings.push_back(&chain.points);
+    if (chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole) rings.push_back(&chain.points);
   }
   if (!projection.isIdentity()) keepTouches(input, coastline, report);
   const std::optional<Seam> seam = healSeam(rings, coastline.crs, projection);
@@ -146,12 +202,22 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   for (const InputChain& chain : input) count += chain.points.size();
 
   CleanChains result;
+  for (const std::size_t member : members) {
+    const FeatureUse use = coastline.features[member].use;
+    result.framed = result.framed || use == FeatureUse::Frame;
+    result.land = result.land || use == FeatureUse::Land;
+    result.coast = result.coast || use == FeatureUse::Coast;
+  }
   result.seam = seam;
   result.snap = snapInPlane(input, coastline, projection, options.snap_m);
+  if (const std::optional<Point> beyond = projection.infinity()) {
+    result.beyond = holdersOf(*beyond, coastline, members);
+  }
   VertexMaker maker(result.vertices, result.snap, count);
   for (InputChain& chain : input) {
     const Feature& feature = coastline.features[chain.feature];
-    const bool closed = chain.role != CleanChain::Role::Line;
+    const bool closed = chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole;
+    const bool tell = feature.use != FeatureUse::Frame;
     CleanChain made{chain.role, chain.feature, {}};
     made.walk.reserve(chain.points.size());
     bool snapped = false;
@@ -159,19 +225,20 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
       snapped = false;
       const VertexId v = maker.make(project(point, feature, projection), point, snapped);
       const bool repeated = !made.walk.empty() && made.walk.back() == v;
-      if (snapped || repeated) report.add(EditKind::RepeatedPoint, point, feature.fid);
+      if (tell && (snapped || repeated)) report.add(EditKind::RepeatedPoint, point, feature.fid);
       if (!repeated) made.walk.push_back(v);
     }
     while (closed && made.walk.size() > 1 && made.walk.front() == made.walk.back()) {
-      if (!snapped) report.add(EditKind::RepeatedPoint, chain.points.back(), feature.fid);
+      if (tell && !snapped) report.add(EditKind::RepeatedPoint, chain.points.back(), feature.fid);
       made.walk.pop_back();
     }
     if (closed) {
-      made.walk = withoutSpikes(
-          made.walk, [&](VertexId v) { report.add(EditKind::Spike, result.vertices.input[v], feature.fid); });
+      made.walk = withoutSpikes(made.walk, [&](VertexId v) {
+        if (tell) report.add(EditKind::Spike, result.vertices.input[v], feature.fid);
+      });
     }
-    if (made.walk.size() < (closed ? 3u : 2u)) {
-      report.add(EditKind::DegenerateRing, chain.points.front(), feature.fid);
+    if (made.walk.size() < (closed ? 3u : chain.role == CleanChain::Role::Point ? 1u : 2u)) {
+      if (tell) report.add(EditKind::DegenerateRing, chain.points.front(), feature.fid);
       continue;
     }
     std::vector<Point>().swap(chain.points);

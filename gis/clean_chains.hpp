@@ -19,10 +19,12 @@ struct CleanVertices {
 
 // A ring or an open line over vertices. Private to gis.
 struct CleanChain {
-  enum class Role { Outer, Hole, Line };
+  enum class Role { Outer, Hole, Line, Point };
   Role role = Role::Outer;
   std::uint32_t feature = 0;   // index into Coastline::features
-  std::vector<VertexId> walk;  // a ring's first vertex is not repeated
+  std::vector<VertexId> walk;  // a ring's first vertex is not repeated; a point's is one vertex
+
+  bool isRing() const { return role == Role::Outer || role == Role::Hole; }
 };
 
 // The first stage of cleaning: features as chains over distinct vertices.
@@ -31,6 +33,9 @@ struct CleanChains {
   std::vector<CleanChain> chains;
   double snap = 0;  // the snap distance in the plane; 0 where it is too small to matter
   std::optional<Seam> seam;
+  // Whether features of these uses are there; a frame round the whole globe leaves no chain.
+  bool framed = false, land = false, coast = false;
+  std::vector<std::uint32_t> beyond;  // features that hold what lies beyond all of the plane, ascending
 };
 
 // Projects the members' points, makes one vertex of those equal or nearer than the snap distance (the first stays),

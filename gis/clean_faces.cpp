@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
+#include <utility>
 
+#include "gis/coast_sides.hpp"
+#include "gis/face_locator.hpp"
 #include "gis/planar_map.hpp"
+#include "gis/segment_tags.hpp"
 
 namespace coastmesh {
 
@@ -12,29 +17,37 @@ namespace {
 // Features that a face lies in, ascending.
 using FeatureSet = std::vector<std::uint32_t>;
 
-// An edge, its uses [first_use, last_use), and whether an open line runs along it.
+// An edge, its uses [first_use, last_use), and the feature whose open line runs along it.
 struct MapEdge {
   std::size_t first_use, last_use;
-  bool line;
+  std::uint32_t line = kNone;
 };
 
 class Labeller {
  public:
-  Labeller(const CleanChains& chains, const NodedEdges& noded, const Coastline& coastline, CleanReport& report)
+  Labeller(const CleanChains& chains, const NodedEdges& noded, const Coastline& coastline, const Projection& projection,
+           CleanReport& report)
       : chains_(chains),
         noded_(noded),
         coastline_(coastline),
+        projection_(projection),
         report_(report),
         ends_(listEdges()),
-        map_(chains.vertices.plane, ends_) {}
+        map_(chains.vertices.plane, ends_) {
+    for (const CleanChain& chain : chains.chains) {
+      if (useOf(chain.feature) == FeatureUse::Coast) first_coast_ = std::min(first_coast_, chain.feature);
+    }
+  }
 
-  std::vector<Segment> run() {
+  LabelledEdges run() {
     fillFaces();
+    if (chains_.coast) findWaterFaces();
     tellOverlaps();
     tellMisplacedRings();
-    std::vector<Segment> segments = keepEdges();
-    tellPinches(segments);
-    return segments;
+    LabelledEdges result{keepEdges(), {}};
+    tellPinches(result.segments);
+    result.points = keepPoints(result.segments);
+    return result;
   }
 
  private:
@@ -42,10 +55,10 @@ class Labeller {
     std::vector<std::pair<VertexId, VertexId>> ends;
     const auto& uses = noded_.uses;
     for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
-      MapEdge edge{first, first, false};
+      MapEdge edge{first, first, kNone};
       for (; last < uses.size() && uses[last].low() == uses[first].low() && uses[last].high() == uses[first].high();
            ++last) {
-        if (roleOf(uses[last]) == CleanChain::Role::Line) edge.line = true;
+        if (isLine(uses[last])) edge.line = featureOf(uses[last]);
       }
       edge.last_use = last;
       edges_.push_back(edge);
@@ -55,6 +68,8 @@ class Labeller {
   }
 
   CleanChain::Role roleOf(const EdgeUse& use) const { return chains_.chains[use.chain].role; }
+  bool isLine(const EdgeUse& use) const { return roleOf(use) == CleanChain::Role::Line; }
+  FeatureUse useOf(std::uint32_t feature) const { return coastline_.features[feature].use; }
   std::uint32_t featureOf(const EdgeUse& use) const { return chains_.chains[use.chain].feature; }
   std::int64_t fidOf(std::uint32_t feature) const { return coastline_.features[feature].fid; }
   const Point& inputOf(VertexId v) const { return chains_.vertices.input[v]; }
@@ -63,7 +78,7 @@ class Labeller {
   FeatureSet parted(const MapEdge& edge) const {
     FeatureSet features;
     for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
-      if (roleOf(noded_.uses[u]) != CleanChain::Role::Line) features.push_back(featureOf(noded_.uses[u]));
+      if (!isLine(noded_.uses[u])) features.push_back(featureOf(noded_.uses[u]));
     }
     return features;
   }
@@ -71,6 +86,7 @@ class Labeller {
   // From the unbounded face inwards.
   void fillFaces() {
     holders_.resize(map_.faceCount());
+    holders_[PlanarMap::kOuterFace] = chains_.beyond;
     std::vector<char> reached(map_.faceCount(), 0);
     std::vector<std::uint32_t> queue{PlanarMap::kOuterFace};
     reached[PlanarMap::kOuterFace] = 1;
@@ -87,8 +103,58 @@ class Labeller {
     }
   }
 
+  // The first feature of a use that holds the face, else kOutside.
+  RegionId holderOf(std::uint32_t face, FeatureUse use) const {
+    for (const std::uint32_t feature : holders_[face]) {
+      if (useOf(feature) == use) return static_cast<RegionId>(feature);
+    }
+    return kOutside;
+  }
+
   RegionId label(std::uint32_t face) const {
-    return holders_[face].empty() ? kOutside : static_cast<RegionId>(holders_[face].front());
+    const RegionId frame = chains_.framed ? holderOf(face, FeatureUse::Frame) : kOutside;
+    if (chains_.framed && frame == kOutside) return kOutside;
+    if (chains_.coast) {
+      if (!water_[face]) return kOutside;
+      if (chains_.framed) return frame;
+      const RegionId holder = holderOf(face, FeatureUse::Coast);
+      return holder == kOutside ? static_cast<RegionId>(first_coast_) : holder;
+    }
+    if (chains_.land) return holderOf(face, FeatureUse::Land) == kOutside ? frame : kOutside;
+    return holderOf(face, FeatureUse::Area);
+  }
+
+  void findWaterFaces() {
+    CoastMap coast{map_, std::vector<CoastEdge>(edges_.size()), std::vector<char>(map_.faceCount(), 0), {}};
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      CoastEdge& edge = coast.edges[e];
+      std::tie(edge.low, edge.high) = ends_[e];
+      int rings = 0;
+      for (std::size_t u = edges_[e].first_use; u < edges_[e].last_use; ++u) {
+        const EdgeUse& use = noded_.uses[u];
+        edge.of_frame = edge.of_frame || useOf(featureOf(use)) == FeatureUse::Frame;
+        if (useOf(featureOf(use)) != FeatureUse::Coast) continue;
+        edge.feature = featureOf(use);
+        edge.line = edge.line || isLine(use);
+        if (!isLine(use)) ++rings;
+        edge.direction += use.a == edge.low ? 1 : -1;
+      }
+      edge.parts = edge.line || rings % 2 == 1;
+    }
+    for (std::uint32_t face = 0; face < map_.faceCount(); ++face) {
+      coast.framed[face] =
+          chains_.framed ? holderOf(face, FeatureUse::Frame) != kOutside : face != PlanarMap::kOuterFace;
+    }
+    if (coastline_.water_at) {
+      const Point place = projection_.forward(*coastline_.water_at);
+      coast.seed = FaceLocator(map_, chains_.vertices.plane, ends_).faceAt(place);
+      if (!coast.framed[*coast.seed]) {
+        throw NothingWanted("--water-at " + std::to_string(coastline_.water_at->x) + "," +
+                            std::to_string(coastline_.water_at->y) + ": lies outside of all that the coasts enclose" +
+                            (chains_.framed ? ", and of the frame" : ": close the water with --bbox or --clip"));
+      }
+    }
+    water_ = findWater(coast, chains_.vertices, coastline_, projection_, report_);
   }
 
   bool holds(std::uint32_t face, std::uint32_t feature) const {
@@ -99,17 +165,55 @@ class Labeller {
     std::vector<Segment> segments;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       const RegionId left = label(map_.faceOf(2 * e)), right = label(map_.faceOf(2 * e + 1));
-      if (left == right && (left == kOutside || !edges_[e].line)) continue;
-      segments.push_back({ends_[e].first, ends_[e].second, 0, left, right});
+      if (left == right && (left == kOutside || edges_[e].line == kNone)) continue;
+      segments.push_back({ends_[e].first, ends_[e].second, tagOf(edges_[e], left, right), left, right});
     }
     return segments;
   }
 
+  std::int32_t tagOf(const MapEdge& edge, RegionId left, RegionId right) const {
+    if (left == right) return useOf(edge.line) == FeatureUse::Weir ? kWeirTag : kConstraintTag;
+    if (left != kOutside && right != kOutside) return 0;
+    for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
+      if (useOf(featureOf(noded_.uses[u])) == FeatureUse::Frame) return kOpenTag;
+    }
+    return 0;
+  }
+
+  // Vertices asked for that lie in water and on no segment; those elsewhere are told of.
+  std::vector<VertexId> keepPoints(const std::vector<Segment>& segments) const {
+    std::vector<VertexId> points;
+    const bool any = std::ranges::any_of(chains_.chains,
+                                         [](const CleanChain& chain) { return chain.role == CleanChain::Role::Point; });
+    if (!any) return points;
+    std::vector<char> used(chains_.vertices.plane.size(), 0);
+    for (const Segment& s : segments) used[s.a] = used[s.b] = 1;
+    const FaceLocator locator(map_, chains_.vertices.plane, ends_);
+    for (const CleanChain& chain : chains_.chains) {
+      if (chain.role != CleanChain::Role::Point) continue;
+      const VertexId v = chain.walk.front();
+      if (used[v]) continue;
+      const auto fan = map_.leaving(v);
+      const std::uint32_t face = fan.empty() ? locator.faceAt(chains_.vertices.plane[v]) : map_.faceOf(fan.front());
+      if (label(face) == kOutside) {
+        report_.add(EditKind::OutsideWater, inputOf(v), fidOf(chain.feature));
+        continue;
+      }
+      used[v] = 1;
+      points.push_back(v);
+    }
+    std::ranges::sort(points);
+    return points;
+  }
+
   void tellOverlaps() {
+    if (chains_.coast || chains_.land) return;
     for (std::uint32_t face = 0; face < holders_.size(); ++face) {
-      for (std::size_t i = 1; i < holders_[face].size(); ++i) {
+      bool first = true;
+      for (const std::uint32_t feature : holders_[face]) {
+        if (useOf(feature) != FeatureUse::Area || std::exchange(first, false)) continue;
         const PlanarMap::HalfEdge h = map_.around(face).front();
-        report_.add(EditKind::FeaturesOverlap, inputOf(ends_[h / 2].first), fidOf(holders_[face][i]));
+        report_.add(EditKind::FeaturesOverlap, inputOf(ends_[h / 2].first), fidOf(feature));
       }
     }
   }
@@ -120,7 +224,8 @@ class Labeller {
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       for (std::size_t u = edges_[e].first_use; u < edges_[e].last_use; ++u) {
         const EdgeUse& use = noded_.uses[u];
-        if (roleOf(use) == CleanChain::Role::Line || done[use.chain]) continue;
+        if (isLine(use) || done[use.chain]) continue;
+        if (useOf(featureOf(use)) != FeatureUse::Area || coastline_.features[featureOf(use)].clipped) continue;
         done[use.chain] = 1;
         const bool upward = use.a == ends_[e].first;
         const bool inner_is_left = windsLeft(chains_.chains[use.chain].walk);
@@ -161,18 +266,21 @@ class Labeller {
   const CleanChains& chains_;
   const NodedEdges& noded_;
   const Coastline& coastline_;
+  const Projection& projection_;
   CleanReport& report_;
+  std::uint32_t first_coast_ = kNone;
   std::vector<MapEdge> edges_;
   std::vector<std::pair<VertexId, VertexId>> ends_;
   PlanarMap map_;
   std::vector<FeatureSet> holders_;
+  std::vector<char> water_;  // by face, where there are coasts
 };
 
 }  // namespace
 
-std::vector<Segment> labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
-                                CleanReport& report) {
-  return Labeller(chains, edges, coastline, report).run();
+LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
+                         const Projection& projection, CleanReport& report) {
+  return Labeller(chains, edges, coastline, projection, report).run();
 }
 
 }  // namespace coastmesh

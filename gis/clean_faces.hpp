@@ -7,10 +7,17 @@
 
 namespace coastmesh {
 
-// Labels the faces between noded edges: a face belongs to the first feature that holds it by the even-odd rule. Returns
-// the edges that part two labels and the open lines inside the domain, from the lower to the higher vertex, sorted.
-// What is dropped goes to the report.
-std::vector<Segment> labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
-                                CleanReport& report);
+// Edges that part two labels and lines inside the domain, from the lower to the higher vertex, sorted; and vertices
+// asked for that lie on none of them.
+struct LabelledEdges {
+  std::vector<Segment> segments;  // tagged: see segment_tags.hpp
+  std::vector<VertexId> points;
+};
+
+// Labels the faces between noded edges: a face belongs to the first feature that holds it by the even-odd rule, within
+// the frame where there is one; framed water belongs to the frame. What is dropped goes to the report. Throws
+// InputError where coasts do not tell water from land.
+LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
+                         const Projection& projection, CleanReport& report);
 
 }  // namespace coastmesh

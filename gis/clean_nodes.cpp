@@ -82,13 +82,15 @@ class Noder {
  private:
   const Point& at(VertexId v) const { return chains_.vertices.plane[v]; }
   std::uint32_t featureOf(const EdgeUse& use) const { return chains_.chains[use.chain].feature; }
-  bool isLine(const EdgeUse& use) const { return chains_.chains[use.chain].role == CleanChain::Role::Line; }
+  bool isLine(const EdgeUse& use) const { return !chains_.chains[use.chain].isRing(); }
+  bool ofFrame(const EdgeUse& use) const { return coastline_.features[featureOf(use)].use == FeatureUse::Frame; }
   std::int64_t fidOf(std::uint32_t edge) const {
     return coastline_.features[featureOf(uses_[edges_[edge].first_use])].fid;
   }
 
   void addUses(std::uint32_t c) {
     const CleanChain& chain = chains_.chains[c];
+    if (chain.role == CleanChain::Role::Point) return;
     const std::size_t n = chain.walk.size();
     const std::size_t edges = chain.role == CleanChain::Role::Line ? n - 1 : n;
     for (std::size_t i = 0; i < edges; ++i) uses_.push_back({chain.walk[i], chain.walk[(i + 1) % n], c});
@@ -113,7 +115,7 @@ class Noder {
              ++i)
           ++same;
         if (isLine(use) || same % 2 == 1) uses_[kept++] = use;
-        if (tell && same > 1 && !onSeam(low, high)) {
+        if (tell && same > 1 && !onSeam(low, high) && !ofFrame(use)) {
           report_.add(EditKind::OverlappingEdge, chains_.vertices.input[low], coastline_.features[featureOf(use)].fid);
         }
       }
@@ -155,6 +157,14 @@ class Noder {
         testPair(e, f, tolerance);
       });
     }
+    for (const CleanChain& chain : chains_.chains) {
+      if (chain.role != CleanChain::Role::Point) continue;
+      const VertexId v = chain.walk.front();
+      tree.visit(Box::of(at(v), at(v)).grownBy(tolerance), [&](std::uint32_t f) {
+        const auto [low, high] = std::pair(edges_[f].low, edges_[f].high);
+        if (v != low && v != high && liesOnEdge(at(low), at(high), at(v), tolerance)) splits_.push_back({f, v});
+      });
+    }
     std::sort(splits_.begin(), splits_.end());
     splits_.erase(std::unique(splits_.begin(), splits_.end()), splits_.end());
   }
@@ -178,6 +188,7 @@ class Noder {
 
   void tellSplits() {
     for (const Split& split : splits_) {
+      if (ofFrame(uses_[edges_[split.edge].first_use])) continue;
       report_.add(EditKind::OverlappingEdge, chains_.vertices.input[split.vertex], fidOf(split.edge));
     }
   }
@@ -209,7 +220,7 @@ class Noder {
     for (const Edge& edge : {e, f}) {
       for (std::size_t u = edge.first_use; u < edge.last_use; ++u) crossed_[uses_[u].chain] = 1;
     }
-    if (!tell) return;
+    if (!tell || ofFrame(uses_[e.first_use]) || ofFrame(uses_[f.first_use])) return;
     const std::uint32_t first = featureOf(uses_[e.first_use]), second = featureOf(uses_[f.first_use]);
     report_.add(first == second ? EditKind::SelfCrossing : EditKind::FeaturesCross, place,
                 coastline_.features[std::max(first, second)].fid);
@@ -258,6 +269,9 @@ class Noder {
   void mergeVertices(double tolerance) {
     std::vector<VertexId> target(chains_.vertices.plane.size(), kNone), kept;
     for (const EdgeUse& use : uses_) target[use.a] = target[use.b] = 0;
+    for (const CleanChain& chain : chains_.chains) {
+      if (chain.role == CleanChain::Role::Point) target[chain.walk.front()] = 0;
+    }
     std::vector<Point> kept_places;
     PointGrid grid(kept_places, tolerance, target.size());
     for (VertexId v = 0; v < target.size(); ++v) {
@@ -275,6 +289,9 @@ class Noder {
       if (active_[e] || low != edges_[e].low || high != edges_[e].high) fresh.emplace_back(std::minmax(low, high));
     }
     for (EdgeUse& use : uses_) use.a = target[use.a], use.b = target[use.b];
+    for (CleanChain& chain : chains_.chains) {
+      if (chain.role == CleanChain::Role::Point) chain.walk.front() = target[chain.walk.front()];
+    }
     std::erase_if(uses_, [](const EdgeUse& use) { return use.a == use.b; });
     collapse(false);
     activate(std::move(fresh));

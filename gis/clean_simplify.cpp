@@ -36,11 +36,12 @@ double squaredDistance(const Point& p, const Point& a, const Point& b) {
 
 class Simplifier {
  public:
-  Simplifier(const CleanVertices& vertices, const std::vector<Segment>& segments, const Projection& projection,
+  Simplifier(const CleanVertices& vertices, const LabelledEdges& edges, const Projection& projection,
              double tolerance_m)
       : vertices_(vertices), projection_(projection), tolerance_m_(tolerance_m), links_(vertices.plane.size()) {
-    pieces_.reserve(segments.size());
-    for (const Segment& s : segments) {
+    pieces_.reserve(edges.segments.size());
+    for (const VertexId v : edges.points) links_[v].degree = 3;  // not to be taken, but in the way
+    for (const Segment& s : edges.segments) {
       for (const VertexId v : {s.a, s.b}) {
         Link& link = links_[v];
         if (link.degree < 2) link.segment[link.degree] = static_cast<std::uint32_t>(pieces_.size());
@@ -100,6 +101,7 @@ class Simplifier {
   bool removable(VertexId v) const {
     if (links_[v].degree != 2) return false;
     const auto [first, second] = links_[v].segment;
+    if (pieces_[first].segment.tag != pieces_[second].segment.tag) return false;
     const auto [left, right] = labelsFrom(first, v);
     if (labelsFrom(second, v) != std::pair(right, left)) return false;
     const VertexId p = other(first, v), q = other(second, v);
@@ -191,10 +193,10 @@ class Simplifier {
 
 }  // namespace
 
-std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const std::vector<Segment>& segments,
+std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
                                    const Coastline& coastline, const Projection& projection, double tolerance_m,
                                    CleanReport& report) {
-  Simplifier simplifier(vertices, segments, projection, tolerance_m);
+  Simplifier simplifier(vertices, edges, projection, tolerance_m);
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
     report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline.features[feature].fid);

@@ -4,16 +4,17 @@
 
 #include "core/pslg.hpp"
 #include "gis/clean_chains.hpp"
+#include "gis/clean_faces.hpp"
 
 namespace coastmesh {
 
-// Drops vertices between two segments of the same labels, those that matter least first, as long as every vertex
+// Drops vertices between two segments of the same labels and tag, those that matter least first, as long as every vertex
 // dropped stays within `tolerance_m` metres of the segment that replaces it. A vertex goes only where the triangle with
 // its two neighbours holds no other vertex, so the segments keep their topology: nothing crosses, no island changes
-// sides, no ring vanishes. Junctions, ends of lines and pinched vertices stay. After Visvalingam & Whyatt, "Line
+// sides, no ring vanishes. Junctions, ends of lines, fixed points and pinched vertices stay. After Visvalingam & Whyatt, "Line
 // generalisation by repeated elimination of points" (1993), with Douglas & Peucker's distance (1973) in place of the
 // area. Cost O(n log n) for shores that are not dense within the tolerance.
-std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const std::vector<Segment>& segments,
+std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
                                    const Coastline& coastline, const Projection& projection, double tolerance_m,
                                    CleanReport& report);
 

@@ -39,6 +39,7 @@ struct Feature {
   std::vector<std::pair<std::string, std::string>> attributes;  // name, value as text; nulls are left out
   FeatureUse use = FeatureUse::Area;
   bool from_lines = false;    // its rings were made of lines
+  bool clipped = false;       // far-off parts of it were cut off
   std::vector<Point> points;  // of a constraint: vertices to be
 };
 

@@ -62,6 +62,8 @@ class PolarMap final : public ConformalMap {
     library_.Reverse(north_, plane.x, plane.y, lat, lon, convergence, scale);
     return scale;
   }
+  // A little beside the pole, where data that reach it have an edge.
+  std::optional<Point> infinity() const override { return Point{17.123, north_ ? -89.999 : 89.999}; }
 
  private:
   GeographicLib::PolarStereographic library_;
@@ -108,6 +110,7 @@ class ObliqueStereographic final : public ConformalMap {
     const double x = plane.x / diameter_, y = plane.y / diameter_;
     return diameter_ / (2 * a_) * onSphere(inverse(plane).y).scale * (1 + x * x + y * y);
   }
+  std::optional<Point> infinity() const override { return inverse({1e18 * diameter_, 0}); }
 
  private:
   // Sine and cosine of the conformal latitude, and the scale of the map from the ellipsoid of semi-major axis 1 to the

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/point.hpp"
 
@@ -20,6 +21,8 @@ class ConformalMap {
   virtual Point forward(const Point& lonlat) const = 0;
   virtual Point inverse(const Point& plane) const = 0;
   virtual double scaleAt(const Point& plane) const = 0;  // plane length over length on the ellipsoid
+  // The one place that lies beyond all of the plane, where the map shows all others, to a thousandth of a degree.
+  virtual std::optional<Point> infinity() const { return std::nullopt; }
 };
 
 // Each has its origin and the scale 1 at the centre named, the conic on its two parallels.

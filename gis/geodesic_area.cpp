@@ -1,5 +1,6 @@
 #include "gis/geodesic_area.hpp"
 
+#include <GeographicLib/Accumulator.hpp>
 #include <GeographicLib/Math.hpp>
 #include <GeographicLib/PolygonArea.hpp>
 #include <algorithm>
@@ -89,12 +90,67 @@ double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& 
   const RingArea area(coastline.crs);
   double sum = 0;
   for (const std::size_t member : members) {
+    if (coastline.features[member].use != FeatureUse::Area) continue;
     for (const Polygon& polygon : coastline.features[member].polygons) {
       sum += area.of(polygon.outer);
       for (const Ring& hole : polygon.holes) sum -= area.of(hole);
     }
   }
   return sum;
+}
+
+namespace {
+
+// Karney, "Algorithms for geodesics" (2013), Section 6: the area between an edge and the equator, added up along rims with the
+// inside to their left. Which of the areas that differ by half the globe is meant, crossings of a meridian tell.
+class RimSum {
+ public:
+  explicit RimSum(const Crs& crs) : geodesic_(crs.semi_major_m, crs.flattening) {}
+
+  void add(const Point& from, const Point& to) {
+    using GeographicLib::Math;
+    double area = 0, unused = 0;
+    geodesic_.GenInverse(from.y, from.x, to.y, to.x, GeographicLib::Geodesic::AREA, unused, unused, unused, unused,
+                         unused, unused, area);
+    sum_ -= area;
+    const double step = Math::AngDiff(from.x, to.x);
+    const bool west_before = Math::AngNormalize(from.x) < 0, west_after = Math::AngNormalize(to.x) < 0;
+    // Only where the meridian of 0 degrees is crossed, not the one of 180.
+    if ((step > 0 && west_before && !west_after) || (step < 0 && !west_before && west_after)) odd_ = !odd_;
+  }
+
+  double area() const {
+    const double globe = geodesic_.EllipsoidArea();
+    const double area = std::fmod(sum_() + (odd_ ? globe / 2 : 0), globe);
+    return area < 0 ? area + globe : area;
+  }
+
+ private:
+  GeographicLib::Geodesic geodesic_;
+  GeographicLib::Accumulator<double> sum_;
+  bool odd_ = false;
+};
+
+}  // namespace
+
+double geodesicArea(const Domain& domain, const Crs& crs) {
+  std::vector<Point> places = domain.input_points;
+  if (!crs.isPlane() && !crs.geographic) {
+    const CrsMap to_lonlat(toOgr(crs), geographicBase(crs));
+    for (Point& p : places) p = to_lonlat.forward(p);
+  }
+  double twice = 0;
+  RimSum rim(crs);
+  for (const Segment& s : domain.pslg.segments) {
+    if ((s.left >= 0) == (s.right >= 0)) continue;
+    const Point &a = places[s.left >= 0 ? s.a : s.b], &b = places[s.left >= 0 ? s.b : s.a], &o = places.front();
+    if (crs.isPlane()) {
+      twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+    } else {
+      rim.add(a, b);
+    }
+  }
+  return crs.isPlane() ? twice / 2 : rim.area();
 }
 
 }  // namespace coastmesh

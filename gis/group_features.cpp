@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 #include "gis/chain_index.hpp"
 #include "gis/read_coastline.hpp"
@@ -77,7 +78,13 @@ Box boundsOf(const Feature& feature) {
   for (const auto& line : feature.lines) {
     for (const Point& p : line) box.add(p);
   }
+  for (const Point& p : feature.points) box.add(p);
   return box;
+}
+
+bool isGuest(const Feature& feature) {
+  return feature.use == FeatureUse::Frame || feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
+         feature.use == FeatureUse::Region;
 }
 
 // Where longitudes span exactly 360 degrees, the data are cut along a meridian (the antimeridian, as a rule): features
@@ -103,6 +110,7 @@ void uniteAcrossCut(const Coastline& coastline, const std::vector<Box>& boxes, U
     }
   };
   for (std::uint32_t f = 0; f < boxes.size(); ++f) {
+    if (isGuest(coastline.features[f])) continue;
     if (boxes[f].xmin != extent.xmin && boxes[f].xmax != extent.xmax) continue;
     for (const Polygon& polygon : coastline.features[f].polygons) {
       collect(polygon.outer, true, f);
@@ -119,10 +127,70 @@ void uniteAcrossCut(const Coastline& coastline, const std::vector<Box>& boxes, U
   }
 }
 
-std::vector<std::vector<std::size_t>> setsOf(UnionFind& sets, std::size_t n) {
+// Water between land or coasts and a frame: one whatever lies in it.
+bool isFramedWater(const Coastline& coastline) {
+  bool framed = false, shores = false;
+  for (const Feature& feature : coastline.features) {
+    framed = framed || feature.use == FeatureUse::Frame;
+    shores = shores || feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
+  }
+  return framed && shores;
+}
+
+// True iff the frame is one box in the input's coordinates, and `box` lies inside of it.
+bool framedWhole(const Feature& frame, const Box& box) {
+  for (const Polygon& polygon : frame.polygons) {
+    Box rim;
+    for (const Point& p : polygon.outer) rim.add(p);
+    const bool on_rim = std::ranges::all_of(polygon.outer, [&](const Point& p) {
+      return p.x == rim.xmin || p.x == rim.xmax || p.y == rim.ymin || p.y == rim.ymax;
+    });
+    int corners = 0;
+    for (const Point& p : polygon.outer) {
+      corners += (p.x == rim.xmin || p.x == rim.xmax) && (p.y == rim.ymin || p.y == rim.ymax);
+    }
+    const bool inside = rim.xmin < box.xmin && box.xmax < rim.xmax && rim.ymin < box.ymin && box.ymax < rim.ymax;
+    if (on_rim && corners == 4 && polygon.holes.empty() && inside) return true;
+  }
+  return false;
+}
+
+// Frames, constraints and regions join each group that their extent meets, in whichever turn round the globe.
+void addGuests(const Coastline& coastline, const std::vector<Box>& boxes,
+               std::vector<std::vector<std::size_t>>& groups) {
+  if (std::ranges::none_of(coastline.features, isGuest)) return;
+  std::vector<Box> extents(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const std::size_t member : groups[g]) extents[g].add(boxes[member]);
+  }
+  const BoxTree tree(extents, BoxTree::Order::Hilbert);
+  for (std::size_t f = 0; f < boxes.size(); ++f) {
+    const Feature& feature = coastline.features[f];
+    if (!isGuest(feature)) continue;
+    const bool frame = feature.use == FeatureUse::Frame;
+    const auto join = [&](std::uint32_t g) {
+      if (groups[g].back() != f && !(frame && framedWhole(feature, extents[g]))) groups[g].push_back(f);
+    };
+    if (frame) {
+      for (std::uint32_t g = 0; g < groups.size(); ++g) join(g);
+      continue;
+    }
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (turn != 0 && !coastline.crs.geographic) continue;
+      Box box = boxes[f];
+      box.xmin += turn, box.xmax += turn;
+      tree.visit(box, join);
+    }
+  }
+  for (auto& group : groups) std::ranges::sort(group);
+}
+
+std::vector<std::vector<std::size_t>> setsOf(UnionFind& sets, const Coastline& coastline) {
+  const std::size_t n = coastline.features.size();
   std::vector<std::vector<std::size_t>> groups;
   std::vector<std::uint32_t> group_of(n);
   for (std::uint32_t i = 0; i < n; ++i) {
+    if (isGuest(coastline.features[i])) continue;
     const std::uint32_t root = sets.find(i);  // never above i: its group is there already
     if (root == i) {
       group_of[i] = static_cast<std::uint32_t>(groups.size());
@@ -141,11 +209,17 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline) 
   const auto& features = coastline.features;
   std::vector<Box> boxes(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) boxes[i] = boundsOf(features[i]);
+  if (isFramedWater(coastline)) {
+    std::vector<std::size_t> all(features.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return {all};
+  }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
 
   UnionFind sets(features.size());
   std::vector<std::unique_ptr<FeatureIndex>> kept(features.size());
   for (std::uint32_t i = 0; i < features.size(); ++i) {
+    if (isGuest(features[i])) continue;
     std::unique_ptr<FeatureIndex> own;
     const auto indexOf = [&](std::size_t f, std::unique_ptr<FeatureIndex>& scratch) -> const FeatureIndex& {
       if (kept[f]) return *kept[f];
@@ -155,7 +229,7 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline) 
       return *kept[f];
     };
     tree.visit(boxes[i], [&](std::uint32_t j) {
-      if (j <= i || sets.find(i) == sets.find(j)) return;
+      if (j <= i || isGuest(features[j]) || sets.find(i) == sets.find(j)) return;
       std::unique_ptr<FeatureIndex> other;
       const FeatureIndex& a = indexOf(i, own);
       const FeatureIndex& b = indexOf(j, other);
@@ -164,7 +238,9 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline) 
     });
   }
   uniteAcrossCut(coastline, boxes, sets);
-  return setsOf(sets, features.size());
+  std::vector<std::vector<std::size_t>> groups = setsOf(sets, coastline);
+  addGuests(coastline, boxes, groups);
+  return groups;
 }
 
 }  // namespace coastmesh

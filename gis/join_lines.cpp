@@ -54,6 +54,7 @@ Arc followFrom(std::uint32_t first, const std::vector<std::vector<Point>>& lines
     arc.origin = std::min<std::size_t>(arc.origin, end / 2);
     std::vector<Point> points = lines[end / 2];
     if (end % 2 == 1) std::reverse(points.begin(), points.end());
+    arc.balance += (end % 2 == 1 ? -1 : 1) * static_cast<std::int64_t>(points.size() - 1);
     const auto skip = arc.points.empty() ? 0 : 1;
     arc.points.insert(arc.points.end(), points.begin() + skip, points.end());
     arc.to = ends.node_of[end ^ 1u];
@@ -97,15 +98,21 @@ JoinedLines joinLines(const std::vector<std::vector<Point>>& given) {
   const PeeledNetwork peeled = peelNetwork(arcs, static_cast<std::uint32_t>(ends.ends_at.size()));
   for (const auto& ring : peeled.rings) {
     JoinedLines::Part part{{}, arcs[ring.front().arc].origin};
+    std::int64_t balance = 0;
     for (const ArcUse& use : ring) {
       std::vector<Point> points = arcs[use.arc].points;
       if (use.reversed) std::reverse(points.begin(), points.end());
       part.points.insert(part.points.end(), points.begin(), points.end() - 1);
       part.origin = std::min(part.origin, arcs[use.arc].origin);
+      balance += use.reversed ? -arcs[use.arc].balance : arcs[use.arc].balance;
     }
+    if (balance < 0) std::reverse(part.points.begin(), part.points.end());
     joined.rings.push_back(std::move(part));
   }
-  for (const std::uint32_t arc : peeled.open) joined.open.push_back({arcs[arc].points, arcs[arc].origin});
+  for (const std::uint32_t arc : peeled.open) {
+    joined.open.push_back({arcs[arc].points, arcs[arc].origin});
+    if (arcs[arc].balance < 0) std::reverse(joined.open.back().points.begin(), joined.open.back().points.end());
+  }
   const auto by_origin = [](const JoinedLines::Part& a, const JoinedLines::Part& b) { return a.origin < b.origin; };
   std::stable_sort(joined.rings.begin(), joined.rings.end(), by_origin);
   std::stable_sort(joined.open.begin(), joined.open.end(), by_origin);

@@ -12,6 +12,7 @@ struct Arc {
   std::uint32_t from = 0, to = 0;  // nodes
   std::vector<Point> points;       // both ends included
   std::size_t origin = 0;
+  std::int64_t balance = 0;  // points of lines that run as the arc does, less those of lines that run against it
 };
 
 // Arcs that form a ring, each with the way in which it is gone through.

@@ -23,6 +23,7 @@ Projection Projection::plane() { return Projection(std::make_shared<Identity>())
 Point Projection::forward(const Point& input) const { return impl_->forward(input); }
 Point Projection::inverse(const Point& plane) const { return impl_->inverse(plane); }
 double Projection::scaleAt(const Point& plane) const { return impl_->scaleAt(plane); }
+std::optional<Point> Projection::infinity() const { return impl_->infinity(); }
 bool Projection::isIdentity() const { return impl_->isIdentity(); }
 const std::string& Projection::description() const { return impl_->description; }
 

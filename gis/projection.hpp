@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class Projection {
   Point inverse(const Point& plane) const;
   // Plane length over true length on the ellipsoid at a place of the plane. 1 for `plane()`.
   double scaleAt(const Point& plane) const;
+  // The place, in the input's CRS, that lies beyond all of the plane, for maps that show all others.
+  std::optional<Point> infinity() const;
   bool isIdentity() const;                 // of `plane()`
   const std::string& description() const;  // for people: "transverse Mercator, central meridian -87.5°"
 

@@ -43,6 +43,9 @@ class Fitted final : public Projection::Impl {
     return to_geographic_.inverse(lonlat);
   }
   double scaleAt(const Point& plane) const override { return map_->scaleAt(plane); }
+  std::optional<Point> infinity() const override {
+    return to_geographic_.isIdentity() ? map_->infinity() : std::nullopt;
+  }
 
  private:
   ToGeographic to_geographic_;
@@ -50,11 +53,22 @@ class Fitted final : public Projection::Impl {
   double middle_;
 };
 
-// Calls `act(feature, chain)` for every ring and line of the members.
+bool hasFramedWater(const Coastline& coastline, const std::vector<std::size_t>& members) {
+  return std::ranges::any_of(members, [&](std::size_t member) {
+    const FeatureUse use = coastline.features[member].use;
+    return use == FeatureUse::Land || use == FeatureUse::Coast;
+  });
+}
+
+// Calls `act(feature, chain)` for every ring and line of the members that shape the domain.
 template <typename Act>
 void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& members, Act&& act) {
+  const bool with_frame = hasFramedWater(coastline, members);
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
+    const bool guest = feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
+                       feature.use == FeatureUse::Region || (feature.use == FeatureUse::Frame && !with_frame);
+    if (guest) continue;
     for (const Polygon& polygon : feature.polygons) {
       act(feature, polygon.outer, true);
       for (const Ring& hole : polygon.holes) act(feature, hole, true);

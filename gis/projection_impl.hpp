@@ -12,6 +12,7 @@ struct Projection::Impl {
   virtual Point forward(const Point& input) const = 0;
   virtual Point inverse(const Point& plane) const = 0;
   virtual double scaleAt(const Point& plane) const = 0;
+  virtual std::optional<Point> infinity() const { return std::nullopt; }
   virtual bool isIdentity() const { return false; }
   std::string description;
 };

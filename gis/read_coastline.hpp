@@ -15,8 +15,10 @@ struct ReadReport {
   std::uint64_t skipped_empty = 0;   // features without a geometry, or with an empty one
   std::uint64_t skipped_points = 0;  // point geometries: nothing to mesh in them
   std::uint64_t filtered = 0;        // features that a filter of the user's left out
+  std::uint64_t beyond_frame = 0;    // features that lie wholly outside of the frame
   std::uint64_t unclosed_rings = 0;  // rings of polygons whose last point is not the first: closed
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  // what was decided where the input left a choice
 };
 
 // A source, and what its features are for.

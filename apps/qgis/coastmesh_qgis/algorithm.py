@@ -97,8 +97,12 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             more.setFlags(more.flags() | more.FlagAdvanced)
             self.addParameter(more)
         for option in self.shown_options:
-            self.addParameter(make_parameter(option))
+            if option.get("role") != "output":
+                self.addParameter(make_parameter(option))
         getattr(self, "_outputs_of_" + self.name())()
+        for option in self.shown_options:
+            if option.get("role") == "output":
+                self.addParameter(make_parameter(option))
 
     def _outputs_of_mesh(self):
         self._add_file("OUTPUT", "Mesh", self._filters(first="ugrid"))

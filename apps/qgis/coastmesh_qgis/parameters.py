@@ -44,8 +44,8 @@ def _title(option):
 
 
 def _make(option, name, title):
-    optional = not option.get("required", False)
     default = option.get("default")
+    optional = default is None and not option.get("required", False)
     kind, unit = option["type"], option.get("unit")
     if kind == "flag":
         return QgsProcessingParameterBoolean(name, title, default, optional)

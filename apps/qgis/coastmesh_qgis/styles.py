@@ -8,6 +8,7 @@ from qgis.core import (
     QgsMarkerSymbol,
     QgsMeshDatasetIndex,
     QgsMeshLayer,
+    QgsMeshRendererScalarSettings,
     QgsProcessingLayerPostProcessorInterface,
     QgsRendererCategory,
     QgsRendererRange,
@@ -22,7 +23,7 @@ ANGLES = [(0, "#b2182b"), (20, "#ef8a62"), (25, "#fddbc7"), (30, "#d1e5f0"), (35
 LARGEST = 60  # no smallest angle is larger
 ROLES = {"land": "#1b3a57", "island": "#b8860b", "open": "#d6278f"}
 OTHER_ROLE = "#6b6b6b"
-EDGE = QColor(60, 80, 100, 110)
+EDGE = QColor(30, 50, 70, 160)
 
 
 class _Style(QgsProcessingLayerPostProcessorInterface):
@@ -62,7 +63,7 @@ def paint_mesh(layer):
     settings = layer.rendererSettings()
     edges = settings.nativeMeshSettings()
     edges.setEnabled(True)
-    edges.setLineWidth(0.1)
+    edges.setLineWidth(0.15)
     edges.setColor(EDGE)
     settings.setNativeMeshSettings(edges)
     for group in layer.datasetGroupsIndexes():
@@ -70,6 +71,8 @@ def paint_mesh(layer):
             scalar = settings.scalarSettings(group)
             scalar.setColorRampShader(_angle_shader())
             scalar.setClassificationMinimumMaximum(0, LARGEST)
+            # One colour a triangle: an average over neighbours would hide the bad ones. (None is a word of Python's.)
+            scalar.setDataResamplingMethod(getattr(QgsMeshRendererScalarSettings, "None", 0))
             settings.setScalarSettings(group, scalar)
             settings.setActiveScalarDatasetGroup(group)
     layer.setRendererSettings(settings)

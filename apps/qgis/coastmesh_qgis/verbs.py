@@ -20,8 +20,9 @@ VERBS = {
     "convert": Verb("Convert a mesh", reads_mesh=True, tags=["export", "grid", "ugrid", "adcirc", "gmsh", "2dm"]),
 }
 
-# How the program is run is the provider's affair.
-NEVER_SHOWN = ("--output", "--overwrite", "--progress", "--quiet", "--assume-crs")
+# How the program is run is the provider's affair
+# (which layer and which of its features, QGIS knows already).
+NEVER_SHOWN = ("--output", "--overwrite", "--progress", "--quiet", "--assume-crs", "--layer", "--where")
 
 # What most users look for; the others are under "Advanced parameters".
 BASIC = (

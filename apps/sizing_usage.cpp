@@ -1,0 +1,92 @@
+#include "apps/sizing_usage.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// "10,200,500" or "200,inf,500".
+DepthBand parseBand(const std::string& text) {
+  double numbers[3];
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (int i = 0; i < 3; ++i) {
+    const auto [next, error] = std::from_chars(at, end, numbers[i]);
+    const bool last = i == 2;
+    if (error != std::errc() || std::isnan(numbers[i]) || (last ? next != end : next == end || *next != ','))
+      throw UsageError("--depth-band: '" + text + "' is not FROM,TO,SIZE, three numbers in metres");
+    at = next + 1;
+  }
+  const DepthBand band{numbers[0], numbers[1], numbers[2]};
+  if (!(band.from_m < band.to_m)) throw UsageError("--depth-band: '" + text + "' ends before it begins");
+  if (!(band.size_m > 0.0) || std::isinf(band.size_m))
+    throw UsageError("--depth-band: the size in '" + text + "' has to be a length above 0");
+  return band;
+}
+
+}  // namespace
+
+void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
+  constexpr NumberRange kAboveZero{0.0, kInfinity, true};
+  constexpr NumberRange kNotNegative{0.0, kInfinity};
+  line.number("--size", sizes.size_m, "M", kAboveZero,
+              "length that edges should have everywhere, where nothing else asks for less");
+  line.number("--size-min", sizes.least_m, "M", kNotNegative, "no size is less");
+  line.number("--size-max", sizes.most_m, "M", kAboveZero,
+              "no size is more; given without any other size, no edge is longer");
+  line.number("--grade", sizes.grade, "G", {0.0, 1.0, true},
+              "sizes at two places differ by at most this times their distance");
+  line.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
+  line.number("--shore-rate", sizes.shore_rate, "R", kNotNegative,
+              "how fast that grows with the distance from the shore");
+  line.number("--channel-elements", sizes.channel_elements, "N", kNotNegative,
+              "elements across channels and straits; 0 asks for none");
+  line.texts("--size-features", sizes.features, "FILE", false,
+             "points, lines and polygons with a size in metres on them as the attribute 'size', and how fast it grows "
+             "with the "
+             "distance as 'rate', else --grade");
+  line.texts("--size-raster", sizes.rasters, "FILE", false,
+             "raster of sizes in metres; of several the first that covers a place counts");
+  line.texts("--size-bathymetry", sizes.bathymetry, "FILE", false,
+             "raster of the depths that sizes follow from; of several the first that covers a place counts");
+  line.choice("--size-bathymetry-positive", usage.depth_positive, {"up", "down"},
+              "whether that raster holds heights or depths");
+  line.number("--wave-elements", sizes.depth.wave_elements, "N", kNotNegative,
+              "elements a wavelength; 0 asks for none");
+  line.number("--wave-period", sizes.depth.period_s, "S", kAboveZero,
+              "period of that wave; the default is that of the M2 tide");
+  line.number("--slope-elements", sizes.depth.slope_elements, "N", kNotNegative,
+              "elements on 2 pi times the depth over its slope; 0 asks for none");
+  line.number("--slope-filter", sizes.depth.slope_filter_m, "M", kNotNegative,
+              "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given);
+  line.texts("--depth-band", usage.bands, "FROM,TO,SIZE", false,
+             "size where the depth is FROM or more and less than TO, all in metres, depths positive");
+  line.number("--time-step", sizes.time_step_s, "S", kNotNegative,
+              "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
+              "asks for none");
+  line.number("--courant", sizes.courant, "C", kAboveZero, "largest Courant number");
+}
+
+void settleSizing(const SizingUsage& usage, SizeOptions& sizes) {
+  sizes.depth.positive_down = usage.depth_positive == "down";
+  sizes.depth.bands.clear();
+  for (const std::string& band : usage.bands) sizes.depth.bands.push_back(parseBand(band));
+  if (!usage.filter_given) sizes.depth.slope_filter_m = sizes.least_m;
+  if (sizes.least_m > sizes.most_m) throw UsageError("--size-min is more than --size-max");
+  if ((sizes.depth.any() || sizes.time_step_s > 0.0) && sizes.bathymetry.empty()) {
+    throw UsageError(
+        "--wave-elements, --slope-elements, --depth-band and --time-step need depths: give a raster with "
+        "--size-bathymetry");
+  }
+  if (sizes.time_step_s > 0.0 && !sizes.any())
+    throw UsageError("--time-step only keeps sizes from being too small: ask for some size besides, such as --size");
+  if (sizes.least_m == 0.0 && (sizes.depth.slope_elements > 0.0 || sizes.channel_elements > 0.0))
+    throw UsageError("--slope-elements and --channel-elements can ask for lengths near 0: give --size-min");
+}
+
+}  // namespace coastmesh

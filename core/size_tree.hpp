@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/point.hpp"
+#include "core/size_function.hpp"
+
+namespace coastmesh {
+
+struct SizeBox {  // a square
+  Point centre;
+  double half = 0.0;
+};
+
+struct SizeRange {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// Where wanted lengths come from: asked for many places at once, so that whoever answers can share the work out. Lengths are in plane
+// units, above 0; infinite where nothing is wanted.
+class SizeSource {
+ public:
+  virtual ~SizeSource() = default;
+
+  virtual void sample(std::span<const Point> places, std::span<double> sizes) const = 0;
+  // Bounds of the lengths within each box, from outside. `low` may be 0 and `high` infinite where nothing is known.
+  virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
+};
+
+struct SizeTreeOptions {
+  double grade = 0.3;  // above 0: no two places' lengths differ by more than this times their distance
+  // Cells are split down to so many times the least length in them, where that changes within them; further where what lies between
+  // their corners is not known from these to `tolerance`.
+  double coarsest = 2.0;
+  double finest = 0.5;
+  double tolerance = 0.03;                // relative
+  std::uint32_t most_cells = 64'000'000;  // past that no cell is split
+};
+
+// A size function on a quadtree: cells about as large as the lengths wanted there, coarser where these hardly change, so that memory
+// follows the mesh. Lengths are linear on the triangles between a cell's centre and its sides, and where they are graded, at most what
+// the places allow that they grow from.
+class SizeTree final : public SizeFunction {
+ public:
+  // Covers the box from `low` to `high`; beyond it the nearest place counts. Throws nothing but what `source` does.
+  SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options);
+
+  double at(const Point& x) const override;
+  double least() const override { return least_; }
+  double most() const override { return most_; }
+  std::size_t cells() const { return cells_.size(); }
+  std::size_t leaves() const { return leaves_.size(); }
+  // Whether `most_cells` were enough.
+  bool isComplete() const { return complete_; }
+  std::size_t bytes() const;
+
+ private:
+  friend class SizeTreeBuilder;
+
+  // Cells are told by the place of their lower left corner, in units of the finest level.
+  struct Cell {
+    std::uint32_t below = 0;  // the first of four children in a row, or, where `is_leaf`, a leaf's number
+    bool is_leaf = true;
+  };
+  // At 3 i + j in rows from below: corners, middles of sides, centre.
+  using Leaf = std::array<float, 9>;
+  // A place that lengths grow from.
+  struct Cap {
+    Point place;
+    double size = 0.0;
+  };
+
+  static constexpr int kStartLevels = 8;  // a table leads straight to this level
+
+  Point origin_;
+  double side_ = 1.0;  // of the root
+  std::vector<Cell> cells_;
+  std::vector<Leaf> leaves_;
+  std::vector<Cap> caps_;                  // leaf after leaf
+  std::vector<std::uint32_t> first_cap_;   // of each leaf, and the end; empty where there are none
+  double slope_ = 0.0;                     // of the growth from them
+  std::vector<std::uint32_t> start_;       // the cell at kStartLevels, or the leaf above it
+  std::vector<std::uint8_t> start_level_;  // its level
+  double least_ = 0.0, most_ = 0.0;
+  bool complete_ = true;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "core/point.hpp"
+#include "core/size_tree.hpp"
+
+namespace coastmesh {
+
+// One reason for a size: metres on the ground, above 0, infinite where it asks for nothing; places are those of the working plane.
+// Fields hold no state that reading changes: any number of threads may ask at the same time. What is asked for in all is the least of
+// several fields: see `composeSizes`.
+class SizeField {
+ public:
+  virtual ~SizeField() = default;
+
+  // `sizes[i]` becomes the size at `places[i]`; places that follow one another are near to one another, as a rule.
+  virtual void sample(std::span<const Point> places, std::span<double> sizes) const = 0;
+  // Bounds of the sizes within each box, from outside.
+  virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,432 @@
+#include "gis/size_raster.hpp"
+
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/metric.hpp"
+#include "gis/crs_map.hpp"
+#include "gis/error.hpp"
+#include "gis/ogr_support.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+constexpr int kTile = 256;  // pixels along a side, a power of two
+// Sizes in a cell of the quadtree are as alike as this, or the cell is no larger than this share of the least.
+constexpr float kAlike = 1.04F;
+constexpr double kFineShare = 0.5;
+constexpr double kSteepShare = 0.6;
+// More surroundings than this, in pixels, are not looked at.
+constexpr int kMostMargin = 200;
+
+using Dataset = std::unique_ptr<GDALDataset>;
+
+Dataset open(const std::string& path, const OgrErrors& errors) {
+  GDALAllRegister();
+  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset || dataset->GetRasterCount() < 1) {
+    throw InputError(path + ": cannot be read as a raster" +
+                     (errors.text().empty() ? "; check the path" : " (" + errors.text() + ")"));
+  }
+  return dataset;
+}
+
+// Reads windows of one band, no data and beyond the rim as NaN, scale and offset applied. For one thread.
+class WindowReader {
+ public:
+  explicit WindowReader(const RasterFile& raster) : raster_(raster), dataset_(open(raster.path, errors_)) {
+    GDALRasterBand& band = *dataset_->GetRasterBand(1);
+    int has = 0;
+    const double no_data = band.GetNoDataValue(&has);
+    if (has) no_data_ = no_data;
+    scale_ = band.GetScale(&has);
+    if (!has) scale_ = 1.0;
+    offset_ = band.GetOffset(&has);
+    if (!has) offset_ = 0.0;
+    is_double_ = band.GetRasterDataType() == GDT_Float64;
+  }
+
+  void read(int x, int y, RasterTile& tile) {
+    const int stride = static_cast<int>(tile.stride()), rows = tile.height + 2 * tile.margin;
+    tile.values.assign(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows), std::nanf(""));
+    const int x0 = std::max(0, x - tile.margin), y0 = std::max(0, y - tile.margin);
+    const int x1 = std::min(raster_.width, x + tile.width + tile.margin);
+    const int y1 = std::min(raster_.height, y + tile.height + tile.margin);
+    if (x0 >= x1 || y0 >= y1) return;
+    buffer_.resize(static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(y1 - y0));
+    errors_.clear();
+    if (dataset_->GetRasterBand(1)->RasterIO(GF_Read, x0, y0, x1 - x0, y1 - y0, buffer_.data(), x1 - x0, y1 - y0,
+                                             GDT_Float64, 0, 0) != CE_None) {
+      throw InputError(raster_.path + ": cannot be read at column " + std::to_string(x0) + ", row " +
+                       std::to_string(y0) + " (" + errors_.text() + ")");
+    }
+    for (int j = y0; j < y1; ++j) {
+      for (int i = x0; i < x1; ++i) {
+        const double raw = buffer_[static_cast<std::size_t>(j - y0) * static_cast<std::size_t>(x1 - x0) +
+                                   static_cast<std::size_t>(i - x0)];
+        if (isNoData(raw)) continue;
+        tile.values[static_cast<std::size_t>(j - y + tile.margin) * static_cast<std::size_t>(stride) +
+                    static_cast<std::size_t>(i - x + tile.margin)] = static_cast<float>(scale_ * raw + offset_);
+      }
+    }
+  }
+
+ private:
+  bool isNoData(double raw) const {
+    if (!std::isfinite(raw)) return true;
+    // A value of no data that single precision cannot say comes back rounded.
+    return no_data_ && (raw == *no_data_ || (!is_double_ && static_cast<float>(raw) == static_cast<float>(*no_data_)));
+  }
+
+  const RasterFile& raster_;
+  OgrErrors errors_;
+  Dataset dataset_;
+  std::optional<double> no_data_;
+  double scale_ = 1.0, offset_ = 0.0;
+  bool is_double_ = false;
+  std::vector<double> buffer_;
+};
+
+Point toPixel(const RasterFile& raster, const Point& ground) {
+  const auto& to_pixel = raster.to_pixel;
+  Point pixel{to_pixel[0] + to_pixel[1] * ground.x + to_pixel[2] * ground.y,
+              to_pixel[3] + to_pixel[4] * ground.x + to_pixel[5] * ground.y};
+  if (raster.wraps) {
+    pixel.x -= raster.width * std::floor(pixel.x / raster.width);
+  } else if (raster.crs.geographic && raster.to_ground[1] != 0.0 && (pixel.x < 0.0 || pixel.x > raster.width)) {
+    // The same meridian, a turn on or back.
+    const double turn = 360.0 / std::abs(raster.to_ground[1]);
+    const double other = pixel.x < 0.0 ? pixel.x + turn : pixel.x - turn;
+    if (other >= 0.0 && other <= raster.width) pixel.x = other;
+  }
+  return pixel;
+}
+
+Point toGround(const RasterFile& raster, const Point& pixel) {
+  const auto& g = raster.to_ground;
+  return {g[0] + g[1] * pixel.x + g[2] * pixel.y, g[3] + g[4] * pixel.x + g[5] * pixel.y};
+}
+
+}  // namespace
+
+RasterFile openRaster(const std::string& path) {
+  const OgrErrors errors;
+  const Dataset dataset = open(path, errors);
+  RasterFile raster;
+  raster.path = path;
+  raster.width = dataset->GetRasterXSize();
+  raster.height = dataset->GetRasterYSize();
+  if (dataset->GetGeoTransform(raster.to_ground.data()) != CE_None) {
+    throw InputError(path +
+                     ": has no georeference, so its pixels lie nowhere; give it one with gdal_translate -a_ullr");
+  }
+  if (!GDALInvGeoTransform(raster.to_ground.data(), raster.to_pixel.data())) {
+    throw InputError(path + ": its georeference folds all pixels into a line; correct it");
+  }
+  if (GDALDataTypeIsComplex(dataset->GetRasterBand(1)->GetRasterDataType())) {
+    throw InputError(path + ": its first band holds complex numbers; give one of plain numbers");
+  }
+  const OGRSpatialReference* srs = dataset->GetSpatialRef();
+  if (srs && !srs->IsEmpty()) raster.crs = fromOgr(srs);
+  raster.wraps = raster.crs.geographic && std::abs(raster.width * raster.to_ground[1] - 360.0) < 1e-6 * 360.0;
+  return raster;
+}
+
+RasterField::RasterField(const RasterFile& raster, const Crs& input, const Projection& projection, const Box& box,
+                         const TileRule& rule, const StretchLoop& loop)
+    : raster_(raster) {
+  // From the working plane to the raster's own coordinates: both CRS, where there are two.
+  std::optional<CrsMap> map;
+  if (!raster.crs.isPlane() && !input.isPlane() && !sameCrs(raster.crs, input))
+    map.emplace(toOgr(input), toOgr(raster.crs));
+  const auto pixelOf = [raster, map, projection](const Point& x) {
+    const Point ground = projection.inverse(x);
+    return toPixel(raster, map ? map->forward(ground) : ground);
+  };
+  constexpr double kPixelTolerance = 0.1;
+  to_pixel_ = std::make_unique<PlaneTable>(pixelOf, box, kPixelTolerance);
+
+  // The pixels that the box lies in, from places all over it.
+  constexpr int kProbes = 64;
+  Box pixels;
+  for (int j = 0; j <= kProbes; ++j) {
+    for (int i = 0; i <= kProbes; ++i) {
+      const Point p = to_pixel_->at(
+          {box.xmin + (box.xmax - box.xmin) * i / kProbes, box.ymin + (box.ymax - box.ymin) * j / kProbes});
+      if (std::isfinite(p.x) && std::isfinite(p.y)) pixels.add(p);
+    }
+  }
+  if (pixels.empty()) return;
+  const double beyond = 2.0 + std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) / kProbes;
+  pixels = pixels.grownBy(beyond);
+  const auto tileOf = [](double pixel, int most) {
+    return static_cast<int>(std::floor(std::clamp(pixel, 0.0, static_cast<double>(most)) / kTile));
+  };
+  window_ = {tileOf(pixels.xmin, raster.width), tileOf(pixels.ymin, raster.height),
+             tileOf(pixels.xmax, raster.width - 1) + 1, tileOf(pixels.ymax, raster.height - 1) + 1};
+  if (pixels.xmax < 0.0 || pixels.ymax < 0.0 || window_[0] >= window_[2] || window_[1] >= window_[3]) {
+    window_ = {0, 0, 0, 0};
+    return;
+  }
+  const int columns = window_[2] - window_[0], rows = window_[3] - window_[1];
+  tiles_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+
+  const auto planeOf = [&](const Point& pixel) {
+    const Point ground = toGround(raster_, pixel);
+    return projection.forward(map ? map->inverse(ground) : ground);
+  };
+  loop(tiles_.size(), [&](std::size_t first, std::size_t last) {
+    WindowReader reader(raster_);
+    RasterTile tile;
+    tile.file = raster_.path;
+    std::vector<float> sizes;
+    for (std::size_t t = first; t < last; ++t) {
+      const int x = (window_[0] + static_cast<int>(t % static_cast<std::size_t>(columns))) * kTile;
+      const int y = (window_[1] + static_cast<int>(t / static_cast<std::size_t>(columns))) * kTile;
+      tile.width = std::min(kTile, raster_.width - x);
+      tile.height = std::min(kTile, raster_.height - y);
+      const Point middle{x + 0.5 * tile.width, y + 0.5 * tile.height};
+      const Point at = planeOf(middle);
+      const double scale = projection.scaleAt(at);
+      tile.pixel_m[0] = distance(at, planeOf(middle + Point{1.0, 0.0})) / scale;
+      tile.pixel_m[1] = distance(at, planeOf(middle + Point{0.0, 1.0})) / scale;
+      // Where the working plane does not reach, the domain does not either.
+      if (!(tile.pixel_m[0] > 0.0) || !(tile.pixel_m[1] > 0.0) || !std::isfinite(tile.pixel_m[0] + tile.pixel_m[1])) {
+        tiles_[t] = {{kNothing, kNothing, kNothing, 0}};
+        continue;
+      }
+      tile.margin = 1;
+      if (rule.margin_m > 0.0) {
+        const double margin = std::ceil(rule.margin_m / std::min(tile.pixel_m[0], tile.pixel_m[1]));
+        if (margin > kMostMargin) {
+          throw InputError(
+              raster_.path +
+              ": its pixels are too fine for a filter that long: give a coarser raster, or filter over less");
+        }
+        tile.margin = 1 + static_cast<int>(margin);
+      }
+      reader.read(x, y, tile);
+      sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);
+      rule.sizes(tile, sizes);
+      tiles_[t] = compress(tile, sizes);
+    }
+  });
+}
+
+RasterField::Tile RasterField::compress(const RasterTile& tile, std::span<const float> sizes) const {
+  // Pyramids of the least, the most, and the mean of what is wanted.
+  struct Level {
+    std::vector<float> low, high, sum, count;
+  };
+  std::vector<Level> levels(1);
+  const auto cellsOf = [](int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); };
+  for (auto* of : {&levels[0].high, &levels[0].sum, &levels[0].count}) of->assign(cellsOf(kTile), 0.0F);
+  levels[0].low.assign(cellsOf(kTile), kNothing);
+  // Beyond the raster nothing is wanted, but that does not make its last pixels unlike one another.
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const float size =
+          sizes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x)];
+      const std::size_t k = static_cast<std::size_t>(y) * kTile + static_cast<std::size_t>(x);
+      levels[0].low[k] = levels[0].high[k] = size;
+      if (!std::isfinite(size)) continue;
+      levels[0].sum[k] = size;
+      levels[0].count[k] = 1.0F;
+    }
+  }
+  for (int side = kTile / 2; side >= 1; side /= 2) {
+    const Level& fine = levels.back();
+    Level coarse;
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        float low = kNothing, high = 0.0F, sum = 0.0F, count = 0.0F;
+        for (int k = 0; k < 4; ++k) {
+          const std::size_t f = static_cast<std::size_t>(2 * y + k / 2) * static_cast<std::size_t>(2 * side) +
+                                static_cast<std::size_t>(2 * x + k % 2);
+          low = std::min(low, fine.low[f]);
+          high = std::max(high, fine.high[f]);
+          sum += fine.sum[f];
+          count += fine.count[f];
+        }
+        coarse.low.push_back(low);
+        coarse.high.push_back(high);
+        coarse.sum.push_back(sum);
+        coarse.count.push_back(count);
+      }
+    }
+    levels.push_back(std::move(coarse));
+  }
+  Tile nodes;
+  struct Work {
+    std::uint32_t node;
+    std::size_t level;
+    int x, y;
+  };
+  std::vector<Work> stack{{0, levels.size() - 1, 0, 0}};
+  nodes.push_back({});
+  const double pixel_m = std::max(tile.pixel_m[0], tile.pixel_m[1]);
+  while (!stack.empty()) {
+    const Work work = stack.back();
+    stack.pop_back();
+    const Level& level = levels[work.level];
+    const int cells = kTile >> work.level;
+    const std::size_t k =
+        static_cast<std::size_t>(work.y) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(work.x);
+    const float low = level.low[k], high = level.high[k];
+    const float mean = level.count[k] > 0.0F ? level.sum[k] / level.count[k] : kNothing;
+    const double side_m = pixel_m * static_cast<double>(1 << work.level);
+    const bool alike = high <= kAlike * low || (work.level > 0 && side_m <= kFineShare * low);
+    nodes[work.node] = {low, high, mean, 0};
+    if (work.level == 0 || low == kNothing || alike) {
+      if (alike && low != kNothing && high != kNothing) nodes[work.node].low = nodes[work.node].high = mean;
+      continue;
+    }
+    const auto below = static_cast<std::uint32_t>(nodes.size());
+    nodes[work.node].below = below;
+    for (int c = 0; c < 4; ++c) {
+      nodes.push_back({});
+      stack.push_back({below + static_cast<std::uint32_t>(c), work.level - 1, 2 * work.x + c % 2, 2 * work.y + c / 2});
+    }
+  }
+  nodes.shrink_to_fit();
+  return nodes;
+}
+
+// The size at a pixel; infinite beyond what was kept.
+float RasterField::pixel(std::int64_t x, std::int64_t y) const {
+  if (raster_.wraps) x = (x % raster_.width + raster_.width) % raster_.width;
+  const std::int64_t column = x / kTile - window_[0], row = y / kTile - window_[1];
+  if (x < 0 || y < 0 || column < 0 || row < 0 || column >= window_[2] - window_[0] || row >= window_[3] - window_[1])
+    return kNothing;
+  const Tile& tile = tiles_[static_cast<std::size_t>(row * (window_[2] - window_[0]) + column)];
+  std::uint32_t node = 0;
+  for (int half = kTile / 2; tile[node].below != 0; half /= 2)
+    node = tile[node].below + ((x & half) != 0) + 2 * ((y & half) != 0);
+  return tile[node].value;
+}
+
+void RasterField::sample(std::span<const Point> places, std::span<double> sizes) const {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    sizes[i] = kInfinity;
+    if (tiles_.empty()) continue;
+    const Point p = to_pixel_->at(places[i]);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+    // Half a pixel beyond the last centres, the nearest counts.
+    if (!raster_.wraps && (p.x < 0.0 || p.x > raster_.width)) continue;
+    if (p.y < 0.0 || p.y > raster_.height) continue;
+    const double u = p.x - 0.5, v = p.y - 0.5;
+    const double x = std::floor(u), y = std::floor(v);
+    double sum = 0.0, weight = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const double share = (k % 2 ? u - x : 1.0 - (u - x)) * (k / 2 ? v - y : 1.0 - (v - y));
+      const float size = pixel(static_cast<std::int64_t>(x) + k % 2, static_cast<std::int64_t>(y) + k / 2);
+      if (!std::isfinite(size) || share <= 0.0) continue;
+      sum += share * size;
+      weight += share;
+    }
+    if (weight > 0.0) sizes[i] = sum / weight;
+    // A pixel much smaller than those round it holds as far as it reaches: between centres its own size would hardly be found.
+    const float own = pixel(static_cast<std::int64_t>(std::floor(p.x)), static_cast<std::int64_t>(std::floor(p.y)));
+    if (own < kSteepShare * sizes[i]) sizes[i] = own;
+  }
+}
+
+void RasterField::boundIn(const Tile& tile, std::uint32_t node, int x, int y, int side,
+                          const std::array<std::int64_t, 4>& window, SizeRange& range) const {
+  const Node& n = tile[node];
+  if (x >= window[2] || y >= window[3] || x + side <= window[0] || y + side <= window[1]) return;
+  const bool covered = x >= window[0] && y >= window[1] && x + side <= window[2] && y + side <= window[3];
+  if (covered || n.below == 0 || (n.low >= range.low && n.high <= range.high)) {
+    range.low = std::min(range.low, static_cast<double>(n.low));
+    range.high = std::max(range.high, static_cast<double>(n.high));
+    return;
+  }
+  const int half = side / 2;
+  for (int k = 0; k < 4; ++k)
+    boundIn(tile, n.below + static_cast<std::uint32_t>(k), x + (k % 2) * half, y + (k / 2) * half, half, window, range);
+}
+
+void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    ranges[i] = {kInfinity, kInfinity};
+    if (tiles_.empty()) continue;
+    Box pixels;
+    bool known = true;
+    // Corners, middles and the centre; what the sides bulge between them is small, and a share of the box is added for it.
+    for (int k = 0; k < 9; ++k) {
+      const Point p = to_pixel_->at(boxes[i].centre + boxes[i].half * Point{k % 3 - 1.0, k / 3 - 1.0});
+      known &= std::isfinite(p.x) && std::isfinite(p.y);
+      if (known) pixels.add(p);
+    }
+    const double extent = known ? std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) : 0.0;
+    // A box across the seam of a raster that wraps, or beyond what the projection reaches, may hold anything.
+    if (!known || (raster_.wraps && extent > 0.5 * raster_.width)) {
+      ranges[i] = {0.0, kInfinity};
+      continue;
+    }
+    pixels = pixels.grownBy(1.0 + 0.05 * extent);
+    const std::array<std::int64_t, 4> window = {
+        static_cast<std::int64_t>(std::floor(pixels.xmin)), static_cast<std::int64_t>(std::floor(pixels.ymin)),
+        static_cast<std::int64_t>(std::ceil(pixels.xmax)), static_cast<std::int64_t>(std::ceil(pixels.ymax))};
+    const bool within = window[0] >= (raster_.wraps ? -kTile : 0) && window[1] >= 0 &&
+                        window[2] <= raster_.width + (raster_.wraps ? kTile : 0) && window[3] <= raster_.height;
+    SizeRange range{kInfinity, within ? 0.0 : kInfinity};
+    for (std::int64_t turn = raster_.wraps ? -1 : 0; turn <= (raster_.wraps ? 1 : 0); ++turn) {
+      const std::int64_t shift = turn * raster_.width;
+      const auto tileOf = [](std::int64_t pixel, int low, int high) {
+        return static_cast<int>(std::clamp<std::int64_t>(pixel >= 0 ? pixel / kTile : -1, low, high));
+      };
+      const int x0 = tileOf(window[0] + shift, window_[0], window_[2]),
+                x1 = tileOf(window[2] + shift, window_[0] - 1, window_[2] - 1);
+      const int y0 = tileOf(window[1], window_[1], window_[3]), y1 = tileOf(window[3], window_[1] - 1, window_[3] - 1);
+      for (int row = y0; row <= y1; ++row) {
+        for (int column = x0; column <= x1; ++column) {
+          const Tile& tile =
+              tiles_[static_cast<std::size_t>(row - window_[1]) * static_cast<std::size_t>(window_[2] - window_[0]) +
+                     static_cast<std::size_t>(column - window_[0])];
+          const std::int64_t x = std::int64_t{column} * kTile - shift, y = std::int64_t{row} * kTile;
+          boundIn(tile, 0, 0, 0, kTile, {window[0] - x, window[1] - y, window[2] - x, window[3] - y}, range);
+        }
+      }
+    }
+    if (range.low == kInfinity) range.high = kInfinity;
+    ranges[i] = range;
+  }
+}
+
+void FirstOfFields::sample(std::span<const Point> places, std::span<double> sizes) const {
+  std::ranges::fill(sizes, kInfinity);
+  std::vector<double> own(places.size());
+  for (const auto& field : fields_) {
+    field->sample(places, own);
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      if (!std::isfinite(sizes[i])) sizes[i] = own[i];
+  }
+}
+
+void FirstOfFields::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
+  std::ranges::fill(ranges, SizeRange{kInfinity, kInfinity});
+  std::vector<SizeRange> own(boxes.size());
+  // Up to now nothing wanted; something in a part of the box; all of it known.
+  enum class Seen : char { Nothing, Part, All };
+  std::vector<Seen> seen(boxes.size(), Seen::Nothing);
+  for (const auto& field : fields_) {
+    field->bound(boxes, own);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      if (seen[i] == Seen::All || own[i].low == kInfinity) continue;
+      const bool all = std::isfinite(own[i].high);
+      ranges[i] = {std::min(ranges[i].low, own[i].low), all && seen[i] == Seen::Nothing ? own[i].high : kInfinity};
+      seen[i] = all ? Seen::All : Seen::Part;
+    }
+  }
+}
+
+}  // namespace coastmesh

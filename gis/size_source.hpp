@@ -1,0 +1,57 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/size_tree.hpp"
+#include "gis/clean.hpp"
+#include "gis/size_depth.hpp"
+#include "gis/size_features.hpp"
+#include "gis/size_field.hpp"
+#include "gis/stretch_loop.hpp"
+
+namespace coastmesh {
+
+// How large elements should be. Sizes are lengths of edges in metres on the ground; an infinite one asks for nothing.
+struct SizeOptions {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  double size_m = kNone;                // everywhere
+  double least_m = 0.0;                 // no size below
+  double most_m = kNone;                // none above
+  double grade = 0.3;                   // above 0: sizes at two places differ by at most this times their distance
+  double shore_m = kNone;               // at the shore
+  double shore_rate = 0.15;             // how fast that grows with the distance
+  double channel_elements = 0.0;        // across the water; 0 asks for nothing
+  std::vector<std::string> features;    // vector files with an attribute `size`
+  std::vector<std::string> rasters;     // of sizes, in metres; of those that cover a place the first counts
+  std::vector<std::string> bathymetry;  // the first that covers a place counts
+  DepthRules depth;
+  double time_step_s = 0.0;  // 0 asks for nothing
+  double courant = 1.0;      // above 0
+
+  // Whether anything but bounds is asked for.
+  bool any() const {
+    return size_m < kNone || shore_m < kNone || channel_elements > 0.0 || !features.empty() || !rasters.empty() ||
+           depth.any();
+  }
+};
+
+// What the options name, read once for all groups of features.
+struct SizeInputs {
+  std::vector<SizedFeatures> features;
+  std::vector<RasterFile> rasters, bathymetry;
+  Crs crs;  // of the input
+};
+
+// Throws InputError.
+SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs);
+
+// The size function of a domain in its plane: the least that any of the options asks for, within the bounds, not below what the time
+// step allows, graded. `loop` lends threads; the function does not depend on it. Throws InputError.
+std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs,
+                                               const Domain& domain, const StretchLoop& loop);
+
+}  // namespace coastmesh
