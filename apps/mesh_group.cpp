@@ -108,8 +108,7 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   if (job.sizes.any()) {
     Recorder recorder;
     const Stopwatch sizing;
-    size = makeSizeFunction(job.sizes, sizes, domain,
-                            [&](std::size_t count, const auto& work) { recorder.forEachStretch("size", count, work); });
+    size = makeSizeFunction(job.sizes, sizes, domain, recorder.loop("size", control));
     options.refine.size = size.get();
     result.size_s = sizing.seconds();
     result.log.append(recorder.finish());
@@ -134,6 +133,7 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   result.digest = digestOf(region.mesh, 0, loop("check"));
   result.check_s = checking.seconds();
   result.grid = groupGrid(input, group, domain, region.mesh, loop("grid"));
+  result.grid.piece_of = std::move(region.piece_of);
   result.log.append(recorder.finish());
 }
 

@@ -80,6 +80,8 @@ void appendGrid(Grid& whole, Grid&& part) {
     for (std::uint32_t& node : corners) node += node_shift;
   }
   for (std::uint32_t& feature : part.feature_of) feature += feature_shift;
+  const std::uint32_t piece_shift = whole.piece_of.empty() ? 0 : std::ranges::max(whole.piece_of) + 1;
+  for (std::uint32_t& piece : part.piece_of) piece += piece_shift;
   for (Boundary& boundary : part.boundaries) {
     for (std::uint32_t& node : boundary.nodes) node += node_shift;
   }
@@ -88,6 +90,7 @@ void appendGrid(Grid& whole, Grid&& part) {
   append(whole.z, part.z);
   append(whole.triangles, part.triangles);
   append(whole.feature_of, part.feature_of);
+  append(whole.piece_of, part.piece_of);
   append(whole.min_angle_deg, part.min_angle_deg);
   append(whole.area_m2, part.area_m2);
   append(whole.features, part.features);

@@ -39,6 +39,8 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
                "stop refining at so many vertices, with exit code 1");
   line.flag("--cut,!--no-cut", usage.cut, "cut large seas into pieces, to be refined at the same time");
+  line.flag("--mark-pieces", usage.job.mesh.mark_pieces,
+            "write which piece each triangle was refined in, to .nc, for plot --color piece");
   line.integer("--threads", usage.threads, "N", 0, 1024,
                "threads to work on, 0 for all cores; never changes the result");
   line.text("--report", usage.report, kOutputFile, "write a report as JSON");

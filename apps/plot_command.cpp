@@ -39,7 +39,12 @@ int runPlot(PlotUsage& usage, Interrupt& interrupt) {
   usage.plot.color = plotColorNamed(usage.color);
   requirePlotFormat(usage.output);
   StagedFile output(usage.output, usage.overwrite, interrupt);
-  const Grid grid = readMeshFile(usage.mesh);
+  Grid grid = readMeshFile(usage.mesh);
+  if (usage.plot.color == PlotColor::Piece) {
+    if (grid.piece_of.empty())
+      throw UsageError("--color piece: the mesh does not say its pieces; make it with --mark-pieces, as .nc");
+    grid.feature_of = grid.piece_of;
+  }
   interrupt.check();
   output.make([&](const std::string& path) { plotMesh(grid, usage.plot, path); });
   interrupt.close();

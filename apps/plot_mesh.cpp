@@ -191,6 +191,7 @@ class MeshPlot {
       case PlotColor::Angle:
         return rampColor(smallestAngle(t) / 60.0);
       case PlotColor::Feature:
+      case PlotColor::Piece:  // in place of the features: see `runPlot`
         return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
       case PlotColor::Size:
         return rampColor((std::log(area(t)) - least_log_area_) / std::max(1e-12, most_log_area_ - least_log_area_));
@@ -340,7 +341,7 @@ class MeshPlot {
 }  // namespace
 
 const std::vector<std::string>& plotColorNames() {
-  static const std::vector<std::string> kNames = {"none", "angle", "feature", "size"};  // as in PlotColor
+  static const std::vector<std::string> kNames = {"none", "angle", "feature", "size", "piece"};  // as in PlotColor
   return kNames;
 }
 

@@ -10,7 +10,7 @@
 
 namespace coastmesh {
 
-enum class PlotColor { None, Angle, Feature, Size };
+enum class PlotColor { None, Angle, Feature, Size, Piece };
 
 // The names that --color takes; throws UsageError for another.
 const std::vector<std::string>& plotColorNames();

@@ -15,22 +15,33 @@ inline void inOrder(std::size_t count, const std::function<void(std::size_t)>& w
 }
 
 // `make(first, last)` of stretches that make up 0 to `count`, in their order. Where the stretches end depends on nothing but
-// `count`: what is summed over them is the same on any number of threads.
+// `count` and on `least`, the items that are worth a stretch: what is summed over them is the same on any number of threads.
 template <typename Make>
-auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make) {
-  constexpr std::size_t kLeast = 8192, kMostStretches = 256;
-  const std::size_t stretches = std::clamp<std::size_t>(count / kLeast, 1, kMostStretches);
+auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make, std::size_t least = 8192) {
+  constexpr std::size_t kMostStretches = 256;
+  const std::size_t stretches = std::clamp<std::size_t>(count / least, 1, kMostStretches);
   std::vector<decltype(make(count, count))> made(stretches);
   loop(stretches, [&](std::size_t s) { made[s] = make(count * s / stretches, count * (s + 1) / stretches); });
   return made;
 }
 
+// `work(first, last)` of the same stretches.
+template <typename Work>
+void forStretches(const ItemLoop& loop, std::size_t count, const Work& work, std::size_t least = 8192) {
+  overStretches(
+      loop, count,
+      [&](std::size_t first, std::size_t last) {
+        work(first, last);
+        return char{};
+      },
+      least);
+}
+
 // `work(i)` for every i below `count`, by stretches.
 template <typename Work>
 void forEachByStretches(const ItemLoop& loop, std::size_t count, const Work& work) {
-  overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+  forStretches(loop, count, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) work(i);
-    return char{};
   });
 }
 

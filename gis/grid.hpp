@@ -48,6 +48,7 @@ struct Grid {
   std::vector<double> z;                                // metres, positive up; empty or one a node, NaN where unknown
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
   std::vector<std::uint32_t> feature_of;                // empty or one a triangle: index into `features`
+  std::vector<std::uint32_t> piece_of;                  // empty or one a triangle: the piece that it was refined in
   std::vector<double> min_angle_deg;                    // empty or one a triangle, measured in the working plane
   std::vector<double> area_m2;                          // empty or one a triangle, on the ellipsoid
   std::vector<GridFeature> features;

@@ -179,6 +179,8 @@ Grid readUgrid(const std::string& path) {
   grid.min_angle_deg = readFaceData(file, mesh + "_min_angle", grid.triangles.size());
   grid.area_m2 = readFaceData(file, mesh + "_area", grid.triangles.size());
   readFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()), grid);
+  for (const double piece : readFaceData(file, mesh + "_piece", grid.triangles.size()))
+    grid.piece_of.push_back(piece >= 1.0 ? static_cast<std::uint32_t>(std::min(piece, 4e9)) - 1 : 0);
   readBoundaries(file, mesh, grid);
   grid.crs = readCrs(file, x);
   return grid;

@@ -141,7 +141,7 @@ RasterFile openRaster(const std::string& path) {
 }
 
 RasterField::RasterField(const RasterFile& raster, const Crs& input, const Projection& projection, const Box& box,
-                         const TileRule& rule, const StretchLoop& loop)
+                         const TileRule& rule, const ItemLoop& loop)
     : raster_(raster) {
   // From the working plane to the raster's own coordinates: both CRS, where there are two.
   std::optional<CrsMap> map;
@@ -183,42 +183,46 @@ RasterField::RasterField(const RasterFile& raster, const Crs& input, const Proje
     const Point ground = toGround(raster_, pixel);
     return projection.forward(map ? map->inverse(ground) : ground);
   };
-  loop(tiles_.size(), [&](std::size_t first, std::size_t last) {
-    WindowReader reader(raster_);
-    RasterTile tile;
-    tile.file = raster_.path;
-    std::vector<float> sizes;
-    for (std::size_t t = first; t < last; ++t) {
-      const int x = (window_[0] + static_cast<int>(t % static_cast<std::size_t>(columns))) * kTile;
-      const int y = (window_[1] + static_cast<int>(t / static_cast<std::size_t>(columns))) * kTile;
-      tile.width = std::min(kTile, raster_.width - x);
-      tile.height = std::min(kTile, raster_.height - y);
-      const Point middle{x + 0.5 * tile.width, y + 0.5 * tile.height};
-      const Point at = planeOf(middle);
-      const double scale = projection.scaleAt(at);
-      tile.pixel_m[0] = distance(at, planeOf(middle + Point{1.0, 0.0})) / scale;
-      tile.pixel_m[1] = distance(at, planeOf(middle + Point{0.0, 1.0})) / scale;
-      // Where the working plane does not reach, the domain does not either.
-      if (!(tile.pixel_m[0] > 0.0) || !(tile.pixel_m[1] > 0.0) || !std::isfinite(tile.pixel_m[0] + tile.pixel_m[1])) {
-        tiles_[t] = {{kNothing, kNothing, kNothing, 0}};
-        continue;
-      }
-      tile.margin = 1;
-      if (rule.margin_m > 0.0) {
-        const double margin = std::ceil(rule.margin_m / std::min(tile.pixel_m[0], tile.pixel_m[1]));
-        if (margin > kMostMargin) {
-          throw InputError(
-              raster_.path +
-              ": its pixels are too fine for a filter that long: give a coarser raster, or filter over less");
+  forStretches(
+      loop, tiles_.size(),
+      [&](std::size_t first, std::size_t last) {
+        WindowReader reader(raster_);
+        RasterTile tile;
+        tile.file = raster_.path;
+        std::vector<float> sizes;
+        for (std::size_t t = first; t < last; ++t) {
+          const int x = (window_[0] + static_cast<int>(t % static_cast<std::size_t>(columns))) * kTile;
+          const int y = (window_[1] + static_cast<int>(t / static_cast<std::size_t>(columns))) * kTile;
+          tile.width = std::min(kTile, raster_.width - x);
+          tile.height = std::min(kTile, raster_.height - y);
+          const Point middle{x + 0.5 * tile.width, y + 0.5 * tile.height};
+          const Point at = planeOf(middle);
+          const double scale = projection.scaleAt(at);
+          tile.pixel_m[0] = distance(at, planeOf(middle + Point{1.0, 0.0})) / scale;
+          tile.pixel_m[1] = distance(at, planeOf(middle + Point{0.0, 1.0})) / scale;
+          // Where the working plane does not reach, the domain does not either.
+          if (!(tile.pixel_m[0] > 0.0) || !(tile.pixel_m[1] > 0.0) ||
+              !std::isfinite(tile.pixel_m[0] + tile.pixel_m[1])) {
+            tiles_[t] = {{kNothing, kNothing, kNothing, 0}};
+            continue;
+          }
+          tile.margin = 1;
+          if (rule.margin_m > 0.0) {
+            const double margin = std::ceil(rule.margin_m / std::min(tile.pixel_m[0], tile.pixel_m[1]));
+            if (margin > kMostMargin) {
+              throw InputError(
+                  raster_.path +
+                  ": its pixels are too fine for a filter that long: give a coarser raster, or filter over less");
+            }
+            tile.margin = 1 + static_cast<int>(margin);
+          }
+          reader.read(x, y, tile);
+          sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);
+          rule.sizes(tile, sizes);
+          tiles_[t] = compress(tile, sizes);
         }
-        tile.margin = 1 + static_cast<int>(margin);
-      }
-      reader.read(x, y, tile);
-      sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);
-      rule.sizes(tile, sizes);
-      tiles_[t] = compress(tile, sizes);
-    }
-  });
+      },
+      4);
 }
 
 RasterField::Tile RasterField::compress(const RasterTile& tile, std::span<const float> sizes) const {

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/box.hpp"
 #include "gis/crs.hpp"
 #include "gis/plane_table.hpp"
 #include "gis/projection.hpp"
 #include "gis/size_field.hpp"
-#include "gis/stretch_loop.hpp"
 
 namespace coastmesh {
 
@@ -58,7 +58,7 @@ class RasterField final : public SizeField {
   // Of the part of the raster that `box` of the working plane lies in. `input` is the CRS that `projection` starts from. Throws
   // InputError.
   RasterField(const RasterFile& raster, const Crs& input, const Projection& projection, const Box& box,
-              const TileRule& rule, const StretchLoop& loop);
+              const TileRule& rule, const ItemLoop& loop);
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;

@@ -19,14 +19,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Several fields as one source in plane units.
 class ComposedSizes final : public SizeSource {
  public:
-  ComposedSizes(const SizeOptions& options, std::function<double(const Point&)> scale, const StretchLoop& loop)
+  ComposedSizes(const SizeOptions& options, std::function<double(const Point&)> scale, const ItemLoop& loop)
       : options_(options), scale_(std::move(scale)), loop_(loop) {}
 
   void add(std::unique_ptr<SizeField> field) { fields_.push_back(std::move(field)); }
   void setFloor(std::unique_ptr<SizeField> field) { floor_ = std::move(field); }
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override {
-    loop_(places.size(), [&](std::size_t first, std::size_t last) {
+    forStretches(loop_, places.size(), [&](std::size_t first, std::size_t last) {
       const auto here = places.subspan(first, last - first);
       const auto out = sizes.subspan(first, last - first);
       std::vector<double> own(here.size());
@@ -42,7 +42,7 @@ class ComposedSizes final : public SizeSource {
   }
 
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
-    loop_(boxes.size(), [&](std::size_t first, std::size_t last) {
+    forStretches(loop_, boxes.size(), [&](std::size_t first, std::size_t last) {
       const auto here = boxes.subspan(first, last - first);
       const auto out = ranges.subspan(first, last - first);
       std::vector<SizeRange> own(here.size());
@@ -71,7 +71,7 @@ class ComposedSizes final : public SizeSource {
 
   const SizeOptions& options_;
   std::function<double(const Point&)> scale_;
-  const StretchLoop& loop_;
+  const ItemLoop& loop_;
   std::vector<std::unique_ptr<SizeField>> fields_;
   std::unique_ptr<SizeField> floor_;  // what the time step allows
 };
@@ -96,7 +96,7 @@ TileRule rawRule() {
 
 std::unique_ptr<SizeField> rasterFields(const std::vector<RasterFile>& rasters, const Crs& input,
                                         const Projection& projection, const Box& box, const TileRule& rule,
-                                        const StretchLoop& loop) {
+                                        const ItemLoop& loop) {
   std::vector<std::unique_ptr<SizeField>> fields;
   for (const RasterFile& raster : rasters)
     fields.push_back(std::make_unique<RasterField>(raster, input, projection, box, rule, loop));
@@ -117,7 +117,7 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
 }
 
 std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs,
-                                               const Domain& domain, const StretchLoop& loop) {
+                                               const Domain& domain, const ItemLoop& loop) {
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
   const double extent = std::max(box.xmax - box.xmin, box.ymax - box.ymin);

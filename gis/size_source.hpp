@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/size_tree.hpp"
 #include "gis/clean.hpp"
 #include "gis/size_depth.hpp"
 #include "gis/size_features.hpp"
 #include "gis/size_field.hpp"
-#include "gis/stretch_loop.hpp"
 
 namespace coastmesh {
 
@@ -52,6 +52,6 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs);
 // The size function of a domain in its plane: the least that any of the options asks for, within the bounds, not below what the time
 // step allows, graded. `loop` lends threads; the function does not depend on it. Throws InputError.
 std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs,
-                                               const Domain& domain, const StretchLoop& loop);
+                                               const Domain& domain, const ItemLoop& loop);
 
 }  // namespace coastmesh

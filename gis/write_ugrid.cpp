@@ -196,6 +196,9 @@ void writeUgrid(const Grid& grid, const std::string& path) {
   if (!fids.empty())
     feature = defineData(file, crs, "feature", fitsInt(fids) ? NC_INT : NC_DOUBLE, face_dim, "face",
                          "fid of the source feature", {});
+  int piece = -1;
+  if (!grid.piece_of.empty())
+    piece = defineData(file, crs, "piece", NC_INT, face_dim, "face", "piece that the face was refined in, from 1", {});
   file.endDefinitions();
 
   if (crs_variable >= 0) {
@@ -223,6 +226,11 @@ void writeUgrid(const Grid& grid, const std::string& path) {
   if (angle >= 0) file.put(angle, grid.min_angle_deg.data());
   if (area >= 0) file.put(area, grid.area_m2.data());
   if (feature >= 0) file.put(feature, fids.data());
+  if (piece >= 0) {
+    std::vector<int> pieces(grid.piece_of.size());
+    std::ranges::transform(grid.piece_of, pieces.begin(), [](std::uint32_t p) { return static_cast<int>(p) + 1; });
+    file.put(piece, pieces.data());
+  }
   file.close();
 }
 

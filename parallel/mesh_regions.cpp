@@ -54,10 +54,14 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
 
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   RoundsMemory memory;
+  CutTree cuts;
   const auto add = [&](RoundsReport&& report) {
     memory = std::move(report.memory);
     region.stats.add(report.stats);
-    region.pieces = std::max(region.pieces, report.pieces);
+    if (report.pieces > region.pieces) {
+      region.pieces = report.pieces;
+      cuts = std::move(report.cuts);
+    }
     region.log.append(std::move(report.log));
   };
   Stopwatch watch;
@@ -74,6 +78,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   Recorder recorder;
   region.stats.unresolved = findShortfalls(region.mesh, options.refine, recorder.loop("label", control));
   labelRegions(region.mesh, pslg);
+  if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, recorder.loop("label", control));
   region.log.append(recorder.finish());
   region.seconds.stitch = watch.lap();
 }
@@ -88,6 +93,7 @@ MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunC
   region.log.addAlone("triangulate", region.seconds.triangulate);
   const bool cut = !options.one_piece && expectedTriangles(region.mesh, options.refine) >= kWorthCutting;
   (cut ? meshInPieces : meshWhole)(region, pslg, options, control);
+  if (options.mark_pieces && !cut) region.piece_of.assign(region.mesh.triangles.size(), 0);
   region.stats.steiner_points = region.mesh.points.size() - region.mesh.input_vertices;
   return region;
 }

@@ -13,8 +13,9 @@ namespace coastmesh {
 struct MeshOptions {
   RefineOptions refine;
   bool shrink = true;
-  bool smooth = false;     // sweeps on towards the lengths wanted; where none are, towards even ones
-  bool one_piece = false;  // never cuts a region, however large
+  bool smooth = false;       // sweeps on towards the lengths wanted; where none are, towards even ones
+  bool one_piece = false;    // never cuts a region, however large
+  bool mark_pieces = false;  // fill `MeshedRegion::piece_of`
 };
 
 // Seconds of work, summed over threads.
@@ -31,6 +32,8 @@ struct MeshedRegion {
   RefineStats stats;
   MeshSeconds seconds;
   std::size_t pieces = 1;  // that it was cut into
+  std::vector<std::uint32_t>
+      piece_of;  // one a triangle where asked for: its piece in the round that was cut into the most
   WorkLog log;
 };
 

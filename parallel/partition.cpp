@@ -18,28 +18,11 @@ struct Sample {
   double weight;
 };
 
-// A tree of cuts: node i has its children at those of `below`; a leaf has its piece in `piece`.
-struct Node {
-  unsigned axis = 0;
-  double cut = 0.0;
-  std::array<std::uint32_t, 2> below{};
-  PieceId piece = 0;
-  bool leaf = true;
-};
-
-class CutTree {
+// Builds the tree of cuts, splitting samples.
+class CutTreeBuilder {
  public:
-  CutTree(std::vector<Sample> samples, PieceId pieces) : samples_(std::move(samples)), nodes_(2 * pieces - 1) {
-    split(0, samples_, 0, pieces);
-  }
+  explicit CutTreeBuilder(std::vector<CutTree::Node>& nodes) : nodes_(nodes) {}
 
-  PieceId pieceAt(const std::array<double, 2>& at) const {
-    std::uint32_t i = 0;
-    while (!nodes_[i].leaf) i = nodes_[i].below[at[nodes_[i].axis] < nodes_[i].cut ? 0 : 1];
-    return nodes_[i].piece;
-  }
-
- private:
   // Node `node` and the 2 pieces - 2 behind it in the array make pieces `first`, `first` + 1, and so on.
   void split(std::uint32_t node, std::span<Sample> samples, PieceId first, PieceId pieces) {
     nodes_[node].piece = first;
@@ -65,9 +48,14 @@ class CutTree {
                          [&] { split(right, samples.subspan(middle), first + lower, pieces - lower); });
   }
 
-  std::vector<Sample> samples_;
-  std::vector<Node> nodes_;
+ private:
+  std::vector<CutTree::Node>& nodes_;
 };
+
+Point centroidOf(const TriMesh& mesh, TriId t) {
+  const auto& v = mesh.triangle(t).v;
+  return (1.0 / 3.0) * (mesh.point(v[0]) + mesh.point(v[1]) + mesh.point(v[2]));
+}
 
 // The triangles in the order of their pieces.
 void sortByPiece(Partition& partition, Recorder& recorder) {
@@ -102,14 +90,20 @@ void sortByPiece(Partition& partition, Recorder& recorder) {
 
 }  // namespace
 
+PieceId CutTree::pieceAt(const std::array<double, 2>& turned) const {
+  std::uint32_t i = 0;
+  while (!nodes[i].leaf) i = nodes[i].below[turned[nodes[i].axis] < nodes[i].cut ? 0 : 1];
+  return nodes[i].piece;
+}
+
+std::array<double, 2> CutTree::turn(const Point& p) const {
+  return {cosine * p.x + sine * p.y, cosine * p.y - sine * p.x};
+}
+
 Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
                     Recorder& recorder, Partition&& reused) {
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  const auto centre = [&](TriId t) -> std::array<double, 2> {
-    const auto& v = mesh.triangle(t).v;
-    const Point c = mesh.point(v[0]) + mesh.point(v[1]) + mesh.point(v[2]);
-    return {cosine * c.x + sine * c.y, cosine * c.y - sine * c.x};
-  };
+  CutTree tree{std::cos(angle), std::sin(angle), std::vector<CutTree::Node>(2 * pieces - 1)};
+  const auto centre = [&](TriId t) { return tree.turn(centroidOf(mesh, t)); };
   // Enough samples a piece that their weights differ little; all triangles would take longer to sort than to mesh.
   constexpr std::size_t kSamples = 128;
   const std::size_t count = mesh.triangles.size();
@@ -120,7 +114,7 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
     const auto t = static_cast<TriId>(i * stride);
     samples[i] = {centre(t), weight(t)};
   });
-  const CutTree tree(std::move(samples), pieces);
+  CutTreeBuilder(tree.nodes).split(0, samples, 0, pieces);
 
   Partition result = std::move(reused);
   result.pieces = pieces;
@@ -129,7 +123,17 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   forEachByStretches(loop, count,
                      [&](std::size_t t) { result.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t))); });
   sortByPiece(result, recorder);
+  result.tree = std::move(tree);
   return result;
+}
+
+std::vector<PieceId> piecesOf(const TriMesh& mesh, const CutTree& tree, const ItemLoop& loop) {
+  std::vector<PieceId> pieces(mesh.triangles.size(), 0);
+  if (tree.nodes.empty()) return pieces;
+  forEachByStretches(loop, pieces.size(), [&](std::size_t t) {
+    pieces[t] = tree.pieceAt(tree.turn(centroidOf(mesh, static_cast<TriId>(t))));
+  });
+  return pieces;
 }
 
 }  // namespace coastmesh

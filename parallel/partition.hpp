@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -13,6 +14,22 @@ namespace coastmesh {
 
 using PieceId = std::uint32_t;
 
+// Cuts by straight lines, halves of halves. Without nodes it is one piece.
+struct CutTree {
+  struct Node {
+    unsigned axis = 0;
+    double cut = 0.0;
+    std::array<std::uint32_t, 2> below{};  // its children, below the cut and above it
+    PieceId piece = 0;                     // of a leaf
+    bool leaf = true;
+  };
+  double cosine = 1.0, sine = 0.0;  // of the angle that the cuts are turned by
+  std::vector<Node> nodes;
+
+  std::array<double, 2> turn(const Point& p) const;
+  PieceId pieceAt(const std::array<double, 2>& turned) const;
+};
+
 // Which piece each triangle goes to.
 struct Partition {
   PieceId pieces = 0;
@@ -21,6 +38,7 @@ struct Partition {
   std::vector<TriId> triangles;
   std::vector<std::size_t> first;
   std::vector<TriId> slot_of;  // one a triangle: its place within its piece
+  CutTree tree;
 
   std::span<const TriId> of(PieceId p) const { return std::span(triangles).subspan(first[p], first[p + 1] - first[p]); }
 };
@@ -32,5 +50,8 @@ struct Partition {
 //   reused     lends its memory
 Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
                     Recorder& recorder, Partition&& reused = {});
+
+// The piece that each triangle's centroid lies in.
+std::vector<PieceId> piecesOf(const TriMesh& mesh, const CutTree& tree, const ItemLoop& loop);
 
 }  // namespace coastmesh

@@ -93,7 +93,10 @@ class Rounds {
     parts_ =
         partition(sheet_.mesh, whole ? 1 : piecesFor(weight), cutAngle(count_++), weigh, recorder_, std::move(parts_));
     const Partition& parts = parts_;
-    most_pieces_ = std::max<std::size_t>(most_pieces_, parts.pieces);
+    if (parts.pieces > most_pieces_) {
+      most_pieces_ = parts.pieces;
+      most_cuts_ = parts.tree;
+    }
     std::vector<double> weights(parts.pieces, 0.0);
     recorder_.forEach("cut", parts.pieces, {}, [&](std::size_t p) {
       for (const TriId t : parts.of(static_cast<PieceId>(p))) weights[p] += weigh(t);
@@ -131,7 +134,11 @@ class Rounds {
 
   RoundsReport finish(TriMesh& mesh) {
     mesh = std::move(sheet_.mesh);
-    return {std::move(stats_), most_pieces_, recorder_.finish(), {std::move(spare_), std::move(parts_)}};
+    return {std::move(stats_),
+            most_pieces_,
+            std::move(most_cuts_),
+            recorder_.finish(),
+            {std::move(spare_), std::move(parts_)}};
   }
 
  private:
@@ -141,6 +148,7 @@ class Rounds {
   Recorder recorder_;
   RefineStats stats_;
   std::size_t most_pieces_ = 0;
+  CutTree most_cuts_;
   int count_ = 0;
 };
 

@@ -23,6 +23,7 @@ struct RoundsMemory {
 struct RoundsReport {
   RefineStats stats;       // without `steiner_points` and `unresolved`
   std::size_t pieces = 0;  // of the round that was cut into the most
+  CutTree cuts;            // of that round
   WorkLog log;
   RoundsMemory memory;  // to be handed on
 };

@@ -40,7 +40,7 @@ Domain planeDomain(Pslg pslg) {
 }
 
 std::unique_ptr<SizeFunction> sizesIn(const SizeOptions& options, const Domain& domain, const Crs& crs = {}) {
-  return makeSizeFunction(options, readSizeInputs(options, crs), domain, inOneStretch);
+  return makeSizeFunction(options, readSizeInputs(options, crs), domain, inOrder);
 }
 
 class SizeFiles : public ::testing::Test {
