@@ -118,7 +118,16 @@ Json timeSection(const PhaseSeconds& seconds) {
           {"write", seconds.write},   {"total", seconds.total}};
 }
 
-// How the work was shared out, and what more cores would give.
+// What more cores would give.
+Json speedupSection(const WorkLog& log) {
+  const double work = log.work();
+  Json speedup = Json::object();
+  for (const std::size_t cores : {2, 8, 64})
+    speedup[std::to_string(cores)] = work > 0.0 ? work / log.timeOn(cores) : 1.0;
+  return {{"work_s", work}, {"critical_path_s", log.criticalPath()}, {"speedup", std::move(speedup)}};
+}
+
+// How the work was shared out: the whole run, and what is between cleaning and checking.
 Json parallelSection(const WorkLog& log) {
   Json stages = Json::array();
   for (const Stage& stage : log.stages) {
@@ -134,14 +143,11 @@ Json parallelSection(const WorkLog& log) {
         stage.name == "refine" || stage.name == "shrink" || stage.name == "fit" || stage.name == "regions";
     if (listed && stage.items.size() <= kMostListed) stages.back()["item_s"] = stage.items;
   }
-  Json speedup = Json::object();
-  const double work = log.work();
-  for (const std::size_t cores : {2, 8, 64})
-    speedup[std::to_string(cores)] = work > 0.0 ? work / log.timeOn(cores) : 1.0;
-  return {{"work_s", work},
-          {"critical_path_s", log.criticalPath()},
-          {"speedup", std::move(speedup)},
-          {"stages", std::move(stages)}};
+  Json section = speedupSection(log);
+  section["meshing"] =
+      speedupSection(log.only({"triangulate", "cut", "refine", "stitch", "shrink", "fit", "rest", "label", "regions"}));
+  section["stages"] = std::move(stages);
+  return section;
 }
 
 // 1234567 as "1,234,567".

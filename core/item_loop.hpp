@@ -54,7 +54,20 @@ void reserveOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count
   constexpr std::size_t kPage = 4096;
   volatile char* const memory = static_cast<char*>(static_cast<void*>(items.data()));
   const std::size_t used = items.size() * sizeof(Item), bytes = count * sizeof(Item);
-  forEachByStretches(loop, (bytes - used) / kPage, [&](std::size_t page) { memory[used + page * kPage] = 0; });
+  const auto touch = [&](std::size_t first, std::size_t last) {
+    for (std::size_t page = first; page < last; ++page) memory[used + page * kPage] = 0;
+  };
+  forStretches(loop, (bytes - used) / kPage, touch, 64);
+}
+
+// Makes room for `count` items, all of which are to be written anew, and some more.
+template <typename Item>
+void resizeAnew(const ItemLoop& loop, std::vector<Item>& items, std::size_t count) {
+  if (count > items.capacity()) {
+    items = {};
+    reserveOn(loop, items, count + count / 8);
+  }
+  items.resize(count);
 }
 
 // What several stretches listed, as one list.

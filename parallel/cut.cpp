@@ -108,16 +108,6 @@ Layout layOut(const std::vector<CutPiece>& pieces, VertexId input_vertices) {
   return layout;
 }
 
-// Makes room for `count` items, all of which are to be written anew.
-template <typename Item>
-void fit(std::vector<Item>& items, std::size_t count, Recorder& recorder) {
-  if (count > items.capacity()) {
-    items = {};
-    reserveOn(recorder.loop("stitch"), items, count + count / 8);
-  }
-  items.resize(count);
-}
-
 // Writes one piece to its place; lists its sides of cut edges.
 std::vector<CutSide> place(const CutPiece& cut, std::size_t p, const Layout& layout, Sheet& sheet) {
   const TriMesh& mesh = cut.piece.mesh;
@@ -180,13 +170,14 @@ Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& reco
   const Layout layout = layOut(pieces, input_vertices);
   Sheet sheet = std::move(reused);
   sheet.mesh.input_vertices = input_vertices;
-  fit(sheet.mesh.points, layout.vertex.back(), recorder);
-  fit(sheet.mesh.triangles, layout.triangle.back(), recorder);
+  const ItemLoop loop = recorder.loop("stitch");
+  resizeAnew(loop, sheet.mesh.points, layout.vertex.back());
+  resizeAnew(loop, sheet.mesh.triangles, layout.triangle.back());
   sheet.notes.shell_unit = before.notes.shell_unit;
   sheet.notes.small_angle = before.notes.small_angle;
-  fit(sheet.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back(), recorder);
-  fit(sheet.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back(), recorder);
-  fit(sheet.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back(), recorder);
+  resizeAnew(loop, sheet.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back());
+  resizeAnew(loop, sheet.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back());
+  resizeAnew(loop, sheet.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back());
   const auto keep = [&](VertexId from, VertexId to) {
     sheet.mesh.points[to] = before.mesh.points[from];
     if (!sheet.notes.spacing.empty()) sheet.notes.spacing[to] = before.notes.spacing[from];

@@ -74,10 +74,8 @@ void sortByPiece(Partition& partition, Recorder& recorder) {
     for (std::vector<std::size_t>& of_stretch : counts) sum += std::exchange(of_stretch[p], sum);
   }
   partition.first[partition.pieces] = sum;
-  reserveOn(recorder.loop("cut"), partition.triangles, count);
-  reserveOn(recorder.loop("cut"), partition.slot_of, count);
-  partition.triangles.resize(count);
-  partition.slot_of.resize(count);
+  resizeAnew(recorder.loop("cut"), partition.triangles, count);
+  resizeAnew(recorder.loop("cut"), partition.slot_of, count);
   recorder.forEach("cut", kStretches, {}, [&](std::size_t s) {
     for (std::size_t t = begin(s); t < begin(s + 1); ++t) {
       const PieceId p = partition.piece_of[t];
@@ -105,7 +103,7 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   CutTree tree{std::cos(angle), std::sin(angle), std::vector<CutTree::Node>(2 * pieces - 1)};
   const auto centre = [&](TriId t) { return tree.turn(centroidOf(mesh, t)); };
   // Enough samples a piece that their weights differ little; all triangles would take longer to sort than to mesh.
-  constexpr std::size_t kSamples = 128;
+  constexpr std::size_t kSamples = 64;
   const std::size_t count = mesh.triangles.size();
   const std::size_t stride = std::max<std::size_t>(1, count / (kSamples * pieces));
   std::vector<Sample> samples((count + stride - 1) / stride);
@@ -118,8 +116,7 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
 
   Partition result = std::move(reused);
   result.pieces = pieces;
-  reserveOn(loop, result.piece_of, count);
-  result.piece_of.resize(count);
+  resizeAnew(loop, result.piece_of, count);
   forEachByStretches(loop, count,
                      [&](std::size_t t) { result.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t))); });
   sortByPiece(result, recorder);

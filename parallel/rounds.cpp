@@ -187,7 +187,7 @@ std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& 
 
 void markBad(Rounds& run, const TriangleBound& bound) {
   Sheet& sheet = run.sheet();
-  sheet.due_triangles.resize(sheet.mesh.triangles.size());
+  resizeAnew(run.recorder().loop("cut"), sheet.due_triangles, sheet.mesh.triangles.size());
   forEachByStretches(run.recorder().loop("cut"), sheet.mesh.triangles.size(), [&](std::size_t t) {
     const auto& v = sheet.mesh.triangles[t].v;
     sheet.due_triangles[t] = isBad(sheet.mesh.point(v[0]), sheet.mesh.point(v[1]), sheet.mesh.point(v[2]), bound);

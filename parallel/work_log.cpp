@@ -10,6 +10,13 @@ namespace coastmesh {
 
 void WorkLog::append(WorkLog&& other) { std::ranges::move(other.stages, std::back_inserter(stages)); }
 
+WorkLog WorkLog::only(std::initializer_list<std::string_view> names) const {
+  WorkLog some;
+  std::ranges::copy_if(stages, std::back_inserter(some.stages),
+                       [&](const Stage& stage) { return std::ranges::find(names, stage.name) != names.end(); });
+  return some;
+}
+
 double WorkLog::work() const {
   double sum = 0.0;
   for (const Stage& stage : stages) sum += std::accumulate(stage.items.begin(), stage.items.end(), stage.alone);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct WorkLog {
 
   void addAlone(std::string_view name, double seconds) { stages.push_back({name, seconds, {}}); }
   void append(WorkLog&& other);
+  // The stages of some names.
+  WorkLog only(std::initializer_list<std::string_view> names) const;
   // All the work, in seconds of one thread.
   double work() const;
   // What any number of threads has to wait for.

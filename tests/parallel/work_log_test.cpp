@@ -30,6 +30,13 @@ TEST(WorkLog, AppendKeepsTheOrder) {
   EXPECT_EQ(log.stages[1].name, "b");
 }
 
+TEST(WorkLog, PicksStagesByName) {
+  WorkLog log;
+  for (const char* name : {"read", "refine", "read", "cut"}) log.addAlone(name, 1.0);
+  EXPECT_EQ(log.only({"read"}).work(), 2.0);
+  EXPECT_EQ(log.only({"cut", "refine"}).stages.front().name, "refine");
+}
+
 TEST(Recorder, WritesDownEveryItem) {
   withThreads({.threads = 3}, [] {
     Recorder recorder;
