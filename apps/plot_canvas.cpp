@@ -98,18 +98,19 @@ void PlotCanvas::fillPixels(const std::array<Point, 3>& corners, const Color& co
   struct Side {
     Point from;
     Point way;
-    bool keeps;  // the points on it
+    double sense;  // 1, or -1 where the triangle lies to the other side of the way
     bool has(double x, double y) const {
-      const double turn = way.x * (y - from.y) - way.y * (x - from.x);
-      return turn > 0.0 || (turn == 0.0 && keeps);
+      const double turn = sense * (way.x * (y - from.y) - way.y * (x - from.x));
+      return turn > 0.0 || (turn == 0.0 && sense > 0.0);
     }
   };
   std::array<Side, 3> sides;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Point& a = c[i];
-    const Point& b = c[(i + 1) % 3];
-    const Point way{b.x - a.x, b.y - a.y};
-    sides[i] = {a, way, way.y < 0.0 || (way.y == 0.0 && way.x > 0.0)};
+    // From the lesser end, whichever triangle asks: both then round alike, and no pixel is lost between them.
+    const bool turned = std::pair(c[(i + 1) % 3].x, c[(i + 1) % 3].y) < std::pair(c[i].x, c[i].y);
+    const Point& a = turned ? c[(i + 1) % 3] : c[i];
+    const Point& b = turned ? c[i] : c[(i + 1) % 3];
+    sides[i] = {a, {b.x - a.x, b.y - a.y}, turned ? -1.0 : 1.0};
   }
   const auto byte = [](double share) { return static_cast<std::uint32_t>(std::lround(share * 255.0)); };
   const std::uint32_t pixel = byte(color.red) << 16 | byte(color.green) << 8 | byte(color.blue) | 0xff000000u;
