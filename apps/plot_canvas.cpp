@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <numbers>
+#include <utility>
 
 #include "gis/error.hpp"
 
@@ -15,6 +17,8 @@ namespace {
 
 // Cairo's time grows faster than the number of lines in one path.
 constexpr std::size_t kLinesPerStroke = 400;
+
+constexpr double kPixelsInVector = 2.0;  // of an image within a vector drawing, a unit of the drawing
 
 }  // namespace
 
@@ -37,6 +41,7 @@ PlotCanvas::PlotCanvas(const std::string& path, const Point& low, const Point& h
   require(cairo_status(context_.get()));
   cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
+  pixels_ = !vector_;
 }
 
 bool PlotCanvas::showsAny(const Point* pixels, std::size_t count) const {
@@ -56,22 +61,95 @@ void PlotCanvas::fillRectangle(const Point& corner, double width, double height,
 }
 
 void PlotCanvas::fillTriangle(const std::array<Point, 3>& corners, const Color& color) {
+  if (pixels_) {
+    cairo_surface_flush(surface_.get());
+    fillPixels(corners, color);
+    cairo_surface_mark_dirty(surface_.get());
+    return;
+  }
   cairo_t* context = context_.get();
   setColor(color);
   cairo_move_to(context, corners[0].x, corners[0].y);
   cairo_line_to(context, corners[1].x, corners[1].y);
   cairo_line_to(context, corners[2].x, corners[2].y);
   cairo_close_path(context);
-  if (vector_) {
-    // A viewer smooths the rims of neighbours one by one; a hairline of the same colour closes the gap.
-    cairo_fill_preserve(context);
-    cairo_set_line_width(context, 0.3);
-    cairo_stroke(context);
-  } else {
-    cairo_set_antialias(context, CAIRO_ANTIALIAS_NONE);
-    cairo_fill(context);
-    cairo_set_antialias(context, CAIRO_ANTIALIAS_DEFAULT);
+  // A viewer smooths the rims of neighbours one by one; a hairline of the same colour closes the gap.
+  cairo_fill_preserve(context);
+  cairo_set_line_width(context, 0.3);
+  cairo_stroke(context);
+}
+
+// Every pixel whose middle lies in the triangle; one on a side goes to the triangle of one side alone.
+void PlotCanvas::fillPixels(const std::array<Point, 3>& corners, const Color& color) {
+  cairo_surface_t* surface = surface_.get();
+  const int width = cairo_image_surface_get_width(surface);
+  const int height = static_cast<int>(map_height_ * pixel_scale_);
+  std::array<Point, 3> c;
+  for (std::size_t i = 0; i < 3; ++i) c[i] = {corners[i].x * pixel_scale_ - 0.5, corners[i].y * pixel_scale_ - 0.5};
+  if ((c[1].x - c[0].x) * (c[2].y - c[0].y) < (c[2].x - c[0].x) * (c[1].y - c[0].y)) std::swap(c[1], c[2]);
+  const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
+  const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
+  const int x0 = static_cast<int>(std::clamp(std::ceil(left), 0.0, static_cast<double>(width)));
+  const int x1 = static_cast<int>(std::clamp(std::floor(right), -1.0, static_cast<double>(width - 1)));
+  const int y0 = static_cast<int>(std::clamp(std::ceil(top), 0.0, static_cast<double>(height)));
+  const int y1 = static_cast<int>(std::clamp(std::floor(bottom), -1.0, static_cast<double>(height - 1)));
+  if (x0 > x1 || y0 > y1) return;
+
+  struct Side {
+    Point from;
+    Point way;
+    double sense;  // 1, or -1 where the triangle lies to the other side of the way
+    bool has(double x, double y) const {
+      const double turn = sense * (way.x * (y - from.y) - way.y * (x - from.x));
+      return turn > 0.0 || (turn == 0.0 && sense > 0.0);
+    }
+  };
+  std::array<Side, 3> sides;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // From the lesser end, whichever triangle asks: both then round alike, and no pixel is lost between them.
+    const bool turned = std::pair(c[(i + 1) % 3].x, c[(i + 1) % 3].y) < std::pair(c[i].x, c[i].y);
+    const Point& a = turned ? c[(i + 1) % 3] : c[i];
+    const Point& b = turned ? c[i] : c[(i + 1) % 3];
+    sides[i] = {a, {b.x - a.x, b.y - a.y}, turned ? -1.0 : 1.0};
   }
+  const auto byte = [](double share) { return static_cast<std::uint32_t>(std::lround(share * 255.0)); };
+  const std::uint32_t pixel = byte(color.red) << 16 | byte(color.green) << 8 | byte(color.blue) | 0xff000000u;
+  const int stride = cairo_image_surface_get_stride(surface) / 4;
+  auto* const data = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      if (sides[0].has(x, y) && sides[1].has(x, y) && sides[2].has(x, y)) data[y * stride + x] = pixel;
+    }
+  }
+}
+
+void PlotCanvas::beginPixels() {
+  if (!vector_) return;
+  pixel_scale_ = kPixelsInVector;
+  outer_surface_ = std::move(surface_);
+  outer_context_ = std::move(context_);
+  const auto side = [this](double length) { return static_cast<int>(std::ceil(length * pixel_scale_)); };
+  surface_.reset(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, side(width_), side(map_height_)));
+  require(cairo_surface_status(surface_.get()));
+  context_.reset(cairo_create(surface_.get()));
+  cairo_scale(context_.get(), pixel_scale_, pixel_scale_);
+  cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
+  pixels_ = true;
+}
+
+void PlotCanvas::endPixels() {
+  if (!outer_surface_) return;
+  cairo_surface_flush(surface_.get());
+  cairo_t* outer = outer_context_.get();
+  cairo_save(outer);
+  cairo_scale(outer, 1.0 / pixel_scale_, 1.0 / pixel_scale_);
+  cairo_set_source_surface(outer, surface_.get(), 0.0, 0.0);
+  cairo_paint(outer);
+  cairo_restore(outer);
+  context_ = std::move(outer_context_);
+  surface_ = std::move(outer_surface_);
+  pixel_scale_ = 1.0;
+  pixels_ = false;
 }
 
 void PlotCanvas::fillLoops(const std::vector<std::vector<Point>>& loops, const Color& color) {

@@ -46,6 +46,10 @@ class PlotCanvas {
   void clipToMap();
   void unclip();
 
+  // What is drawn in between comes as pixels into a vector drawing too: for more areas and lines than a viewer can bear.
+  void beginPixels();
+  void endPixels();
+
   // Writes the picture. Throws OutputError.
   void finish();
 
@@ -58,6 +62,7 @@ class PlotCanvas {
   };
 
   void setColor(const Color& color);
+  void fillPixels(const std::array<Point, 3>& corners, const Color& color);
   void require(cairo_status_t status) const;
 
   std::string path_;
@@ -69,6 +74,11 @@ class PlotCanvas {
   double map_height_ = 0.0;
   std::unique_ptr<cairo_surface_t, DestroySurface> surface_;
   std::unique_ptr<cairo_t, DestroyContext> context_;
+  // Where the drawing goes that pixels are drawn for, while they are drawn.
+  std::unique_ptr<cairo_surface_t, DestroySurface> outer_surface_;
+  std::unique_ptr<cairo_t, DestroyContext> outer_context_;
+  bool pixels_ = false;       // whether an image is drawn into
+  double pixel_scale_ = 1.0;  // of the image that is drawn into
 };
 
 }  // namespace coastmesh

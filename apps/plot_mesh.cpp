@@ -30,12 +30,19 @@ constexpr Color kBad{0.88, 0.10, 0.10};
 constexpr Color kPaper{1.0, 1.0, 1.0};
 constexpr Color kInk{0.15, 0.15, 0.15};
 
+constexpr Color kOpen{0.84, 0.15, 0.56};
+constexpr Color kIsland{0.65, 0.45, 0.04};
+constexpr Color kUnknown{0.80, 0.80, 0.80};
+
+constexpr std::size_t kMostVectorTriangles = 100'000;  // in an .svg; more come as an image in it
+constexpr double kRolePx = 2.2;
+
 constexpr double kMargin = 0.03;      // of the window, around what is drawn
 constexpr double kStripPx = 44.0;     // below the map: scale bar and legend
 constexpr double kEdgeShare = 0.075;  // an edge's width over its length, up to the widest
 constexpr double kWidestEdgePx = 0.8;
 constexpr double kShorePx = 1.1;
-constexpr double kBlurPx = 1.2;  // triangles smaller than this show as a tint, not as lines
+constexpr double kBlurPx = 3.0;  // triangles smaller than this show as a tint, not as lines
 // Lines of kEdgeShare of the length of an equilateral triangle's edges cover this share of it.
 constexpr double kEdgeCover = 3.46 * kEdgeShare;
 
@@ -106,6 +113,15 @@ Color rampColor(double share) {
   return mix(kStops[stop], kStops[stop + 1], at - static_cast<double>(stop));
 }
 
+// From deep to shallow: dark blue, blue, pale green, sand.
+Color depthColor(double share) {
+  constexpr std::array<Color, 4> kStops{
+      {{0.06, 0.16, 0.42}, {0.15, 0.47, 0.73}, {0.60, 0.83, 0.79}, {0.97, 0.92, 0.72}}};
+  const double at = std::clamp(share, 0.0, 1.0) * 3.0;
+  const auto stop = std::min<std::size_t>(2, static_cast<std::size_t>(at));
+  return mix(kStops[stop], kStops[stop + 1], at - static_cast<double>(stop));
+}
+
 // Colours far apart for neighbours in number: hues turned by the golden section.
 Color featureColor(std::size_t feature) {
   const double hue = std::fmod(static_cast<double>(feature) * 0.6180339887498949, 1.0);
@@ -145,9 +161,13 @@ class MeshPlot {
     canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight(), kLand);
     canvas_.clipToMap();
     drawWater();
+    const bool many = mesh_.triangles.size() > kMostVectorTriangles;
+    if (many) canvas_.beginPixels();
     drawTriangles();
     if (options_.edges) drawEdges();
+    if (many) canvas_.endPixels();
     drawShore();
+    drawRoles();
     markBad();
     canvas_.unclip();
     drawScaleBar();
@@ -195,10 +215,62 @@ class MeshPlot {
         return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
       case PlotColor::Size:
         return rampColor((std::log(area(t)) - least_log_area_) / std::max(1e-12, most_log_area_ - least_log_area_));
+      case PlotColor::Region:
+        return featureColor(parts_[t]);
+      case PlotColor::Depth: {
+        const double z = heightOf(t);
+        if (!std::isfinite(z)) return kUnknown;
+        return depthColor((z - lowest_z_) / std::max(1e-12, highest_z_ - lowest_z_));
+      }
       case PlotColor::None:
         break;
     }
     return kWater;
+  }
+
+  // Metres, positive up; NaN where a corner has none.
+  double heightOf(TriId t) const {
+    double sum = 0.0;
+    for (VertexId v : mesh_.triangles[t].v) sum += grid_.z[piece_.nodes[v]];
+    return sum / 3.0;
+  }
+
+  void findHeights() {
+    if (grid_.z.empty()) throw InputError("the mesh has no depth to colour it by");
+    lowest_z_ = std::numeric_limits<double>::infinity();
+    highest_z_ = -lowest_z_;
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      const double z = heightOf(t);
+      if (!std::isfinite(z) || !shows(t)) continue;
+      lowest_z_ = std::min(lowest_z_, z);
+      highest_z_ = std::max(highest_z_, z);
+    }
+    if (lowest_z_ > highest_z_) throw InputError("the mesh has no depth to colour it by");
+  }
+
+  // Numbers the parts that hang together by edges and lie in one feature.
+  void findParts() {
+    constexpr std::uint32_t kNoPart = std::numeric_limits<std::uint32_t>::max();
+    parts_.assign(mesh_.triangles.size(), kNoPart);
+    std::uint32_t count = 0;
+    std::vector<TriId> waiting;
+    for (TriId first = 0; first < mesh_.triangles.size(); ++first) {
+      if (parts_[first] != kNoPart) continue;
+      parts_[first] = count;
+      waiting.push_back(first);
+      while (!waiting.empty()) {
+        const TriId t = waiting.back();
+        waiting.pop_back();
+        for (EdgeRef twin : mesh_.triangles[t].adj) {
+          if (twin == kNone) continue;
+          const TriId next = triOf(twin);
+          if (parts_[next] != kNoPart || mesh_.regions[next] != mesh_.regions[t]) continue;
+          parts_[next] = count;
+          waiting.push_back(next);
+        }
+      }
+      ++count;
+    }
   }
 
   // The range that colours tell: of the triangles shown, less the few smallest.
@@ -215,6 +287,8 @@ class MeshPlot {
 
   void drawTriangles() {
     if (options_.color == PlotColor::Size) findAreas();
+    if (options_.color == PlotColor::Depth) findHeights();
+    if (options_.color == PlotColor::Region) findParts();
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       const bool blurred = options_.edges && longestEdgePx(t) < kBlurPx;
       const bool bad = isBad(t);
@@ -267,6 +341,34 @@ class MeshPlot {
     for (const auto& [level, lines] : by_width) canvas_.strokeLines(lines, kShorePx * level / 8.0, kShore);
   }
 
+  // Open boundaries always, islands where the picture tells boundaries apart by colour: where there is an open one.
+  void drawRoles() {
+    const auto has_role = [this](BoundaryRole role) {
+      return std::ranges::any_of(grid_.boundaries, [role](const Boundary& b) { return b.role == role; });
+    };
+    if (!has_role(BoundaryRole::Open)) return;
+    drawRole(BoundaryRole::Island, kRolePx / 2, kIsland);
+    drawRole(BoundaryRole::Open, kRolePx, kOpen);
+    shows_roles_ = true;
+  }
+
+  void drawRole(BoundaryRole role, double width, const Color& color) {
+    std::vector<std::array<Point, 2>> lines;
+    for (const Boundary& boundary : grid_.boundaries) {
+      if (boundary.role != role) continue;
+      for (std::size_t i = 0; i < boundary.nodes.size(); ++i) {
+        const bool last = i + 1 == boundary.nodes.size();
+        if (last && !boundary.closed) break;
+        const auto at = [this](std::uint32_t node) {
+          return canvas_.toPixel(piece_.projection.forward(grid_.nodes[node]));
+        };
+        const std::array<Point, 2> line{at(boundary.nodes[i]), at(boundary.nodes[last ? 0 : i + 1])};
+        if (canvas_.showsAny(line.data(), 2)) lines.push_back(line);
+      }
+    }
+    canvas_.strokeLines(lines, width, color);
+  }
+
   // The shore of a lake or an island of a few pixels is thin, lest ink be all that is seen of it.
   static int shoreLevel(const std::vector<Point>& loop) {
     Window extent;
@@ -300,15 +402,31 @@ class MeshPlot {
     canvas_.text({12.0, y + 18.0}, lengthText(length, grid_.crs.isPlane()), 13.0, kInk);
   }
 
+  void drawRoleLegend() {
+    double x = 0.32 * canvas_.width();
+    const double y = canvas_.mapHeight() + 20.0;
+    for (const auto& [name, color] :
+         {std::pair{"open", kOpen}, std::pair{"island", kIsland}, std::pair{"land", kShore}}) {
+      canvas_.strokeLine({x, y}, {x + 18.0, y}, kRolePx, color);
+      canvas_.text({x + 22.0, y + 4.0}, name, 13.0, kInk);
+      x += 75.0;
+    }
+  }
+
   void drawLegend() {
-    if (options_.color != PlotColor::Angle && options_.color != PlotColor::Size) return;
+    if (shows_roles_) drawRoleLegend();
+    if (options_.color != PlotColor::Angle && options_.color != PlotColor::Size && options_.color != PlotColor::Depth) {
+      return;
+    }
     constexpr int kSteps = 60;
     constexpr double kStep = 3.0;
     const double left = canvas_.width() - kSteps * kStep - 12.0;
     if (left < canvas_.width() / 2) return;  // no room for it beside the scale bar
     const double top = canvas_.mapHeight() + 12.0;
     for (int i = 0; i < kSteps; ++i) {
-      canvas_.fillRectangle({left + i * kStep, top}, kStep + 0.5, 10.0, rampColor((i + 0.5) / kSteps));
+      const double share = (i + 0.5) / kSteps;
+      const Color color = options_.color == PlotColor::Depth ? depthColor(share) : rampColor(share);
+      canvas_.fillRectangle({left + i * kStep, top}, kStep + 0.5, 10.0, color);
     }
     std::string low = "0\u00b0";
     std::string high = "60\u00b0 smallest angle";
@@ -321,6 +439,13 @@ class MeshPlot {
       };
       low = lengthText(rounded(sideOf(least_log_area_)), grid_.crs.isPlane());
       high = lengthText(rounded(sideOf(most_log_area_)), grid_.crs.isPlane()) + " edge";
+    }
+    if (options_.color == PlotColor::Depth) {
+      char text[40];
+      std::snprintf(text, sizeof text, "%.4g m", lowest_z_);
+      low = text;
+      std::snprintf(text, sizeof text, "%.4g m up", highest_z_);
+      high = text;
     }
     canvas_.text({left, top + 26.0}, low, 13.0, kInk);
     canvas_.textEndingAt({left + kSteps * kStep, top + 26.0}, high, 13.0, kInk);
@@ -336,12 +461,17 @@ class MeshPlot {
   Point centre_;                           // of the window, in the plane
   double least_log_area_ = 0.0;
   double most_log_area_ = 0.0;
+  double lowest_z_ = 0.0;  // metres, of the triangles shown
+  double highest_z_ = 0.0;
+  std::vector<std::uint32_t> parts_;  // one a triangle, where parts are shown
+  bool shows_roles_ = false;
 };
 
 }  // namespace
 
 const std::vector<std::string>& plotColorNames() {
-  static const std::vector<std::string> kNames = {"none", "angle", "feature", "size", "piece"};  // as in PlotColor
+  static const std::vector<std::string> kNames = {"none", "angle", "feature", "region",
+                                                  "size", "depth", "piece"};  // as in PlotColor
   return kNames;
 }
 

@@ -10,7 +10,8 @@
 
 namespace coastmesh {
 
-enum class PlotColor { None, Angle, Feature, Size, Piece };
+// Region: parts that hang together and lie in one feature. Depth: z of the nodes.
+enum class PlotColor { None, Angle, Feature, Region, Size, Depth, Piece };
 
 // The names that --color takes; throws UsageError for another.
 const std::vector<std::string>& plotColorNames();

@@ -46,13 +46,13 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
               "how fast that grows with the distance from the shore");
   line.number("--channel-elements", sizes.channel_elements, "N", kNotNegative,
               "elements across channels and straits; 0 asks for none");
-  line.texts("--size-features", sizes.features, "FILE", false,
+  line.texts("--size-features", sizes.features, kVectorFile, false,
              "points, lines and polygons with a size in metres on them as the attribute 'size', and how fast it grows "
              "with the "
              "distance as 'rate', else --grade");
-  line.texts("--size-raster", sizes.rasters, "FILE", false,
+  line.texts("--size-raster", sizes.rasters, kRasterFile, false,
              "raster of sizes in metres; of several the first that covers a place counts");
-  line.texts("--size-bathymetry", sizes.bathymetry, "FILE", false,
+  line.texts("--size-bathymetry", sizes.bathymetry, kRasterFile, false,
              "raster of the depths that sizes follow from; of several the first that covers a place counts");
   line.choice("--size-bathymetry-positive", usage.depth_positive, {"up", "down"},
               "whether that raster holds heights or depths");

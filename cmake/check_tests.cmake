@@ -10,3 +10,10 @@ if(NOT COASTMESH_SANITIZE)
     -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
   set_tests_properties(package.consumer PROPERTIES TIMEOUT 300)
 endif()
+if(NOT COASTMESH_SANITIZE)
+  add_test(NAME package.deb COMMAND ${COASTMESH_PYTHON} ${PROJECT_SOURCE_DIR}/tests/package/deb_test.py
+    ${PROJECT_BINARY_DIR} ${CMAKE_CPACK_COMMAND})
+  # Both install the same build.
+  set_tests_properties(package.deb PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120 RESOURCE_LOCK install)
+  set_tests_properties(package.consumer PROPERTIES RESOURCE_LOCK install)
+endif()

@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The interface of each room; its other headers are its own affair.
-set(core_headers check delaunay ids item_loop point pslg quality refine run_control tri_mesh)
+set(core_headers check delaunay ids item_loop metric point pslg quality refine run_control size_function tri_mesh)
 set(gis_headers clean coastline crs error grid grid_io poly_io projection read_coastline)
 set(parallel_headers mesh_regions work_log workers)
 
@@ -30,4 +30,5 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/coastmeshConfig.cmake.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/coastmeshConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/coastmeshConfig.cmake ${PROJECT_BINARY_DIR}/coastmeshConfigVersion.cmake
   DESTINATION ${coastmesh_package_dir})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/cmake/debian/copyright
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -220,6 +220,20 @@ class ProviderTest(unittest.TestCase):
         self.assertIn("--crs=EPSG:32631 --no-shrink", self.log.text().replace("--no-shrink --crs=EPSG:32631",
                                                                            "--crs=EPSG:32631 --no-shrink"))
 
+    def test_a_frame_and_a_place_in_another_crs(self):
+        island = memory_layer("POLYGON((0.4 0.4, 0.6 0.4, 0.6 0.6, 0.4 0.6, 0.4 0.4))")
+        # About 0 to 1 degree, in metres of web Mercator.
+        box = "0,111319.4907932,0,111325.1428664 [EPSG:3857]"
+        results = self.mesh(island, DOMAIN="outside", BBOX=box, OUTPUT_LAYERS=self.path("a.gpkg"))
+        boundaries = QgsVectorLayer(results["BOUNDARIES"], "", "ogr")
+        self.assertIn("open", {f["role"] for f in boundaries.getFeatures()})
+        extent = QgsVectorLayer(results["TRIANGLES"], "", "ogr").extent()
+        self.assertAlmostEqual(extent.xMaximum(), 1.0, places=6)
+        self.assertAlmostEqual(extent.yMaximum(), 1.0, places=6)
+        # The same by a place in the water.
+        results = self.mesh(island, WATER_AT="11131.9,11131.9 [EPSG:3857]", BBOX=box, OUTPUT_LAYERS=self.path("a.gpkg"))
+        self.assertAlmostEqual(QgsVectorLayer(results["TRIANGLES"], "", "ogr").extent().xMaximum(), 1.0, places=6)
+
     def test_check_and_convert_take_layers_and_files_that_qgis_cannot_open(self):
         layer = memory_layer(LAKE)
         mesh = self.mesh(layer)["OUTPUT"]

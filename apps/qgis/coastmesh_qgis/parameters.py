@@ -11,6 +11,7 @@ from qgis.core import (
     QgsProcessingParameterMapLayer,
     QgsProcessingParameterMultipleLayers,
     QgsProcessingParameterNumber,
+    QgsProcessingParameterPoint,
     QgsProcessingParameterString,
     QgsUnitTypes,
 )
@@ -18,6 +19,7 @@ from qgis.core import (
 from .verbs import BASIC
 
 EXTENT_UNIT = "W,S,E,N"
+POINT_UNIT = "LON,LAT"
 WORKING_PLANES = ("auto", "plane")  # what --crs takes besides a CRS
 
 
@@ -61,6 +63,8 @@ def _make(option, name, title):
         return QgsProcessingParameterCrs(name, title, None, True)
     if unit == EXTENT_UNIT:
         return QgsProcessingParameterExtent(name, title, default, optional)
+    if unit == POINT_UNIT:
+        return QgsProcessingParameterPoint(name, title, default, optional)
     several = option.get("multiple", False)
     return QgsProcessingParameterString(name, title, default, multiLine=several, optional=optional)
 
@@ -101,7 +105,7 @@ def _filter_of(option):
 def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
     """The program's arguments for one option; none where its value is the default.
 
-    `path_of_layer` gives the file of a map layer; extents are brought into `crs`.
+    `path_of_layer` gives the file of a map layer; extents and points are brought into `crs`.
     """
     name = parameter_name(option)
     value = parameters.get(name)
@@ -123,6 +127,9 @@ def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
     elif unit == EXTENT_UNIT:
         box = algorithm.parameterAsExtent(parameters, name, context, crs)
         values = [",".join(repr(side) for side in (box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()))]
+    elif unit == POINT_UNIT:
+        point = algorithm.parameterAsPoint(parameters, name, context, crs)
+        values = [f"{point.x()!r},{point.y()!r}"]
     else:
         text = algorithm.parameterAsString(parameters, name, context)
         values = [line for line in text.splitlines() if line.strip()] if option.get("multiple") else [text]

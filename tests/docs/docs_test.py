@@ -1,0 +1,182 @@
+#!/usr/bin/python3
+"""Runs every command that the documentation shows: blocks marked sh and python in *.md, commands in the table of the README,
+examples of --help. A block that needs more than the program says so after `sh`: it is run where that is there, and
+named where it is not. Also: links lead somewhere, and docs/options.md is what the program says.
+
+usage: docs_test.py PROGRAM SOURCES MODULES PLUGIN.zip   (the program coastmesh, the project, the folder of the Python module)
+"""
+import glob
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import zipfile
+
+PROGRAM, SOURCES, MODULES, PLUGIN = (os.path.abspath(path) for path in sys.argv[1:5])
+PYTHON = sys.executable
+FENCE = re.compile(r"^```(?P<info>[^\n]+)?\n(?P<text>.*?)^```$", re.M | re.S)
+GUIDE = sorted(glob.glob(os.path.join(SOURCES, "docs", "*.md")))
+PAGES = [os.path.join(SOURCES, name) for name in ("README.md", "CONTRIBUTING.md")] + GUIDE
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def blocks(path):
+    """Language, further words, and text of each fenced block."""
+    for found in FENCE.finditer(read(path)):
+        language, *words = (found.group("info") or "").split() or [""]
+        yield language, words, found.group("text")
+
+
+class Folder:
+    """Where a page's commands are run: with data/, and with the files that examples speak of."""
+
+    def __init__(self, test, examples=False):
+        self.path = tempfile.mkdtemp()
+        test.addCleanup(shutil.rmtree, self.path, True)
+        os.symlink(os.path.join(SOURCES, "data"), os.path.join(self.path, "data"))
+        bin_folder = os.path.join(self.path, ".bin")
+        os.mkdir(bin_folder)
+        os.symlink(PROGRAM, os.path.join(bin_folder, "coastmesh"))
+        self.environment = {
+            **os.environ,
+            "PATH": bin_folder + os.pathsep + os.environ["PATH"],
+            "PYTHONPATH": MODULES,
+            "COASTMESH_PROGRAM": PROGRAM,
+            "HOME": self.path,
+            "XDG_RUNTIME_DIR": self.path,
+            "QT_QPA_PLATFORM": "offscreen",
+        }
+        if examples:
+            for name in ("lake.geojson", "sea.geojson"):
+                shutil.copy(os.path.join(SOURCES, "data/lake_superior.geojson"), os.path.join(self.path, name))
+            for ending in ("shp", "shx", "dbf", "prj"):
+                for name in ("lakes", "sea"):
+                    shutil.copy(os.path.join(SOURCES, f"data/lake_superior.{ending}"),
+                                os.path.join(self.path, f"{name}.{ending}"))
+            self.run("coastmesh clean lake.geojson -o lakes.gpkg && coastmesh mesh lake.geojson -o grid.2dm")
+
+    def run(self, script, interpreter=("bash", "-euo", "pipefail", "-c")):
+        run = subprocess.run([*interpreter, script], cwd=self.path, env=self.environment, capture_output=True, text=True,
+                             timeout=240, check=False)
+        if run.returncode != 0:
+            raise AssertionError(f"exit code {run.returncode} of\n{script}\n{run.stdout[-2000:]}\n{run.stderr[-4000:]}")
+        return run.stdout
+
+
+class GuideTest(unittest.TestCase):
+    def run_page(self, name):
+        folder = Folder(self)
+        ran = 0
+        for language, words, text in blocks(os.path.join(SOURCES, "docs", name)):
+            self.assertIn(language, ("sh", "python"), "a block that no test runs")
+            if language == "python":
+                if words == ["run"]:
+                    self.require_module()
+                    folder.run(text, (PYTHON, "-c"))
+                    ran += 1
+                continue
+            if words == ["qgis"]:
+                if not (shutil.which("qgis_process.bin") or shutil.which("qgis_process")):
+                    print(f"{name}: not run, there is no QGIS:\n{text}")
+                    continue
+                plugins = os.path.join(folder.path, ".local/share/QGIS/QGIS3/profiles/default/python/plugins")
+                with zipfile.ZipFile(PLUGIN) as archive:
+                    archive.extractall(plugins)
+                folder.environment["XDG_DATA_HOME"] = os.path.join(folder.path, ".local/share")
+                folder.environment.pop("PYTHONPATH")
+            folder.run(text)
+            ran += 1
+        return folder, ran
+
+    def require_module(self):
+        if not glob.glob(os.path.join(MODULES, "coastmesh", "_coastmesh*")):
+            self.skipTest("the Python module was not built")
+
+    def test_lake(self):
+        folder, ran = self.run_page("lake.md")
+        self.assertGreaterEqual(ran, 6)
+        self.assertTrue(os.path.exists(os.path.join(folder.path, "lake.png")))
+
+    def test_sea(self):
+        folder, ran = self.run_page("sea.md")
+        self.assertGreaterEqual(ran, 3)
+        info = json.loads(folder.run("coastmesh info --json hispaniola.nc"))
+        self.assertIn("open", info["boundaries"])
+        self.assertIn("island", info["boundaries"])
+
+    def test_batch(self):
+        folder, ran = self.run_page("batch.md")
+        self.assertGreaterEqual(ran, 3)
+        report = json.loads(read(os.path.join(folder.path, "lakes.json")))
+        self.assertGreater(report["mesh"]["triangles"], 0)
+
+    def test_python(self):
+        self.require_module()
+        folder, ran = self.run_page("python.md")
+        self.assertGreaterEqual(ran, 3)
+        folder.run(os.path.join(SOURCES, "docs/python_example.py"), (PYTHON,))
+        self.assertTrue(os.path.exists(os.path.join(folder.path, "python_example.png")))
+
+    def test_qgis(self):
+        self.run_page("qgis.md")
+
+    def test_every_page_has_a_test(self):
+        pages = {os.path.basename(path) for path in GUIDE}
+        tested = {name[len("test_"):] + ".md" for name in dir(self) if name.startswith("test_")}
+        self.assertLessEqual(pages - {"README.md", "options.md"}, tested)
+
+
+class CommandsTest(unittest.TestCase):
+    def test_the_readme(self):
+        folder = Folder(self, examples=True)
+        text = read(os.path.join(SOURCES, "README.md"))
+        commands = [line for _, _, block in blocks(os.path.join(SOURCES, "README.md")) for line in block.splitlines()
+                    if line.startswith("coastmesh ")]
+        commands += re.findall(r"^\| `(coastmesh [^`]*)`", text, re.M)
+        self.assertGreater(len(commands), 5)
+        for command in commands:
+            folder.run(command + (" --overwrite" if re.search(r" -o ", command) else ""))
+
+    def test_examples_of_the_help(self):
+        folder = Folder(self, examples=True)
+        usage = json.loads(subprocess.run([PROGRAM, "--json-usage"], capture_output=True, check=True).stdout)
+        for command in usage["commands"]:
+            for example in command["examples"]:
+                line = example["command"]
+                folder.run(line + (" --overwrite" if re.search(r" -o ", line) else ""))
+
+    def test_contributing(self):
+        """What builds is run by continuous integration itself; the programs and scripts named have to be there."""
+        for language, words, text in blocks(os.path.join(SOURCES, "CONTRIBUTING.md")):
+            self.assertEqual(language, "sh")
+            self.assertIn(words, (["build"], ["perf"]))
+            self.assertEqual(subprocess.run(["bash", "-n", "-c", text], check=False).returncode, 0)
+            for script in re.findall(r"scripts/[a-z-]+", text):
+                self.assertTrue(os.access(os.path.join(SOURCES, script), os.X_OK), script)
+        for script in re.findall(r"`(?:sudo )?(scripts/[a-z-]+)", read(os.path.join(SOURCES, "CONTRIBUTING.md"))):
+            self.assertTrue(os.access(os.path.join(SOURCES, script), os.X_OK), script)
+
+
+class PagesTest(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)#:]+)\)", read(page)):
+                path = os.path.join(os.path.dirname(page), target)
+                self.assertTrue(os.path.exists(path), f"{os.path.relpath(page, SOURCES)}: {target}")
+
+    def test_options_are_what_the_program_says(self):
+        said = subprocess.run([PROGRAM, "--usage-as", "markdown"], capture_output=True, text=True, check=True).stdout
+        written = read(os.path.join(SOURCES, "docs/options.md"))
+        self.assertEqual(written.strip(), said.strip(), "run scripts/update-options")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[5:], verbosity=2)
