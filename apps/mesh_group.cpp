@@ -93,6 +93,7 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
 void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
                std::uint64_t budget, const RunControl& control, GroupResult& result) {
   const Stopwatch cleaning;
+  Recorder clean_recorder;
   CleanReport clean;
   const Domain domain = input.domain(group, clean);
   result.edits = clean.counts;
@@ -101,7 +102,7 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   result.projection = domain.projection.description();
   result.input_area_m2 = input.area(group, domain);
   result.clean_s = cleaning.seconds();
-  result.log.addAlone("clean", result.clean_s);
+  result.log.append(clean_recorder.finish("clean"));
 
   MeshOptions options = optionsFor(job, domain, budget);
   std::unique_ptr<SizeFunction> size;

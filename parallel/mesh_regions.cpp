@@ -35,6 +35,7 @@ int fitSweeps(const MeshOptions& options) {
 
 void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   Stopwatch watch;
+  Recorder recorder;
   region.stats = refine(region.mesh, pslg, options.refine, control);
   region.seconds.refine = watch.lap();
   if (options.shrink) {
@@ -49,7 +50,7 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
     region.stats.unresolved.clear();
     region.stats.add(fitted);
   }
-  region.log.addAlone("refine", region.seconds.refine + region.seconds.shrink + region.seconds.fit);
+  region.log.append(recorder.finish("refine"));
 }
 
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
@@ -88,9 +89,10 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
 MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   MeshedRegion region;
   Stopwatch watch;
+  Recorder recorder;
   region.mesh = constrainedDelaunay(pslg);
   region.seconds.triangulate = watch.lap();
-  region.log.addAlone("triangulate", region.seconds.triangulate);
+  region.log.append(recorder.finish("triangulate"));
   const bool cut = !options.one_piece && expectedTriangles(region.mesh, options.refine) >= kWorthCutting;
   (cut ? meshInPieces : meshWhole)(region, pslg, options, control);
   if (options.mark_pieces && !cut) region.piece_of.assign(region.mesh.triangles.size(), 0);

@@ -24,8 +24,8 @@ void Recorder::forEach(std::string_view name, std::size_t count, const RunContro
   last_ = threadSeconds();
 }
 
-WorkLog Recorder::finish() {
-  log_.addAlone("rest", threadSeconds() - last_);
+WorkLog Recorder::finish(std::string_view rest) {
+  log_.addAlone(rest, threadSeconds() - last_);
   last_ = threadSeconds();
   return std::exchange(log_, {});
 }

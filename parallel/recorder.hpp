@@ -27,7 +27,8 @@ class Recorder {
     return [this, name, control](std::size_t count, const auto& work) { forEach(name, count, control, work); };
   }
 
-  WorkLog finish();
+  // What was written down; `rest` names what was done alone since the last loop.
+  WorkLog finish(std::string_view rest = "rest");
 
  private:
   WorkLog log_;
