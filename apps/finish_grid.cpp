@@ -87,6 +87,12 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
   if (!grid.triangles.empty() && !targets.empty()) report.repairs = repairForTargets(grid, targets);
+  // Nodes that repairs made or moved get a depth of their own.
+  if (!report.repairs.repairs.empty() && !options.depth.files.empty()) {
+    const std::vector<std::string> warnings = std::move(report.depth.warnings);
+    report.depth = setDepths(grid, options.depth, control);
+    report.depth.warnings = warnings;
+  }
   return report;
 }
 

@@ -260,6 +260,8 @@ class Repairer {
 
   // The solid edge of the rim that starts at the node becomes like the opening before it.
   void openWall(std::uint32_t node, Target target) {
+    const auto isChanged = [&](std::uint32_t t) { return touched_[t] || dead_[t]; };
+    if (std::ranges::any_of(triangles_at_[node], isChanged)) return;
     for (const std::uint32_t t : triangles_at_[node]) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i);
@@ -415,6 +417,8 @@ class Repairer {
 
   // Too many triangles round a node: half of them get a node of their own, between it and their other ends.
   void splitNode(std::uint32_t node, const TargetDefect& defect, Target target) {
+    const auto isChanged = [&](std::uint32_t t) { return touched_[t] || dead_[t]; };
+    if (std::ranges::any_of(triangles_at_[node], isChanged)) return;
     const std::vector<std::uint32_t> ring = ringRound(node);
     const Patch before = patchRound(triangles_at_[node]);
     const auto isTaken = [&](const PatchTriangle& triangle) { return touched_[triangle.slot] || dead_[triangle.slot]; };
@@ -472,6 +476,8 @@ class Repairer {
       for (const EdgeRef twin : mesh_.triangles[t].adj)
         if (twin != kNone) concerned.insert(triOf(twin));
     const std::vector<std::uint32_t> inside(concerned.begin(), concerned.end());
+    const auto isChanged = [&](std::uint32_t t) { return touched_[t] || dead_[t]; };
+    if (std::ranges::any_of(inside, isChanged)) return;
     const Patch before = patchRound(inside);
     const auto isTaken = [&](const PatchTriangle& triangle) { return touched_[triangle.slot] || dead_[triangle.slot]; };
     if (std::ranges::any_of(before.triangles, isTaken)) return;  // in another round
