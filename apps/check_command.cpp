@@ -1,5 +1,5 @@
 #include <cstdio>
-#include <map>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -10,7 +10,9 @@
 #include "apps/mesh_file.hpp"
 #include "apps/places.hpp"
 #include "apps/staged_file.hpp"
+#include "apps/target_usage.hpp"
 #include "apps/vector_output.hpp"
+#include "gis/check_target.hpp"
 
 namespace coastmesh {
 
@@ -22,36 +24,80 @@ struct CheckUsage {
   MeshFile mesh;
   InputOptions input;
   GridCheckOptions check;
+  std::vector<std::string> targets;
+  TargetCheckOptions target_check;
   std::string output;
   bool overwrite = false;
   bool quiet = false;
 };
 
-void printDefects(const CheckUsage& usage, const Grid& grid, const std::vector<GridDefect>& defects) {
+// A defect as it is told, whichever check found it.
+struct DefectRow {
+  std::string kind;
+  std::string target;  // the model that minds; empty for any
+  Point place;
+  std::int64_t triangle = -1;
+  std::int64_t node = -1;
+  double value = 0.0;
+  std::string detail;
+};
+
+DefectRow rowOf(const GridDefect& defect) {
+  DefectRow row{std::string(toString(defect.kind)), {}, defect.place, defect.triangle, -1, defect.value, {}};
+  if (defect.kind == DefectKind::AngleBelowBound) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3f degrees", defect.value);
+    row.detail = text;
+  }
+  return row;
+}
+
+DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
+  DefectRow row{std::string(toString(defect.kind)),
+                target,
+                defect.place,
+                defect.triangle,
+                defect.node,
+                defect.value,
+                defect.text};
+  if (row.detail.empty() && defect.value != 0.0) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", defect.value);
+    row.detail = text;
+  }
+  return row;
+}
+
+void printDefects(const CheckUsage& usage, const Grid& grid, const std::vector<DefectRow>& defects) {
   std::printf("%s: %zu nodes, %zu triangles, %zu defects\n", usage.mesh.path.c_str(), grid.nodes.size(),
               grid.triangles.size(), defects.size());
-  std::map<DefectKind, std::vector<const GridDefect*>> by_kind;
-  for (const GridDefect& defect : defects) by_kind[defect.kind].push_back(&defect);
-  for (const auto& [kind, of_kind] : by_kind) {
-    std::printf("%s: %zu\n", std::string(toString(kind)).c_str(), of_kind.size());
-    for (std::size_t i = 0; i < std::min(kPlacesShown, of_kind.size()); ++i) {
-      std::printf("  at %s", pointText(of_kind[i]->place).c_str());
-      if (of_kind[i]->triangle >= 0) std::printf(", triangle %s", std::to_string(of_kind[i]->triangle + 1).c_str());
-      if (kind == DefectKind::AngleBelowBound) std::printf(", %.3f degrees", of_kind[i]->value);
+  for (std::size_t begin = 0, end = 0; begin < defects.size(); begin = end) {
+    const DefectRow& first = defects[begin];
+    for (end = begin; end < defects.size() && defects[end].kind == first.kind && defects[end].target == first.target;)
+      ++end;
+    std::printf("%s%s%s: %zu\n", first.target.c_str(), first.target.empty() ? "" : ": ", first.kind.c_str(),
+                end - begin);
+    for (std::size_t i = begin; i < std::min(begin + kPlacesShown, end); ++i) {
+      std::printf("  at %s", pointText(defects[i].place).c_str());
+      if (defects[i].triangle >= 0) std::printf(", triangle %lld", static_cast<long long>(defects[i].triangle + 1));
+      if (defects[i].node >= 0) std::printf(", node %lld", static_cast<long long>(defects[i].node + 1));
+      if (!defects[i].detail.empty()) std::printf(", %s", defects[i].detail.c_str());
       std::printf("\n");
     }
-    if (of_kind.size() > kPlacesShown) std::printf("  and %zu more\n", of_kind.size() - kPlacesShown);
+    if (end - begin > kPlacesShown) std::printf("  and %zu more\n", end - begin - kPlacesShown);
   }
 }
 
-VectorLayer layerOf(const std::vector<GridDefect>& defects) {
+VectorLayer layerOf(const std::vector<DefectRow>& defects) {
+  const auto numberOf = [](std::int64_t index) { return index < 0 ? std::int64_t{-1} : index + 1; };
   VectorLayer layer;
   layer.name = "defects";
-  layer.fields = {{"kind", std::string()}, {"triangle", std::int64_t{}}, {"value", 0.0}};
-  for (const GridDefect& defect : defects) {
-    const std::int64_t number = defect.triangle < 0 ? -1 : defect.triangle + 1;
-    layer.shapes.push_back({{defect.place}, {std::string(toString(defect.kind)), number, defect.value}});
-  }
+  layer.fields = {{"kind", std::string()},  {"triangle", std::int64_t{}}, {"value", 0.0},
+                  {"node", std::int64_t{}}, {"target", std::string()},    {"detail", std::string()}};
+  for (const DefectRow& defect : defects)
+    layer.shapes.push_back(
+        {{defect.place},
+         {defect.kind, numberOf(defect.triangle), defect.value, numberOf(defect.node), defect.target, defect.detail}});
   return layer;
 }
 
@@ -71,13 +117,20 @@ int runCheck(const CheckUsage& usage, Interrupt& interrupt) {
     options.delaunay = true;
     defects = checkGridAgainst(grid, JobInput(usage.input), options);
   }
+  std::vector<DefectRow> rows;
+  for (const GridDefect& defect : defects) rows.push_back(rowOf(defect));
+  for (const Target target : targetsNamed(usage.targets)) {
+    interrupt.check();
+    for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check))
+      rows.push_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
+  }
   if (output) {
-    output->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(defects)}); });
+    output->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(rows)}); });
   }
   interrupt.close();
   if (output) output->commit();
-  if (!usage.quiet) printDefects(usage, grid, defects);
-  return defects.empty() ? kExitDone : kExitShort;
+  if (!usage.quiet) printDefects(usage, grid, rows);
+  return rows.empty() ? kExitDone : kExitShort;
 }
 
 }  // namespace
@@ -88,6 +141,9 @@ Command declareCheck(CLI::App& root) {
   declareMeshFile(line, "MESH", "mesh to check", usage->mesh);
   line.texts("--input", usage->input.files, kVectorFile, false,
              "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
+  declareTargets(line, usage->targets, "also look for all that makes the model refuse the mesh; repeat it for several");
+  line.number("--time-step", usage->target_check.time_step_s, "S", {0.0, std::numeric_limits<double>::infinity()},
+              "time step that --target checks Courant numbers with; 0 leaves them out");
   line.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
   line.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
   line.flag("--delaunay", usage->check.delaunay,

@@ -32,6 +32,8 @@ int runConvert(const ConvertUsage& usage, Interrupt& interrupt) {
   const FinishReport report = finishGrid(grid, usage.finish, control);
   for (const std::string& warning : report.warnings())
     std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
+  if (const std::string warning = outputs.depthWarning(grid); !warning.empty())
+    std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     interrupt.check();
     outputs.write(i, grid);
@@ -39,7 +41,7 @@ int runConvert(const ConvertUsage& usage, Interrupt& interrupt) {
   interrupt.close();
   outputs.commit();
   if (!usage.quiet) std::fputs(finishSummary(usage.finish, report).c_str(), stdout);
-  return kExitDone;
+  return report.repairs.left.empty() ? kExitDone : kExitShort;
 }
 
 }  // namespace

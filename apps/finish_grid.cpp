@@ -4,15 +4,19 @@
 #include <array>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "apps/stopwatch.hpp"
+#include "apps/places.hpp"
+#include "apps/target_usage.hpp"
 
 namespace coastmesh {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+std::string nameOf(Target target) { return kTargetNames[static_cast<std::size_t>(target)]; }
 
 constexpr std::array kMethods{"bilinear", "average"};
 constexpr std::array kFills{"neighbours", "nearest", "none"};
@@ -33,7 +37,16 @@ void declareEnum(CommandLine& line, const std::string& names, Enum& value, const
 
 }  // namespace
 
-std::vector<std::string> FinishReport::warnings() const { return depth.warnings; }
+std::vector<std::string> FinishReport::warnings() const {
+  std::vector<std::string> all = depth.warnings;
+  std::map<std::pair<Target, TargetDefectKind>, std::pair<std::size_t, Point>> left;
+  for (const auto& [target, defect] : repairs.left)
+    ++left.try_emplace({target, defect.kind}, 0, defect.place).first->second.first;
+  for (const auto& [which, count] : left)
+    all.push_back("could not be mended for " + nameOf(which.first) + ": " + std::string(toString(which.second)) + ", " +
+                  std::to_string(count.first) + " in all, the first at " + pointText(count.second));
+  return all;
+}
 
 void declareFinishOptions(CommandLine& line, FinishOptions& options) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -64,14 +77,22 @@ void declareFinishOptions(CommandLine& line, FinishOptions& options) {
               "boundaries of outer loops are open where they are deeper than this");
   line.number("--min-boundary", boundaries.least_length_m, "M", {0.0, kInfinity},
               "boundaries shorter than this become part of the longer one beside them");
+  declareTargets(line, options.targets,
+                 "mend what would make the model refuse the mesh, each repair being reported; repeat it for several");
 }
 
 FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control) {
   FinishReport report;
-  const Stopwatch depth;
+  const std::vector<Target> targets = targetsNamed(options.targets);
   if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
-  report.depth_s = depth.seconds();
+  if (!grid.triangles.empty() && !targets.empty()) report.repairs = repairForTargets(grid, targets);
+  // Nodes that repairs made or moved get a depth of their own.
+  if (!report.repairs.repairs.empty() && !options.depth.files.empty()) {
+    const std::vector<std::string> warnings = std::move(report.depth.warnings);
+    report.depth = setDepths(grid, options.depth, control);
+    report.depth.warnings = warnings;
+  }
   return report;
 }
 
@@ -84,7 +105,29 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
                   report.depth.above_water);
     text += line;
   }
+  constexpr std::size_t kRepairsShown = 20;
+  const std::vector<Repair>& repairs = report.repairs.repairs;
+  for (std::size_t i = 0; i < std::min(kRepairsShown, repairs.size()); ++i)
+    text += nameOf(repairs[i].target) + ": " + std::string(toString(repairs[i].kind)) + " at " +
+            pointText(repairs[i].place) + ": " + repairs[i].what + "\n";
+  if (repairs.size() > kRepairsShown)
+    text += "and " + std::to_string(repairs.size() - kRepairsShown) + " more repairs\n";
   return text;
+}
+
+std::string repairSection(const FinishOptions& options, const FinishReport& report) {
+  if (options.targets.empty()) return "null";
+  Json done = Json::array(), left = Json::array();
+  for (const Repair& repair : report.repairs.repairs)
+    done.push_back({{"target", nameOf(repair.target)},
+                    {"defect", toString(repair.kind)},
+                    {"x", repair.place.x},
+                    {"y", repair.place.y},
+                    {"repair", repair.what}});
+  for (const auto& [target, defect] : report.repairs.left)
+    left.push_back(
+        {{"target", nameOf(target)}, {"defect", toString(defect.kind)}, {"x", defect.place.x}, {"y", defect.place.y}});
+  return Json{{"done", std::move(done)}, {"left", std::move(left)}}.dump();
 }
 
 std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid) {

@@ -8,6 +8,7 @@
 #include "gis/assign_boundaries.hpp"
 #include "gis/depth.hpp"
 #include "gis/grid.hpp"
+#include "gis/repair_target.hpp"
 
 namespace coastmesh {
 
@@ -15,14 +16,15 @@ namespace coastmesh {
 struct FinishOptions {
   DepthOptions depth;
   BoundaryOptions boundaries;
+  std::vector<std::string> targets;  // names of models that the grid is mended for
 
-  bool any() const { return !depth.files.empty() || boundaries.any(); }
+  bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty(); }
 };
 
 struct FinishReport {
   DepthReport depth;
   BoundaryReport boundaries;
-  double depth_s = 0.0;
+  RepairReport repairs;
 
   std::vector<std::string> warnings() const;
 };
@@ -30,14 +32,15 @@ struct FinishReport {
 // Declares the options of FinishOptions.
 void declareFinishOptions(CommandLine& line, FinishOptions& options);
 
-// Throws InputError, Cancelled.
+// Throws UsageError, InputError, Cancelled.
 FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control = {});
 
 // For people: a line each on what was done; empty where nothing was asked for.
 std::string finishSummary(const FinishOptions& options, const FinishReport& report);
 
-// The report's sections "depth" and "boundaries" as JSON text, each null where it was not asked for.
+// Sections of the report as JSON text; "depth" and "repairs" are null where they were not asked for.
 std::string depthSection(const FinishOptions& options, const FinishReport& report);
+std::string repairSection(const FinishOptions& options, const FinishReport& report);
 std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid);
 
 }  // namespace coastmesh

@@ -35,8 +35,14 @@ GridOutputs::GridOutputs(const std::vector<std::string>& paths, const std::strin
   requireApart(paths, inputs);
   for (const std::string& path : paths) {
     outputs_.emplace_back(path, gridFormatFor(path, format), overwrite);
+    if (gridFormatFor(path, format).says_depth) depth_paths_.push_back(path);
     interrupt.guard(outputs_.back().stagingFolder());
   }
+}
+
+std::string GridOutputs::depthWarning(const Grid& grid) const {
+  if (!grid.z.empty() || depth_paths_.empty()) return {};
+  return "the mesh has no depths: '" + depth_paths_.front() + "' says 0 everywhere; give --bathymetry";
 }
 
 void GridOutputs::write(std::size_t index, const Grid& grid) { outputs_[index].write(grid); }

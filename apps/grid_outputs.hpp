@@ -17,6 +17,8 @@ class GridOutputs {
   GridOutputs(const std::vector<std::string>& paths, const std::string& format, bool overwrite,
               const std::vector<std::string>& inputs, Interrupt& interrupt);
 
+  // Empty, or a warning: an output tells depths, and the grid has none.
+  std::string depthWarning(const Grid& grid) const;
   std::size_t size() const { return outputs_.size(); }
   void write(std::size_t index, const Grid& grid);  // throws OutputError
   // Moves all into place. After Interrupt::close().
@@ -24,6 +26,7 @@ class GridOutputs {
 
  private:
   std::vector<StagedOutput> outputs_;
+  std::vector<std::string> depth_paths_;  // of formats that tell a depth at each node
 };
 
 }  // namespace coastmesh

@@ -53,6 +53,10 @@ class MeshOutputs {
   }
 
   void writeGrids(const Grid& grid, ProgressDisplay& display) {
+    if (const std::string warning = grids_.depthWarning(grid); !warning.empty()) {
+      display.clear();
+      std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
+    }
     for (std::size_t i = 0; i < grids_.size(); ++i) {
       display.show("write", static_cast<double>(i) / static_cast<double>(grids_.size()));
       grids_.write(i, grid);

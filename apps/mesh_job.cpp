@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "apps/grid_pieces.hpp"
 #include "apps/mesh_group.hpp"
 #include "apps/stopwatch.hpp"
 #include "parallel/recorder.hpp"
@@ -186,6 +187,18 @@ std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
 
 namespace {
 
+// After repairs: the grid as it is now.
+void measureAgain(const MeshJob& job, MeshJobResult& result) {
+  result.quality = {};
+  bool first = true;
+  for (const GridPiece& piece : splitGrid(result.grid)) {
+    result.quality.add(measureQuality(piece.mesh, job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg));
+    result.digest = first ? digestOf(piece.mesh) : combineDigests(result.digest, digestOf(piece.mesh));
+    first = false;
+  }
+  result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+}
+
 MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const Stopwatch whole;
   MeshJobResult result;
@@ -219,6 +232,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
     result.finish = finishGrid(result.grid, job.finish, inner);
+    if (!result.finish.repairs.repairs.empty()) measureAgain(job, result);
     result.seconds.finish = finishing.seconds();
     result.log.addAlone("finish", result.seconds.finish);
   }

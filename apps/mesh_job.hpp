@@ -92,7 +92,9 @@ struct MeshJobResult {
   PhaseSeconds seconds;
   FinishReport finish;  // depths, boundaries and repairs
 
-  bool complete() const { return unresolved == 0 && !refine.budget_reached && refusals.empty(); }
+  bool complete() const {
+    return unresolved == 0 && !refine.budget_reached && refusals.empty() && finish.repairs.left.empty();
+  }
 };
 
 // A mesh failed its own check: a bug of coastmesh.

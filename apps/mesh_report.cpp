@@ -175,12 +175,18 @@ std::string digestText(std::uint64_t digest) {
 }
 
 std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads) {
-  const Json report{
-      {"coastmesh", COASTMESH_VERSION},        {"input", inputSection(job, result)},
-      {"clean", cleanSection(result)},         {"refine", refineSection(job, result)},
-      {"mesh", meshSection(result)},           {"depth", Json::parse(depthSection(job.finish, result.finish))},
-      {"time_s", timeSection(result.seconds)}, {"parallel", parallelSection(result.log)},
-      {"peak_memory_mib", peakMemoryMib()},    {"threads", threads}};
+  const Json report{{"coastmesh", COASTMESH_VERSION},
+                    {"input", inputSection(job, result)},
+                    {"clean", cleanSection(result)},
+                    {"refine", refineSection(job, result)},
+                    {"mesh", meshSection(result)},
+                    {"depth", Json::parse(depthSection(job.finish, result.finish))},
+                    {"boundaries", Json::parse(boundarySection(job.finish, result.finish, result.grid))},
+                    {"repairs", Json::parse(repairSection(job.finish, result.finish))},
+                    {"time_s", timeSection(result.seconds)},
+                    {"parallel", parallelSection(result.log)},
+                    {"peak_memory_mib", peakMemoryMib()},
+                    {"threads", threads}};
   // Names in the input need not be UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

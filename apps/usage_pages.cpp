@@ -1,7 +1,9 @@
 #include "apps/usage_pages.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "apps/command_line.hpp"
 
@@ -17,11 +19,18 @@ std::string numberText(const Json& value) {
   return text;
 }
 
-// "-o, --output FILE"; flags with their opposite: "--shrink, --no-shrink".
-std::string namesOf(const Json& option, const std::string& before_name = "", const std::string& after_name = "") {
+std::string glued(std::initializer_list<std::string_view> parts) {
   std::string text;
-  for (const Json& name : option["names"]) {
-    text += (text.empty() ? "" : ", ") + before_name + name.get<std::string>() + after_name;
+  for (std::string_view part : parts) text += part;
+  return text;
+}
+
+// The texts of a list, with `between` them.
+std::string joined(const Json& list, std::string_view between) {
+  std::string text;
+  for (const Json& item : list) {
+    if (!text.empty()) text += between;
+    text += item.get<std::string>();
   }
   return text;
 }
@@ -29,9 +38,7 @@ std::string namesOf(const Json& option, const std::string& before_name = "", con
 std::string valueOf(const Json& option) {
   if (option["type"] == "flag") return {};
   if (option["type"] != "choice") return option.value("unit", "VALUE");
-  std::string text;
-  for (const Json& choice : option["choices"]) text += (text.empty() ? "" : "|") + choice.get<std::string>();
-  return text;
+  return joined(option["choices"], "|");
 }
 
 std::string defaultOf(const Json& option) {
@@ -94,7 +101,8 @@ std::string roff(const std::string& text) {
 std::string heading(const std::string& name, const Json& usage) {
   std::string title = name;
   std::ranges::transform(title, title.begin(), [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; });
-  return ".TH " + title + " 1 \"\" \"coastmesh " + usage["coastmesh"].get<std::string>() + "\" \"User Commands\"\n";
+  return glued(
+      {".TH ", title, R"( 1 "" "coastmesh )", usage["coastmesh"].get<std::string>(), R"(" "User Commands")", "\n"});
 }
 
 std::string manExamples(const Json& command) {
@@ -183,8 +191,8 @@ std::string markdown(const Json& usage) {
             ".\n\n| option | unit or values | range | default | |\n|---|---|---|---|---|\n";
     for (const Json& option : command["options"]) {
       const std::string required = option.value("required", false) ? "required" : defaultOf(option);
-      page += "| " + cell(namesOf(option, "`", "`")) + " | " + cell(valueOf(option)) + " | " + cell(rangeOf(option)) +
-              " | " + cell(required) + " | " + cell(option["help"]) + " |\n";
+      page += "| " + cell("`" + joined(option["names"], "`, `") + "`") + " | " + cell(valueOf(option)) + " | " +
+              cell(rangeOf(option)) + " | " + cell(required) + " | " + cell(option["help"]) + " |\n";
     }
   }
   page += "\n## Formats of meshes\n| name | endings | | read | written |\n|---|---|---|---|---|\n";
@@ -232,10 +240,8 @@ std::string bash(const Json& usage) {
         pattern += (pattern.empty() ? "" : "|") + name.get<std::string>();
       }
       if (option["type"] == "choice") {
-        std::string choices;
-        for (const Json& choice : option["choices"])
-          choices += (choices.empty() ? "" : " ") + choice.get<std::string>();
-        cases += "        " + pattern + ") words='" + choices + "' ;;\n";
+        const std::string choices = joined(option["choices"], " ");
+        cases += glued({"        ", pattern, ") words='", choices, "' ;;\n"});
       } else if (option["type"] == "number" || option["type"] == "integer") {
         valued += (valued.empty() ? "" : "|") + pattern;
       }
@@ -279,9 +285,7 @@ std::string zsh(const Json& usage) {
         const bool opposite = name.get<std::string>().starts_with("--no-");
         spec += "[" + zshHelp((opposite ? "not: " : "") + option["help"].get<std::string>()) + "]";
         if (option["type"] == "choice") {
-          std::string choices;
-          for (const Json& choice : option["choices"])
-            choices += (choices.empty() ? "" : " ") + choice.get<std::string>();
+          const std::string choices = joined(option["choices"], " ");
           spec += ":value:(" + choices + ")";
         } else if (option["type"] == "file") {
           spec += ":file:_files";
@@ -301,8 +305,8 @@ std::string fish(const Json& usage) {
   const std::string verbs = verbsOf(usage);
   for (const Json& command : usage["commands"]) {
     const std::string verb = command["command"];
-    text += "complete -c coastmesh -n 'not __fish_seen_subcommand_from " + verbs + "' -f -a " + verb + " -d " +
-            singleQuoted(command["help"]) + "\n";
+    text += glued({"complete -c coastmesh -n 'not __fish_seen_subcommand_from ", verbs, "' -f -a ", verb, " -d ",
+                   singleQuoted(command["help"]), "\n"});
     for (const Json& option : command["options"]) {
       std::string line = "complete -c coastmesh -n '__fish_seen_subcommand_from " + verb + "'";
       for (const Json& name : option["names"]) {
@@ -310,9 +314,7 @@ std::string fish(const Json& usage) {
         line += word.starts_with("--") ? " -l " + word.substr(2) : " -s " + word.substr(1);
       }
       if (option["type"] == "choice") {
-        std::string choices;
-        for (const Json& choice : option["choices"])
-          choices += (choices.empty() ? "" : " ") + choice.get<std::string>();
+        const std::string choices = joined(option["choices"], " ");
         line += " -x -a " + singleQuoted(choices);
       } else if (option["type"] == "file") {
         line += " -r -F";

@@ -179,7 +179,7 @@ class RuleSet {
 
   // Calls `told(edge index, kind)` for edges that the rules say something of, in the layers' order.
   template <typename Told>
-  void apply(const Grid& grid, const std::vector<NodePair>& edges, Told&& told) const {
+  void apply(const Grid& grid, const std::vector<NodePair>& edges, const std::vector<bool>& outer, Told&& told) const {
     for (const Layer& layer : made_) {
       const bool as_is =
           grid.crs.isPlane() || !layer.raw->crs || layer.raw->crs->isPlane() || sameCrs(grid.crs, *layer.raw->crs);
@@ -198,6 +198,9 @@ class RuleSet {
           auto rule = pieces.along(edge, shrink);
           for (std::size_t r = layer.rules.size(); r-- > 0 && (!rule || r > *rule);) {
             const Rule& candidate = layer.rules[r];
+            // Islands stay closed where a polygon that opens the rim happens to hold them; a line along them is meant.
+            const bool opens = candidate.kind.role == BoundaryRole::Open || candidate.kind.role == BoundaryRole::River;
+            if (opens && !outer[e]) continue;
             if (candidate.polygon != nullptr && candidate.box.contains(Box::of(edge.middle(), edge.middle())) &&
                 contains(*candidate.polygon, edge.middle()))
               rule = r;
@@ -374,10 +377,11 @@ BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options) {
   std::vector<bool> told(rim.edges.size(), false);
   const auto applyFiles = [&](const std::vector<std::string>& files, bool all_have_it) {
     for (const std::string& file : files) {
-      RuleSet(file, options.column, all_have_it).apply(grid, rim.edges, [&](std::size_t e, const RimKind& kind) {
-        rim.kinds[e] = kind;
-        told[e] = true;
-      });
+      RuleSet(file, options.column, all_have_it)
+          .apply(grid, rim.edges, rim.outer, [&](std::size_t e, const RimKind& kind) {
+            rim.kinds[e] = kind;
+            told[e] = true;
+          });
     }
   };
   applyFiles(options.inputs, false);

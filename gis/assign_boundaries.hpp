@@ -13,7 +13,7 @@ namespace coastmesh {
 struct BoundaryOptions {
   // Vector files whose polygons and lines tell what the rim is: each edge whose middle lies in a polygon, or that runs
   // along a line (no point of it further off than a fifth of its length), is of the type that the feature's column
-  // says. Where several do, the last counts.
+  // says. Where several do, the last counts. Polygons open no islands; lines do.
   std::vector<std::string> files;
   std::string column;  // the column of types; empty: the first called type, role, boundary, ibtype or kind
   // The same for files whose features may lack the column: the input itself.

@@ -186,6 +186,7 @@ void readNodesOf(TextReader& file, std::uint64_t count, const NodeNumbers& numbe
 void closeLoop(Boundary& boundary) {
   const bool repeats = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
   boundary.closed = boundary.weir.empty() && (repeats || boundary.role == BoundaryRole::Island);
+  boundary.repeats_first = repeats;
   if (boundary.closed && repeats) boundary.nodes.pop_back();
 }
 

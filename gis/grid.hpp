@@ -30,6 +30,7 @@ struct Boundary {
   std::vector<std::uint32_t> nodes;
   int ibtype = -1;                          // ADCIRC's type where a file or the user says one, else -1: the role's own
   std::vector<std::uint32_t> back_nodes{};  // of a weir between two shores: the node across, one a node
+  bool repeats_first = false;               // a file's segment told its first node at its end again
   std::vector<double> weir{};               // of a weir: heights and coefficients, the same number a node
 };
 

@@ -44,7 +44,7 @@ void write2dm(const Grid& grid, const std::string& path) {
 }
 
 FormatRecord sms2dmFormat() {
-  return {{"2dm", {".2dm"}, "SMS 2dm for QGIS and TUFLOW, z positive up", true, true, true},
+  return {{"2dm", {".2dm"}, "SMS 2dm for QGIS and TUFLOW, z positive up", true, true},
           {write2dm, read2dm, withPrjBeside}};
 }
 

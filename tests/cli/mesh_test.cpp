@@ -54,15 +54,16 @@ TEST_F(MeshRun, FormatIsTakenWhereTheEndingDoesNotTell) {
 
 TEST_F(MeshRun, ReportHasItsKeys) {
   const Json json = report();
-  EXPECT_EQ(keysOf(json), (std::set<std::string>{"coastmesh", "input", "clean", "refine", "mesh", "depth", "time_s",
-                                                 "parallel", "peak_memory_mib", "threads"}));
+  EXPECT_EQ(keysOf(json), (std::set<std::string>{"coastmesh", "input", "clean", "refine", "mesh", "depth", "boundaries",
+                                                 "repairs", "time_s", "parallel", "peak_memory_mib", "threads"}));
   EXPECT_EQ(keysOf(json["parallel"]),
             (std::set<std::string>{"work_s", "critical_path_s", "speedup", "meshing", "stages"}));
   EXPECT_EQ(keysOf(json["parallel"]["speedup"]), (std::set<std::string>{"2", "8", "64"}));
   EXPECT_FALSE(json["parallel"]["stages"].empty());
   EXPECT_EQ(keysOf(json["input"]),
-            (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
-                                   "projection", "projections", "area_m2", "refused", "warnings"}));
+            (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points",
+                                   "filtered", "beyond_frame", "notes", "crs", "projection", "projections", "area_m2",
+                                   "refused", "warnings"}));
   EXPECT_EQ(keysOf(json["refine"]),
             (std::set<std::string>{"algorithm", "min_angle_deg", "max_angle_deg", "size_max_m", "sized", "grade",
                                    "shrink", "smooth", "steiner_points", "by_type", "segment_splits", "relocations",
@@ -73,7 +74,7 @@ TEST_F(MeshRun, ReportHasItsKeys) {
             (std::set<std::string>{"vertices", "triangles", "area_m2", "min_angle_deg", "max_angle_deg", "below_bound",
                                    "below_bound_explained", "angle_histogram", "digest"}));
   EXPECT_EQ(keysOf(json["time_s"]), (std::set<std::string>{"read", "clean", "size", "triangulate", "refine", "shrink",
-                                                           "fit", "stitch", "check", "write", "total"}));
+                                                           "fit", "stitch", "check", "finish", "write", "total"}));
 }
 
 TEST_F(MeshRun, ReportAgreesWithItself) {

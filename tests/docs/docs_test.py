@@ -61,7 +61,10 @@ class Folder:
                 for name in ("lakes", "sea"):
                     shutil.copy(os.path.join(SOURCES, f"data/lake_superior.{ending}"),
                                 os.path.join(self.path, f"{name}.{ending}"))
-            self.run("coastmesh clean lake.geojson -o lakes.gpkg && coastmesh mesh lake.geojson -o grid.2dm")
+            # Depths over all of the lake.
+            self.run("gdal_create -q -of GTiff -ot Float32 -outsize 20 20 -a_srs EPSG:4326 -a_ullr -93 50 -83 45 -burn -50 dem.tif")
+            self.run("coastmesh clean lake.geojson -o lakes.gpkg && coastmesh mesh lake.geojson -o grid.2dm "
+                     "&& coastmesh mesh lake.geojson --target adcirc -o fort.14")
 
     def run(self, script, interpreter=("bash", "-euo", "pipefail", "-c")):
         run = subprocess.run([*interpreter, script], cwd=self.path, env=self.environment, capture_output=True, text=True,

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gis/grid.hpp"
+
+namespace coastmesh {
+
+// Models that a grid may be for.
+enum class Target { Adcirc, Schism, Fvcom, Telemac, Dflowfm, Swan };
+inline constexpr std::array kTargetNames{"adcirc", "schism", "fvcom", "telemac", "dflowfm", "swan"};
+
+// What makes a model refuse a grid.
+enum class TargetDefectKind {
+  WrongCount,      // a file says of itself what is not so
+  BrokenEdge,      // an edge of three triangles, or of two that go round differently
+  Clockwise,       // a triangle that goes clockwise, or has no area
+  UnusedNode,      // a node of no triangle
+  RepeatedNode,    // two nodes in one place
+  HangingNode,     // a node on the edge of a triangle that is not its corner
+  PinchedNode,     // the mesh touches itself in a node
+  OrphanCell,      // a triangle without a neighbour
+  UnknownDepth,    // a node without a depth
+  NoBoundary,      // an edge of the rim in no boundary
+  BoundaryOffRim,  // two nodes of a boundary that follow one another and are no edge of the rim
+  BoundaryTwice,   // an edge of the rim in two boundaries
+  BoundaryTurned,  // a boundary with the mesh to its right
+  LoopedBoundary,  // an open boundary, or the outer shore, that ends where it starts
+  WrongShore,      // an outer shore that says it is an island, or the other way round
+  TwoOpenEdges,    // a triangle with two open edges
+  OpenAndSolid,    // a triangle with an open edge and a solid one
+  LoneWall,        // a single solid edge between two openings, which codes at nodes cannot say
+  Valence,         // an inner node with fewer than 4 or more than 10 triangles
+  LargeAngle,      // an angle above 143 degrees
+  NotOrthogonal,   // an edge that the line between the neighbours' centres crosses askew
+  Courant,         // a triangle whose Courant number the time step puts out of range
+};
+inline constexpr std::size_t kTargetDefectKinds = 22;
+std::string_view toString(TargetDefectKind kind);
+
+struct TargetDefect {
+  TargetDefectKind kind;
+  Point place;                 // in the grid's CRS
+  std::int64_t triangle = -1;  // index, -1 where none is meant
+  std::int64_t node = -1;      // the same
+  double value = 0.0;          // degrees, triangles round a node, a cosine, a Courant number
+  std::string text;            // of WrongCount
+};
+
+struct TargetCheckOptions {
+  double time_step_s = 0.0;  // seconds; 0: Courant numbers are not looked at
+};
+
+// Everything that makes the model refuse the grid, by kind; boundaries are taken as they stand. Bounds: angles up to
+// 143 degrees and 4 to 10 triangles round an inner node for SWAN; cosines of at most 0.5 for D-FlowFM; Courant numbers
+// of sqrt(g depth) over the shortest edge of at most 1 for ADCIRC, FVCOM, TELEMAC and D-FlowFM, at least 0.4 for
+// SCHISM.
+std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {});
+
+// D-FlowFM's measure at the edge from `a` to `b` between triangles with apexes `left` and `right`: the cosine of the
+// angle between the edge and the line from centre to centre. A centre is that of the circle through the corners, or
+// where it would leave the triangle, the place where the way there from the centre of gravity crosses the rim.
+double orthogonality(const Point& a, const Point& b, const Point& left, const Point& right);
+
+}  // namespace coastmesh
