@@ -61,8 +61,8 @@ TEST_F(MeshRun, ReportHasItsKeys) {
   EXPECT_FALSE(json["parallel"]["stages"].empty());
   EXPECT_EQ(keysOf(json["input"]),
             (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
-                                   "projection", "projection_reason", "scale", "projections", "area_m2", "refused", "filtered",
-                                   "beyond_frame", "notes", "warnings"}));
+                                   "projection", "projection_reason", "scale", "projections", "area_m2", "refused",
+                                   "filtered", "beyond_frame", "notes", "warnings"}));
   EXPECT_EQ(keysOf(json["refine"]),
             (std::set<std::string>{"algorithm", "min_angle_deg", "max_angle_deg", "size_max_m", "sized", "grade",
                                    "shrink", "smooth", "steiner_points", "by_type", "segment_splits", "relocations",
