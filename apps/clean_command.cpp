@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "apps/commands.hpp"
@@ -9,8 +13,10 @@
 #include "apps/job_input.hpp"
 #include "apps/staged_file.hpp"
 #include "apps/vector_output.hpp"
+#include "gis/cleaned_layers.hpp"
 #include "gis/error.hpp"
 #include "gis/poly_io.hpp"
+#include "gis/segment_tags.hpp"
 
 namespace coastmesh {
 
@@ -53,29 +59,106 @@ std::int64_t fidOf(RegionId region, const Coastline& coastline) {
   return region < 0 ? -1 : coastline.features[static_cast<std::size_t>(region)].fid;
 }
 
-VectorLayer pslgLayer(const CleanedInput& cleaned, const Coastline& coastline) {
-  VectorLayer layer;
-  layer.name = "pslg";
-  layer.kind = VectorLayer::Kind::Lines;
-  layer.fields = {{"region", std::int64_t{}}, {"left_fid", std::int64_t{}}, {"right_fid", std::int64_t{}}};
+const char* kindOf(const Segment& segment) {
+  switch (segment.tag) {
+    case kOpenTag:
+      return "open";
+    case kConstraintTag:
+    case kRegionTag:
+      return "constraint";
+    case kWeirTag:
+      return "weir";
+    default:
+      return segment.left < 0 || segment.right < 0 ? "shore" : "border";
+  }
+}
+
+bool lexLessPair(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return a == c ? lexLess(b, d) : lexLess(a, c);
+}
+
+// An edge of the graph from its lesser end on.
+struct PslgEdge {
+  Point a, b;
+  const char* kind;
+  std::size_t domain;
+  std::int64_t left_fid, right_fid;
+};
+
+// The edges by their places, whatever order they were found in, so that a cleaned file that is cleaned again comes out the
+// same.
+std::vector<PslgEdge> sortedEdges(const CleanedInput& cleaned, const Coastline& coastline) {
+  std::vector<PslgEdge> edges;
   for (std::size_t d = 0; d < cleaned.domains.size(); ++d) {
     const Domain& domain = cleaned.domains[d];
     for (const Segment& s : domain.pslg.segments) {
-      layer.shapes.push_back({{domain.input_points[s.a], domain.input_points[s.b]},
-                              {static_cast<std::int64_t>(d), fidOf(s.left, coastline), fidOf(s.right, coastline)}});
+      PslgEdge edge{domain.input_points[s.a], domain.input_points[s.b], kindOf(s), d,
+                    fidOf(s.left, coastline), fidOf(s.right, coastline)};
+      if (lexLess(edge.b, edge.a)) std::swap(edge.a, edge.b), std::swap(edge.left_fid, edge.right_fid);
+      edges.push_back(edge);
     }
+  }
+  std::ranges::sort(edges, [](const PslgEdge& e, const PslgEdge& f) { return lexLessPair(e.a, e.b, f.a, f.b); });
+  return edges;
+}
+
+VectorLayer pslgLayer(const CleanedInput& cleaned, const Coastline& coastline) {
+  VectorLayer layer;
+  layer.name = kPslgLayer;
+  layer.kind = VectorLayer::Kind::Lines;
+  layer.fields = {
+      {"kind", std::string()}, {"region", std::int64_t{}}, {"left_fid", std::int64_t{}}, {"right_fid", std::int64_t{}}};
+  std::map<std::size_t, std::int64_t> number_of;  // domains in the order of their first edges
+  for (const PslgEdge& edge : sortedEdges(cleaned, coastline)) {
+    const auto [number, made] = number_of.try_emplace(edge.domain, static_cast<std::int64_t>(number_of.size()));
+    layer.shapes.push_back({{edge.a, edge.b}, {std::string(edge.kind), number->second, edge.left_fid, edge.right_fid}});
   }
   return layer;
 }
 
-VectorLayer editLayer(const CleanReport& report) {
-  VectorLayer layer;
-  layer.name = "edits";
-  layer.fields = {{"kind", std::string()}, {"fid_of_feature", std::int64_t{}}};
+// What was changed, now or when the file was cleaned before: the same edit found again counts once.
+VectorLayer editLayer(const CleanReport& report, const ReadReport& read) {
+  const auto less = [](const EarlierEdit& a, const EarlierEdit& b) {
+    return std::tie(a.kind, a.place.x, a.place.y, a.fid) < std::tie(b.kind, b.place.x, b.place.y, b.fid);
+  };
+  std::vector<EarlierEdit> before = read.edits, now, all;
   for (const Edit& edit : report.edits) {
-    layer.shapes.push_back({{edit.place}, {std::string(toString(edit.kind)), edit.fid}});
+    // These change nothing: what there is of them in a cleaned file was told when it was cleaned.
+    if (read.cleaned && (edit.kind == EditKind::TouchingRing || edit.kind == EditKind::MisplacedRing)) continue;
+    now.push_back({std::string(toString(edit.kind)), edit.place, edit.fid});
   }
+  std::ranges::sort(before, less);
+  std::ranges::sort(now, less);
+  std::ranges::set_union(before, now, std::back_inserter(all), less);
+  VectorLayer layer;
+  layer.name = kEditLayer;
+  layer.fields = {{"kind", std::string()}, {"fid_of_feature", std::int64_t{}}};
+  for (const EarlierEdit& edit : all) layer.shapes.push_back({{edit.place}, {edit.kind, edit.fid}});
   return layer;
+}
+
+// Vertices asked for that no edge has.
+VectorLayer vertexLayer(const CleanedInput& cleaned) {
+  VectorLayer layer;
+  layer.name = kVertexLayer;
+  for (const Domain& domain : cleaned.domains) {
+    std::vector<char> used(domain.pslg.points.size(), 0);
+    for (const Segment& s : domain.pslg.segments) used[s.a] = used[s.b] = 1;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) layer.shapes.push_back({{domain.input_points[v]}, {}});
+    }
+  }
+  std::ranges::sort(layer.shapes, [](const VectorShape& a, const VectorShape& b) {
+    return lexLess(a.points.front(), b.points.front());
+  });
+  return layer;
+}
+
+std::vector<VectorLayer> layersOf(const CleanedInput& cleaned, const JobInput& input) {
+  std::vector<VectorLayer> layers{pslgLayer(cleaned, input.coastline()), editLayer(cleaned.report, input.report())};
+  VectorLayer vertices = vertexLayer(cleaned);
+  if (!vertices.shapes.empty()) layers.push_back(std::move(vertices));
+  return layers;
 }
 
 // All groups in one graph. A .poly knows no projection, so they have to share a plane.
@@ -126,10 +209,8 @@ int runClean(const CleanUsage& usage, Interrupt& interrupt) {
     const Pslg pslg = joinedPslg(cleaned, usage, input.coastline().crs);
     output.make([&pslg](const std::string& path) { writePoly(pslg, path); });
   } else {
-    output.make([&](const std::string& path) {
-      writeVectorLayers(path, input.coastline().crs,
-                        {pslgLayer(cleaned, input.coastline()), editLayer(cleaned.report)});
-    });
+    output.make(
+        [&](const std::string& path) { writeVectorLayers(path, input.coastline().crs, layersOf(cleaned, input)); });
   }
   interrupt.close();
   output.commit();

@@ -25,6 +25,8 @@ void declareInputOptions(CommandLine& line, InputOptions& options) {
   line.texts("--weirs", options.weirs, kVectorFile, false,
              "lines in the water that become edges of the mesh, marked as weirs");
   line.texts("--regions", options.regions, kVectorFile, false, "polygons that mark the triangles in them");
+  line.flag("--dissolve", options.dissolve,
+            "polygons that share an edge become one: lakes cut at a map sheet or a meridian leave no trace");
   line.number("--snap", options.snap_m, "M", kNotNegative,
               "points nearer than this become one; in a plane only where it is given", &options.snap_in_plane);
   line.number("--simplify", options.simplify_m, "M", kNotNegative,

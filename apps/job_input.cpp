@@ -153,6 +153,7 @@ Domain JobInput::domain(std::size_t group, CleanReport& report) const {
   clean.snap_m = in_plane && !options_.snap_in_plane ? 0.0 : options_.snap_m;
   clean.simplify_m = options_.simplify_m;
   clean.min_island_area_m2 = options_.min_island_area_m2;
+  clean.dissolve = options_.dissolve;
   return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report);
 }
 

@@ -29,6 +29,7 @@ struct InputOptions {
   double snap_m = 0.001;                 // metres, 0 or more
   bool snap_in_plane = false;            // `snap_m` holds for a plane input too, where else nothing is snapped
   double simplify_m = 0.0;               // metres, 0 or more
+  bool dissolve = false;                 // features that share an edge become one
   double min_island_area_m2 = 0.0;       // square metres, 0 or more
 };
 

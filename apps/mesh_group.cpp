@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <sstream>
+#include <tuple>
 
 #include "apps/places.hpp"
 #include "apps/stopwatch.hpp"
 #include "core/check.hpp"
 #include "core/delaunay.hpp"
+#include "gis/chain_index.hpp"
 #include "gis/error.hpp"
 #include "gis/poly_io.hpp"
 #include "parallel/recorder.hpp"
@@ -25,6 +29,19 @@ Point centreOf(const Pslg& pslg) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   return {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
+}
+
+// Least and greatest scale at (a sample of) the points: a scale has its greatest on the rim of what is mapped.
+std::pair<double, double> scaleRange(const Domain& domain) {
+  constexpr std::size_t kSample = 4096;
+  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  const std::size_t step = std::max<std::size_t>(1, domain.pslg.points.size() / kSample);
+  for (std::size_t i = 0; i < domain.pslg.points.size(); i += step) {
+    const double scale = domain.projection.scaleAt(domain.pslg.points[i]);
+    least = std::min(least, scale);
+    greatest = std::max(greatest, scale);
+  }
+  return {least, greatest};
 }
 
 MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t budget) {
@@ -66,6 +83,58 @@ void placeShortfalls(const RefineStats& stats, const Projection& projection, Gro
   }
 }
 
+// What a region is called: its attribute "tag", "region" or "name", else the number of its feature.
+std::string regionName(const Feature& feature) {
+  for (const std::string_view wanted : {"tag", "region", "name"}) {
+    for (const auto& [key, value] : feature.attributes) {
+      if (key == wanted) return value;
+    }
+  }
+  return std::to_string(feature.fid);
+}
+
+// Triangles in a region belong to a part of their feature that says so. Borders of regions are edges of the mesh, so that
+// each triangle lies in one as a whole; of several regions the first counts.
+void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
+                 TriMesh& mesh, Coastline& names) {
+  std::vector<std::pair<std::size_t, ChainIndex>> regions;
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    if (feature.use != FeatureUse::Region) continue;
+    ChainIndex index(ChainIndex::Kind::Rings);
+    const auto add = [&](Ring ring) {
+      for (Point& p : ring) p = projection.forward(p);
+      index.add(ring);
+    };
+    for (const Polygon& polygon : feature.polygons) {
+      add(polygon.outer);
+      for (const Ring& hole : polygon.holes) add(hole);
+    }
+    index.build();
+    if (index.edgeCount() > 0) regions.emplace_back(member, std::move(index));
+  }
+  std::map<std::pair<RegionId, std::size_t>, RegionId> parts;
+  for (std::size_t t = 0; t < mesh.triangles.size() && !regions.empty(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t].v;
+    const Point centre{(mesh.points[a].x + mesh.points[b].x + mesh.points[c].x) / 3,
+                       (mesh.points[a].y + mesh.points[b].y + mesh.points[c].y) / 3};
+    const auto holds = [&](const auto& region) {
+      return region.second.bounds().contains(Box::of(centre, centre)) &&
+             region.second.locate(centre) == Location::Inside;
+    };
+    const auto region = std::ranges::find_if(regions, holds);
+    if (region == regions.end()) continue;
+    const auto [part, made] =
+        parts.try_emplace({mesh.regions[t], region->first}, static_cast<RegionId>(names.features.size()));
+    if (made) {
+      Feature name = names.features[static_cast<std::size_t>(mesh.regions[t])];
+      name.region = regionName(coastline.features[region->first]);
+      names.features.push_back(std::move(name));
+    }
+    mesh.regions[t] = part->second;
+  }
+}
+
 // The group's part of the grid. It is given its own features alone, so that the work does not grow with the square of
 // their number.
 Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh, const ItemLoop& loop) {
@@ -84,6 +153,7 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
       region =
           static_cast<RegionId>(std::ranges::lower_bound(members, static_cast<std::size_t>(region)) - members.begin());
     }
+    markRegions(input.coastline(), members, domain.projection, mesh, names);
   }
   Grid grid = makeGrid({{&domain, &mesh}}, names, loop);
   grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
@@ -100,6 +170,8 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   result.notes = std::move(clean.notes);
   clean = {};
   result.projection = domain.projection.description();
+  result.projection_reason = domain.projection.reason();
+  std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain);
   result.input_area_m2 = input.area(group, domain);
   result.clean_s = cleaning.seconds();
   result.log.append(clean_recorder.finish("clean"));

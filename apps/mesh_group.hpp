@@ -9,6 +9,8 @@ struct GroupResult {
   Grid grid;  // its CRS is left out
   std::array<std::uint64_t, kEditKinds> edits{};
   std::string projection;
+  std::string projection_reason;
+  double least_scale = 1.0, greatest_scale = 1.0;  // plane length over true length, at the vertices
   RefineStats refine;
   std::uint64_t unresolved = 0;
   std::vector<ShortfallPlace> unresolved_places;

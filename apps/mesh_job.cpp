@@ -120,7 +120,12 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
     small_groups.items.push_back(part.log.work());
   }
   ++result.projections[part.projection.substr(0, part.projection.find(','))];
-  if (result.regions == 1) result.first_projection = part.projection;
+  if (result.regions == 1) {
+    result.first_projection = part.projection;
+    result.first_projection_reason = part.projection_reason;
+  }
+  result.least_scale = std::min(result.least_scale, part.least_scale);
+  result.greatest_scale = std::max(result.greatest_scale, part.greatest_scale);
   result.refine.add(part.refine);
   result.unresolved += part.unresolved;
   for (const ShortfallPlace& place : part.unresolved_places) {

@@ -77,10 +77,12 @@ struct MeshJobResult {
   std::array<std::uint64_t, kEditKinds> edits{};
   std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
   std::string first_projection;                      // of the first region, with its parameters
-  std::uint64_t regions = 0;                         // groups of features that were meshed
-  std::uint64_t pieces = 0;                          // that they were cut into
-  WorkLog log;                                       // groups that were cut, one after another, then the others
-  RefineStats refine;                                // `unresolved` is empty: see below
+  std::string first_projection_reason;
+  double least_scale = std::numeric_limits<double>::infinity(), greatest_scale = 0.0;  // plane over true length
+  std::uint64_t regions = 0;  // groups of features that were meshed
+  std::uint64_t pieces = 0;   // that they were cut into
+  WorkLog log;                // groups that were cut, one after another, then the others
+  RefineStats refine;         // `unresolved` is empty: see below
   std::uint64_t unresolved = 0;
   std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them
   std::vector<Refusal> refusals;

@@ -33,6 +33,8 @@ Json inputSection(const MeshJob& job, const MeshJobResult& result) {
           {"skipped_points", result.read.skipped_points},
           {"crs", nameOf(result.crs)},
           {"projection", result.regions == 1 ? Json(result.first_projection) : Json(nullptr)},
+          {"projection_reason", result.regions == 1 ? Json(result.first_projection_reason) : Json(nullptr)},
+          {"scale", {{"least", finiteOrNull(result.least_scale)}, {"greatest", finiteOrNull(result.greatest_scale)}}},
           {"projections", std::move(projections)},
           {"area_m2", orNull(result.input_area_m2)},
           {"refused", std::move(refused)},

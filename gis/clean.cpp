@@ -113,6 +113,8 @@ std::string_view toString(EditKind kind) {
       return "misplaced ring";
     case EditKind::OutsideWater:
       return "point outside the water";
+    case EditKind::DissolvedEdge:
+      return "dissolved edge";
   }
   assert(false);
   return "";
@@ -123,9 +125,10 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
   const std::size_t edits_before = report.edits.size();
   CleanChains chains = makeChains(coastline, members, projection, options, report);
   const NodedEdges edges = nodeChains(chains, coastline, projection, report);
-  LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, report);
+  LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report);
   refuseEmpty(coastline, members, labelled.segments);
   keepFramedEdits(coastline, members, edits_before, report);
+  if (options.dissolve) labelled.segments = dropTraces(chains.vertices, labelled, coastline, projection, report);
   if (options.simplify_m > 0) {
     labelled.segments = simplifyEdges(chains.vertices, labelled, coastline, projection, options.simplify_m, report);
   }

@@ -17,6 +17,7 @@ struct CleanOptions {
   double snap_m = 0.001;            // metres, 0 or more: points nearer than this become one (0 for a plane input)
   double simplify_m = 0.0;          // metres, 0 or more: no shore is moved further than this; see `simplifyEdges`
   double min_island_area_m2 = 0.0;  // square metres, 0 or more: smaller holes are filled
+  bool dissolve = false;            // areas that share an edge become one, and the edge goes
 };
 
 enum class EditKind {
@@ -32,8 +33,9 @@ enum class EditKind {
   FeaturesOverlap,  // a place lies in two features: the first of them keeps it; the edit names the other
   MisplacedRing,    // a hole outside its outer ring, or an outer ring inside another: taken by the even-odd rule
   OutsideWater,     // a point asked for as a vertex lies outside of the domain: dropped
+  DissolvedEdge,    // an edge between two features, or a vertex that only such an edge had made: dropped by `dissolve`
 };
-inline constexpr std::size_t kEditKinds = 12;
+inline constexpr std::size_t kEditKinds = 13;
 std::string_view toString(EditKind kind);  // "repeated point"
 
 // One change made to the input.

@@ -59,13 +59,15 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
   return chains;
 }
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
 void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, CleanReport& report) {
   std::vector<TouchChain> touching;
   touching.reserve(chains.size());
   for (InputChain& chain : chains) {
     touching.push_back({&chain.points, chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole});
   }
-  for (const Touch& touch : insertTouchingPoints(touching)) {
+  for (const Touch& touch : insertTouchingPoints(touching, coastline.crs.geographic ? 180 : kNoLimit)) {
     if (coastline.features[chains[touch.chain].feature].use == FeatureUse::Frame) continue;
     report.add(EditKind::OverlappingEdge, touch.place, coastline.features[chains[touch.chain].feature].fid);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "gis/face_locator.hpp"
 #include "gis/planar_map.hpp"
 #include "gis/segment_tags.hpp"
+#include "gis/union_find.hpp"
 
 namespace coastmesh {
 
@@ -26,11 +28,12 @@ struct MapEdge {
 class Labeller {
  public:
   Labeller(const CleanChains& chains, const NodedEdges& noded, const Coastline& coastline, const Projection& projection,
-           CleanReport& report)
+           bool dissolve, CleanReport& report)
       : chains_(chains),
         noded_(noded),
         coastline_(coastline),
         projection_(projection),
+        dissolve_(dissolve),
         report_(report),
         ends_(listEdges()),
         map_(chains.vertices.plane, ends_) {
@@ -42,9 +45,11 @@ class Labeller {
   LabelledEdges run() {
     fillFaces();
     if (chains_.coast) findWaterFaces();
-    tellOverlaps();
+    if (!dissolve_) tellOverlaps();
     tellMisplacedRings();
-    LabelledEdges result{keepEdges(), {}};
+    LabelledEdges result;
+    if (dissolve_) result.traces = dissolve();
+    result.segments = keepEdges();
     tellPinches(result.segments);
     result.points = keepPoints(result.segments);
     return result;
@@ -121,7 +126,38 @@ class Labeller {
       return holder == kOutside ? static_cast<RegionId>(first_coast_) : holder;
     }
     if (chains_.land) return holderOf(face, FeatureUse::Land) == kOutside ? frame : kOutside;
-    return holderOf(face, FeatureUse::Area);
+    const RegionId area = holderOf(face, FeatureUse::Area);
+    return area == kOutside || one_.empty() ? area : one_.at(static_cast<std::uint32_t>(area));
+  }
+
+  // Makes features that share an edge one; the vertices of those edges.
+  std::vector<VertexId> dissolve() {
+    std::vector<VertexId> traces;
+    if (chains_.land || chains_.coast) return traces;
+    std::vector<std::uint32_t> features;
+    for (const CleanChain& chain : chains_.chains) features.push_back(chain.feature);
+    for (const FeatureSet& holders : holders_) features.insert(features.end(), holders.begin(), holders.end());
+    std::ranges::sort(features);
+    features.erase(std::unique(features.begin(), features.end()), features.end());
+    const auto numberOf = [&](RegionId feature) {
+      return static_cast<std::uint32_t>(std::ranges::lower_bound(features, static_cast<std::uint32_t>(feature)) -
+                                        features.begin());
+    };
+    UnionFind sets(features.size());
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      const RegionId left = label(map_.faceOf(2 * e)), right = label(map_.faceOf(2 * e + 1));
+      if (left == right || left == kOutside || right == kOutside) continue;
+      sets.unite(numberOf(left), numberOf(right));
+      report_.add(EditKind::DissolvedEdge, inputOf(ends_[e].first),
+                  fidOf(static_cast<std::uint32_t>(std::max(left, right))));
+      traces.insert(traces.end(), {ends_[e].first, ends_[e].second});
+    }
+    for (std::uint32_t i = 0; i < features.size(); ++i) {
+      one_[features[i]] = static_cast<RegionId>(features[sets.find(i)]);
+    }
+    std::ranges::sort(traces);
+    traces.erase(std::unique(traces.begin(), traces.end()), traces.end());
+    return traces;
   }
 
   void findWaterFaces() {
@@ -165,17 +201,30 @@ class Labeller {
     std::vector<Segment> segments;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       const RegionId left = label(map_.faceOf(2 * e)), right = label(map_.faceOf(2 * e + 1));
-      if (left == right && (left == kOutside || edges_[e].line == kNone)) continue;
+      if (left == right && (left == kOutside || !staysInside(edges_[e]))) continue;
       segments.push_back({ends_[e].first, ends_[e].second, tagOf(edges_[e], left, right), left, right});
     }
     return segments;
   }
 
+  bool ofRegion(const MapEdge& edge) const {
+    for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
+      if (!isLine(noded_.uses[u]) && useOf(featureOf(noded_.uses[u])) == FeatureUse::Region) return true;
+    }
+    return false;
+  }
+
+  bool staysInside(const MapEdge& edge) const {
+    return (edge.line != kNone && useOf(edge.line) != FeatureUse::Open) || ofRegion(edge);
+  }
+
   std::int32_t tagOf(const MapEdge& edge, RegionId left, RegionId right) const {
+    if (left == right && ofRegion(edge)) return kRegionTag;
     if (left == right) return useOf(edge.line) == FeatureUse::Weir ? kWeirTag : kConstraintTag;
     if (left != kOutside && right != kOutside) return 0;
     for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
-      if (useOf(featureOf(noded_.uses[u])) == FeatureUse::Frame) return kOpenTag;
+      const FeatureUse use = useOf(featureOf(noded_.uses[u]));
+      if (use == FeatureUse::Frame || use == FeatureUse::Open) return kOpenTag;
     }
     return 0;
   }
@@ -267,20 +316,22 @@ class Labeller {
   const NodedEdges& noded_;
   const Coastline& coastline_;
   const Projection& projection_;
+  bool dissolve_;
   CleanReport& report_;
   std::uint32_t first_coast_ = kNone;
   std::vector<MapEdge> edges_;
   std::vector<std::pair<VertexId, VertexId>> ends_;
   PlanarMap map_;
   std::vector<FeatureSet> holders_;
-  std::vector<char> water_;  // by face, where there are coasts
+  std::map<std::uint32_t, RegionId> one_;  // by feature: the first of those it is one with; empty: each is its own
+  std::vector<char> water_;                // by face, where there are coasts
 };
 
 }  // namespace
 
 LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
-                         const Projection& projection, CleanReport& report) {
-  return Labeller(chains, edges, coastline, projection, report).run();
+                         const Projection& projection, bool dissolve, CleanReport& report) {
+  return Labeller(chains, edges, coastline, projection, dissolve, report).run();
 }
 
 }  // namespace coastmesh

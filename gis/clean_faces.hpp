@@ -12,12 +12,14 @@ namespace coastmesh {
 struct LabelledEdges {
   std::vector<Segment> segments;  // tagged: see segment_tags.hpp
   std::vector<VertexId> points;
+  std::vector<VertexId> traces;  // vertices of edges that were dissolved, ascending
 };
 
 // Labels the faces between noded edges: a face belongs to the first feature that holds it by the even-odd rule, within
-// the frame where there is one; framed water belongs to the frame. What is dropped goes to the report. Throws
+// the frame where there is one; framed water belongs to the frame. With `dissolve` features that share an edge are one,
+// the first of them. What is dropped goes to the report. Throws
 // InputError where coasts do not tell water from land.
 LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
-                         const Projection& projection, CleanReport& report);
+                         const Projection& projection, bool dissolve, CleanReport& report);
 
 }  // namespace coastmesh

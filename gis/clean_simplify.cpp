@@ -8,6 +8,7 @@
 
 #include "core/predicates.hpp"
 #include "gis/box_tree.hpp"
+#include "gis/segment_tags.hpp"
 
 namespace coastmesh {
 
@@ -57,6 +58,14 @@ class Simplifier {
     tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
   }
 
+  // Lets only those go for which `may(v, p, q)` holds, with its neighbours p and q.
+  template <typename May>
+  void restrictTo(May&& may) {
+    for (VertexId v = 0; v < links_.size(); ++v) {
+      if (!removable(v) || !may(v, other(links_[v].segment[0], v), other(links_[v].segment[1], v))) kept_.insert(v);
+    }
+  }
+
   template <typename Dropped>
   std::vector<Segment> run(Dropped&& dropped) {
     for (VertexId v = 0; v < links_.size(); ++v) enqueue(v);
@@ -99,9 +108,10 @@ class Simplifier {
   }
 
   bool removable(VertexId v) const {
-    if (links_[v].degree != 2) return false;
+    if (links_[v].degree != 2 || kept_.contains(v)) return false;
     const auto [first, second] = links_[v].segment;
-    if (pieces_[first].segment.tag != pieces_[second].segment.tag) return false;
+    const std::int32_t tag = pieces_[first].segment.tag;
+    if (tag != pieces_[second].segment.tag || tag == kRegionTag) return false;
     const auto [left, right] = labelsFrom(first, v);
     if (labelsFrom(second, v) != std::pair(right, left)) return false;
     const VertexId p = other(first, v), q = other(second, v);
@@ -187,6 +197,7 @@ class Simplifier {
   std::vector<Link> links_;
   std::vector<Piece> pieces_;
   std::unordered_set<std::uint64_t> ends_;  // of living pieces
+  std::unordered_set<VertexId> kept_;       // not to be dropped whatever their place
   BoxTree tree_;
   std::priority_queue<Entry> queue_;
 };
@@ -200,6 +211,22 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
     report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline.features[feature].fid);
+  });
+}
+
+std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
+                                const Projection& projection, CleanReport& report) {
+  constexpr double kFarthest = 1000;                            // metres; the input's coordinates decide
+  const double grain = coastline.crs.geographic ? 1e-7 : 0.01;  // degrees, metres
+  Simplifier simplifier(vertices, edges, projection, kFarthest);
+  simplifier.restrictTo([&](VertexId v, VertexId p, VertexId q) {
+    if (!std::ranges::binary_search(edges.traces, v)) return false;
+    const Point &a = vertices.input[p], &b = vertices.input[q];
+    return std::abs(a.x - b.x) < 180 && squaredDistance(vertices.input[v], a, b) <= grain * grain;
+  });
+  return simplifier.run([&](VertexId v, const Segment& segment) {
+    const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
+    report.add(EditKind::DissolvedEdge, vertices.input[v], coastline.features[feature].fid);
   });
 }
 

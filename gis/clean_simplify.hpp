@@ -18,4 +18,9 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
                                    const Coastline& coastline, const Projection& projection, double tolerance_m,
                                    CleanReport& report);
 
+// Drops those of `edges.traces` that lie on the straight line between their neighbours in the input's coordinates, to a
+// centimetre: where polygons were cut apart, the cut left a vertex in the shore. Topology is kept as above.
+std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
+                                const Projection& projection, CleanReport& report);
+
 }  // namespace coastmesh

@@ -28,7 +28,7 @@ struct Insertion {
 
 class Toucher {
  public:
-  explicit Toucher(const std::vector<TouchChain>& chains) : chains_(chains) {
+  Toucher(const std::vector<TouchChain>& chains, double widest) : chains_(chains), widest_(widest) {
     for (std::uint32_t c = 0; c < chains.size(); ++c) {
       const std::size_t n = chains[c].points->size(), edges = chains[c].closed || n == 0 ? n : n - 1;
       for (std::uint32_t i = 0; i < edges; ++i) edges_.push_back({c, i});
@@ -63,20 +63,22 @@ class Toucher {
 
   void test(const ChainEdge& edge, const Box& box, const Point& p) {
     const Point &a = start(edge), &b = end(edge);
-    if (p == a || p == b || !box.meets({p.x, p.y, p.x, p.y}) || orient2d(a, b, p) != 0) return;
+    if (box.xmax - box.xmin > widest_ || p == a || p == b || !box.meets({p.x, p.y, p.x, p.y}) || orient2d(a, b, p) != 0)
+      return;
     const bool by_x = box.xmax - box.xmin >= box.ymax - box.ymin;
     found_.push_back({edge, by_x ? std::abs(p.x - a.x) : std::abs(p.y - a.y), p});
   }
 
   const std::vector<TouchChain>& chains_;
+  double widest_;
   std::vector<ChainEdge> edges_;
   std::vector<Insertion> found_;
 };
 
 }  // namespace
 
-std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains) {
-  const std::vector<Insertion> insertions = Toucher(chains).find();
+std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains, double widest) {
+  const std::vector<Insertion> insertions = Toucher(chains, widest).find();
   std::vector<Touch> touches;
   for (auto first = insertions.begin(); first != insertions.end();) {
     const std::uint32_t chain = first->edge.chain;

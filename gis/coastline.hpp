@@ -28,6 +28,7 @@ enum class FeatureUse {
   Constraint,  // lines and points that become edges and vertices where they lie in water
   Weir,        // the same for lines that are weirs
   Region,      // polygons that give the triangles in them a region
+  Open,        // lines: where they run along the rim, open water goes on beyond
 };
 
 // One feature of a vector layer.
@@ -39,7 +40,8 @@ struct Feature {
   std::vector<std::pair<std::string, std::string>> attributes;  // name, value as text; nulls are left out
   FeatureUse use = FeatureUse::Area;
   bool from_lines = false;    // its rings were made of lines
-  bool clipped = false;       // far-off parts of it were cut off
+  bool clipped = false;       // far-off parts of it were cut off, or longitudes jump: its rings' sides tell nothing
+  std::string region;         // of a meshed part: the region it lies in
   std::vector<Point> points;  // of a constraint: vertices to be
 };
 

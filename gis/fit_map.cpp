@@ -176,20 +176,26 @@ std::string degreesInWords(double degrees) {
 
 FittedMap polar(const Point& centre, const Ellipsoid& ellipsoid) {
   const bool north = centre.y > 0;
-  return {polarStereographic(ellipsoid, north, centre.x), std::string("polar stereographic about the ") +
-                                                              (north ? "north" : "south") + " pole, central meridian " +
-                                                              degreesInWords(centre.x)};
+  return {polarStereographic(ellipsoid, north, centre.x),
+          std::string("polar stereographic about the ") + (north ? "north" : "south") + " pole, central meridian " +
+              degreesInWords(centre.x),
+          ""};
 }
 
 FittedMap oblique(const Point& centre, const Ellipsoid& ellipsoid) {
-  return {obliqueStereographic(ellipsoid, centre), "oblique stereographic, centre at longitude " +
-                                                       degreesInWords(centre.x) + ", latitude " +
-                                                       degreesInWords(centre.y)};
+  return {obliqueStereographic(ellipsoid, centre),
+          "oblique stereographic, centre at longitude " + degreesInWords(centre.x) + ", latitude " +
+              degreesInWords(centre.y),
+          ""};
 }
 
-}  // namespace
+FittedMap because(FittedMap map, const std::string& reason) {
+  map.reason = reason;
+  return map;
+}
 
-FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings, const Ellipsoid& ellipsoid) {
+FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings,
+                    const Ellipsoid& ellipsoid) {
   constexpr double kLargeCap = 30;  // degrees
   constexpr double kElongated = 1.5;
   const std::vector<Direction> directions = thinned(lonlat);
@@ -198,24 +204,38 @@ FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<const Ring*
   const auto atPole = [](const Point& p) { return std::abs(p.y) == 90; };
   if (cap.radius > 90) {
     const Point centre = centreAwayFromLand(rings, directions);
-    return atPole(centre) ? polar(centre, ellipsoid) : oblique(centre, ellipsoid);
+    return because(atPole(centre) ? polar(centre, ellipsoid) : oblique(centre, ellipsoid),
+                   "larger than a hemisphere: projected away from the middle of what is left out");
   }
-  if (atPole(cap.centre)) return polar(cap.centre, ellipsoid);
+  const std::string radius = "lies within " + degreesInWords(cap.radius) + " of ";
+  if (atPole(cap.centre)) return because(polar(cap.centre, ellipsoid), radius + "the pole");
   const bool holds_pole = 90 - std::abs(cap.centre.y) <= cap.radius;
-  if (cap.radius > kLargeCap || holds_pole) return oblique(cap.centre, ellipsoid);
+  if (cap.radius > kLargeCap || holds_pole) {
+    return because(oblique(cap.centre, ellipsoid), radius + "the centre" + (holds_pole ? ", a pole among it" : ""));
+  }
 
   const Point middle{extent.mid_lon, extent.midLat()};
   const double width = extent.width * std::cos(middle.y * Math::degree());
+  const std::string spans = "spans " + degreesInWords(extent.height()) + " from south to north and " +
+                            degreesInWords(width) + " of arc from west to east: ";
   if (extent.height() >= kElongated * width) {
-    return {transverseMercator(ellipsoid, middle), "transverse Mercator, central meridian " + degreesInWords(middle.x)};
+    return {transverseMercator(ellipsoid, middle), "transverse Mercator, central meridian " + degreesInWords(middle.x),
+            spans + "long from south to north"};
   }
   if (width >= kElongated * extent.height()) {
     const double parallel1 = extent.south + extent.height() / 6, parallel2 = extent.north - extent.height() / 6;
     return {lambertConic(ellipsoid, middle, parallel1, parallel2),
             "Lambert conformal conic, central meridian " + degreesInWords(middle.x) + ", parallels " +
-                degreesInWords(parallel1) + " and " + degreesInWords(parallel2)};
+                degreesInWords(parallel1) + " and " + degreesInWords(parallel2),
+            spans + "long from west to east"};
   }
-  return oblique(middle, ellipsoid);
+  return because(oblique(middle, ellipsoid), spans + "as wide as long");
+}
+
+}  // namespace
+
+FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings, const Ellipsoid& ellipsoid) {
+  return chooseMap(lonlat, rings, ellipsoid);
 }
 
 }  // namespace coastmesh

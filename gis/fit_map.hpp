@@ -13,6 +13,7 @@ namespace coastmesh {
 struct FittedMap {
   std::unique_ptr<ConformalMap> map;
   std::string description;
+  std::string reason;  // why this one, for people
 };
 
 // Chooses by the extent of `lonlat` (degrees; any longitudes): transverse Mercator for what reaches north and south,

@@ -87,7 +87,7 @@ std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts
     if (index_of[i] == kNone) continue;
     index_of[i] = static_cast<std::uint32_t>(features.size());
     const Feature& feature = coastline.features[i];
-    features.push_back({feature.fid, feature.source, feature.attributes});
+    features.push_back({feature.fid, feature.source, feature.attributes, feature.region});
   }
   return index_of;
 }

@@ -39,6 +39,7 @@ struct GridFeature {
   std::int64_t fid = 0;
   std::string source;
   std::vector<std::pair<std::string, std::string>> attributes;
+  std::string region{};  // empty: none was given
 };
 
 // A mesh as models and GIS know it: what writers write and readers read.

@@ -64,6 +64,12 @@ GridLayer triangleLayer(const Grid& grid) {
   }
   addFeatureText(grid, "source", std::move(sources), layer.columns);
   addFeatureText(grid, "name", std::move(names), layer.columns);
+  const auto inRegion = [](const GridFeature& feature) { return !feature.region.empty(); };
+  if (std::ranges::any_of(grid.features, inRegion)) {
+    std::vector<std::string_view> regions;
+    for (const GridFeature& feature : grid.features) regions.push_back(feature.region);
+    addFeatureText(grid, "region", std::move(regions), layer.columns);
+  }
   return layer;
 }
 

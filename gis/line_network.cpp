@@ -147,6 +147,8 @@ class Network {
       std::vector<HalfArc> loop(stack.begin() + static_cast<std::ptrdiff_t>(begin), stack.end());
       stack.resize(begin);
       for (const HalfArc used : loop) mark_[tail(used)] = kNone;
+      // Where the same line is there twice, a walk comes back on the other side of what is taken already.
+      if (std::ranges::any_of(loop, [&](HalfArc used) { return alive_[used / 2] == 0; })) continue;
       if (loop.size() == 2 && loop[0] == twin(loop[1])) {
         result_.open.push_back(loop[0] / 2);
         take(loop[0] / 2);

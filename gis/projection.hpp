@@ -34,6 +34,7 @@ class Projection {
   // The place, in the input's CRS, that lies beyond all of the plane, for maps that show all others.
   std::optional<Point> infinity() const;
   bool isIdentity() const;                 // of `plane()`
+  const std::string& reason() const;       // why this one was chosen, for people; empty where nobody chose
   const std::string& description() const;  // for people: "transverse Mercator, central meridian -87.5°"
 
   struct Impl;

@@ -32,6 +32,7 @@ class Fitted final : public Projection::Impl {
   Fitted(ToGeographic to_geographic, FittedMap fitted, double middle_longitude)
       : to_geographic_(std::move(to_geographic)), map_(std::move(fitted.map)), middle_(middle_longitude) {
     description = std::move(fitted.description);
+    reason = std::move(fitted.reason);
   }
 
   Point forward(const Point& input) const override { return map_->forward(to_geographic_.forward(input)); }
@@ -67,7 +68,8 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
     const bool guest = feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
-                       feature.use == FeatureUse::Region || (feature.use == FeatureUse::Frame && !with_frame);
+                       feature.use == FeatureUse::Region || feature.use == FeatureUse::Open ||
+                       (feature.use == FeatureUse::Frame && !with_frame);
     if (guest) continue;
     for (const Polygon& polygon : feature.polygons) {
       act(feature, polygon.outer, true);

@@ -21,6 +21,11 @@ bool looksGeographic(const Box& box) {
 }
 
 Crs crsOfFirst(const RawLayer& first, ReadReport& report) {
+  if (first.crs && !first.crs->geographic && !first.crs->isPlane() && looksGeographic(first.bounds)) {
+    report.warnings.push_back(
+        first.source + ": says that it is in " + nameOf(*first.crs) +
+        ", but all coordinates lie within ±180, ±90: if they are degrees, give the file EPSG:4326");
+  }
   if (first.crs) return *first.crs;
   if (looksGeographic(first.bounds)) {
     report.warnings.push_back(first.source +

@@ -8,6 +8,13 @@
 
 namespace coastmesh {
 
+// An edit that a file says was made when it was cleaned.
+struct EarlierEdit {
+  std::string kind;
+  Point place;
+  std::int64_t fid = 0;
+};
+
 struct ReadReport {
   std::uint64_t features = 0;        // in the coastline
   std::uint64_t points = 0;          // coordinates, as the files count them
@@ -17,6 +24,8 @@ struct ReadReport {
   std::uint64_t filtered = 0;        // features that a filter of the user's left out
   std::uint64_t beyond_frame = 0;    // features that lie wholly outside of the frame
   std::uint64_t unclosed_rings = 0;  // rings of polygons whose last point is not the first: closed
+  bool cleaned = false;              // a source was written by `coastmesh clean`
+  std::vector<EarlierEdit> edits;
   std::vector<std::string> warnings;
   std::vector<std::string> notes;  // what was decided where the input left a choice
 };

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "gis/bare_geojson.hpp"
+#include "gis/cleaned_file.hpp"
 #include "gis/error.hpp"
 #include "gis/ogr_geometry.hpp"
 #include "gis/ogr_support.hpp"
@@ -182,6 +183,9 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   OgrErrors errors;
   const OgrOption any_size("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
   const OpenSource source = openSource(given.path, filter.layers, errors);
+  if (!filtered) {
+    if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, report)) return std::move(*cleaned);
+  }
   if (!filter.where.empty()) report.filtered += keepWhere(source, filter.where, errors);
   const bool only = source.dataset->GetLayerCount() == 1;
   for (OGRLayer* layer : source.layers) {

@@ -61,9 +61,9 @@ TEST_F(MeshRun, ReportHasItsKeys) {
   EXPECT_EQ(keysOf(json["parallel"]["speedup"]), (std::set<std::string>{"2", "8", "64"}));
   EXPECT_FALSE(json["parallel"]["stages"].empty());
   EXPECT_EQ(keysOf(json["input"]),
-            (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points",
-                                   "filtered", "beyond_frame", "notes", "crs", "projection", "projections", "area_m2",
-                                   "refused", "warnings"}));
+            (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
+                                   "projection", "projection_reason", "scale", "projections", "area_m2", "refused",
+                                   "filtered", "beyond_frame", "notes", "warnings"}));
   EXPECT_EQ(keysOf(json["refine"]),
             (std::set<std::string>{"algorithm", "min_angle_deg", "max_angle_deg", "size_max_m", "sized", "grade",
                                    "shrink", "smooth", "steiner_points", "by_type", "segment_splits", "relocations",

@@ -227,5 +227,43 @@ TEST(Frame, RoundThePoleAndTheGlobe) {
   EXPECT_EQ(globe.openLength(), 0);
 }
 
+// A lake in three pieces: the cuts go, and so do the vertices that they left in the shore.
+TEST(Dissolve, LeavesNoTraceOfACut) {
+  const Coastline coastline = coastlineOf({polygonFeature(4, {{0, 0}, {5, 0}, {5, 5}, {0, 5}}),
+                                           polygonFeature(2, {{5, 0}, {9, 0}, {9, 5}, {5, 5}}),
+                                           polygonFeature(3, {{9, 0}, {12, 1}, {12, 5}, {9, 5}})});
+  CleanOptions options;
+  options.dissolve = true;
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(), options, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "");
+  // The corners, and the vertex at 9, 0, where the shore turns.
+  EXPECT_EQ(domain.pslg.points.size(), 5u);
+  EXPECT_DOUBLE_EQ(labelledArea(domain.pslg, 0), 60 - 1.5);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::DissolvedEdge)], 2u + 3u);
+}
+
+TEST(Constraints, LinesPointsAndRegionsInTheWater) {
+  Feature wall = lineFeature(1, {{1, 1}, {3, 1}, {30, 1}}), weir = lineFeature(2, {{1, 2}, {3, 2}});
+  wall.use = FeatureUse::Constraint;
+  wall.points = {{5, 5}, {50, 50}};
+  weir.use = FeatureUse::Weir;
+  Feature region = polygonFeature(3, square(6, 6, 20));
+  region.use = FeatureUse::Region;
+  const Coastline coastline = coastlineOf({polygonFeature(0, square(0, 0, 10)), wall, weir, region});
+  CleanReport report;
+  const auto groups = groupFeatures(coastline);
+  ASSERT_EQ(groups.size(), 1u);
+  const Domain domain = cleanFeatures(coastline, groups[0], Projection::plane(), {0.0}, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "vertex in no segment at 5, 5");  // as was asked for
+  EXPECT_EQ(std::ranges::count(domain.pslg.segments, kWeirTag, &Segment::tag), 1);
+  EXPECT_EQ(std::ranges::count(domain.pslg.segments, kConstraintTag, &Segment::tag), 2);
+  EXPECT_EQ(std::ranges::count(domain.pslg.segments, kRegionTag, &Segment::tag), 2);
+  EXPECT_EQ(std::ranges::count(domain.pslg.points, Point{5, 5}), 1);
+  EXPECT_EQ(std::ranges::count(domain.pslg.points, Point{50, 50}), 0);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::OutsideWater)], 1u);
+  EXPECT_DOUBLE_EQ(labelledArea(domain.pslg, 0), 100);
+}
+
 }  // namespace
 }  // namespace coastmesh

@@ -174,5 +174,15 @@ TEST(NestRings, EveryRingComesOutOnceWhateverCrosses) {
   }
 }
 
+// Files that were put together twice: the same closed line, and the same halves of one.
+TEST(JoinLines, LinesGivenTwice) {
+  const std::vector<Point> ring{{0, 0}, {2, 0}, {1, 2}, {0, 0}};
+  EXPECT_EQ(joinLines({ring, ring}).rings.size(), 2u);
+  const std::vector<Point> there{{0, 0}, {2, 0}, {2, 2}}, back{{2, 2}, {0, 2}, {0, 0}};
+  const JoinedLines joined = joinLines({there, back, there, back});
+  EXPECT_GE(joined.rings.size(), 1u);
+  for (const auto& part : joined.rings) EXPECT_GE(part.points.size(), 4u);
+}
+
 }  // namespace
 }  // namespace coastmesh
