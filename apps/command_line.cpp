@@ -67,6 +67,7 @@ struct CommandLine::Impl {
   Json options = Json::array();
 
   Json examples = Json::array();
+  std::string config;
 
   Json usage() const {
     Json usage{
@@ -101,6 +102,9 @@ CommandLine::CommandLine(CLI::App& root, const std::string& name, const std::str
       ->add_flag_callback(
           "--json-usage", [impl] { throw UsageText{impl->usage().dump(2) + "\n"}; }, "print this usage as JSON")
       ->trigger_on_parse();
+  // Replaced by what it says before anything is parsed: see apps/config_file.hpp.
+  text("--config", impl_->config, "FILE",
+       "take options from a TOML or JSON file, by their long names without dashes; those given here go before it");
 }
 
 CommandLine::~CommandLine() = default;

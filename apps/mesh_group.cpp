@@ -13,7 +13,9 @@
 #include "core/check.hpp"
 #include "core/delaunay.hpp"
 #include "gis/chain_index.hpp"
+#include "gis/coast_follow.hpp"
 #include "gis/error.hpp"
+#include "gis/node_sizes.hpp"
 #include "gis/poly_io.hpp"
 #include "parallel/recorder.hpp"
 
@@ -137,7 +139,8 @@ void markRegions(const Coastline& coastline, const std::vector<std::size_t>& mem
 
 // The group's part of the grid. It is given its own features alone, so that the work does not grow with the square of
 // their number.
-Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh, const ItemLoop& loop) {
+Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh,
+               const std::vector<double>* size_m, const ItemLoop& loop) {
   Coastline names;
   names.crs = input.coastline().crs;
   if (!input.isPoly()) {
@@ -155,7 +158,7 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
     }
     markRegions(input.coastline(), members, domain.projection, mesh, names);
   }
-  Grid grid = makeGrid({{&domain, &mesh}}, names, loop);
+  Grid grid = makeGrid({{&domain, &mesh, size_m}}, names, loop);
   grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
   return grid;
 }
@@ -165,7 +168,7 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   const Stopwatch cleaning;
   Recorder clean_recorder;
   CleanReport clean;
-  const Domain domain = input.domain(group, clean);
+  Domain domain = input.domain(group, clean);
   result.edits = clean.counts;
   result.notes = std::move(clean.notes);
   clean = {};
@@ -183,6 +186,11 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
     const Stopwatch sizing;
     size = makeSizeFunction(job.sizes, sizes, domain, recorder.loop("size", control));
     options.refine.size = size.get();
+    if (job.sizes.coast == CoastDetail::Follow) {
+      CleanReport coarser;
+      domain = followSizes(std::move(domain), *size, input.coastline(), coarser);
+      for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
+    }
     result.size_s = sizing.seconds();
     result.log.append(recorder.finish());
   }
@@ -205,7 +213,12 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
       measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg, loop("check"));
   result.digest = digestOf(region.mesh, 0, loop("check"));
   result.check_s = checking.seconds();
-  result.grid = groupGrid(input, group, domain, region.mesh, loop("grid"));
+  std::vector<double> size_m;
+  if (size) {
+    const auto scale = [&](const Point& x) { return domain.projection.scaleAt(x); };
+    size_m = nodeSizes(region.mesh, *size, job.sizes.grade, scale);
+  }
+  result.grid = groupGrid(input, group, domain, region.mesh, size ? &size_m : nullptr, loop("grid"));
   result.grid.piece_of = std::move(region.piece_of);
   result.log.append(recorder.finish());
 }

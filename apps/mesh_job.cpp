@@ -89,6 +89,7 @@ void appendGrid(Grid& whole, Grid&& part) {
   const auto append = [](auto& to, auto& from) { std::move(from.begin(), from.end(), std::back_inserter(to)); };
   append(whole.nodes, part.nodes);
   append(whole.z, part.z);
+  append(whole.size_m, part.size_m);
   append(whole.triangles, part.triangles);
   append(whole.feature_of, part.feature_of);
   append(whole.piece_of, part.piece_of);

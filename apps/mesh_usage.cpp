@@ -59,7 +59,7 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
 }
 
 void settle(MeshUsage& usage) {
-  settleSizing(usage.sizing, usage.job.sizes);
+  settleSizing(usage.sizing, usage.job.finish.depth, usage.job.sizes);
   usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
   // The classical algorithms are there to compare with: they insert what their papers say.
   if (!usage.shrink_given) usage.job.mesh.shrink = usage.job.mesh.refine.algorithm == Algorithm::Relocate;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/config_file.hpp"
 #include "apps/usage_pages.hpp"
 #include "gis/grid_io.hpp"
 
@@ -88,7 +89,14 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     throw UsageError("there is no command '" + std::string(argv[1]) + "'; coastmesh --help lists them");
   }
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    const auto command = std::ranges::find_if(commands, isNamed);
+    if (command != commands.end()) {
+      arguments = expandConfig({arguments.begin() + 1, arguments.end()}, command->line.jsonUsage());
+      arguments.insert(arguments.begin(), argv[1]);
+    }
+    std::ranges::reverse(arguments);  // as CLI11 wants them
+    app.parse(std::move(arguments));
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {

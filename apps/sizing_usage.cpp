@@ -52,10 +52,6 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
              "distance as 'rate', else --grade");
   line.texts("--size-raster", sizes.rasters, kRasterFile, false,
              "raster of sizes in metres; of several the first that covers a place counts");
-  line.texts("--size-bathymetry", sizes.bathymetry, kRasterFile, false,
-             "raster of the depths that sizes follow from; of several the first that covers a place counts");
-  line.choice("--size-bathymetry-positive", usage.depth_positive, {"up", "down"},
-              "whether that raster holds heights or depths");
   line.number("--wave-elements", sizes.depth.wave_elements, "N", kNotNegative,
               "elements a wavelength; 0 asks for none");
   line.number("--wave-period", sizes.depth.period_s, "S", kAboveZero,
@@ -66,14 +62,24 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
               "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given);
   line.texts("--depth-band", usage.bands, "FROM,TO,SIZE", false,
              "size where the depth is FROM or more and less than TO, all in metres, depths positive");
+  line.choice(
+      "--coast", "keep", {"keep", "follow"},
+      [&sizes](const std::string& chosen) {
+        sizes.coast = chosen == "follow" ? CoastDetail::Follow : CoastDetail::Keep;
+      },
+      "whether the coast keeps its detail, or follows the sizes: where elements are larger it is simplified, and "
+      "islands "
+      "smaller than an element go");
   line.number("--time-step", sizes.time_step_s, "S", kNotNegative,
               "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
               "asks for none");
   line.number("--courant", sizes.courant, "C", kAboveZero, "largest Courant number");
 }
 
-void settleSizing(const SizingUsage& usage, SizeOptions& sizes) {
-  sizes.depth.positive_down = usage.depth_positive == "down";
+void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeOptions& sizes) {
+  sizes.bathymetry = depths.files;
+  sizes.depth.positive_down = depths.positive_down;
+  sizes.depth.water_level_m = depths.water_level_m;
   sizes.depth.bands.clear();
   for (const std::string& band : usage.bands) sizes.depth.bands.push_back(parseBand(band));
   if (!usage.filter_given) sizes.depth.slope_filter_m = sizes.least_m;
@@ -81,10 +87,12 @@ void settleSizing(const SizingUsage& usage, SizeOptions& sizes) {
   if ((sizes.depth.any() || sizes.time_step_s > 0.0) && sizes.bathymetry.empty()) {
     throw UsageError(
         "--wave-elements, --slope-elements, --depth-band and --time-step need depths: give a raster with "
-        "--size-bathymetry");
+        "--bathymetry");
   }
   if (sizes.time_step_s > 0.0 && !sizes.any())
     throw UsageError("--time-step only keeps sizes from being too small: ask for some size besides, such as --size");
+  if (sizes.coast == CoastDetail::Follow && !sizes.any())
+    throw UsageError("--coast follow needs sizes to follow: give --size, or others");
   if (sizes.least_m == 0.0 && (sizes.depth.slope_elements > 0.0 || sizes.channel_elements > 0.0))
     throw UsageError("--slope-elements and --channel-elements can ask for lengths near 0: give --size-min");
 }

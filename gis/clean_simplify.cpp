@@ -37,9 +37,9 @@ double squaredDistance(const Point& p, const Point& a, const Point& b) {
 
 class Simplifier {
  public:
-  Simplifier(const CleanVertices& vertices, const LabelledEdges& edges, const Projection& projection,
-             double tolerance_m)
-      : vertices_(vertices), projection_(projection), tolerance_m_(tolerance_m), links_(vertices.plane.size()) {
+  Simplifier(const CleanVertices& vertices, const LabelledEdges& edges,
+             const std::function<double(VertexId)>& tolerance)
+      : vertices_(vertices), tolerance_(tolerance), links_(vertices.plane.size()) {
     pieces_.reserve(edges.segments.size());
     for (const VertexId v : edges.points) links_[v].degree = 3;  // not to be taken, but in the way
     for (const Segment& s : edges.segments) {
@@ -138,8 +138,8 @@ class Simplifier {
 
   void enqueue(VertexId v) {
     if (!removable(v)) return;
-    const double cost = costOf(v), tolerance = tolerance_m_ * projection_.scaleAt(at(v));
-    if (cost <= tolerance * tolerance) queue_.push({cost, v, links_[v].version});
+    const double cost = costOf(v), tolerance = tolerance_(v);
+    if (tolerance >= 0.0 && cost <= tolerance * tolerance) queue_.push({cost, v, links_[v].version});
   }
 
   // Whether the triangle of v and its neighbours holds another living vertex, on its rim included.
@@ -192,8 +192,7 @@ class Simplifier {
   }
 
   const CleanVertices& vertices_;
-  const Projection& projection_;
-  double tolerance_m_;
+  const std::function<double(VertexId)>& tolerance_;  // in the plane
   std::vector<Link> links_;
   std::vector<Piece> pieces_;
   std::unordered_set<std::uint64_t> ends_;  // of living pieces
@@ -207,7 +206,15 @@ class Simplifier {
 std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
                                    const Coastline& coastline, const Projection& projection, double tolerance_m,
                                    CleanReport& report) {
-  Simplifier simplifier(vertices, edges, projection, tolerance_m);
+  return simplifyEdges(
+      vertices, edges, coastline, [&](VertexId v) { return tolerance_m * projection.scaleAt(vertices.plane[v]); },
+      report);
+}
+
+std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
+                                   const Coastline& coastline, const std::function<double(VertexId)>& tolerance,
+                                   CleanReport& report) {
+  Simplifier simplifier(vertices, edges, tolerance);
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
     report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline.features[feature].fid);

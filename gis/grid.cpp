@@ -165,6 +165,11 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
   if (!feature_index.empty()) reserveOn(loop, grid.feature_of, triangle_count);
   for (const MeshedDomain& part : parts) {
     const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, loop, grid.nodes);
+    if (part.size_m != nullptr) {
+      grid.size_m.resize(grid.nodes.size());
+      for (std::size_t v = 0; v < index_of.size(); ++v)
+        if (index_of[v] != kNone) grid.size_m[index_of[v]] = (*part.size_m)[v];
+    }
     appendTriangles(*part.mesh, index_of, feature_index, loop, grid);
     const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh);
     for (Boundary& rim : findBoundaries(*part.mesh, loop)) {

@@ -48,6 +48,7 @@ struct Grid {
   Crs crs;
   std::vector<Point> nodes;                             // in `crs`; those of `makeGrid` all belong to a triangle
   std::vector<double> z;                                // metres, positive up; empty or one a node, NaN where unknown
+  std::vector<double> size_m;                           // empty or one a node: length that edges were to have there
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
   std::vector<std::uint32_t> feature_of;                // empty or one a triangle: index into `features`
   std::vector<std::uint32_t> piece_of;                  // empty or one a triangle: the piece that it was refined in
@@ -63,6 +64,7 @@ struct Grid {
 struct MeshedDomain {
   const Domain* domain = nullptr;
   const TriMesh* mesh = nullptr;
+  const std::vector<double>* size_m = nullptr;  // one a vertex of the mesh; null where no lengths were asked for
 };
 Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop = inOrder);
 

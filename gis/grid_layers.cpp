@@ -80,6 +80,8 @@ GridLayer nodeLayer(const Grid& grid) {
   };
   if (!grid.z.empty())
     layer.columns.push_back({"z", LayerColumn::Real([&grid](std::size_t row) { return grid.z[row]; })});
+  if (!grid.size_m.empty())
+    layer.columns.push_back({"size", LayerColumn::Real([&grid](std::size_t row) { return grid.size_m[row]; })});
   return layer;
 }
 

@@ -153,7 +153,7 @@ void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
 void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid, NodeIndex& index) {
   if (companion.layer == nullptr) return;
   LayerReader reader(*companion.layer, companion.path, errors);
-  const int id_field = reader.field("id"), z_field = reader.field("z");
+  const int id_field = reader.field("id"), z_field = reader.field("z"), size_field = reader.field("size");
   if (id_field < 0) return;
   std::vector<std::int64_t> ids;
   bool has_z = false;
@@ -164,6 +164,7 @@ void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& gr
     const OGRPoint& point = *geometry->toPoint();
     ids.push_back(feature->GetFieldAsInteger64(id_field));
     grid.nodes.push_back({point.getX(), point.getY()});
+    if (size_field >= 0) grid.size_m.push_back(feature->GetFieldAsDouble(size_field));
     const bool in_field = z_field >= 0 && feature->IsFieldSetAndNotNull(z_field);
     has_z = has_z || in_field || point.Is3D();
     grid.z.push_back(point.Is3D() ? point.getZ()
@@ -174,6 +175,7 @@ void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& gr
   const std::vector<std::uint32_t> order = orderOf(ids);
   reorder(grid.nodes, order);
   reorder(grid.z, order);
+  reorder(grid.size_m, order);
   for (std::uint32_t i = 0; i < grid.nodes.size(); ++i) index.emplace(grid.nodes[i], i);
 }
 
@@ -239,7 +241,7 @@ void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
     reorder(grid.feature_of, order);
     sortFeatures(grid);
   }
-  const bool has_z = !grid.z.empty();
+  const bool has_z = !grid.z.empty(), has_size = !grid.size_m.empty();
   for (const auto& places : corners) {
     auto& triangle = grid.triangles.emplace_back();
     for (unsigned i = 0; i < 3; ++i) {
@@ -247,6 +249,7 @@ void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
       if (added) {
         grid.nodes.push_back(places[i]);
         if (has_z) grid.z.push_back(std::numeric_limits<double>::quiet_NaN());
+        if (has_size) grid.size_m.push_back(std::numeric_limits<double>::quiet_NaN());
       }
       triangle[i] = at->second;
     }

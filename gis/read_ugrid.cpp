@@ -176,6 +176,9 @@ Grid readUgrid(const std::string& path) {
   readNodes(file, x, y, grid);
   readTriangles(file, mesh, grid);
   readElevation(file, mesh, grid);
+  if (const std::string name = mesh + "_node_size";
+      file.hasVariable(name) && file.shape(name) == std::vector{grid.nodes.size()})
+    grid.size_m = file.doubles(name);
   grid.min_angle_deg = readFaceData(file, mesh + "_min_angle", grid.triangles.size());
   grid.area_m2 = readFaceData(file, mesh + "_area", grid.triangles.size());
   readFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()), grid);

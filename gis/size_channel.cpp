@@ -7,6 +7,7 @@
 
 #include "core/metric.hpp"
 #include "gis/box_tree.hpp"
+#include "gis/segment_tags.hpp"
 
 namespace coastmesh {
 
@@ -24,7 +25,11 @@ class Shores {
  public:
   explicit Shores(const Pslg& pslg) : pslg_(pslg) {
     std::vector<Box> boxes;
-    for (const Segment& s : pslg.segments) boxes.push_back(Box::of(pslg.points[s.a], pslg.points[s.b]));
+    for (const Segment& s : pslg.segments) {
+      if (s.tag == kOpenTag) continue;
+      shores_.push_back(s);
+      boxes.push_back(Box::of(pslg.points[s.a], pslg.points[s.b]));
+    }
     tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
   }
 
@@ -39,7 +44,7 @@ class Shores {
           return dx * dx + dy * dy < best;
         },
         [&](std::uint32_t s) {
-          const Point &a = pslg_.points[pslg_.segments[s].a], &b = pslg_.points[pslg_.segments[s].b];
+          const Point &a = pslg_.points[shores_[s].a], &b = pslg_.points[shores_[s].b];
           const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
           const Point p = a + share * (b - a);
           if (squaredDistance(p, x) >= best) return;
@@ -51,6 +56,7 @@ class Shores {
 
  private:
   const Pslg& pslg_;
+  std::vector<Segment> shores_;
   BoxTree tree_;
 };
 
@@ -106,6 +112,7 @@ std::vector<SizedLine> channelLines(const Pslg& pslg, double elements, double ra
     }
   };
   for (const Segment& s : pslg.segments) {
+    if (s.tag == kOpenTag) continue;
     const Point &a = pslg.points[s.a], &b = pslg.points[s.b];
     const Point d = (1.0 / distance(a, b)) * (b - a);
     // Water on the left, on the right; where nothing says, on both.

@@ -67,14 +67,18 @@ double slopeBetween(double before, double here, double after, double pixel_m) {
   return (after - before) / (2.0 * pixel_m);
 }
 
-// Calls `f(pixel, depth)` for the tile's own pixels with data.
+double depthOf(double value, const DepthRules& rules) {
+  return rules.water_level_m + (rules.positive_down ? value : -value);
+}
+
+// Calls `f(pixel, x, y, depth)` for the tile's own pixels with data.
 template <typename F>
 void forEachDepth(const RasterTile& tile, const DepthRules& rules, F&& f) {
   for (int y = 0; y < tile.height; ++y) {
     for (int x = 0; x < tile.width; ++x) {
       const double value = tile.at(x, y);
       if (std::isnan(value)) continue;
-      const double depth = rules.positive_down ? value : -value;
+      const double depth = depthOf(value, rules);
       f(static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x), x, y, depth);
     }
   }
@@ -83,8 +87,7 @@ void forEachDepth(const RasterTile& tile, const DepthRules& rules, F&& f) {
 void applySlope(const RasterTile& tile, const DepthRules& rules, std::span<float> sizes) {
   const std::size_t width = tile.stride();
   std::vector<double> depth(tile.values.begin(), tile.values.end());
-  for (double& d : depth)
-    if (!rules.positive_down) d = -d;
+  for (double& d : depth) d = depthOf(d, rules);
   // Three squares of this half width even out what is shorter than the filter.
   const int radius =
       static_cast<int>(std::lround(rules.slope_filter_m / (4.0 * std::min(tile.pixel_m[0], tile.pixel_m[1]))));

@@ -16,6 +16,7 @@ struct DepthBand {
 // What sizes follow from depths. Depths less than `least_depth_m`, and land, are taken for that much.
 struct DepthRules {
   bool positive_down = false;  // the raster holds depths; else heights, positive up
+  double water_level_m = 0.0;  // of the still water above the raster's zero
   double least_depth_m = 1.0;  // metres, above 0
   double period_s = 44712.0;   // of the wave, seconds, above 0: that of the M2 tide, 12.42 hours
   double wave_elements = 0.0;  // elements a wavelength; 0 asks for nothing

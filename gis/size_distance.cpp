@@ -8,6 +8,7 @@
 
 #include "core/hilbert.hpp"
 #include "core/metric.hpp"
+#include "gis/segment_tags.hpp"
 
 namespace coastmesh {
 
@@ -113,7 +114,7 @@ std::vector<SizedLine> shoreLines(const Pslg& pslg, double size_m, double rate) 
       std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
   std::vector<SizedLine> lines;
   for (const Segment& s : pslg.segments)
-    if (!labelled || (s.left >= 0) != (s.right >= 0))
+    if (!labelled || (s.tag != kOpenTag && (s.left >= 0) != (s.right >= 0)))
       lines.push_back({pslg.points[s.a], pslg.points[s.b], size_m, rate});
   return lines;
 }

@@ -112,7 +112,8 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   for (const std::string& path : options.features)
     inputs.features.push_back(readSizedFeatures(path, crs, options.grade));
   for (const std::string& path : options.rasters) inputs.rasters.push_back(openRaster(path));
-  for (const std::string& path : options.bathymetry) inputs.bathymetry.push_back(openRaster(path));
+  if (options.depth.any() || options.time_step_s > 0.0)
+    for (const std::string& path : options.bathymetry) inputs.bathymetry.push_back(openRaster(path));
   return inputs;
 }
 

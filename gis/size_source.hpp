@@ -14,6 +14,8 @@
 
 namespace coastmesh {
 
+enum class CoastDetail { Keep, Follow };
+
 // How large elements should be. Sizes are lengths of edges in metres on the ground; an infinite one asks for nothing.
 struct SizeOptions {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -31,6 +33,8 @@ struct SizeOptions {
   DepthRules depth;
   double time_step_s = 0.0;  // 0 asks for nothing
   double courant = 1.0;      // above 0
+
+  CoastDetail coast = CoastDetail::Keep;  // Follow: the shore is simplified where elements are larger than its detail
 
   // Whether anything but bounds is asked for.
   bool any() const {

@@ -177,6 +177,9 @@ void writeUgrid(const Grid& grid, const std::string& path) {
     file.attribute(z, "positive", "up");
     file.attribute(z, "_FillValue", kFillZ);
   }
+  int size = -1;
+  if (!grid.size_m.empty())
+    size = defineData(file, crs, "node_size", NC_DOUBLE, node_dim, "node", "length that edges were to have", "m");
   const int face_nodes = defineConnectivity(file, "face", {face_dim, corner_dim});
   const int edge_nodes = defineConnectivity(file, "edge", {edge_dim, two_dim});
   int boundary_nodes = -1, boundary_number = -1, boundary_role = -1;
@@ -216,6 +219,7 @@ void writeUgrid(const Grid& grid, const std::string& path) {
     std::ranges::transform(grid.z, values.begin(), [](double value) { return std::isnan(value) ? kFillZ : value; });
     file.put(z, values.data());
   }
+  if (size >= 0) file.put(size, grid.size_m.data());
   file.put(face_nodes, numbered(grid.triangles).data());
   file.put(edge_nodes, numbered(edges).data());
   if (!boundary.edges.empty()) {

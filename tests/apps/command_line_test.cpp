@@ -101,8 +101,8 @@ TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
   const Json usage = Json::parse(text);
   EXPECT_EQ(usage["command"], "knit");
   EXPECT_EQ(usage["arguments"].size(), 1u);
-  ASSERT_EQ(usage["options"].size(), 7u);
-  const Json& angle = usage["options"][0];
+  ASSERT_EQ(usage["options"].size(), 8u);  // --config besides
+  const Json& angle = usage["options"][1];
   EXPECT_EQ(angle, (Json{{"name", "--angle"},
                          {"names", {"--angle"}},
                          {"type", "number"},
@@ -111,7 +111,7 @@ TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
                          {"default", 33.0},
                          {"minimum", 0.0},
                          {"maximum", 45.0}}));
-  EXPECT_EQ(usage["options"][3]["names"], (Json{"--shrink", "--no-shrink"}));
+  EXPECT_EQ(usage["options"][4]["names"], (Json{"--shrink", "--no-shrink"}));
 }
 
 TEST_F(CommandLineTest, HelpShowsUnitDefaultAndRange) {

@@ -246,6 +246,7 @@ TEST_F(SizeFiles, UnreadableFilesAreRefused) {
   for (const auto& set : {&SizeOptions::rasters, &SizeOptions::bathymetry, &SizeOptions::features}) {
     SizeOptions options;
     options.*set = {file("nothing.here")};
+    options.depth.wave_elements = 100.0;
     EXPECT_THROW(readSizeInputs(options, {}), InputError);
   }
 }
