@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -100,6 +101,38 @@ TEST_F(MeshRun, SizeBoundIsInMetres) {
   EXPECT_GE(json["mesh"]["triangles"].get<double>(), area / (0.4331 * 100 * 100));
   const Json info = Json::parse(runProgram({"info", file("report.2dm"), "--assume-crs", "EPSG:4326", "--json"}).output);
   EXPECT_LE(info["longest_edge_m"].get<double>(), 100.0 * 1.001);
+}
+
+TEST_F(MeshRun, SizesAreInMetres) {
+  const Json json = report({"--size", "100"});
+  const double needed = json["mesh"]["area_m2"].get<double>() * 2.0 / (std::sqrt(3.0) * 100.0 * 100.0);
+  EXPECT_NEAR(json["mesh"]["vertices"].get<double>() / needed, 1.05, 0.15);
+  EXPECT_TRUE(json["refine"]["sized"].get<bool>());
+}
+
+TEST_F(MeshRun, AFileCanHoldTheWholeJob) {
+  write("job.toml", "input = \"" + lake() + "\"\noutput = [\"" + file("a.2dm") + "\"]\nsize = 100\nquiet = true\n");
+  EXPECT_EQ(runProgram({"mesh", "--config", file("job.toml")}).code, 0);
+  EXPECT_EQ(runProgram({"mesh", lake(), "-o", file("b.2dm"), "--size", "100"}).code, 0);
+  EXPECT_EQ(readText(file("a.2dm")), readText(file("b.2dm")));
+  write("bad.toml", "sise = 100\n");
+  const ProgramRun run = runProgram({"mesh", "--config", file("bad.toml")});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.errors.find("'sise'"), std::string::npos);
+}
+
+TEST_F(MeshRun, SizesThatDoNotGoTogetherAreRefused) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--wave-elements", "100"},
+                                             {"--size-min", "10", "--size-max", "5"},
+                                             {"--channel-elements", "3"},
+                                             {"--depth-band", "1,2"},
+                                             {"--coast", "follow"},
+                                             {"--time-step", "5"}}) {
+    std::vector<std::string> arguments{"mesh", lake(), "-o", file("a.2dm")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(runProgram(arguments).code, 2) << options[0];
+  }
 }
 
 TEST_F(MeshRun, ThreadsChangeNothing) {
