@@ -225,7 +225,10 @@ std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdg
                                 const Projection& projection, CleanReport& report) {
   constexpr double kFarthest = 1000;                            // metres; the input's coordinates decide
   const double grain = coastline.crs.geographic ? 1e-7 : 0.01;  // degrees, metres
-  Simplifier simplifier(vertices, edges, projection, kFarthest);
+  const std::function<double(VertexId)> farthest = [&](VertexId v) {
+    return kFarthest * projection.scaleAt(vertices.plane[v]);
+  };
+  Simplifier simplifier(vertices, edges, farthest);
   simplifier.restrictTo([&](VertexId v, VertexId p, VertexId q) {
     if (!std::ranges::binary_search(edges.traces, v)) return false;
     const Point &a = vertices.input[p], &b = vertices.input[q];

@@ -23,7 +23,8 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
 // centimetre: where polygons were cut apart, the cut left a vertex in the shore. Topology is kept as above.
 std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
                                 const Projection& projection, CleanReport& report);
-// The same with a distance of the plane for each vertex; negative where it has to stay.
+
+// As the first, with a distance of the plane for each vertex; negative where it has to stay.
 std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
                                    const Coastline& coastline, const std::function<double(VertexId)>& tolerance,
                                    CleanReport& report);
