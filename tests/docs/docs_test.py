@@ -61,6 +61,8 @@ class Folder:
                 for name in ("lakes", "sea"):
                     shutil.copy(os.path.join(SOURCES, f"data/lake_superior.{ending}"),
                                 os.path.join(self.path, f"{name}.{ending}"))
+            with open(os.path.join(self.path, "job.toml"), "w", encoding="utf-8") as job:
+                job.write('input = ["lake.geojson"]\noutput = ["job.nc"]\nmin-angle = 30\n')
             # Depths over all of the lake.
             self.run("gdal_create -q -of GTiff -ot Float32 -outsize 20 20 -a_srs EPSG:4326 -a_ullr -93 50 -83 45 -burn -50 dem.tif")
             self.run("coastmesh clean lake.geojson -o lakes.gpkg && coastmesh mesh lake.geojson -o grid.2dm "
