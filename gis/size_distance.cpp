@@ -24,13 +24,14 @@ double distanceTo(const Point& x, const Point& a, const Point& b) {
 }
 
 double distanceTo(const Point& x, const Box& box) {
-  return std::hypot(std::max({box.xmin - x.x, 0.0, x.x - box.xmax}), std::max({box.ymin - x.y, 0.0, x.y - box.ymax}));
+  const Point off{std::max({box.xmin - x.x, 0.0, x.x - box.xmax}), std::max({box.ymin - x.y, 0.0, x.y - box.ymax})};
+  return std::sqrt(squaredLength(off));  // std::hypot would take most of the time
 }
 
 }  // namespace
 
-DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(const Point&)> scale)
-    : scale_(std::move(scale)) {
+DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(const Point&)> scale, double most_m)
+    : scale_(std::move(scale)), most_m_(most_m) {
   if (lines.empty()) return;
   std::vector<Point> middles;
   for (const SizedLine& line : lines) {
@@ -56,14 +57,18 @@ DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(
 }
 
 void DistanceField::descend(std::size_t level, std::size_t node, const Point& x, double scale, double& best) const {
-  if (level == 0) {
-    const SizedLine& line = lines_[node];
+  const auto lineFrom = [&](std::size_t i) {
+    const SizedLine& line = lines_[i];
     best = std::min(best, line.size_m + line.rate * distanceTo(x, line.a, line.b) / scale);
+  };
+  if (level == 0) return lineFrom(node);
+  const std::size_t first = level_begin_[level - 1] + node * kFanout;
+  const std::size_t count = std::min(level_begin_[level], first + kFanout) - first;
+  if (level == 1) {
+    for (std::size_t i = first; i < first + count; ++i) lineFrom(i);  // sooner done than put in order
     return;
   }
   // The most promising first.
-  const std::size_t first = level_begin_[level - 1] + node * kFanout;
-  const std::size_t count = std::min(level_begin_[level], first + kFanout) - first;
   std::array<std::pair<double, std::size_t>, kFanout> order;
   for (std::size_t k = 0; k < count; ++k) {
     const Node& child = nodes_[first + k];
@@ -83,14 +88,16 @@ double DistanceField::sizeAt(const Point& x, double scale, double start) const {
   return best;
 }
 
+double DistanceField::startFrom(double size, const Point& from, const Point& x, double scale) const {
+  return (size + most_rate_ * distance(from, x) / scale) * (1.0 + 1e-3);
+}
+
 void DistanceField::sample(std::span<const Point> places, std::span<double> sizes) const {
   double start = kInfinity;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double scale = scale_(places[i]);
-    // No more than it was nearby, and what the way from there adds.
-    if (i > 0 && std::isfinite(sizes[i - 1]))
-      start = (sizes[i - 1] + most_rate_ * distance(places[i - 1], places[i]) / scale) * (1.0 + 1e-3);
-    sizes[i] = sizeAt(places[i], scale, start);
+    if (i > 0) start = startFrom(sizes[i - 1], places[i - 1], places[i], scale);
+    sizes[i] = sizeAt(places[i], scale, std::min(start, most_m_));
   }
 }
 
@@ -99,12 +106,13 @@ void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> r
     std::ranges::fill(ranges, SizeRange{kInfinity, kInfinity});
     return;
   }
-  double least = kInfinity;
-  least = nodes_.back().size_m;
+  const double least = nodes_.back().size_m;
+  double start = kInfinity, size = kInfinity;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const double scale = scale_(boxes[i].centre);
-    const double size = sizeAt(boxes[i].centre, scale, kInfinity);
+    if (i > 0) start = startFrom(size, boxes[i - 1].centre, boxes[i].centre, scale);
     const double reach = most_rate_ * std::sqrt(2.0) * boxes[i].half / scale * 1.01;
+    size = sizeAt(boxes[i].centre, scale, std::min(start, most_m_ + reach));
     ranges[i] = {std::max(least, size - reach), size + reach};
   }
 }

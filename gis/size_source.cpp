@@ -135,13 +135,15 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
   const auto scale = [table](const Point& x) { return table->at(x).x; };
 
   ComposedSizes source(options, scale, loop);
+  const double most_m = std::min(options.most_m, options.size_m);
   if (options.shore_m < kInfinity)
-    source.add(std::make_unique<DistanceField>(shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale));
+    source.add(
+        std::make_unique<DistanceField>(shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale, most_m));
   if (options.channel_elements > 0.0) {
-    source.add(std::make_unique<DistanceField>(
-        channelLines(domain.pslg, options.channel_elements, options.grade, options.least_m,
-                     std::min({options.most_m, options.size_m, extent / scale(middle)}), scale),
-        scale));
+    source.add(
+        std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.grade,
+                                                     options.least_m, std::min(most_m, extent / scale(middle)), scale),
+                                        scale, most_m));
   }
   for (const SizedFeatures& features : inputs.features)
     for (auto& field : featureFields(features, projection, scale)) source.add(std::move(field));
