@@ -103,7 +103,7 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   CutTree tree{std::cos(angle), std::sin(angle), std::vector<CutTree::Node>(2 * pieces - 1)};
   const auto centre = [&](TriId t) { return tree.turn(centroidOf(mesh, t)); };
   // Enough samples a piece that their weights differ little; all triangles would take longer to sort than to mesh.
-  constexpr std::size_t kSamples = 64;
+  constexpr std::size_t kSamples = 128;
   const std::size_t count = mesh.triangles.size();
   const std::size_t stride = std::max<std::size_t>(1, count / (kSamples * pieces));
   std::vector<Sample> samples((count + stride - 1) / stride);
