@@ -104,22 +104,21 @@ std::vector<std::uint32_t> trianglesIn(const Grid& grid, const PlotOptions& opti
   return shown;
 }
 
-// From bad to good: red, sand, pale green, blue.
-Color rampColor(double share) {
-  constexpr std::array<Color, 4> kStops{
-      {{0.80, 0.25, 0.18}, {0.97, 0.78, 0.47}, {0.90, 0.94, 0.80}, {0.18, 0.49, 0.66}}};
+// The colour at a share of the way along four that lie evenly.
+Color between(const std::array<Color, 4>& stops, double share) {
   const double at = std::clamp(share, 0.0, 1.0) * 3.0;
   const auto stop = std::min<std::size_t>(2, static_cast<std::size_t>(at));
-  return mix(kStops[stop], kStops[stop + 1], at - static_cast<double>(stop));
+  return mix(stops[stop], stops[stop + 1], at - static_cast<double>(stop));
+}
+
+// From bad to good: red, sand, pale green, blue.
+Color rampColor(double share) {
+  return between({{{0.80, 0.25, 0.18}, {0.97, 0.78, 0.47}, {0.90, 0.94, 0.80}, {0.18, 0.49, 0.66}}}, share);
 }
 
 // From deep to shallow: dark blue, blue, pale green, sand.
 Color depthColor(double share) {
-  constexpr std::array<Color, 4> kStops{
-      {{0.06, 0.16, 0.42}, {0.15, 0.47, 0.73}, {0.60, 0.83, 0.79}, {0.97, 0.92, 0.72}}};
-  const double at = std::clamp(share, 0.0, 1.0) * 3.0;
-  const auto stop = std::min<std::size_t>(2, static_cast<std::size_t>(at));
-  return mix(kStops[stop], kStops[stop + 1], at - static_cast<double>(stop));
+  return between({{{0.06, 0.16, 0.42}, {0.15, 0.47, 0.73}, {0.60, 0.83, 0.79}, {0.97, 0.92, 0.72}}}, share);
 }
 
 // Colours far apart for neighbours in number: hues turned by the golden section.

@@ -56,12 +56,11 @@ class Fitter {
   }
 
   TriMesh release() { return mesh_.release(); }
-  Piece releasePiece();
+  Piece releasePiece() { return releaseDue(mesh_, std::move(due_)); }
   RefineStats& stats() { return stats_; }
 
  private:
   bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
-  bool isAtFrozenEdge(VertexId v);
 
   // The triangles round a free vertex; false where a frozen edge is opposite, or there are too many.
   bool gatherRing(VertexId v) {
@@ -142,27 +141,8 @@ class Fitter {
   std::vector<double> wanted_;  // one a vertex: the length wanted there
   std::vector<VertexId> corners_;
   std::vector<TriId> triangles_, touched_;
-  std::vector<EdgeRef> star_;
   std::vector<std::uint8_t> due_;  // one a vertex; empty where all are
 };
-
-bool Fitter::isAtFrozenEdge(VertexId v) {
-  mesh_.star(v, star_);
-  return std::ranges::any_of(star_, [this](EdgeRef e) { return mesh_.segment(e) == kFrozen; });
-}
-
-// A vertex stays due where the piece's cut holds it, or runs beside it.
-Piece Fitter::releasePiece() {
-  for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
-    due_[v] = due_[v] && mesh_.isLiveVertex(v) && (v < mesh_.inputVertices() || isAtFrozenEdge(v));
-  Piece piece;
-  Renumbering by;
-  piece.mesh = mesh_.release(by, false);
-  piece.due_vertices.assign(piece.mesh.points.size(), 0);
-  for (VertexId v = 0; v < by.vertex.size(); ++v)
-    if (by.vertex[v] != kNone) piece.due_vertices[by.vertex[v]] = due_[v];
-  return piece;
-}
 
 }  // namespace
 

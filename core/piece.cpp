@@ -1,5 +1,6 @@
 #include "core/piece.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/refiner.hpp"
@@ -29,6 +30,23 @@ RefineStats refinePiece(Piece& piece, const Pslg& pslg, const RefineOptions& opt
   RefineStats stats = std::move(refiner.stats());
   stats.steiner_points = 0;
   return stats;
+}
+
+Piece releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due) {
+  std::vector<EdgeRef> star;
+  const auto isAtFrozenEdge = [&](VertexId v) {
+    mesh.star(v, star);
+    return std::ranges::any_of(star, [&](EdgeRef e) { return mesh.segment(e) == kFrozen; });
+  };
+  for (VertexId v = 0; v < mesh.vertexSlots(); ++v)
+    due[v] = due[v] && mesh.isLiveVertex(v) && (v < mesh.inputVertices() || isAtFrozenEdge(v));
+  Piece piece;
+  Renumbering by;
+  piece.mesh = mesh.release(by, false);
+  piece.due_vertices.assign(piece.mesh.points.size(), 0);
+  for (VertexId v = 0; v < by.vertex.size(); ++v)
+    if (by.vertex[v] != kNone) piece.due_vertices[by.vertex[v]] = due[v];
+  return piece;
 }
 
 }  // namespace coastmesh

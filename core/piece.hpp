@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/edit_mesh.hpp"
 #include "core/refine.hpp"
 #include "core/tri_mesh.hpp"
 #include "core/vertex_notes.hpp"
@@ -28,5 +29,8 @@ RefineStats refinePiece(Piece& piece, const Pslg& pslg, const RefineOptions& opt
 // Takes out and merges the due vertices where the bounds do not need them. Afterwards those that a frozen edge was in the way of are
 // due; due triangles and notes are not kept. Throws Cancelled.
 RefineStats shrinkPiece(Piece& piece, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
+
+// The piece that was worked on in `mesh`. Of its due vertices (one a slot) those stay due that a frozen edge holds, or runs beside.
+Piece releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due);
 
 }  // namespace coastmesh

@@ -90,12 +90,11 @@ class Shrinker {
   }
 
   TriMesh release() { return mesh_.release(); }
-  Piece releasePiece();
+  Piece releasePiece() { return releaseDue(mesh_, std::move(due_)); }
   RefineStats& stats() { return stats_; }
 
  private:
   bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
-  bool isAtFrozenEdge(VertexId v);
   bool isFinerThanWanted(VertexId v);
   // The last sweep only merges: it removes next to nothing, and moving pays while more sweeps follow.
   void handle(VertexId v, bool is_last) {
@@ -137,24 +136,6 @@ bool Shrinker::isFinerThanWanted(VertexId v) {
                         squaredDistance(here, mesh_.point(mesh_.target(e)))});
   const double most = kFineShare * size_->at(here);
   return longest < most * most;
-}
-
-bool Shrinker::isAtFrozenEdge(VertexId v) {
-  mesh_.star(v, star_);
-  return std::ranges::any_of(star_, [this](EdgeRef e) { return mesh_.segment(e) == kFrozen; });
-}
-
-// A vertex stays due where the piece's cut holds it, or runs beside it.
-Piece Shrinker::releasePiece() {
-  for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
-    due_[v] = due_[v] && mesh_.isLiveVertex(v) && (v < mesh_.inputVertices() || isAtFrozenEdge(v));
-  Piece piece;
-  Renumbering by;
-  piece.mesh = mesh_.release(by, false);
-  piece.due_vertices.assign(piece.mesh.points.size(), 0);
-  for (VertexId v = 0; v < by.vertex.size(); ++v)
-    if (by.vertex[v] != kNone) piece.due_vertices[by.vertex[v]] = due_[v];
-  return piece;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "gis/chain_index.hpp"
+#include "gis/feature_bounds.hpp"
 #include "gis/read_coastline.hpp"
 #include "gis/union_find.hpp"
 
@@ -65,21 +66,6 @@ bool belongTogether(const FeatureIndex& small, const FeatureIndex& large) {
          edgesMeet(small.lines, large.rings) || edgesMeet(small.lines, large.lines) ||
          liesIn(small.rings, large.rings) || liesIn(small.lines, large.rings) || liesIn(large.rings, small.rings) ||
          liesIn(large.lines, small.rings);
-}
-
-Box boundsOf(const Feature& feature) {
-  Box box;
-  for (const Polygon& polygon : feature.polygons) {
-    for (const Point& p : polygon.outer) box.add(p);
-    for (const Ring& hole : polygon.holes) {
-      for (const Point& p : hole) box.add(p);
-    }
-  }
-  for (const auto& line : feature.lines) {
-    for (const Point& p : line) box.add(p);
-  }
-  for (const Point& p : feature.points) box.add(p);
-  return box;
 }
 
 bool isGuest(const Feature& feature) {

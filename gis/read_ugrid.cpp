@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "gis/boundary_chains.hpp"
+#include "gis/features_by_fid.hpp"
 #include "gis/netcdf_file.hpp"
 
 namespace coastmesh {
@@ -123,18 +124,6 @@ std::vector<double> readFaceData(const NetcdfReader& file, const std::string& na
   return file.doubles(name);
 }
 
-void readFeatures(const std::vector<double>& fids, Grid& grid) {
-  constexpr double kExact = 9007199254740992.0;  // 2^53
-  if (fids.empty() || !std::ranges::all_of(fids, [](double fid) { return std::abs(fid) <= kExact; })) return;
-  std::vector<double> known = fids;
-  std::ranges::sort(known);
-  const auto repeated = std::ranges::unique(known);
-  known.erase(repeated.begin(), repeated.end());
-  for (const double fid : known) grid.features.push_back({std::llround(fid), {}, {}});
-  for (const double fid : fids)
-    grid.feature_of.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(known, fid) - known.begin()));
-}
-
 void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
   const std::string variable = file.text(mesh, "boundary_node_connectivity");
   const std::string number_name = mesh + "_boundary_number", role_name = mesh + "_boundary_role";
@@ -181,7 +170,7 @@ Grid readUgrid(const std::string& path) {
     grid.size_m = file.doubles(name);
   grid.min_angle_deg = readFaceData(file, mesh + "_min_angle", grid.triangles.size());
   grid.area_m2 = readFaceData(file, mesh + "_area", grid.triangles.size());
-  readFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()), grid);
+  addFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()), grid);
   for (const double piece : readFaceData(file, mesh + "_piece", grid.triangles.size()))
     grid.piece_of.push_back(piece >= 1.0 ? static_cast<std::uint32_t>(std::min(piece, 4e9)) - 1 : 0);
   readBoundaries(file, mesh, grid);

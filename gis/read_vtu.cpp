@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "gis/error.hpp"
+#include "gis/features_by_fid.hpp"
 #include "gis/ogr_support.hpp"
 #include "gis/prj_file.hpp"
 
@@ -223,17 +224,6 @@ std::vector<double> readCellData(const VtuFile& file, const char* name, const st
   return out;
 }
 
-void readFeatures(const std::vector<double>& fids, Grid& grid) {
-  if (fids.empty()) return;
-  std::vector<double> known = fids;
-  std::ranges::sort(known);
-  const auto repeated = std::ranges::unique(known);
-  known.erase(repeated.begin(), repeated.end());
-  for (const double fid : known) grid.features.push_back({std::llround(fid), {}, {}});
-  for (const double fid : fids)
-    grid.feature_of.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(known, fid) - known.begin()));
-}
-
 void readBoundaries(const VtuFile& file, Grid& grid) {
   const auto nodes = file.array("FieldData", "boundary_nodes"), ends = file.array("FieldData", "boundary_ends"),
              roles = file.array("FieldData", "boundary_roles"), closed = file.array("FieldData", "boundary_closed");
@@ -277,7 +267,7 @@ Grid readVtu(const std::string& path) {
   }
   grid.min_angle_deg = readCellData(file, "min_angle", cells);
   grid.area_m2 = readCellData(file, "area_m2", cells);
-  readFeatures(readCellData(file, "src_fid", cells), grid);
+  addFeatures(readCellData(file, "src_fid", cells), grid);
   readBoundaries(file, grid);
   grid.crs = readPrjBeside(path);
   return grid;
