@@ -151,6 +151,8 @@ Command declareCheck(CLI::App& root) {
             "cannot be known as constraints");
   line.flag("--pinches", usage->check.pinches, "also look for nodes in which the mesh touches itself");
   declareInputOptions(line, usage->input);
+  line.choice("--input-pinches", usage->input.pinches, {"keep", "open"},
+              "the --pinches that the mesh was made with from the --input");
   line.text("-o,--output", usage->output, kOutputFile,
             "write the defects as a layer of points: .gpkg, .geojson or .fgb");
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");

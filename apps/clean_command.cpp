@@ -230,6 +230,7 @@ Command declareClean(CLI::App& root) {
   line.requiredText("-o,--output", usage->output, kOutputFile,
                     "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
   declareInputOptions(line, usage->input);
+  declarePinches(line, usage->input);
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
   line.flag("--quiet", usage->quiet, "print no summary");
   line.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");

@@ -37,4 +37,11 @@ void declareInputOptions(CommandLine& line, InputOptions& options) {
             "PROJ knows");
 }
 
+void declarePinches(CommandLine& line, InputOptions& options) {
+  line.choice(
+      "--pinches", options.pinches, {"keep", "open"},
+      "places where shores touch in one point: keep them, or open them for water to pass: the narrower corner of "
+      "land gives way by a twentieth of the shortest edge there");
+}
+
 }  // namespace coastmesh

@@ -9,4 +9,7 @@ namespace coastmesh {
 // --min-island-area.
 void declareInputOptions(CommandLine& line, InputOptions& options);
 
+// --pinches; apart, since `check` means something else by it.
+void declarePinches(CommandLine& line, InputOptions& options);
+
 }  // namespace coastmesh

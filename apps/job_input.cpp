@@ -116,6 +116,9 @@ void JobInput::readPolyFile(const std::string& path) {
   if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
     throw UsageError("'" + path + "' has neither layers nor attributes; leave out --layer and --where");
   }
+  if (options_.pinches == "open") {
+    throw UsageError("'" + path + "' is a ready plane graph and is not cleaned; leave out --pinches open");
+  }
   if (options_.crs != "auto" && options_.crs != "plane") {
     throw UsageError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
   }
@@ -154,6 +157,7 @@ Domain JobInput::domain(std::size_t group, CleanReport& report) const {
   clean.simplify_m = options_.simplify_m;
   clean.min_island_area_m2 = options_.min_island_area_m2;
   clean.dissolve = options_.dissolve;
+  clean.pinches = options_.pinches == "open" ? Pinches::Open : Pinches::Keep;
   return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report);
 }
 

@@ -30,6 +30,7 @@ struct InputOptions {
   bool snap_in_plane = false;            // `snap_m` holds for a plane input too, where else nothing is snapped
   double simplify_m = 0.0;               // metres, 0 or more
   bool dissolve = false;                 // features that share an edge become one
+  std::string pinches = "keep";          // "keep" or "open": see Pinches
   double min_island_area_m2 = 0.0;       // square metres, 0 or more
 };
 

@@ -35,6 +35,7 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   line.flag("--smooth,!--no-smooth", usage.job.mesh.smooth,
             "move vertices on towards the sizes asked for, or towards even ones, where the angles allow it");
   declareInputOptions(line, usage.job.input);
+  declarePinches(line, usage.job.input);
   declareFinishOptions(line, usage.job.finish);
   line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
                "stop refining at so many vertices, with exit code 1");

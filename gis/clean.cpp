@@ -5,6 +5,7 @@
 
 #include "gis/chain_index.hpp"
 #include "gis/clean_faces.hpp"
+#include "gis/clean_pinches.hpp"
 #include "gis/clean_simplify.hpp"
 #include "gis/error.hpp"
 
@@ -115,6 +116,8 @@ std::string_view toString(EditKind kind) {
       return "point outside the water";
     case EditKind::DissolvedEdge:
       return "dissolved edge";
+    case EditKind::OpenedPinch:
+      return "opened pinch";
   }
   assert(false);
   return "";
@@ -126,11 +129,16 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
   CleanChains chains = makeChains(coastline, members, projection, options, report);
   const NodedEdges edges = nodeChains(chains, coastline, projection, report);
   LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report);
+  if (options.pinches == Pinches::Keep) tellPinches(chains.vertices, labelled.segments, coastline, report);
   refuseEmpty(coastline, members, labelled.segments);
   keepFramedEdits(coastline, members, edits_before, report);
   if (options.dissolve) labelled.segments = dropTraces(chains.vertices, labelled, coastline, projection, report);
   if (options.simplify_m > 0) {
     labelled.segments = simplifyEdges(chains.vertices, labelled, coastline, projection, options.simplify_m, report);
+  }
+  if (options.pinches == Pinches::Open) {
+    labelled.segments =
+        openPinches(chains.vertices, std::move(labelled.segments), coastline, projection, chains.snap, report);
   }
   return compact(chains.vertices, std::move(labelled), projection);
 }

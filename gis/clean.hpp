@@ -13,11 +13,18 @@
 
 namespace coastmesh {
 
+// What becomes of a place where rings, or a ring with itself, touch in one vertex.
+enum class Pinches {
+  Keep,  // the vertex stays in both; it is told of
+  Open,  // land gives way a little, so that water passes: see `openPinches`
+};
+
 struct CleanOptions {
   double snap_m = 0.001;            // metres, 0 or more: points nearer than this become one (0 for a plane input)
   double simplify_m = 0.0;          // metres, 0 or more: no shore is moved further than this; see `simplifyEdges`
   double min_island_area_m2 = 0.0;  // square metres, 0 or more: smaller holes are filled
   bool dissolve = false;            // areas that share an edge become one, and the edge goes
+  Pinches pinches = Pinches::Keep;
 };
 
 enum class EditKind {
@@ -34,8 +41,9 @@ enum class EditKind {
   MisplacedRing,    // a hole outside its outer ring, or an outer ring inside another: taken by the even-odd rule
   OutsideWater,     // a point asked for as a vertex lies outside of the domain: dropped
   DissolvedEdge,    // an edge between two features, or a vertex that only such an edge had made: dropped by `dissolve`
+  OpenedPinch,      // water passes where rings touched, or crossed, in a vertex: made by `Pinches::Open`
 };
-inline constexpr std::size_t kEditKinds = 13;
+inline constexpr std::size_t kEditKinds = 14;
 std::string_view toString(EditKind kind);  // "repeated point"
 
 // One change made to the input.

@@ -50,7 +50,6 @@ class Labeller {
     LabelledEdges result;
     if (dissolve_) result.traces = dissolve();
     result.segments = keepEdges();
-    tellPinches(result.segments);
     result.points = keepPoints(result.segments);
     return result;
   }
@@ -294,22 +293,6 @@ class Labeller {
       twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
     }
     return twice > 0;
-  }
-
-  // A vertex of the input with outside in two or more of its sectors.
-  void tellPinches(const std::vector<Segment>& segments) {
-    std::vector<std::uint32_t> outside_sectors(chains_.vertices.plane.size(), 0);
-    for (const Segment& s : segments) {  // each sector of outside begins, counter-clockwise, with one edge
-      if (s.left == kOutside) ++outside_sectors[s.a];
-      if (s.right == kOutside) ++outside_sectors[s.b];
-    }
-    for (const Segment& s : segments) {
-      for (const VertexId v : {s.a, s.b}) {
-        if (outside_sectors[v] < 2 || chains_.vertices.is_new[v]) continue;
-        outside_sectors[v] = 0;
-        report_.add(EditKind::TouchingRing, inputOf(v), fidOf(static_cast<std::uint32_t>(std::max(s.left, s.right))));
-      }
-    }
   }
 
   const CleanChains& chains_;

@@ -42,7 +42,8 @@ class Case:
     """An input in the plane round 0, 0; transformed before it is written."""
 
     def __init__(self, name, geometries, *, exit=0, area=None, islands=None, edits=(), says="", options=(), text=None,
-                 ending=".geojson", crs=UTM, fixed=False):
+                 ending=".geojson", crs=UTM, fixed=False, tolerance=2e-3):
+        self.tolerance = tolerance
         self.name, self.geometries, self.exit, self.area, self.islands = name, geometries, exit, area, islands
         self.edits, self.says, self.options, self.text, self.ending = edits, says, list(options), text, ending
         self.crs, self.fixed = crs, fixed
@@ -92,6 +93,26 @@ def cases():
                edits=["misplaced_ring"])
     yield Case("islands_touch_in_a_point", [polygon(LAKE, box(0, 0, 100, 100), box(100, 100, 200, 200))],
                area=LAKE_AREA - 2e4, edits=["touching_ring"])
+    opened = ["--pinches", "open"]
+    yield Case("touching_islands_opened", [polygon(LAKE, box(0, 0, 100, 100), box(100, 100, 200, 200))],
+               area=LAKE_AREA - 2e4, edits=["opened_pinch"], options=opened, islands=2)
+    yield Case("three_islands_opened", [polygon(LAKE, [(0, 0), (100, -30), (100, 30)], [(0, 0), (0, 100), (-60, 100)],
+               [(0, 0), (-100, 0), (-60, -100)])], area=LAKE_AREA - 1.1e4, edits=["opened_pinch"], options=opened, islands=3)
+    yield Case("island_at_the_shore_opened", [polygon(box(0, 0, 1000, 1000), [(0, 500), (200, 400), (200, 600)])],
+               area=1e6 - 2e4, edits=["overlapping_edge", "opened_pinch"], options=opened, islands=1)
+    yield Case("island_of_two_lobes_opened", [polygon(LAKE, [(0, 0), (100, -100), (200, 0), (100, 100), (0, 0), (-100, 100),
+               (-200, 0), (-100, -100)])], area=LAKE_AREA - 4e4, edits=["opened_pinch"], options=opened, islands=2)
+    yield Case("lake_of_two_lobes_opened", [polygon([(0, 0), (400, 0), (400, 400), (800, 400), (800, 800), (400, 800), (400, 400),
+               (0, 400)])], area=3.2e5, tolerance=0.01, edits=["opened_pinch"], options=opened, islands=0)
+    yield Case("bow_tie_opened", [polygon([(0, 0), (1000, 1000), (1000, 0), (0, 1000)])], area=5e5, tolerance=0.01,
+               edits=["self_crossing", "opened_pinch"], options=opened, islands=0)
+    yield Case("touching_lakes_opened", [polygon(box(0, 0, 500, 500)), polygon(box(500, 500, 900, 900))], area=4.1e5,
+               tolerance=0.01, edits=["opened_pinch"], options=opened)
+    chequered = [box(x, y, x + 100, y + 100) for x in range(0, 800, 100) for y in range(0, 800, 100) if (x + y) % 200]
+    yield Case("chequered_opened", [polygon(box(-100, -100, 900, 900), *chequered)], area=6.8e5, tolerance=0.01,
+               edits=["opened_pinch"], options=opened, islands=32)
+    yield Case("islands_share_an_edge_opened", [polygon(LAKE, box(0, 0, 100, 100), box(100, 0, 200, 100))],
+               area=LAKE_AREA - 2e4, options=opened, islands=1)
     yield Case("islands_share_an_edge", [polygon(LAKE, box(0, 0, 100, 100), box(100, 0, 200, 100))], area=LAKE_AREA - 2e4,
                edits=["overlapping_edge"], islands=1)
     yield Case("islands_share_part_of_an_edge", [polygon(LAKE, box(0, 0, 100, 100), box(100, 20, 200, 80))],
@@ -202,6 +223,8 @@ def cases():
             ring = [(100 * rng.randint(0, 6), 100 * rng.randint(0, 6)) for _ in range(n)]
         holes = [[(100 * rng.randint(0, 6), 100 * rng.randint(0, 6)) for _ in range(5)] for _ in range(rng.randint(0, 4))]
         yield Case(f"tangle_{seed}", [polygon(ring, *holes)], exit=None, fixed=seed >= 10)
+        if seed < 20:
+            yield Case(f"tangle_{seed}_opened", [polygon(ring, *holes)], exit=None, fixed=True, options=opened)
 
 
 TRANSFORMS = {
@@ -271,12 +294,17 @@ def check_case(program, case, suffix, change, folder):
         return
     checked = run(program, "check", mesh)
     require(checked.returncode == 0, f"check: {checked.stdout} {checked.stderr}")
+    if "open" in case.options:
+        opened = run(program, "check", mesh, "--pinches", "--target", "adcirc")
+        require(opened.returncode == 0, f"check --pinches --target adcirc: {opened.stdout} {opened.stderr}")
+        same = run(program, "check", mesh, "--input", file, "--input-pinches", "open")
+        require(same.returncode == 0, f"check --input: {same.stdout} {same.stderr}")
     result = json.loads(report.read_text())
     require(result["refine"]["unresolved"]["count"] == 0 or case.exit is None, "angles fall short")
     if case.area is not None:
         wanted_area = case.area * (GROUND if case.ending == ".geojson" else 1)
         got = result["mesh"]["area_m2"]
-        require(abs(got - wanted_area) < 2e-3 * wanted_area, f"area {got:.1f}, not {wanted_area:.1f}")
+        require(abs(got - wanted_area) < case.tolerance * wanted_area, f"area {got:.1f}, not {wanted_area:.1f}")
     for kind in case.edits:
         require(result["clean"][kind] > 0, f"counts no {kind}: {result['clean']}")
     if case.islands is not None:
@@ -288,9 +316,10 @@ def check_case(program, case, suffix, change, folder):
     once, twice = folder / f"{case.name}{suffix}_1.gpkg", folder / f"{case.name}{suffix}_2.gpkg"
     first = run(program, "clean", file, "-o", once, "--overwrite", *options)
     require(first.returncode in (0, 1), f"clean: {first.stderr}")
-    second = run(program, "clean", once, "-o", twice, "--overwrite")
-    require(second.returncode == 0, f"clean again: {second.stderr}")
-    require(once.read_bytes() == twice.read_bytes(), f"cleaned again, the file is another: {second.stdout}")
+    for again in [[], ["--pinches", "open"]] if "open" in case.options else [[]]:
+        second = run(program, "clean", once, "-o", twice, "--overwrite", *again)
+        require(second.returncode == 0, f"clean again: {second.stderr}")
+        require(once.read_bytes() == twice.read_bytes(), f"cleaned again, the file is another: {second.stdout}")
 
 
 def main():

@@ -1,0 +1,356 @@
+#include "gis/clean_pinches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <unordered_map>
+
+#include "core/predicates.hpp"
+#include "gis/box_tree.hpp"
+#include "gis/chain_index.hpp"
+#include "gis/segment_tags.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// By vertex: in how many sectors the outside lies. Each of these begins, counter-clockwise, with one edge.
+std::vector<std::uint32_t> outsideSectors(std::size_t vertices, const std::vector<Segment>& segments) {
+  std::vector<std::uint32_t> sectors(vertices, 0);
+  for (const Segment& s : segments) {
+    if (s.left == kOutside) ++sectors[s.a];
+    if (s.right == kOutside) ++sectors[s.b];
+  }
+  return sectors;
+}
+
+std::int64_t fidBeside(const Segment& s, const Coastline& coastline) {
+  return coastline.features[static_cast<std::size_t>(std::max(s.left, s.right))].fid;
+}
+
+double distance(const Point& p, const Point& q) { return std::hypot(q.x - p.x, q.y - p.y); }
+
+double distanceToSegment(const Point& p, const Point& a, const Point& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
+  return distance(p, {a.x + t * dx, a.y + t * dy});
+}
+
+// The angle from vp counter-clockwise to vq, in (0, 2 pi).
+double angleBetween(const Point& v, const Point& p, const Point& q) {
+  const double ux = p.x - v.x, uy = p.y - v.y, wx = q.x - v.x, wy = q.y - v.y;
+  const int turn = orient2d(v, p, q);
+  if (turn == 0) return std::numbers::pi;  // edges of a plane graph do not run along one another
+  const double angle = std::abs(std::atan2(ux * wy - uy * wx, ux * wx + uy * wy));
+  return turn > 0 ? angle : 2 * std::numbers::pi - angle;
+}
+
+// An edge as it leaves the pinched vertex.
+struct Spoke {
+  std::uint32_t segment;
+  VertexId end;
+  RegionId left, right;
+  bool open;
+};
+
+// A sector of the outside between two spokes, counter-clockwise from `first` to `last`.
+struct Corner {
+  std::size_t first, last;  // numbers of spokes
+  double angle;
+  double water_before, water_after;  // angles of the water beside its edges
+  bool open;                         // an open boundary runs along it
+};
+
+// What takes a corner's place: from on its first edge to on its last, by `tip`.
+struct Notch {
+  Point first, tip, last;
+  bool whole_first, whole_last;  // the edge's other end itself
+};
+
+class PinchOpener {
+ public:
+  PinchOpener(CleanVertices& vertices, std::vector<Segment>& segments, const Coastline& coastline,
+              const Projection& projection, double snap, CleanReport& report)
+      : vertices_(vertices),
+        segments_(segments),
+        coastline_(coastline),
+        projection_(projection),
+        snap_(snap),
+        report_(report),
+        originals_(static_cast<std::uint32_t>(segments.size())) {}
+
+  void run() {
+    const std::vector<std::uint32_t> sectors = outsideSectors(vertices_.plane.size(), segments_);
+    std::vector<VertexId> pinched;
+    for (VertexId v = 0; v < sectors.size(); ++v) {
+      if (sectors[v] < 2) continue;
+      pinched.push_back(v);
+      at_[v] = {};
+    }
+    if (pinched.empty()) return;
+    std::vector<Box> boxes;
+    boxes.reserve(segments_.size());
+    for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+      const Point &a = at(segments_[s].a), &b = at(segments_[s].b);
+      boxes.push_back(Box::of(a, b).grownBy(distance(a, b) * kReach));
+      for (const VertexId v : {segments_[s].a, segments_[s].b}) {
+        if (sectors[v] >= 2) at_[v].push_back(s);
+      }
+    }
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+    std::size_t left = 0;
+    for (const VertexId v : pinched) {
+      const Segment& beside = segments_[at_[v].front()];
+      const std::int64_t fid = fidBeside(beside, coastline_);
+      if (open(v)) {
+        report_.add(EditKind::OpenedPinch, vertices_.input[v], fid);
+      } else {
+        report_.add(EditKind::TouchingRing, vertices_.input[v], fid);
+        ++left;
+      }
+    }
+    if (left > 0) {
+      report_.notes.push_back(std::to_string(left) + " places where rings touch could not be opened for want of room");
+    }
+    std::ranges::sort(segments_, [](const Segment& s, const Segment& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });
+  }
+
+ private:
+  // Pieces and new edges of a segment stay within this share of its length around it.
+  static constexpr double kReach = 0.25;
+  // How far along the edges a notch begins, in gaps.
+  static constexpr double kShoulder = 4.0;
+  // A notch that reaches further along an edge than this takes all of it.
+  static constexpr double kMostOfEdge = 0.6;
+
+  const Point& at(VertexId v) const { return vertices_.plane[v]; }
+
+  std::vector<Spoke> spokesOf(VertexId v) const {
+    std::vector<Spoke> spokes;
+    for (const std::uint32_t number : at_.at(v)) {
+      const Segment& s = segments_[number];
+      const bool out = s.a == v;
+      spokes.push_back({number, out ? s.b : s.a, out ? s.left : s.right, out ? s.right : s.left, s.tag == kOpenTag});
+    }
+    const Point& centre = at(v);
+    const auto below = [&](const Point& p) { return p.y < centre.y || (p.y == centre.y && p.x < centre.x); };
+    std::ranges::sort(spokes, [&](const Spoke& g, const Spoke& h) {
+      const Point &p = at(g.end), &q = at(h.end);
+      if (below(p) != below(q)) return below(q);
+      return orient2d(centre, p, q) > 0;
+    });
+    return spokes;
+  }
+
+  // The corners, those to be opened first in front.
+  std::vector<Corner> cornersOf(VertexId v, const std::vector<Spoke>& spokes) const {
+    const std::size_t n = spokes.size();
+    std::vector<Corner> corners;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (spokes[i].left != kOutside) continue;
+      const std::size_t next = (i + 1) % n;
+      const Point &p = at(spokes[i].end), &q = at(spokes[next].end);
+      Corner corner{i, next, angleBetween(at(v), p, q), 0, 0, spokes[i].open || spokes[next].open};
+      std::size_t j = i;
+      for (; spokes[j].right != kOutside; j = (j + n - 1) % n) {
+        const std::size_t before = (j + n - 1) % n;
+        corner.water_before += angleBetween(at(v), at(spokes[before].end), at(spokes[j].end));
+        if (before == next) break;
+      }
+      for (j = next; spokes[j].left != kOutside; j = (j + 1) % n) {
+        const std::size_t after = (j + 1) % n;
+        corner.water_after += angleBetween(at(v), at(spokes[j].end), at(spokes[after].end));
+        if (after == i) break;
+      }
+      corners.push_back(corner);
+    }
+    std::ranges::sort(corners, [&](const Corner& c, const Corner& d) {
+      if (c.open != d.open) return d.open;
+      if (c.angle != d.angle) return c.angle < d.angle;
+      return lexLess(at(spokes[c.first].end), at(spokes[d.first].end));
+    });
+    return corners;
+  }
+
+  // True iff one sector of the outside is left.
+  bool open(VertexId v) {
+    const std::vector<Spoke> spokes = spokesOf(v);
+    const std::vector<Corner> corners = cornersOf(v, spokes);
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Spoke& spoke : spokes) shortest = std::min(shortest, distance(at(v), at(spoke.end)));
+    std::size_t left = corners.size();
+    for (const Corner& corner : corners) {
+      if (left > 1 && cut(v, spokes, corner, shortest)) --left;
+    }
+    return left == 1;
+  }
+
+  bool cut(VertexId v, const std::vector<Spoke>& spokes, const Corner& corner, double shortest) {
+    const Point& centre = at(v);
+    const Spoke &first = spokes[corner.first], &last = spokes[corner.last];
+    const double grain = std::ldexp(std::max(std::abs(centre.x), std::abs(centre.y)), -40);
+    const double least = std::max(kSnapMargin * snap_, grain);
+    double gap = std::clamp(kPinchGap * shortest, std::min(least, kReach * shortest), kReach * shortest);
+    Box box = Box::of(at(first.end), at(last.end));
+    box.add(centre);
+    const std::vector<std::uint32_t> near = segmentsNear(box.grownBy(gap));
+    constexpr int kMostHalvings = 40;
+    for (int halving = 0; halving < kMostHalvings && gap >= least; ++halving, gap /= 2) {
+      const Notch notch = notchFor(centre, at(first.end), at(last.end), corner, gap);
+      if (!fits(v, first, last, notch, gap, near)) continue;
+      apply(v, first, last, notch);
+      return true;
+    }
+    return false;
+  }
+
+  static Notch notchFor(const Point& centre, const Point& first, const Point& last, const Corner& corner, double gap) {
+    // As far along the edge as the water beside it takes to become as wide as the gap.
+    const auto along = [&](double water) {
+      return std::max(kShoulder * gap, gap / (2 * std::sin(std::min(water, std::numbers::pi) / 2)));
+    };
+    const auto shoulder = [&](const Point& end, double water, bool& whole) {
+      const double length = distance(centre, end), share = along(water) / length;
+      whole = !(share < kMostOfEdge);
+      return whole ? end : Point{centre.x + share * (end.x - centre.x), centre.y + share * (end.y - centre.y)};
+    };
+    Notch notch{};
+    notch.first = shoulder(first, corner.water_before, notch.whole_first);
+    notch.last = shoulder(last, corner.water_after, notch.whole_last);
+    const double length = distance(centre, first), cosine = std::cos(corner.angle / 2),
+                 sine = std::sin(corner.angle / 2);
+    const double x = (first.x - centre.x) / length * gap, y = (first.y - centre.y) / length * gap;
+    notch.tip = {centre.x + cosine * x - sine * y, centre.y + sine * x + cosine * y};
+    return notch;
+  }
+
+  std::vector<std::uint32_t> segmentsNear(const Box& box) const {
+    std::vector<std::uint32_t> near;
+    tree_.visit(box, [&](std::uint32_t s) {
+      near.push_back(s);
+      const auto more = added_.find(s);
+      if (more != added_.end()) near.insert(near.end(), more->second.begin(), more->second.end());
+    });
+    return near;
+  }
+
+  // Whether two edges with the ends given meet in more than a common end.
+  static bool clash(const Point& a, const Point& b, const Point& c, const Point& d) {
+    const auto overlap = [](const Point& shared, const Point& p, const Point& q) {
+      return orient2d(shared, p, q) == 0 &&
+             (p.x - shared.x) * (q.x - shared.x) + (p.y - shared.y) * (q.y - shared.y) > 0;
+    };
+    if (a == c) return b == d || overlap(a, b, d);
+    if (a == d) return b == c || overlap(a, b, c);
+    if (b == c) return overlap(b, a, d);
+    if (b == d) return overlap(b, a, c);
+    return segmentsMeet(a, b, c, d);
+  }
+
+  bool fits(VertexId v, const Spoke& first, const Spoke& last, const Notch& notch, double gap,
+            const std::vector<std::uint32_t>& near) const {
+    const Point& centre = at(v);
+    if (orient2d(centre, notch.first, notch.tip) <= 0 || orient2d(centre, notch.tip, notch.last) <= 0) return false;
+    std::vector<std::pair<Point, Point>> edges{{notch.first, notch.tip}, {notch.tip, notch.last}, {centre, notch.tip}};
+    if (!notch.whole_first) edges.emplace_back(notch.first, at(first.end));
+    if (!notch.whole_last) edges.emplace_back(notch.last, at(last.end));
+    const auto holds = [&](const Point& p) {
+      const auto in = [&](const Point& a, const Point& b, const Point& c) {
+        return orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0;
+      };
+      if (p == centre || (notch.whole_first && p == notch.first) || (notch.whole_last && p == notch.last)) return false;
+      return in(centre, notch.first, notch.tip) || in(centre, notch.tip, notch.last);
+    };
+    for (const std::uint32_t number : near) {
+      if (number == first.segment || number == last.segment) continue;
+      const Segment& s = segments_[number];
+      const Point &a = at(s.a), &b = at(s.b);
+      if (holds(a) || holds(b)) return false;
+      for (const auto& [p, q] : edges) {
+        if (clash(p, q, a, b)) return false;
+      }
+      if (s.a != v && s.b != v && distanceToSegment(notch.tip, a, b) < gap / 2) return false;
+    }
+    return true;
+  }
+
+  VertexId addVertex(const Point& place) {
+    vertices_.plane.push_back(place);
+    vertices_.input.push_back(projection_.inverse(place));
+    vertices_.is_new.push_back(1);
+    return static_cast<VertexId>(vertices_.plane.size() - 1);
+  }
+
+  // Adds an edge, to be found where `beside` is.
+  void addSegment(VertexId a, VertexId b, std::int32_t tag, RegionId left, RegionId right, std::uint32_t beside) {
+    if (a > b) std::swap(a, b), std::swap(left, right);
+    const auto number = static_cast<std::uint32_t>(segments_.size());
+    segments_.push_back({a, b, tag, left, right});
+    const std::uint32_t original = originalOf(beside);
+    added_[original].push_back(number);
+    original_of_added_.push_back(original);
+  }
+
+  std::uint32_t originalOf(std::uint32_t segment) const {
+    return segment < originals_ ? segment : original_of_added_[segment - originals_];
+  }
+
+  void moveEnd(std::uint32_t segment, VertexId from, VertexId to) {
+    Segment& s = segments_[segment];
+    (s.a == from ? s.a : s.b) = to;
+    if (s.a > s.b) std::swap(s.a, s.b), std::swap(s.left, s.right);
+  }
+
+  // An edge that is taken whole goes on from its far end to the tip; of another the near part becomes water.
+  void apply(VertexId v, const Spoke& first, const Spoke& last, const Notch& notch) {
+    const std::int32_t first_tag = segments_[first.segment].tag, last_tag = segments_[last.segment].tag;
+    const VertexId tip = addVertex(notch.tip);
+    const VertexId on_first = notch.whole_first ? tip : addVertex(notch.first);
+    const VertexId on_last = notch.whole_last ? tip : addVertex(notch.last);
+    moveEnd(first.segment, v, on_first);
+    moveEnd(last.segment, v, on_last);
+    if (on_first != tip) addSegment(on_first, tip, first_tag, first.right, kOutside, first.segment);
+    if (on_last != tip) addSegment(tip, on_last, last_tag, last.left, kOutside, last.segment);
+    if (first.right != last.left) addSegment(v, tip, 0, last.left, first.right, first.segment);
+    std::erase_if(at_[v], [&](std::uint32_t s) { return s == first.segment || s == last.segment; });
+  }
+
+  // More than the snap distance, so that what was parted is not brought together again.
+  static constexpr double kSnapMargin = 1.5;
+
+  CleanVertices& vertices_;
+  std::vector<Segment>& segments_;
+  const Coastline& coastline_;
+  const Projection& projection_;
+  double snap_;
+  CleanReport& report_;
+  std::uint32_t originals_;
+  BoxTree tree_;                                                         // over the first `originals_` segments
+  std::unordered_map<VertexId, std::vector<std::uint32_t>> at_;          // segments at pinched vertices
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> added_;  // by original segment
+  std::vector<std::uint32_t> original_of_added_;
+};
+
+}  // namespace
+
+void tellPinches(const CleanVertices& vertices, const std::vector<Segment>& segments, const Coastline& coastline,
+                 CleanReport& report) {
+  std::vector<std::uint32_t> sectors = outsideSectors(vertices.plane.size(), segments);
+  for (const Segment& s : segments) {
+    for (const VertexId v : {s.a, s.b}) {
+      if (sectors[v] < 2 || vertices.is_new[v]) continue;
+      sectors[v] = 0;
+      report.add(EditKind::TouchingRing, vertices.input[v], fidBeside(s, coastline));
+    }
+  }
+}
+
+std::vector<Segment> openPinches(CleanVertices& vertices, std::vector<Segment> segments, const Coastline& coastline,
+                                 const Projection& projection, double snap, CleanReport& report) {
+  PinchOpener(vertices, segments, coastline, projection, snap, report).run();
+  return segments;
+}
+
+}  // namespace coastmesh
