@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
+#include "core/hilbert.hpp"
 #include "core/predicates.hpp"
-#include "gis/box_tree.hpp"
+#include "gis/edge_runs.hpp"
 #include "gis/error.hpp"
 #include "gis/point_grid.hpp"
 
@@ -101,7 +103,14 @@ class Noder {
     const auto key = [&](const EdgeUse& use) {
       return std::tuple(use.low(), use.high(), isLine(use), featureOf(use), use.chain, use.a);
     };
-    std::sort(uses_.begin(), uses_.end(), [&](const EdgeUse& p, const EdgeUse& q) { return key(p) < key(q); });
+    sortByLow();
+    const auto before = [&](const EdgeUse& p, const EdgeUse& q) { return key(p) < key(q); };
+    for (auto first = uses_.begin(); first != uses_.end();) {
+      auto last = first + 1;
+      while (last != uses_.end() && last->low() == first->low()) ++last;
+      if (last - first > 1) std::sort(first, last, before);
+      first = last;
+    }
     std::size_t kept = 0;
     edges_.clear();
     for (std::size_t i = 0; i < uses_.size();) {
@@ -122,6 +131,16 @@ class Noder {
       if (kept > first) edges_.push_back({low, high, first, kept});
     }
     uses_.resize(kept);
+  }
+
+  // By counting: there are as many vertices as edges, and few edges at each.
+  void sortByLow() {
+    std::vector<std::uint32_t> next(chains_.vertices.plane.size() + 1, 0);
+    for (const EdgeUse& use : uses_) ++next[use.low() + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<EdgeUse> sorted(uses_.size());
+    for (const EdgeUse& use : uses_) sorted[next[use.low()]++] = use;
+    uses_ = std::move(sorted);
   }
 
   bool onSeam(VertexId u, VertexId v) const {
@@ -146,21 +165,21 @@ class Noder {
   void find(double tolerance) {
     splits_.clear();
     crossings_.clear();
-    std::vector<Box> boxes;
-    boxes.reserve(edges_.size());
-    for (const Edge& edge : edges_) boxes.push_back(Box::of(at(edge.low), at(edge.high)));
-    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-      if (!active_[e]) continue;
-      tree.visit(boxes[e].grownBy(tolerance), [&](std::uint32_t f) {
-        if (f == e || (active_[f] && f < e)) return;
+    const auto box_of = [&](std::size_t e) { return Box::of(at(edges_[e].low), at(edges_[e].high)); };
+    const auto active = [&](std::uint32_t e) { return active_[e] != 0; };
+    const EdgeRuns runs(edges_.size(), box_of);
+    runs.visitPairs(0, runs.runCount(), tolerance, box_of, active, [&](std::uint32_t e, std::uint32_t f) {
+      if (active_[e]) {
         testPair(e, f, tolerance);
-      });
-    }
+      } else {
+        testPair(f, e, tolerance);
+      }
+    });
+    sortCrossings();
     for (const CleanChain& chain : chains_.chains) {
       if (chain.role != CleanChain::Role::Point) continue;
       const VertexId v = chain.walk.front();
-      tree.visit(Box::of(at(v), at(v)).grownBy(tolerance), [&](std::uint32_t f) {
+      runs.visit(Box::of(at(v), at(v)).grownBy(tolerance), box_of, [&](std::uint32_t f) {
         const auto [low, high] = std::pair(edges_[f].low, edges_[f].high);
         if (v != low && v != high && liesOnEdge(at(low), at(high), at(v), tolerance)) splits_.push_back({f, v});
       });
@@ -184,6 +203,19 @@ class Noder {
         orient2d(at(c), at(d), at(a)) * orient2d(at(c), at(d), at(b)) < 0) {
       crossings_.push_back({e, f});
     }
+  }
+
+  // So that new vertices are numbered along the edges, and of one edge along Hilbert's curve.
+  void sortCrossings() {
+    if (crossings_.empty()) return;
+    std::vector<Point> centres;
+    centres.reserve(edges_.size());
+    for (const Edge& edge : edges_) {
+      const Box box = Box::of(at(edge.low), at(edge.high));
+      centres.push_back({box.xmin / 2 + box.xmax / 2, box.ymin / 2 + box.ymax / 2});
+    }
+    const std::vector<std::uint32_t> along = hilbertIndices(centres);
+    std::ranges::sort(crossings_, {}, [&](const Crossing& c) { return std::tuple(c.e, along[c.f], c.f); });
   }
 
   void tellSplits() {

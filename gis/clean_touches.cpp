@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/predicates.hpp"
-#include "gis/box_tree.hpp"
+#include "gis/edge_runs.hpp"
 
 namespace coastmesh {
 
@@ -28,26 +28,30 @@ struct Insertion {
 
 class Toucher {
  public:
-  Toucher(const std::vector<TouchChain>& chains, double widest) : chains_(chains), widest_(widest) {
+  Toucher(const std::vector<TouchChain>& chains, double widest) : widest_(widest) {
+    std::size_t count = 0;
+    for (const TouchChain& chain : chains) count += chain.points->size();
+    ends_.reserve(count);
+    edges_.reserve(count);
     for (std::uint32_t c = 0; c < chains.size(); ++c) {
-      const std::size_t n = chains[c].points->size(), edges = chains[c].closed || n == 0 ? n : n - 1;
-      for (std::uint32_t i = 0; i < edges; ++i) edges_.push_back({c, i});
+      const std::vector<Point>& points = *chains[c].points;
+      for (std::uint32_t i = 0; i + 1 < points.size(); ++i) addEdge({c, i}, points[i], points[i + 1]);
+      if (chains[c].closed && !points.empty()) {
+        addEdge({c, static_cast<std::uint32_t>(points.size() - 1)}, points.back(), points.front());
+      }
     }
   }
 
   std::vector<Insertion> find() {
-    std::vector<Box> boxes;
-    boxes.reserve(edges_.size());
-    for (const ChainEdge& edge : edges_) boxes.push_back(Box::of(start(edge), end(edge)));
-    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-      tree.visit(boxes[e], [&](std::uint32_t f) {
-        if (f == e) return;
-        // Every point is the start of one edge, but for the last of an open line.
-        test(edges_[e], boxes[e], start(edges_[f]));
-        test(edges_[e], boxes[e], end(edges_[f]));
-      });
-    }
+    const auto box_of = [&](std::size_t e) { return Box::of(ends_[e].a, ends_[e].b); };
+    const auto all = [](std::uint32_t) { return true; };
+    const EdgeRuns runs(ends_.size(), box_of);
+    runs.visitPairs(0, runs.runCount(), 0, box_of, all, [&](std::uint32_t e, std::uint32_t f) {
+      test(e, ends_[f].a);
+      test(e, ends_[f].b);
+      test(f, ends_[e].a);
+      test(f, ends_[e].b);
+    });
     std::sort(found_.begin(), found_.end());
     const auto same = [](const Insertion& p, const Insertion& q) { return !(p < q) && !(q < p); };
     found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
@@ -55,23 +59,27 @@ class Toucher {
   }
 
  private:
-  const Point& start(const ChainEdge& edge) const { return (*chains_[edge.chain].points)[edge.index]; }
-  const Point& end(const ChainEdge& edge) const {
-    const auto& points = *chains_[edge.chain].points;
-    return points[(edge.index + 1) % points.size()];
+  struct Ends {
+    Point a, b;
+  };
+
+  void addEdge(const ChainEdge& edge, const Point& a, const Point& b) {
+    edges_.push_back(edge);
+    ends_.push_back({a, b});
   }
 
-  void test(const ChainEdge& edge, const Box& box, const Point& p) {
-    const Point &a = start(edge), &b = end(edge);
-    if (box.xmax - box.xmin > widest_ || p == a || p == b || !box.meets({p.x, p.y, p.x, p.y}) || orient2d(a, b, p) != 0)
+  void test(std::uint32_t e, const Point& p) {
+    const auto& [a, b] = ends_[e];
+    const Box box = Box::of(a, b);
+    if (!box.meets({p.x, p.y, p.x, p.y}) || p == a || p == b || box.xmax - box.xmin > widest_ || orient2d(a, b, p) != 0)
       return;
     const bool by_x = box.xmax - box.xmin >= box.ymax - box.ymin;
-    found_.push_back({edge, by_x ? std::abs(p.x - a.x) : std::abs(p.y - a.y), p});
+    found_.push_back({edges_[e], by_x ? std::abs(p.x - a.x) : std::abs(p.y - a.y), p});
   }
 
-  const std::vector<TouchChain>& chains_;
   double widest_;
   std::vector<ChainEdge> edges_;
+  std::vector<Ends> ends_;
   std::vector<Insertion> found_;
 };
 

@@ -56,7 +56,7 @@ bool jumps(const Ring& lonlat) {
 
 }  // namespace
 
-RingArea::RingArea(const Crs& crs) : plane_(crs.isPlane()), geodesic_(crs.semi_major_m, crs.flattening) {
+RingArea::RingArea(const Crs& crs) : plane_(crs.isPlane()), edges_(crs.semi_major_m, crs.flattening) {
   if (!plane_ && !crs.geographic) to_lonlat_ = std::make_unique<CrsMap>(toOgr(crs), geographicBase(crs));
 }
 
@@ -70,13 +70,29 @@ double RingArea::of(const Ring& ring) const {
   return onEllipsoid(lonlat);
 }
 
+// None for rings whose longitudes jump or that come near to a pole.
+std::optional<double> RingArea::awayFromPoles(const Ring& lonlat) const {
+  constexpr double kWidest = 90, kHighest = 89;  // degrees
+  if (std::abs(lonlat.back().y) > kHighest) return std::nullopt;
+  GeographicLib::Accumulator<double> sum;
+  EdgeArea::Vertex from = edges_.at(lonlat.back());
+  for (const Point& p : lonlat) {
+    const EdgeArea::Vertex to = edges_.at(p);
+    if (std::abs(p.y) > kHighest || std::abs(to.lon_deg - from.lon_deg) > kWidest) return std::nullopt;
+    sum += edges_.under(from, to);
+    from = to;
+  }
+  return std::abs(sum());
+}
+
 double RingArea::onEllipsoid(const Ring& lonlat) const {
-  GeographicLib::PolygonArea polygon(geodesic_);
+  if (const std::optional<double> area = awayFromPoles(lonlat)) return *area;
+  GeographicLib::PolygonArea polygon(edges_.geodesic());
   for (const Point& p : lonlat) polygon.AddPoint(p.y, p.x);
   double perimeter, area;  // the smaller part of the globe, negative where it lies to the right
   polygon.Compute(false, true, perimeter, area);
   area = std::abs(area);
-  const double globe = geodesic_.EllipsoidArea(), rest = globe - area;
+  const double globe = edges_.geodesic().EllipsoidArea(), rest = globe - area;
   Ring plain = lonlat;
   if (jumps(lonlat)) {
     plain = unrolled(lonlat);
@@ -105,13 +121,18 @@ namespace {
 // inside to their left. Which of the areas that differ by half the globe is meant, crossings of a meridian tell.
 class RimSum {
  public:
-  explicit RimSum(const Crs& crs) : geodesic_(crs.semi_major_m, crs.flattening) {}
+  explicit RimSum(const Crs& crs) : edges_(crs.semi_major_m, crs.flattening) {}
 
   void add(const Point& from, const Point& to) {
     using GeographicLib::Math;
+    constexpr double kWidest = 90, kHighest = 89;  // degrees
     double area = 0, unused = 0;
-    geodesic_.GenInverse(from.y, from.x, to.y, to.x, GeographicLib::Geodesic::AREA, unused, unused, unused, unused,
-                         unused, unused, area);
+    if (std::abs(from.x - to.x) < kWidest && std::max(std::abs(from.y), std::abs(to.y)) < kHighest) {
+      area = edges_.under(edges_.at(from), edges_.at(to));
+    } else {
+      edges_.geodesic().GenInverse(from.y, from.x, to.y, to.x, GeographicLib::Geodesic::AREA, unused, unused, unused,
+                                   unused, unused, unused, area);
+    }
     sum_ -= area;
     const double step = Math::AngDiff(from.x, to.x);
     const bool west_before = Math::AngNormalize(from.x) < 0, west_after = Math::AngNormalize(to.x) < 0;
@@ -120,13 +141,13 @@ class RimSum {
   }
 
   double area() const {
-    const double globe = geodesic_.EllipsoidArea();
+    const double globe = edges_.geodesic().EllipsoidArea();
     const double area = std::fmod(sum_() + (odd_ ? globe / 2 : 0), globe);
     return area < 0 ? area + globe : area;
   }
 
  private:
-  GeographicLib::Geodesic geodesic_;
+  EdgeArea edges_;
   GeographicLib::Accumulator<double> sum_;
   bool odd_ = false;
 };

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <GeographicLib/Geodesic.hpp>
 #include <memory>
+#include <optional>
 
 #include "gis/coastline.hpp"
 #include "gis/crs_map.hpp"
+#include "gis/edge_area.hpp"
 
 namespace coastmesh {
 
@@ -19,10 +20,11 @@ class RingArea {
 
  private:
   double onEllipsoid(const Ring& lonlat) const;
+  std::optional<double> awayFromPoles(const Ring& lonlat) const;
 
   bool plane_;
   std::unique_ptr<CrsMap> to_lonlat_;  // for projected CRS
-  GeographicLib::Geodesic geodesic_;
+  EdgeArea edges_;
 };
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/predicates.hpp"
+#include "gis/edge_runs.hpp"
 #include "gis/union_find.hpp"
 
 namespace coastmesh {
@@ -88,21 +89,21 @@ struct PlanarMap::Builder {
     return last;
   }
 
+  Box boxOf(std::size_t e) const { return Box::of(at(edges[e].first), at(edges[e].second)); }
+
   // Makes faces of loops: the outer loop of a piece belongs to the face that the piece lies in.
   void nestPieces() {
     const std::vector<VertexId> least = leastOfPieces();
     UnionFind faces(loops + 1);  // loop + 1; 0 is the unbounded face
-    std::vector<Box> boxes;
-    double span = 0;
-    if (least.size() > 1) {
-      boxes.reserve(edges.size());
-      for (const auto& [a, b] : edges) boxes.push_back(Box::of(at(a), at(b)));
+    if (least.size() < 2) {
+      for (const VertexId v : least) faces.unite(loop_of[outerAt(v)] + 1, 0);
+      return numberFaces(faces);
     }
-    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-    span = tree.bounds().xmax - tree.bounds().xmin;
+    const EdgeRuns runs(edges.size(), [&](std::size_t e) { return boxOf(e); });
+    const double span = runs.bounds().xmax - runs.bounds().xmin;
     const double first_reach = span / std::sqrt(static_cast<double>(edges.size()) + 1);
     for (const VertexId v : least) {
-      const HalfEdge hit = least.size() > 1 ? firstToTheLeft(at(v), tree, first_reach, span) : kNone;
+      const HalfEdge hit = firstToTheLeft(at(v), runs, first_reach, span);
       faces.unite(loop_of[outerAt(v)] + 1, hit == kNone ? 0 : loop_of[hit] + 1);
     }
     numberFaces(faces);
@@ -110,18 +111,21 @@ struct PlanarMap::Builder {
 
   // The half-edge that has on its left what a ray from p towards smaller x meets first, p's own piece lying wholly to
   // the other side; kNone if it meets nothing. The ray runs just above p: an edge holds its lower end, not its upper.
-  HalfEdge firstToTheLeft(const Point& p, const BoxTree& tree, double first_reach, double span) const {
+  HalfEdge firstToTheLeft(const Point& p, const EdgeRuns& runs, double first_reach, double span) const {
     // Looks near first. 64 doublings reach from any window above a point's own grain across any span.
     double reach = first_reach;
     for (int doubling = 0; doubling < 64; ++doubling, reach *= 2) {
       const bool all = !(reach < span);
       HalfEdge best = kNone;
-      tree.visit({all ? tree.bounds().xmin : p.x - reach, p.y, p.x, p.y}, [&](std::uint32_t e) {
-        const HalfEdge up = at(edges[e].first).y <= at(edges[e].second).y ? 2 * e : 2 * e + 1;
-        const Point &low = at(tail(up)), &high = at(head(up));
-        if (low.y > p.y || high.y <= p.y || orient2d(low, high, p) >= 0) return;
-        if (best == kNone || isRightOf(up, best)) best = up;
-      });
+      const Box window{all ? runs.bounds().xmin : p.x - reach, p.y, p.x, p.y};
+      runs.visit(
+          window, [&](std::size_t e) { return boxOf(e); },
+          [&](std::uint32_t e) {
+            const HalfEdge up = at(edges[e].first).y <= at(edges[e].second).y ? 2 * e : 2 * e + 1;
+            const Point &low = at(tail(up)), &high = at(head(up));
+            if (low.y > p.y || high.y <= p.y || orient2d(low, high, p) >= 0) return;
+            if (best == kNone || isRightOf(up, best)) best = up;
+          });
       if (best != kNone) {
         const Point &low = at(tail(best)), &high = at(head(best));
         const double x = low.x + (high.x - low.x) * ((p.y - low.y) / (high.y - low.y));

@@ -3,6 +3,8 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/PolygonArea.hpp>
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 #include "gis/clean.hpp"
 #include "tests/support/gis_shapes.hpp"
@@ -59,6 +61,26 @@ TEST(GeodesicArea, OfMoreThanHalfTheGlobe) {
   EXPECT_NEAR(areaOf(ocean) / (kGlobe - areaOf(cap)), 1, 1e-12);
   std::reverse(ocean.begin(), ocean.end());
   EXPECT_NEAR(areaOf(ocean) / (kGlobe - areaOf(cap)), 1, 1e-12);
+}
+
+// Edges of all lengths, on all latitudes, against the library's own sum.
+TEST(GeodesicArea, OfShortAndLongEdgesAlike) {
+  std::mt19937_64 random(7);
+  for (const double lat : {-88.0, -60.0, -20.0, 0.0, 35.0, 51.5, 75.0, 87.0}) {
+    for (const double radius : {1e-5, 1e-3, 0.05, 0.5, 1.0}) {
+      for (const std::size_t n : {3u, 10u, 300u}) {
+        Ring ring = starRing(random, {0, 0}, radius, n);
+        for (Point& p : ring) p = {120 + p.x / std::cos(lat * M_PI / 180), lat + p.y};
+        GeographicLib::PolygonArea polygon(GeographicLib::Geodesic::WGS84());
+        for (const Point& p : ring) polygon.AddPoint(p.y, p.x);
+        double perimeter, area;
+        polygon.Compute(false, true, perimeter, area);
+        // The library's rounding: some square centimetres, whatever the area.
+        EXPECT_NEAR(areaOf(ring), std::abs(area), 1e-8 * std::abs(area) + 3e-4)
+            << "latitude " << lat << ", radius " << radius << ", " << n;
+      }
+    }
+  }
 }
 
 TEST(GeodesicArea, OfNothingIsNothing) {

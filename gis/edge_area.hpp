@@ -1,0 +1,34 @@
+#pragma once
+
+#include <GeographicLib/Geodesic.hpp>
+
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+// Areas between geodesics and the equator, in square metres: of edges that go east, north of the equator, positive. Private to
+// gis.
+class EdgeArea {
+ public:
+  EdgeArea(double semi_major_m, double flattening);
+
+  // What a vertex brings to its two edges.
+  struct Vertex {
+    double lon_deg = 0, lat_deg = 0;
+    double sin_lat = 0;
+    double per_radian = 0;  // area between its parallel and the equator, for a radian of longitude
+  };
+  Vertex at(const Point& lonlat) const;
+
+  // REQUIRES: the longitudes are less than 180 degrees apart as they are given, no pole between them or among them. To some
+  // 1e-9 of what the edge might enclose with others of its length.
+  double under(const Vertex& from, const Vertex& to) const;
+
+  const GeographicLib::Geodesic& geodesic() const { return geodesic_; }
+
+ private:
+  GeographicLib::Geodesic geodesic_;
+  double a_, e2_;
+};
+
+}  // namespace coastmesh
