@@ -149,7 +149,7 @@ Projection JobInput::projectionOf(std::size_t group) const {
   return Projection::fitted(coastline_, groups_[group]);
 }
 
-Domain JobInput::domain(std::size_t group, CleanReport& report) const {
+Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& loop) const {
   if (poly_) return Domain{*poly_, poly_->points, Projection::plane()};
   const bool in_plane = options_.crs == "plane" || coastline_.crs.isPlane();
   CleanOptions clean;
@@ -158,7 +158,7 @@ Domain JobInput::domain(std::size_t group, CleanReport& report) const {
   clean.min_island_area_m2 = options_.min_island_area_m2;
   clean.dissolve = options_.dissolve;
   clean.pinches = options_.pinches == "open" ? Pinches::Open : Pinches::Keep;
-  return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report);
+  return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report, loop);
 }
 
 std::optional<double> JobInput::area(std::size_t group) const {

@@ -48,7 +48,7 @@ class JobInput {
 
   // Projects and cleans a group. Throws InputError where nothing of it can be meshed. May be called from several
   // threads at once. Throws NothingWanted for one that lies outside of the frame or apart from the water asked for.
-  Domain domain(std::size_t group, CleanReport& report) const;
+  Domain domain(std::size_t group, CleanReport& report, const ItemLoop& loop = inOrder) const;
   // Square metres on the ellipsoid; none for a .poly, which says only with its holes what is inside.
   std::optional<double> area(std::size_t group) const;
   // The same of what was made of a group, where frames and coasts leave but a part of it.

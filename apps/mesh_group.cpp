@@ -168,7 +168,10 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   const Stopwatch cleaning;
   Recorder clean_recorder;
   CleanReport clean;
-  Domain domain = input.domain(group, clean);
+  // Small regions go without the clock, which would cost them more than the work.
+  constexpr std::size_t kWorthThreads = 10000;
+  const bool many_points = input.pointsOf(group) >= kWorthThreads;
+  Domain domain = input.domain(group, clean, many_points ? clean_recorder.loop("clean", control) : ItemLoop(inOrder));
   result.edits = clean.counts;
   result.notes = std::move(clean.notes);
   clean = {};
@@ -203,7 +206,6 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   result.pieces = region.pieces;
   result.log.append(std::move(region.log));
 
-  // Small regions go without the clock, which would cost them more than the work.
   Recorder recorder;
   const bool large = region.pieces > 1;
   const auto loop = [&](std::string_view stage) { return large ? recorder.loop(stage, control) : ItemLoop(inOrder); };

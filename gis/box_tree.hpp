@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gis/box.hpp"
@@ -23,6 +24,13 @@ class BoxTree {
 
   std::size_t size() const { return level_begin_.empty() ? 0 : level_begin_[1]; }
   Box bounds() const { return boxes_.empty() ? Box{} : boxes_.back(); }
+
+  // Items by blocks of neighbours, in Order::Hilbert.
+  std::size_t blockCount() const { return (size() + kFanout - 1) / kFanout; }
+  std::span<const std::uint32_t> block(std::size_t number) const {
+    const std::size_t first = number * kFanout;
+    return {items_.data() + first, std::min(size() - first, kFanout)};
+  }
 
   // Calls `found(item)` for every item whose box meets `query`.
   template <typename Found>

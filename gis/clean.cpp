@@ -124,10 +124,10 @@ std::string_view toString(EditKind kind) {
 }
 
 Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
-                     const CleanOptions& options, CleanReport& report) {
+                     const CleanOptions& options, CleanReport& report, const ItemLoop& loop) {
   const std::size_t edits_before = report.edits.size();
-  CleanChains chains = makeChains(coastline, members, projection, options, report);
-  const NodedEdges edges = nodeChains(chains, coastline, projection, report);
+  CleanChains chains = makeChains(coastline, members, projection, options, report, loop);
+  const NodedEdges edges = nodeChains(chains, coastline, projection, report, loop);
   LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report);
   if (options.pinches == Pinches::Keep) tellPinches(chains.vertices, labelled.segments, coastline, report);
   refuseEmpty(coastline, members, labelled.segments);

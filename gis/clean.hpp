@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "gis/coastline.hpp"
 #include "gis/error.hpp"
@@ -83,7 +84,7 @@ struct NothingWanted : InputError {
 // input, new ones last. Throws NothingWanted, and InputError for a group that encloses no area, for coasts that do not part water
 // from land, and for a point that the projection cannot map.
 Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
-                     const CleanOptions& options, CleanReport& report);
+                     const CleanOptions& options, CleanReport& report, const ItemLoop& loop = inOrder);
 
 // Area of the group's polygons on the ellipsoid (or in the plane), holes taken out, in square metres, edges geodesic.
 double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members);

@@ -61,31 +61,56 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, CleanReport& report) {
+void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, CleanReport& report,
+                 const ItemLoop& loop) {
   std::vector<TouchChain> touching;
   touching.reserve(chains.size());
   for (InputChain& chain : chains) {
     touching.push_back({&chain.points, chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole});
   }
-  for (const Touch& touch : insertTouchingPoints(touching, coastline.crs.geographic ? 180 : kNoLimit)) {
+  for (const Touch& touch : insertTouchingPoints(touching, coastline.crs.geographic ? 180 : kNoLimit, loop)) {
     if (coastline.features[chains[touch.chain].feature].use == FeatureUse::Frame) continue;
     report.add(EditKind::OverlappingEdge, touch.place, coastline.features[chains[touch.chain].feature].fid);
   }
 }
 
-Point project(const Point& input, const Feature& feature, const Projection& projection) {
-  const Point plane = projection.forward(input);
+const Point& requirePlace(const Point& plane, const Point& input, const Feature& feature,
+                          const Projection& projection) {
   if (std::isfinite(plane.x) && std::isfinite(plane.y)) return plane;
   throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the point " +
                    std::to_string(input.x) + ", " + std::to_string(input.y) + " has no place in the working plane (" +
                    projection.description() + "): check the coordinates and their CRS");
 }
 
+// All points of the chains in the plane, chain after chain.
+std::vector<Point> projectAll(const std::vector<InputChain>& chains, std::size_t count, const Projection& projection,
+                              const ItemLoop& loop) {
+  std::vector<std::size_t> first;
+  first.reserve(chains.size());
+  for (std::size_t c = 0, at = 0; c < chains.size(); at += chains[c++].points.size()) first.push_back(at);
+  std::vector<Point> plane;
+  reserveOn(loop, plane, count);
+  plane.resize(count);
+  constexpr std::size_t kWorthAStretch = 2048;
+  const auto work = [&](std::size_t from, std::size_t to) {
+    auto c = static_cast<std::size_t>(std::ranges::upper_bound(first, from) - first.begin()) - 1;
+    for (std::size_t i = from; i < to; ++i) {
+      while (i - first[c] >= chains[c].points.size()) ++c;
+      plane[i] = projection.forward(chains[c].points[i - first[c]]);
+    }
+  };
+  if (count > 0) forStretches(loop, count, work, kWorthAStretch);
+  return plane;
+}
+
 // Turns input points into vertices.
 class VertexMaker {
  public:
   VertexMaker(CleanVertices& vertices, double snap, std::size_t expected)
-      : vertices_(vertices), grid_(vertices.plane, snap, expected) {}
+      : vertices_(vertices), grid_(vertices.plane, snap, expected) {
+    vertices.plane.reserve(expected);
+    vertices.input.reserve(expected);
+  }
 
   // The vertex for a point; `snapped` tells whether it is another point nearby.
   VertexId make(const Point& plane, const Point& input, bool& snapped) {
@@ -100,6 +125,7 @@ class VertexMaker {
     grid_.add(v);
     return v;
   }
+  void prefetch(const Point& plane) const { grid_.prefetch(plane); }
 
  private:
   CleanVertices& vertices_;
@@ -145,7 +171,7 @@ double snapInPlane(const std::vector<InputChain>& chains, const Coastline& coast
   if (snap_m <= 0 || chains.empty()) return 0;
   double scale = std::numeric_limits<double>::infinity(), grain = scale;
   const auto take = [&](const InputChain& chain, const Point& point) {
-    const Point plane = project(point, coastline.features[chain.feature], projection);
+    const Point plane = requirePlace(projection.forward(point), point, coastline.features[chain.feature], projection);
     scale = std::min(scale, projection.scaleAt(plane));
     grain = std::min(grain, std::ldexp(std::max(std::abs(plane.x), std::abs(plane.y)), -46));
   };
@@ -192,13 +218,14 @@ std::vector<std::uint32_t> holdersOf(const Point& place, const Coastline& coastl
 }  // namespace
 
 CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t>& members,
-                       const Projection& projection, const CleanOptions& options, CleanReport& report) {
+                       const Projection& projection, const CleanOptions& options, CleanReport& report,
+                       const ItemLoop& loop) {
   std::vector<InputChain> input = gather(coastline, members, options, report);
   std::vector<Ring*> rings;
   for (InputChain& chain : input) {
     if (chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole) rings.push_back(&chain.points);
   }
-  if (!projection.isIdentity()) keepTouches(input, coastline, report);
+  if (!projection.isIdentity()) keepTouches(input, coastline, report, loop);
   const std::optional<Seam> seam = healSeam(rings, coastline.crs, projection);
   std::size_t count = 0;
   for (const InputChain& chain : input) count += chain.points.size();
@@ -215,6 +242,9 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   if (const std::optional<Point> beyond = projection.infinity()) {
     result.beyond = holdersOf(*beyond, coastline, members);
   }
+  const std::vector<Point> plane = projectAll(input, count, projection, loop);
+  constexpr std::size_t kAhead = 16;
+  std::size_t at = 0;
   VertexMaker maker(result.vertices, result.snap, count);
   for (InputChain& chain : input) {
     const Feature& feature = coastline.features[chain.feature];
@@ -225,7 +255,8 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
     bool snapped = false;
     for (const Point& point : chain.points) {
       snapped = false;
-      const VertexId v = maker.make(project(point, feature, projection), point, snapped);
+      if (at + kAhead < plane.size()) maker.prefetch(plane[at + kAhead]);
+      const VertexId v = maker.make(requirePlace(plane[at++], point, feature, projection), point, snapped);
       const bool repeated = !made.walk.empty() && made.walk.back() == v;
       if (tell && (snapped || repeated)) report.add(EditKind::RepeatedPoint, point, feature.fid);
       if (!repeated) made.walk.push_back(v);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/item_loop.hpp"
 #include "gis/clean.hpp"
 #include "gis/seam.hpp"
 
@@ -42,6 +43,7 @@ struct CleanChains {
 // takes repeated points and spikes out of chains and drops chains without area and islands too small. Throws InputError
 // for a point that cannot be projected.
 CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t>& members,
-                       const Projection& projection, const CleanOptions& options, CleanReport& report);
+                       const Projection& projection, const CleanOptions& options, CleanReport& report,
+                       const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

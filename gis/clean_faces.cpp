@@ -21,7 +21,7 @@ using FeatureSet = std::vector<std::uint32_t>;
 
 // An edge, its uses [first_use, last_use), and the feature whose open line runs along it.
 struct MapEdge {
-  std::size_t first_use, last_use;
+  std::uint32_t first_use, last_use;
   std::uint32_t line = kNone;
 };
 
@@ -45,6 +45,7 @@ class Labeller {
   LabelledEdges run() {
     fillFaces();
     if (chains_.coast) findWaterFaces();
+    labelAll();
     if (!dissolve_) tellOverlaps();
     tellMisplacedRings();
     LabelledEdges result;
@@ -58,7 +59,9 @@ class Labeller {
   std::vector<std::pair<VertexId, VertexId>> listEdges() {
     std::vector<std::pair<VertexId, VertexId>> ends;
     const auto& uses = noded_.uses;
-    for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
+    edges_.reserve(uses.size());
+    ends.reserve(uses.size());
+    for (std::uint32_t first = 0, last = 0; first < uses.size(); first = last) {
       MapEdge edge{first, first, kNone};
       for (; last < uses.size() && uses[last].low() == uses[first].low() && uses[last].high() == uses[first].high();
            ++last) {
@@ -115,7 +118,14 @@ class Labeller {
     return kOutside;
   }
 
-  RegionId label(std::uint32_t face) const {
+  RegionId label(std::uint32_t face) const { return labels_[face]; }
+
+  void labelAll() {
+    labels_.resize(map_.faceCount());
+    for (std::uint32_t face = 0; face < labels_.size(); ++face) labels_[face] = findLabel(face);
+  }
+
+  RegionId findLabel(std::uint32_t face) const {
     const RegionId frame = chains_.framed ? holderOf(face, FeatureUse::Frame) : kOutside;
     if (chains_.framed && frame == kOutside) return kOutside;
     if (chains_.coast) {
@@ -154,6 +164,7 @@ class Labeller {
     for (std::uint32_t i = 0; i < features.size(); ++i) {
       one_[features[i]] = static_cast<RegionId>(features[sets.find(i)]);
     }
+    labelAll();
     std::ranges::sort(traces);
     traces.erase(std::unique(traces.begin(), traces.end()), traces.end());
     return traces;
@@ -198,6 +209,7 @@ class Labeller {
 
   std::vector<Segment> keepEdges() const {
     std::vector<Segment> segments;
+    segments.reserve(edges_.size());
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       const RegionId left = label(map_.faceOf(2 * e)), right = label(map_.faceOf(2 * e + 1));
       if (left == right && (left == kOutside || !staysInside(edges_[e]))) continue;
@@ -308,6 +320,7 @@ class Labeller {
   std::vector<FeatureSet> holders_;
   std::map<std::uint32_t, RegionId> one_;  // by feature: the first of those it is one with; empty: each is its own
   std::vector<char> water_;                // by face, where there are coasts
+  std::vector<RegionId> labels_;           // by face
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr int kSnapRounds = 3, kPatience = 8, kMostRounds = 24;
 // An edge and its uses, [first_use, last_use).
 struct Edge {
   VertexId low, high;
-  std::size_t first_use, last_use;
+  std::uint32_t first_use, last_use;
 };
 
 struct Split {
@@ -60,8 +60,9 @@ Point crossingPoint(const Point& a, const Point& b, const Point& c, const Point&
 
 class Noder {
  public:
-  Noder(CleanChains& chains, const Coastline& coastline, const Projection& projection, CleanReport& report)
-      : chains_(chains), coastline_(coastline), projection_(projection), report_(report) {
+  Noder(CleanChains& chains, const Coastline& coastline, const Projection& projection, CleanReport& report,
+        const ItemLoop& loop)
+      : chains_(chains), coastline_(coastline), projection_(projection), report_(report), loop_(loop) {
     crossed_.assign(chains.chains.size(), 0);
     double largest = 0;
     for (const Point& p : chains.vertices.plane) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
@@ -69,6 +70,9 @@ class Noder {
   }
 
   NodedEdges run() {
+    std::size_t count = 0;
+    for (const CleanChain& chain : chains_.chains) count += chain.walk.size();
+    uses_.reserve(count);
     for (std::uint32_t c = 0; c < chains_.chains.size(); ++c) addUses(c);
     collapse(true);
     active_.assign(edges_.size(), 1);
@@ -111,11 +115,12 @@ class Noder {
       if (last - first > 1) std::sort(first, last, before);
       first = last;
     }
-    std::size_t kept = 0;
+    std::uint32_t kept = 0;
     edges_.clear();
+    edges_.reserve(uses_.size());
     for (std::size_t i = 0; i < uses_.size();) {
       const VertexId low = uses_[i].low(), high = uses_[i].high();
-      const std::size_t first = kept;
+      const std::uint32_t first = kept;
       while (i < uses_.size() && uses_[i].low() == low && uses_[i].high() == high) {
         const EdgeUse use = uses_[i];
         std::size_t same = 0;
@@ -162,19 +167,32 @@ class Noder {
     return true;
   }
 
+  struct Found {
+    std::vector<Split> splits;
+    std::vector<Crossing> crossings;
+  };
+
   void find(double tolerance) {
     splits_.clear();
     crossings_.clear();
     const auto box_of = [&](std::size_t e) { return Box::of(at(edges_[e].low), at(edges_[e].high)); };
     const auto active = [&](std::uint32_t e) { return active_[e] != 0; };
     const EdgeRuns runs(edges_.size(), box_of);
-    runs.visitPairs(0, runs.runCount(), tolerance, box_of, active, [&](std::uint32_t e, std::uint32_t f) {
-      if (active_[e]) {
-        testPair(e, f, tolerance);
-      } else {
-        testPair(f, e, tolerance);
-      }
-    });
+    const auto findIn = [&](std::size_t first, std::size_t last) {
+      Found found;
+      runs.visitPairs(first, last, tolerance, box_of, active, [&](std::uint32_t e, std::uint32_t f) {
+        if (active_[e]) {
+          testPair(e, f, tolerance, found);
+        } else {
+          testPair(f, e, tolerance, found);
+        }
+      });
+      return found;
+    };
+    for (const Found& found : overStretches(loop_, runs.blockCount(), findIn, EdgeRuns::kWorthAStretch)) {
+      splits_.insert(splits_.end(), found.splits.begin(), found.splits.end());
+      crossings_.insert(crossings_.end(), found.crossings.begin(), found.crossings.end());
+    }
     sortCrossings();
     for (const CleanChain& chain : chains_.chains) {
       if (chain.role != CleanChain::Role::Point) continue;
@@ -188,20 +206,20 @@ class Noder {
     splits_.erase(std::unique(splits_.begin(), splits_.end()), splits_.end());
   }
 
-  void testPair(std::uint32_t e, std::uint32_t f, double tolerance) {
+  void testPair(std::uint32_t e, std::uint32_t f, double tolerance, Found& found) const {
     const auto [a, b] = std::pair(edges_[e].low, edges_[e].high);
     const auto [c, d] = std::pair(edges_[f].low, edges_[f].high);
-    const std::size_t before = splits_.size();
+    const std::size_t before = found.splits.size();
     for (const VertexId v : {c, d}) {
-      if (v != a && v != b && liesOnEdge(at(a), at(b), at(v), tolerance)) splits_.push_back({e, v});
+      if (v != a && v != b && liesOnEdge(at(a), at(b), at(v), tolerance)) found.splits.push_back({e, v});
     }
     for (const VertexId v : {a, b}) {
-      if (v != c && v != d && liesOnEdge(at(c), at(d), at(v), tolerance)) splits_.push_back({f, v});
+      if (v != c && v != d && liesOnEdge(at(c), at(d), at(v), tolerance)) found.splits.push_back({f, v});
     }
-    if (splits_.size() > before || a == c || a == d || b == c || b == d) return;
+    if (found.splits.size() > before || a == c || a == d || b == c || b == d) return;
     if (orient2d(at(a), at(b), at(c)) * orient2d(at(a), at(b), at(d)) < 0 &&
         orient2d(at(c), at(d), at(a)) * orient2d(at(c), at(d), at(b)) < 0) {
-      crossings_.push_back({e, f});
+      found.crossings.push_back({e, f});
     }
   }
 
@@ -348,6 +366,7 @@ class Noder {
   const Coastline& coastline_;
   const Projection& projection_;
   CleanReport& report_;
+  const ItemLoop& loop_;
   double grain_ = 0;  // distance below which rounding makes what it likes of points
   std::vector<EdgeUse> uses_;
   std::vector<Edge> edges_;
@@ -360,8 +379,8 @@ class Noder {
 }  // namespace
 
 NodedEdges nodeChains(CleanChains& chains, const Coastline& coastline, const Projection& projection,
-                      CleanReport& report) {
-  return Noder(chains, coastline, projection, report).run();
+                      CleanReport& report, const ItemLoop& loop) {
+  return Noder(chains, coastline, projection, report, loop).run();
 }
 
 }  // namespace coastmesh

@@ -28,6 +28,6 @@ struct NodedEdges {
 // `chains.vertices`. Points that rounding brings within 2^-44 of the largest coordinate of one another become one.
 // Throws InputError where that comes to no end.
 NodedEdges nodeChains(CleanChains& chains, const Coastline& coastline, const Projection& projection,
-                      CleanReport& report);
+                      CleanReport& report, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

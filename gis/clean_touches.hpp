@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/point.hpp"
 
 namespace coastmesh {
@@ -25,6 +26,7 @@ struct Touch {
 // too, where its edges run a little differently. Edges wider than `widest` are left alone: longitudes that jump from one
 // end of the map to the other do not run between them. Private to gis.
 std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains,
-                                        double widest = std::numeric_limits<double>::infinity());
+                                        double widest = std::numeric_limits<double>::infinity(),
+                                        const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -34,7 +34,6 @@ class EdgeRuns {
     boxes_ = std::move(boxes);
   }
 
-  std::size_t runCount() const { return boxes_.size(); }
   Box bounds() const { return tree_.bounds(); }
 
   // Calls `found(e)` for every edge whose box meets `query`.
@@ -47,37 +46,84 @@ class EdgeRuns {
     });
   }
 
+  // Blocks of runs that lie near to one another, and how many of them are worth a stretch of `visitPairs`.
+  std::size_t blockCount() const { return tree_.blockCount(); }
+  static constexpr std::size_t kWorthAStretch = 128;
+
   // Calls `found(e, f)` once, e < f, for every two edges of which `active(e)` holds for one at least and whose boxes come
-  // nearer to one another than `margin`; for runs [first, last) and what lies near them: each pair is found from one
-  // run.
+  // nearer to one another than `margin`; for the runs of blocks [first, last) and what lies near them: each pair is
+  // found from one run.
   template <typename BoxOf, typename Active, typename Found>
   void visitPairs(std::size_t first, std::size_t last, double margin, BoxOf&& box_of, Active&& active,
                   Found&& found) const {
-    std::uint32_t of_run[kLongest];
-    Box box_of_run[kLongest];
-    for (auto run = static_cast<std::uint32_t>(first); run < last; ++run) {
-      if (!anyActive(run, active)) continue;
-      std::size_t size = 0;
-      for (std::uint32_t e = begin_[run]; e < begin_[run + 1]; ++e) {
-        of_run[size] = e;
-        box_of_run[size++] = box_of(e).grownBy(margin);
-      }
-      tree_.visit(boxes_[run].grownBy(margin), [&](std::uint32_t other) {
-        if (other < run && anyActive(other, active)) return;  // found from there
-        for (std::size_t i = 0; i < size; ++i) {
-          if (!box_of_run[i].meets(boxes_[other])) continue;
-          const std::uint32_t e = of_run[i];
-          for (std::uint32_t f = other == run ? e + 1 : begin_[other]; f < begin_[other + 1]; ++f) {
-            if (!box_of_run[i].meets(box_of(f)) || (!active(e) && !active(f))) continue;
-            found(std::min(e, f), std::max(e, f));
-          }
+    Some own, others;
+    std::vector<std::uint32_t> near;
+    for (std::size_t block = first; block < last; ++block) {
+      const std::span<const std::uint32_t> runs = tree_.block(block);
+      Box around_all;
+      for (const std::uint32_t run : runs) around_all.add(boxes_[run]);
+      near.clear();
+      tree_.visit(around_all.grownBy(margin), [&](std::uint32_t run) { near.push_back(run); });
+      for (const std::uint32_t run : runs) {
+        if (!anyActive(run, active)) continue;
+        own.take(begin_[run], begin_[run + 1], [&](std::uint32_t e) { return box_of(e).grownBy(margin); });
+        pairsWithin(own, box_of, active, found);
+        const Box around = boxes_[run].grownBy(margin);
+        for (const std::uint32_t other : near) {
+          if (other == run || !boxes_[other].meets(around)) continue;
+          if (other < run && anyActive(other, active)) continue;  // found from there
+          others.takeThose(begin_[other], begin_[other + 1], around, box_of);
+          pairsBetween(own, boxes_[other], others, active, found);
         }
-      });
+      }
     }
   }
 
  private:
   static constexpr std::uint32_t kLongest = 8;
+
+  // Edges of a run and their boxes.
+  struct Some {
+    std::size_t size = 0;
+    std::uint32_t edge[kLongest];
+    Box box[kLongest];
+
+    template <typename BoxOf>
+    void take(std::uint32_t begin, std::uint32_t end, BoxOf&& box_of) {
+      size = 0;
+      for (std::uint32_t e = begin; e < end; ++e) edge[size] = e, box[size++] = box_of(e);
+    }
+    template <typename BoxOf>
+    void takeThose(std::uint32_t begin, std::uint32_t end, const Box& around, BoxOf&& box_of) {
+      size = 0;
+      for (std::uint32_t e = begin; e < end; ++e) {
+        edge[size] = e, box[size] = box_of(e);
+        size += box[size].meets(around) ? 1 : 0;
+      }
+    }
+  };
+
+  template <typename BoxOf, typename Active, typename Found>
+  static void pairsWithin(const Some& own, BoxOf& box_of, Active& active, Found& found) {
+    for (std::size_t i = 0; i < own.size; ++i) {
+      for (std::size_t j = i + 1; j < own.size; ++j) {
+        const std::uint32_t e = own.edge[i], f = own.edge[j];
+        if (own.box[i].meets(box_of(f)) && (active(e) || active(f))) found(e, f);
+      }
+    }
+  }
+
+  template <typename Active, typename Found>
+  static void pairsBetween(const Some& own, const Box& around_others, const Some& others, Active& active,
+                           Found& found) {
+    for (std::size_t i = 0; i < own.size && others.size > 0; ++i) {
+      if (!own.box[i].meets(around_others)) continue;
+      for (std::size_t j = 0; j < others.size; ++j) {
+        const std::uint32_t e = own.edge[i], f = others.edge[j];
+        if (own.box[i].meets(others.box[j]) && (active(e) || active(f))) found(std::min(e, f), std::max(e, f));
+      }
+    }
+  }
 
   template <typename Active>
   bool anyActive(std::uint32_t run, Active& active) const {

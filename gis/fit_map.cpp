@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -37,6 +38,13 @@ double degreesBetween(const Direction& u, const Direction& v) {
   return 2 * std::asin(std::min(1.0, chord / 2)) / Math::degree();
 }
 
+// As the library's, sooner for longitudes as they mostly come.
+double angNormalize(double x) { return x > -180 && x < 180 ? x : Math::AngNormalize(x); }
+double angDiff(double x, double y) {
+  const double d = y - x;
+  return std::abs(x) < 180 && std::abs(y) < 180 && std::abs(d) < 180 ? d : Math::AngDiff(x, y);
+}
+
 constexpr std::size_t kLonCells = 360, kLatCells = 180;
 
 // Many points are thinned to the outermost ones in each cell of one degree: enough for radii and centres.
@@ -46,26 +54,26 @@ std::vector<Direction> thinned(const std::vector<Point>& lonlat) {
     for (const Point& p : lonlat) directions.push_back(toDirection(p));
     return directions;
   }
-  struct Cell {
-    std::array<Point, 4> outermost;
-    bool used = false;
-  };
-  std::vector<Cell> cells(kLonCells * kLatCells);
+  std::vector<std::uint32_t> number(kLonCells * kLatCells, 0);  // of the cell among those used, from 1
+  std::vector<std::array<Point, 4>> outermost;
   for (const Point& given : lonlat) {
-    const Point p{Math::AngNormalize(given.x), given.y};
+    const Point p{angNormalize(given.x), given.y};
     const auto i = static_cast<std::size_t>(std::clamp(p.x + 180, 0.0, 359.0));
     const auto j = static_cast<std::size_t>(std::clamp(p.y + 90, 0.0, 179.0));
-    Cell& cell = cells[j * kLonCells + i];
-    if (!cell.used) cell = {{p, p, p, p}, true};
-    auto& [west, east, south, north] = cell.outermost;
+    std::uint32_t& cell = number[j * kLonCells + i];
+    if (cell == 0) {
+      outermost.push_back({p, p, p, p});
+      cell = static_cast<std::uint32_t>(outermost.size());
+    }
+    auto& [west, east, south, north] = outermost[cell - 1];
     if (p.x < west.x) west = p;
     if (p.x > east.x) east = p;
     if (p.y < south.y) south = p;
     if (p.y > north.y) north = p;
   }
-  for (const Cell& cell : cells) {
-    if (!cell.used) continue;
-    for (const Point& p : cell.outermost) directions.push_back(toDirection(p));
+  for (const std::uint32_t cell : number) {
+    if (cell == 0) continue;
+    for (const Point& p : outermost[cell - 1]) directions.push_back(toDirection(p));
   }
   return directions;
 }
@@ -85,7 +93,7 @@ Extent extentOf(const std::vector<Point>& lonlat) {
   for (const Point& p : lonlat) {
     extent.south = std::min(extent.south, p.y), extent.north = std::max(extent.north, p.y);
     if (std::abs(p.y) == 90) continue;  // a pole has no longitude
-    used[static_cast<std::size_t>(std::clamp(Math::AngNormalize(p.x) + 180, 0.0, 359.0))] = true;
+    used[static_cast<std::size_t>(std::clamp(angNormalize(p.x) + 180, 0.0, 359.0))] = true;
   }
   // The middle of the longest run of empty cells, round the globe, is where the arc is not.
   std::size_t best_run = 0, best_end = 0, run = 0;
@@ -98,7 +106,7 @@ Extent extentOf(const std::vector<Point>& lonlat) {
   double west = 180, east = -180;
   for (const Point& p : lonlat) {
     if (std::abs(p.y) == 90) continue;
-    const double d = Math::AngDiff(roughly, p.x);
+    const double d = angDiff(roughly, p.x);
     west = std::min(west, d), east = std::max(east, d);
   }
   if (west > east) return extent;  // poles only
@@ -114,10 +122,14 @@ struct Cap {
 };
 
 Cap capAround(const Point& centre, const std::vector<Direction>& directions) {
-  Cap cap{centre, 0};
   const Direction middle = toDirection(centre);
-  for (const Direction& d : directions) cap.radius = std::max(cap.radius, degreesBetween(middle, d));
-  return cap;
+  Direction farthest = middle;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Direction& d : directions) {
+    const double cosine = dot(middle, d);
+    if (cosine < least) least = cosine, farthest = d;
+  }
+  return {centre, degreesBetween(middle, farthest)};
 }
 
 // The least of a few caps: about the middle of the extent, the mean direction, the poles. A pole is preferred where it

@@ -28,7 +28,7 @@ struct PlanarMap::Builder {
     for (const auto& [a, b] : edges) ++begin[a + 1], ++begin[b + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     map.fan_.resize(2 * edges.size());
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
     for (HalfEdge h = 0; h < 2 * edges.size(); ++h) map.fan_[next[tail(h)]++] = h;
     for (VertexId v = 0; v < points.size(); ++v) {
       if (begin[v + 1] - begin[v] > 2) sortAround(v);
@@ -148,22 +148,23 @@ struct PlanarMap::Builder {
   }
 
   void numberFaces(UnionFind& faces) {
-    std::vector<std::uint32_t> number(loops + 1, kNone);
+    std::vector<std::uint32_t> number(loops + 1, kNone), face_of_loop(loops);
     number[0] = kOuterFace;
     std::uint32_t count = 1;
-    map.face_of_.resize(loop_of.size());
-    for (HalfEdge h = 0; h < loop_of.size(); ++h) {
-      std::uint32_t& face = number[faces.find(loop_of[h] + 1)];
+    for (std::uint32_t loop = 0; loop < loops; ++loop) {
+      std::uint32_t& face = number[faces.find(loop + 1)];
       if (face == kNone) face = count++;
-      map.face_of_[h] = face;
+      face_of_loop[loop] = face;
     }
+    for (std::uint32_t& loop : loop_of) loop = face_of_loop[loop];
+    map.face_of_ = std::move(loop_of);
     auto& begin = map.face_begin_;
     begin.assign(count + 1, 0);
     for (const std::uint32_t face : map.face_of_) ++begin[face + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    map.by_face_.resize(loop_of.size());
-    std::vector<std::size_t> next_place(begin.begin(), begin.end() - 1);
-    for (HalfEdge h = 0; h < loop_of.size(); ++h) map.by_face_[next_place[map.face_of_[h]]++] = h;
+    map.by_face_.resize(map.face_of_.size());
+    std::vector<std::uint32_t> next_place(begin.begin(), begin.end() - 1);
+    for (HalfEdge h = 0; h < map.face_of_.size(); ++h) map.by_face_[next_place[map.face_of_[h]]++] = h;
   }
 };
 

@@ -42,9 +42,9 @@ class PlanarMap {
   struct Builder;
 
   std::vector<std::uint32_t> face_of_;
-  std::vector<std::size_t> face_begin_;
+  std::vector<std::uint32_t> face_begin_;
   std::vector<HalfEdge> by_face_;
-  std::vector<std::size_t> fan_begin_;
+  std::vector<std::uint32_t> fan_begin_;
   std::vector<HalfEdge> fan_;
 };
 

@@ -7,40 +7,45 @@
 
 namespace coastmesh {
 
+namespace {
+
+// Cells are so many tolerances wide: most often all that is near a point lies in its own cell.
+constexpr double kCellWidth = 16;
+
+}  // namespace
+
 PointGrid::PointGrid(const std::vector<Point>& points, double tolerance, std::size_t expected_size)
-    : points_(&points), tolerance_(tolerance), first_(std::bit_ceil(expected_size + expected_size / 2 + 8), kNone) {
-  next_.reserve(expected_size);
-}
+    : points_(&points), tolerance_(tolerance), slots_(std::bit_ceil(expected_size + expected_size / 2 + 8)) {}
 
 PointGrid::Cell PointGrid::cellOf(double x, double y) const {
   if (tolerance_ == 0) return {std::bit_cast<std::int64_t>(x + 0.0), std::bit_cast<std::int64_t>(y + 0.0)};
-  const double size = 4 * tolerance_;
+  const double size = kCellWidth * tolerance_;
   return {static_cast<std::int64_t>(std::floor(x / size)), static_cast<std::int64_t>(std::floor(y / size))};
 }
 
-std::size_t PointGrid::bucketOf(const Cell& cell) const {
+std::uint64_t PointGrid::hashOf(const Cell& cell) {
   // Odd constants of Fibonacci hashing; the upper bits are the mixed ones.
   const std::uint64_t h = (static_cast<std::uint64_t>(cell.x) * 0x9E3779B97F4A7C15u) ^
                           (static_cast<std::uint64_t>(cell.y) * 0xC2B2AE3D27D4EB4Fu);
-  const std::uint64_t mixed = (h ^ (h >> 32)) * 0x9E3779B97F4A7C15u;
-  return static_cast<std::size_t>(mixed >> 20) & (first_.size() - 1);
+  return (h ^ (h >> 32)) * 0x9E3779B97F4A7C15u;
 }
 
-void PointGrid::grow() {
-  first_.assign(2 * first_.size(), kNone);
-  for (VertexId v = 0; v < next_.size(); ++v) {
-    const std::size_t bucket = bucketOf(cellOf((*points_)[v].x, (*points_)[v].y));
-    next_[v] = first_[bucket];
-    first_[bucket] = v;
-  }
+void PointGrid::put(VertexId v) {
+  const Point& p = (*points_)[v];
+  const std::uint64_t hash = hashOf(cellOf(p.x, p.y));
+  std::size_t slot = slotOf(hash);
+  while (slots_[slot].vertex != kNone) slot = (slot + 1) & (slots_.size() - 1);
+  slots_[slot] = {tagOf(hash), v};
 }
 
 void PointGrid::add(VertexId v) {
-  assert(v == next_.size());
-  if (next_.size() > first_.size()) grow();
-  const std::size_t bucket = bucketOf(cellOf((*points_)[v].x, (*points_)[v].y));
-  next_.push_back(first_[bucket]);
-  first_[bucket] = v;
+  assert(v == size_);
+  if (3 * size_ > 2 * slots_.size()) {
+    slots_.assign(2 * slots_.size(), {});
+    for (VertexId w = 0; w < v; ++w) put(w);
+  }
+  put(v);
+  ++size_;
 }
 
 VertexId PointGrid::find(const Point& p) const {
@@ -49,8 +54,12 @@ VertexId PointGrid::find(const Point& p) const {
   double best_distance = std::numeric_limits<double>::infinity();
   for (std::int64_t x = low.x; x <= high.x; ++x) {
     for (std::int64_t y = low.y; y <= high.y; ++y) {
-      for (VertexId v = first_[bucketOf({x, y})]; v != kNone; v = next_[v]) {
+      const std::uint64_t hash = hashOf({x, y});
+      for (std::size_t slot = slotOf(hash); slots_[slot].vertex != kNone; slot = (slot + 1) & (slots_.size() - 1)) {
+        if (slots_[slot].tag != tagOf(hash)) continue;
+        const VertexId v = slots_[slot].vertex;
         const Point& q = (*points_)[v];
+        if (!(std::abs(q.x - p.x) <= tolerance_ && std::abs(q.y - p.y) <= tolerance_)) continue;
         const double distance = std::hypot(q.x - p.x, q.y - p.y);
         if (distance > tolerance_) continue;
         if (distance < best_distance || (distance == best_distance && v < best)) best = v, best_distance = distance;

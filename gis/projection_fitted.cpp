@@ -92,6 +92,10 @@ std::shared_ptr<const Projection::Impl> fitTo(const Coastline& coastline, const 
   std::vector<Ring> projected_rings;
   std::vector<const Ring*> rings;
   double west = std::numeric_limits<double>::infinity(), east = -west;
+  std::size_t count = 0;
+  forEachChain(coastline, members,
+               [&](const Feature&, const std::vector<Point>& chain, bool) { count += chain.size(); });
+  lonlat.reserve(count);
   forEachChain(coastline, members, [&](const Feature& feature, const std::vector<Point>& chain, bool is_ring) {
     for (const Point& input : chain) {
       const Point p = to_geographic.forward(input);

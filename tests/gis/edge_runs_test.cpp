@@ -37,8 +37,8 @@ TEST(EdgeRuns, FindEveryPairOnce) {
         for (const unsigned every : {1u, 5u}) {
           const auto active = [&](std::uint32_t e) { return e % every == 0; };
           Pairs found, expected;
-          const std::size_t half = runs.runCount() / 2;
-          for (const auto& [first, last] : {std::pair(std::size_t{0}, half), std::pair(half, runs.runCount())}) {
+          const std::size_t half = runs.blockCount() / 2;
+          for (const auto& [first, last] : {std::pair(std::size_t{0}, half), std::pair(half, runs.blockCount())}) {
             runs.visitPairs(first, last, margin, box_of, active,
                             [&](std::uint32_t e, std::uint32_t f) { found.emplace(e, f); });
           }
