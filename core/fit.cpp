@@ -30,6 +30,7 @@ class Fitter {
         mesh_(std::move(mesh)),
         ops_(mesh_, pslg, bound_),
         wanted_(options.size == nullptr ? 0 : mesh_.vertexSlots(), 0.0) {
+    ops_.keepBadInPlace();
     if (size_ == nullptr) return;
     for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
       if (mesh_.isLiveVertex(v)) wanted_[v] = size_->at(mesh_.point(v));
@@ -119,6 +120,8 @@ class Fitter {
     const Point here = mesh_.point(v);
     Point to = wantedPlace(v);
     if (!std::isfinite(to.x) || !std::isfinite(to.y)) return;
+    const auto isBesideBad = [&](TriId t) { return ops_.isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
+    if (std::ranges::any_of(triangles_, isBesideBad)) return;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       if (fits(to)) {
         mesh_.setPoint(v, to);

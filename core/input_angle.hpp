@@ -63,8 +63,25 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
 // many others.
 bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& bound);
 
-// The triangles whose shortfall an input angle explains: those in a sector too small for the bounds, and those that share an edge
-// with them, be it a constraint: the corner's sides are long beside its width, and what lies behind them has to bear that.
+// Visits the triangles beyond a constrained side of a sector that touch the side's far end: up to the next constraint there. They
+// lead from the side, which is long, to the sector's width, which is short: often more than good triangles can bridge.
+template <typename Mesh, typename Visit>
+void forEachBeyond(const Mesh& mesh, EdgeRef side, VertexId far_end, const Visit& visit) {
+  EdgeRef e = mesh.triangle(triOf(side)).adj[indexOf(side)];
+  while (e != kNone) {
+    const TriId t = triOf(e);
+    visit(t);
+    const Triangle& tri = mesh.triangle(t);
+    // The other edge at the far end.
+    const unsigned on = indexOf(e), next = tri.v[next3(on)] == far_end ? prev3(on) : next3(on);
+    if (tri.seg[next] != kNone) return;
+    e = tri.adj[next];
+  }
+}
+
+// The triangles whose shortfall an input angle explains: those in a sector too small for the bounds; those that share an edge with
+// them, be it a constraint: the corner's sides are long beside its width, and what lies behind them has to bear that; and those
+// beyond a side that touch its far end.
 std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -5,8 +5,8 @@
 
 namespace coastmesh {
 
-std::vector<TriId> trianglesAround(const EditMesh& mesh, TriId centre, unsigned rings) {
-  std::vector<TriId> patch{centre};
+std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings) {
+  std::vector<TriId> patch(centre.begin(), centre.end());
   std::vector<EdgeRef> star;
   std::size_t done = 0;
   for (unsigned ring = 0; ring < rings; ++ring) {
@@ -29,7 +29,8 @@ std::vector<TriId> trianglesAround(const EditMesh& mesh, TriId centre, unsigned 
   return patch;
 }
 
-LocalPatch extractPatch(const EditMesh& parent, const VertexNotes& notes, TriId centre, unsigned rings) {
+LocalPatch extractPatch(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre,
+                        unsigned rings) {
   LocalPatch patch;
   patch.triangles = trianglesAround(parent, centre, rings);
   std::unordered_map<TriId, TriId> local_triangle;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/edit_mesh.hpp"
@@ -16,11 +17,12 @@ struct LocalPatch {
   VertexNotes notes;
 };
 
-// The triangles that touch a triangle, those that touch these, and so on for `rings` rings.
-std::vector<TriId> trianglesAround(const EditMesh& mesh, TriId centre, unsigned rings);
+// Some triangles, those that touch them, those that touch these, and so on for `rings` rings.
+std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings);
 
 // Those triangles as a mesh.
-LocalPatch extractPatch(const EditMesh& parent, const VertexNotes& notes, TriId centre, unsigned rings);
+LocalPatch extractPatch(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre,
+                        unsigned rings);
 
 // Puts another mesh of the same patch (fixed vertices and frozen rim unchanged) into the parent's mesh. Appends the
 // vertices and the triangles that are new there. Does not restore the Delaunay property.

@@ -128,14 +128,20 @@ inline bool isLongerThanWanted(const Point& a, const Point& b, const Point& c, d
   return squared_longest > longest * longest;
 }
 
+// Whether the longest edge of a triangle, given squared, is longer than asked.
+inline bool isTooLong(const Point& a, const Point& b, const Point& c, double squared_longest,
+                      const TriangleBound& bound) {
+  if (squared_longest > bound.squared_size) return true;
+  return bound.size != nullptr && isLongerThanWanted(a, b, c, squared_longest, bound);
+}
+
 // Whether a triangle falls short of what is asked.
 inline bool isBad(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
   if (bound.min_angle > 0.0 && isSmallestAngleBelow(a, b, c, bound.cot_min)) return true;
   if (bound.max_angle < std::numbers::pi && isLargestAngleAbove(a, b, c, bound.cos_max)) return true;
   if (std::isinf(bound.squared_size)) return false;
   const double longest = std::max({squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)});
-  if (longest > bound.squared_size) return true;
-  return bound.size != nullptr && isLongerThanWanted(a, b, c, longest, bound);
+  return isTooLong(a, b, c, longest, bound);
 }
 
 }  // namespace coastmesh

@@ -25,7 +25,10 @@ RefineStats refinePiece(Piece& piece, const Pslg& pslg, const RefineOptions& opt
     }
   }
   refiner.resume(first, control);
-  if (mends && options.algorithm == Algorithm::Relocate) repair(refiner, pslg, options, control, given_up);
+  if (mends && options.algorithm == Algorithm::Relocate) {
+    refiner.growFans(Refiner::Beyond::StaysGood, control);
+    repair(refiner, pslg, options, control, given_up);
+  }
   piece.mesh = refiner.release(piece.notes, piece.due_triangles);
   RefineStats stats = std::move(refiner.stats());
   stats.steiner_points = 0;

@@ -39,7 +39,10 @@ RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& opt
   if (options.size != nullptr) splitSegments(mesh, pslg, notes, options);
   Refiner refiner(std::move(mesh), pslg, options, std::move(notes), variant);
   refiner.run(control);
-  if (options.algorithm == Algorithm::Relocate) repair(refiner, pslg, options, control);
+  if (options.algorithm == Algorithm::Relocate) {
+    refiner.growFans(Refiner::Beyond::StaysGood, control);
+    repair(refiner, pslg, options, control);
+  }
   mesh = refiner.release();
   labelRegions(mesh, pslg);
   RefineStats stats = std::move(refiner.stats());

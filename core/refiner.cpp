@@ -145,10 +145,7 @@ void Refiner::mend(TriId t) {
 // input's spacing lets any vertex come: between two segments that meet at a tiny angle.
 bool Refiner::isOutOfReach(TriId t, const TriangleShape& shape) const {
   const double longest = shape.squared[shape.longest];
-  if (longest > bound_.squared_size) return false;
-  if (bound_.size != nullptr &&
-      isLongerThanWanted(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), longest, bound_))
-    return false;
+  if (isTooLong(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), longest, bound_)) return false;
   const auto& v = mesh_.triangle(t).v;
   const double spacing = std::min(notes_.spacing[v[next3(shape.shortest)]], notes_.spacing[v[prev3(shape.shortest)]]);
   // The petal's diameter is the edge over the sine.
@@ -289,21 +286,38 @@ void Refiner::stripFreeVertices() {
 }
 
 bool Refiner::isExplained(TriId t) const {
-  const auto fillsSmallSector = [this](TriId s) {
+  // Calls `use` with each sector too small for the bounds that s lies in.
+  const auto forSmallSectors = [this](TriId s, const auto& use) {
     for (unsigned i = 0; i < 3; ++i) {
       const VertexId v = mesh_.triangle(s).v[i];
       if (v >= mesh_.inputVertices() || !notes_.small_angle[v]) continue;
       const Sector sector = sectorAt(mesh_, s, i);
       if (sector.right == kNone || mesh_.segment(sector.right) == kFrozen || mesh_.segment(sector.left) == kFrozen)
         continue;
-      if (!bound_.canDivide(sector.angle)) return true;
+      if (!bound_.canDivide(sector.angle)) use(sector);
     }
-    return false;
   };
-  if (fillsSmallSector(t)) return true;
-  for (unsigned i = 0; i < 3; ++i)
-    if (mesh_.twin(edgeRef(t, i)) != kNone && fillsSmallSector(triOf(mesh_.twin(edgeRef(t, i))))) return true;
-  return false;
+  bool explained = false;
+  const auto lieInOne = [&](const Sector&) { explained = true; };
+  forSmallSectors(t, lieInOne);
+  for (unsigned i = 0; i < 3 && !explained; ++i)
+    if (mesh_.twin(edgeRef(t, i)) != kNone) forSmallSectors(triOf(mesh_.twin(edgeRef(t, i))), lieInOne);
+  if (explained) return true;
+  // Beyond the side of one, at the far end.
+  const auto note = [&](TriId beyond) { explained |= beyond == t; };
+  for (unsigned i = 0; i < 3 && !explained; ++i) {
+    const VertexId far_end = mesh_.triangle(t).v[i];
+    if (mesh_.kind(far_end) == VertexKind::Free) continue;
+    const Sector here = sectorAt(mesh_, t, i);
+    for (const EdgeRef side : {here.right, here.left}) {
+      if (side == kNone || mesh_.twin(side) == kNone) continue;
+      forSmallSectors(triOf(mesh_.twin(side)), [&](const Sector& sector) {
+        if (mesh_.target(sector.right) == far_end) forEachBeyond(mesh_, sector.right, far_end, note);
+        if (mesh_.origin(sector.left) == far_end) forEachBeyond(mesh_, sector.left, far_end, note);
+      });
+    }
+  }
+  return explained;
 }
 
 bool Refiner::isShort(TriId t) const {

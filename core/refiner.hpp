@@ -47,6 +47,7 @@ class Refiner {
   RefineStats& stats() { return stats_; }
 
   EditMesh& mesh() { return mesh_; }
+  const EditMesh& mesh() const { return mesh_; }
   const VertexNotes& notes() const { return notes_; }
   // Whether a triangle breaks the bounds and no input angle explains it.
   bool isShort(TriId t) const;
@@ -57,6 +58,15 @@ class Refiner {
   bool isClearOfFrozen() const { return variant_.clear_of_frozen; }
   // Takes out every free vertex that can go.
   void stripFreeVertices();
+  // What becomes of the other sides of the segments at an input angle when its fan grows.
+  enum class Beyond { StaysGood, GetsMended };
+  // At input angles too small for the bounds: takes split points out until the triangle that fills the angle reaches to where
+  // good ones begin. What lies between is too thin to be meshed well, and that one triangle does for all of it.
+  void growFans(Beyond beyond, const RunControl& control);
+  // The triangle that fills an input angle too small for the bounds, and those beyond it up to the last one that falls short: they
+  // form a strip as long as each has all its corners on the two sides of the angle. Empty where t fills no such angle, or none
+  // falls short.
+  std::vector<TriId> shortStrip(TriId t) const;
   // Handles the bad ones among these triangles, and what follows from that.
   void resume(std::vector<TriId>& touched, const RunControl& control);
 
@@ -70,6 +80,9 @@ class Refiner {
   bool isLeftAlone(TriId t, const TriangleShape& shape) const;
   bool isOutOfReach(TriId t, const TriangleShape& shape) const;
   bool isFan(TriId t, VertexId apex) const;
+  VertexId fanApexOf(TriId t) const;
+  void growFan(TriId fan, VertexId apex, Beyond beyond);
+  void growAllFans(Beyond beyond);
   bool mendWithoutInsertion(TriId t);
   bool mayMerge() const;
   bool insertPoint(TriId t, unsigned apex);

@@ -38,29 +38,50 @@ constexpr std::uint64_t kGrowthRoom = 12;
 std::uint64_t mostWork(double min_angle_deg, std::uint64_t vertices) {
   return (6000 + 3 * vertices) / (min_angle_deg > 43.0 ? 3 : 1);
 }
+// Vertices that local runs may handle with success, as a multiple of those in vain: each time fewer triangles fall short.
+std::uint64_t timesAsMuch(double min_angle_deg) { return min_angle_deg > 43.0 ? 2 : 10; }
 // Past so many failures, and twice the successes, the bound is out of reach; at angles that no input has reached, sooner.
 std::uint64_t hopeless(double min_angle_deg) { return min_angle_deg > 43.0 ? 4 : 24; }
 
-std::optional<TriMesh> solve(const LocalPatch& patch, const Attempt& attempt, const Pslg& pslg,
-                             const RefineOptions& options, std::uint64_t& work) {
+std::size_t countShort(const Refiner& refiner) {
+  std::size_t count = 0;
+  for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t) count += refiner.mesh().isLive(t) && refiner.isShort(t);
+  return count;
+}
+
+struct Solution {
+  std::size_t short_triangles = 0;
+  TriMesh mesh;
+
+  bool isBetterThan(const Solution& other) const {
+    return std::pair(short_triangles, mesh.points.size()) < std::pair(other.short_triangles, other.mesh.points.size());
+  }
+};
+
+// Answers nothing where more than `most` triangles fall short, or no fewer than before.
+std::optional<Solution> solve(const LocalPatch& patch, const Attempt& attempt, std::size_t most, const Pslg& pslg,
+                              const RefineOptions& options, std::uint64_t& work) {
   RefineOptions local = options;
   local.max_vertices = patch.parent.size() * kGrowth + kGrowthRoom;
   Refiner refiner(TriMesh(patch.mesh), pslg, local, VertexNotes(patch.notes), attempt.variant);
+  const std::size_t before = countShort(refiner);
   if (attempt.strip) refiner.stripFreeVertices();
   refiner.run({});
+  refiner.growFans(Refiner::Beyond::GetsMended, {});
   work += refiner.mesh().vertexSlots();
   if (refiner.stats().budget_reached) return std::nullopt;
-  for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t)
-    if (refiner.mesh().isLive(t) && refiner.isShort(t)) return std::nullopt;
-  return refiner.release();
+  const std::size_t left = countShort(refiner);
+  if (left >= before || left > most) return std::nullopt;
+  return Solution{left, refiner.release()};
 }
 
-std::optional<TriMesh> solveSmallest(const LocalPatch& patch, const Pslg& pslg, const RefineOptions& options,
-                                     std::uint64_t& work) {
-  std::optional<TriMesh> best;
-  for (std::size_t i = 0; i < kAttempts.size() && !(best && i >= kUsualAttempts); ++i) {
-    std::optional<TriMesh> solved = solve(patch, kAttempts[i], pslg, options, work);
-    if (solved && (!best || solved->points.size() < best->points.size())) best = std::move(solved);
+std::optional<Solution> solveBest(const LocalPatch& patch, std::size_t most, const Pslg& pslg,
+                                  const RefineOptions& options, std::uint64_t& work) {
+  std::optional<Solution> best;
+  const auto isMended = [&] { return best && best->short_triangles == 0; };
+  for (std::size_t i = 0; i < kAttempts.size() && !(isMended() && i >= kUsualAttempts); ++i) {
+    std::optional<Solution> solved = solve(patch, kAttempts[i], most, pslg, options, work);
+    if (solved && (!best || solved->isBetterThan(*best))) best = std::move(solved);
   }
   return best;
 }
@@ -74,34 +95,67 @@ bool isAtFrozenRim(const EditMesh& mesh, const LocalPatch& patch) {
   });
 }
 
-Outcome mendPlace(Refiner& refiner, TriId centre, const Pslg& pslg, const RefineOptions& options,
+// Puts a solution in; what it pushes beyond its patch is handled at once where nothing in it falls short.
+void take(Refiner& refiner, const LocalPatch& patch, const Solution& solution, const RunControl& control) {
+  std::vector<VertexId> added;
+  std::vector<TriId> touched;
+  putBack(refiner.mesh(), patch, solution.mesh, added, touched);
+  for (const VertexId v : added) {
+    double spacing = std::numeric_limits<double>::infinity();
+    for (VertexId f = 0; f < patch.parent.size(); ++f)
+      spacing = std::min(spacing, patch.notes.spacing[f] + distance(patch.mesh.points[f], refiner.mesh().point(v)));
+    refiner.noteVertex(v, spacing);
+  }
+  refiner.mesh().restoreDelaunay(touched);
+  if (solution.short_triangles > 0) return;
+  std::erase_if(touched, [&](TriId t) { return !refiner.mesh().isLive(t) || !refiner.isShort(t); });
+  refiner.resume(touched, control);
+}
+
+// Takes the first patch that can be mended wholly, or else the one in which the fewest triangles fall short.
+Outcome mendPlace(Refiner& refiner, std::span<const TriId> centre, const Pslg& pslg, const RefineOptions& options,
                   const RunControl& control, std::uint64_t& work) {
+  std::optional<Solution> best;
+  LocalPatch best_patch;
   for (const unsigned rings : kRings) {
-    const LocalPatch patch = extractPatch(refiner.mesh(), refiner.notes(), centre, rings);
+    LocalPatch patch = extractPatch(refiner.mesh(), refiner.notes(), centre, rings);
     if (refiner.isClearOfFrozen() && isAtFrozenRim(refiner.mesh(), patch)) {
-      refiner.defer(centre);
+      if (best) break;
+      refiner.defer(centre.back());
       return Outcome::Deferred;
     }
-    const std::optional<TriMesh> solved = solveSmallest(patch, pslg, options, work);
-    if (!solved) continue;
-    if (refiner.mesh().vertexCount() + solved->points.size() - patch.parent.size() > options.max_vertices) {
-      refiner.stats().budget_reached = true;
-      return Outcome::Failed;
-    }
-    std::vector<VertexId> added;
-    std::vector<TriId> touched;
-    putBack(refiner.mesh(), patch, *solved, added, touched);
-    for (const VertexId v : added) {
-      double spacing = std::numeric_limits<double>::infinity();
-      for (VertexId f = 0; f < patch.parent.size(); ++f)
-        spacing = std::min(spacing, patch.notes.spacing[f] + distance(patch.mesh.points[f], refiner.mesh().point(v)));
-      refiner.noteVertex(v, spacing);
-    }
-    refiner.mesh().restoreDelaunay(touched);
-    refiner.resume(touched, control);
-    return Outcome::Mended;
+    // In a piece another round may mend wholly what this one cannot; not so at an input angle.
+    const bool all_or_none =
+        refiner.isClearOfFrozen() && std::ranges::find(patch.notes.small_angle, true) == patch.notes.small_angle.end();
+    const std::size_t most = all_or_none ? 0 : std::numeric_limits<std::size_t>::max();
+    std::optional<Solution> solved = solveBest(patch, most, pslg, options, work);
+    if (!solved || (best && solved->short_triangles >= best->short_triangles)) continue;
+    best = std::move(solved);
+    best_patch = std::move(patch);
+    if (best->short_triangles == 0) break;
   }
-  return Outcome::Failed;
+  if (!best) return Outcome::Failed;
+  if (refiner.mesh().vertexCount() + best->mesh.points.size() - best_patch.parent.size() > options.max_vertices) {
+    refiner.stats().budget_reached = true;
+    return Outcome::Failed;
+  }
+  take(refiner, best_patch, *best, control);
+  return Outcome::Mended;
+}
+
+// Strips at input angles that fall short, with water beyond their sides: as wholes, since what mends one side breaks the other.
+void repairStrips(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+                  const auto& isGivenUp) {
+  constexpr std::size_t kLongestStrip = 500;
+  const std::uint64_t most_work = mostWork(options.min_angle_deg, refiner.mesh().vertexCount());
+  std::uint64_t work = 0;
+  const TriId slots = refiner.mesh().triangleSlots();
+  for (TriId t = 0; t < slots && work <= most_work && !refiner.stats().budget_reached; ++t) {
+    const std::vector<TriId> strip = refiner.shortStrip(t);
+    if (strip.empty() || strip.size() > kLongestStrip || isGivenUp(strip.back())) continue;
+    control.checkpoint(1.0);
+    mendPlace(refiner, strip, pslg, options, control, work);
+  }
 }
 
 }  // namespace
@@ -112,6 +166,7 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
     const auto known = std::ranges::lower_bound(given_up, t, {}, &BadTriangle::triangle);
     return known != given_up.end() && known->triangle == t && known->corners == refiner.mesh().triangle(t).v;
   };
+  repairStrips(refiner, pslg, options, control, isGivenUp);
   const std::uint64_t most_work = mostWork(options.min_angle_deg, refiner.mesh().vertexCount());
   std::uint64_t well_spent = 0, wasted = 0, successes = 0, failures = 0;
   // Where mending has failed the triangles beside wait for the next round.
@@ -122,7 +177,7 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
   };
   const auto giveUp = [&](TriId t) {
     in_vain.resize(refiner.mesh().vertexSlots(), false);
-    for (const TriId near : trianglesAround(refiner.mesh(), t, 1))
+    for (const TriId near : trianglesAround(refiner.mesh(), {&t, 1}, 1))
       for (const VertexId v : refiner.mesh().triangle(near).v) in_vain[v] = true;
   };
   // What a repair pushes beyond its patch is met on the next round.
@@ -140,10 +195,12 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
         again = true;
         continue;
       }
-      if (wasted > most_work || well_spent > 2 * most_work || refiner.stats().budget_reached) return;
+      if (wasted > most_work || well_spent > timesAsMuch(options.min_angle_deg) * most_work ||
+          refiner.stats().budget_reached)
+        return;
       control.checkpoint(1.0);
       std::uint64_t work = 0;
-      const Outcome outcome = mendPlace(refiner, t, pslg, options, control, work);
+      const Outcome outcome = mendPlace(refiner, {&t, 1}, pslg, options, control, work);
       (outcome == Outcome::Mended ? well_spent : wasted) += work;
       if (outcome == Outcome::Deferred) continue;
       if (outcome == Outcome::Failed) giveUp(t);

@@ -63,7 +63,9 @@ class Shrinker {
         bound_(strictBoundOf(options)),
         mesh_(std::move(mesh)),
         ops_(mesh_, pslg, bound_),
-        waiting_(mesh_.vertexSlots()) {}
+        waiting_(mesh_.vertexSlots()) {
+    ops_.keepBadInPlace();
+  }
 
   // Of a part of a larger mesh: only the due vertices, and clear of frozen edges.
   Shrinker(Piece&& piece, const Pslg& pslg, const RefineOptions& options)

@@ -32,6 +32,11 @@ constexpr double kMeanServesBelow = toRadians(36.5);
 
 VertexId otherEnd(const RimEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
 
+Corners sorted(Corners corners) {
+  std::ranges::sort(corners);
+  return corners;
+}
+
 }  // namespace
 
 VertexOps::VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound)
@@ -120,6 +125,18 @@ bool VertexOps::isBarred() const {
   return clear_of_frozen_ && std::ranges::any_of(patch_.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
 }
 
+bool VertexOps::isBadBeyond(EdgeRef e) const {
+  if (e == kNone) return false;
+  const TriId t = triOf(e);
+  return isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_);
+}
+
+// Whether flips at the rim in patch_ could do harm.
+bool VertexOps::mayNotFlip() const {
+  return flips_may_harm_ ||
+         (bad_stays_ && std::ranges::any_of(patch_.rim, [this](const RimEdge& r) { return isBadBeyond(r.beyond); }));
+}
+
 // The ring of a free vertex, from the triangle `home` on.
 void VertexOps::walkRound(VertexId v, TriId home, Ring& ring) const {
   ring.corners.clear();
@@ -178,6 +195,8 @@ bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
   if (!place || !fits(*place)) return false;
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   if (clear_of_frozen_ && std::ranges::any_of(ring_.triangles, isFrozen)) return false;
+  const auto isBesideBad = [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
+  if (bad_stays_ && std::ranges::any_of(ring_.triangles, isBesideBad)) return relocateWatchingFlips(v, touched);
   mesh_.setPoint(v, *place);
   touched.insert(touched.end(), ring_.triangles.begin(), ring_.triangles.end());
   mesh_.restoreDelaunayRound(v, touched);
@@ -186,13 +205,17 @@ bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
 
 bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free && !flips_may_harm_) return relocateFree(v, touched);
+  return relocateWatchingFlips(v, touched);
+}
+
+bool VertexOps::relocateWatchingFlips(VertexId v, std::vector<TriId>& touched) {
   patch_.triangles.clear();
   patch_.rim.clear();
   inner_.clear();
   outer_.clear();
   if (!gather(v, kNone, v) || isBarred()) return false;
   const std::optional<Point> place = findPlace(v);
-  if (!place || !fits(*place) || (flips_may_harm_ && fanFlips(*place))) return false;
+  if (!place || !fits(*place) || (mayNotFlip() && fanFlips(*place))) return false;
   mesh_.setPoint(v, *place);
   touched.insert(touched.end(), patch_.triangles.begin(), patch_.triangles.end());
   mesh_.restoreDelaunay(touched);
@@ -208,11 +231,26 @@ bool VertexOps::fillHole(std::size_t first, std::size_t last) {
   return polygon_.size() <= most_triangles_ && triangulateWell();
 }
 
-// Triangulates polygon_ into fresh_; answers false at the first bad triangle.
+// Triangulates polygon_ into fresh_; answers false at the first triangle that is not taken.
 bool VertexOps::triangulateWell() {
   return triangulatePolygon(mesh_, polygon_, fresh_, [this](const Corners& c) {
-    return !isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_);
+    return takes_any_ || !isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_) ||
+           sorted(c) == excused_;
   });
+}
+
+bool VertexOps::removeInto(const Corners& excused, VertexId v, std::vector<TriId>& touched) {
+  excused_ = sorted(excused);
+  const bool gone = remove(v, touched);
+  excused_ = {kNone, kNone, kNone};
+  return gone;
+}
+
+bool VertexOps::removeAnyway(VertexId v, std::vector<TriId>& touched) {
+  takes_any_ = true;
+  const bool gone = remove(v, touched);
+  takes_any_ = false;
+  return gone;
 }
 
 bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
@@ -255,7 +293,7 @@ bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
     if (!fillHole(0, count - (second - first))) return false;
     all_fresh_.insert(all_fresh_.end(), fresh_.begin(), fresh_.end());
   }
-  if (flips_may_harm_ && holeFlips()) return false;
+  if (!takes_any_ && mayNotFlip() && holeFlips()) return false;
   mesh_.replace(patch_, all_fresh_, {&v, 1}, touched, inner_);
   mesh_.restoreDelaunay(touched);
   return true;
@@ -309,7 +347,7 @@ bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched
     for (std::size_t j = 0; j < own; ++j) common += patch_.rim[i].a == patch_.rim[j].b;
   if (common > 1) return false;
   const std::optional<Point> place = findPlace(stays);
-  if (!place || !fits(*place) || (flips_may_harm_ && fanFlips(*place))) return false;
+  if (!place || !fits(*place) || (mayNotFlip() && fanFlips(*place))) return false;
   all_fresh_.clear();
   for (const RimEdge& r : patch_.rim) all_fresh_.push_back({stays, r.a, r.b});
   mesh_.setPoint(stays, *place);

@@ -24,6 +24,10 @@ class VertexOps {
   // From now on leaves alone what a frozen edge is next to: it is another's to change too.
   void keepClearOfFrozen() { clear_of_frozen_ = true; }
 
+  // From now on flips nothing of a bad triangle into its surroundings: where an input angle explains it there, it may not do so a
+  // triangle further.
+  void keepBadInPlace() { bad_stays_ = true; }
+
   // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
   // differ: the region of good places is found exactly, and a vertex on a segment slides along it.
   bool relocate(VertexId v, std::vector<TriId>& touched);
@@ -32,6 +36,12 @@ class VertexOps {
   // subsegments become one.
   bool remove(VertexId v, std::vector<TriId>& touched);
 
+  // The same where one triangle, its corners in any order, need not be good.
+  bool removeInto(const Corners& excused, VertexId v, std::vector<TriId>& touched);
+
+  // The same whatever triangles it leaves.
+  bool removeAnyway(VertexId v, std::vector<TriId>& touched);
+
   // Replaces the two ends of an edge by one vertex in the feasible region of both stars together; `stays` moves there
   // and keeps its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
   bool merge(VertexId goes, VertexId stays, std::vector<TriId>& touched);
@@ -39,6 +49,9 @@ class VertexOps {
   // Tries merge with each neighbour of v that is no input vertex; of two free vertices only with the later, where each gets its
   // turn.
   bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
+
+  // Whether beyond an edge, given as seen from there (kNone: nothing), lies a bad triangle.
+  bool isBadBeyond(EdgeRef e) const;
 
  private:
   // What is round a free vertex, counter-clockwise: where each edge of its link starts, and the triangle there.
@@ -51,6 +64,7 @@ class VertexOps {
   void appendLink(const Ring& ring, VertexId other);
   Point meanOfLink() const;
   bool relocateFree(VertexId v, std::vector<TriId>& touched);
+  bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
   bool cannotMerge(VertexId v, VertexId w, TriId beside);
   bool triangulateWell();
   bool fillHole(std::size_t first, std::size_t last);
@@ -60,6 +74,7 @@ class VertexOps {
   bool fanFlips(const Point& place) const;
   bool holeFlips() const;
   bool isBarred() const;
+  bool mayNotFlip() const;
   EdgeRef spokeBefore(EdgeRef opposite) const { return edgeRef(triOf(opposite), prev3(indexOf(opposite))); }
   EdgeRef spokeAfter(EdgeRef opposite) const { return edgeRef(triOf(opposite), next3(indexOf(opposite))); }
 
@@ -67,8 +82,11 @@ class VertexOps {
   const Pslg& pslg_;
   const TriangleBound& bound_;
   bool clear_of_frozen_ = false;
-  std::size_t most_triangles_;  // no vertex can have more round it without a bad one among them
-  bool flips_may_harm_;         // they keep the smallest angle, but not the largest, nor the longest edge
+  bool bad_stays_ = false;
+  bool takes_any_ = false;                   // good or bad
+  Corners excused_ = {kNone, kNone, kNone};  // sorted
+  std::size_t most_triangles_;               // no vertex can have more round it without a bad one among them
+  bool flips_may_harm_;                      // they keep the smallest angle, but not the largest, nor the longest edge
 
   // Scratch.
   FeasibleRegion region_;

@@ -49,7 +49,7 @@ TEST_P(LocalPatchOf, IsAMeshOfItsOwn) {
   for (const TriId centre : centres()) {
     std::size_t before = 0;
     for (unsigned rings = 0; rings < 4; ++rings) {
-      const LocalPatch patch = extractPatch(mesh_, notes_, centre, rings);
+      const LocalPatch patch = extractPatch(mesh_, notes_, {&centre, 1}, rings);
       ASSERT_GE(patch.triangles.size(), before);
       before = patch.triangles.size();
       EXPECT_EQ(std::set<TriId>(patch.triangles.begin(), patch.triangles.end()).size(), patch.triangles.size());
@@ -75,7 +75,7 @@ TEST_P(LocalPatchOf, IsAMeshOfItsOwn) {
 
 TEST_P(LocalPatchOf, RimIsFrozenUnlessItIsTheDomains) {
   for (const TriId centre : centres()) {
-    const LocalPatch patch = extractPatch(mesh_, notes_, centre, 2);
+    const LocalPatch patch = extractPatch(mesh_, notes_, {&centre, 1}, 2);
     const std::set<TriId> inside(patch.triangles.begin(), patch.triangles.end());
     std::set<VertexId> fixed;
     std::size_t frozen = 0;
@@ -107,7 +107,7 @@ TEST_P(LocalPatchOf, RimIsFrozenUnlessItIsTheDomains) {
 TEST_P(LocalPatchOf, PutBackAsItWasChangesNothing) {
   for (const TriId centre : centres()) {
     EditMesh mesh = mesh_;
-    const LocalPatch patch = extractPatch(mesh, notes_, centre, 2);
+    const LocalPatch patch = extractPatch(mesh, notes_, {&centre, 1}, 2);
     std::vector<VertexId> added;
     std::vector<TriId> touched;
     putBack(mesh, patch, patch.mesh, added, touched);
@@ -127,7 +127,7 @@ TEST_P(LocalPatchOf, ChangedPatchFits) {
   std::mt19937_64 random(3);
   for (const TriId centre : centres()) {
     EditMesh mesh = mesh_;
-    const LocalPatch patch = extractPatch(mesh, notes_, centre, 2);
+    const LocalPatch patch = extractPatch(mesh, notes_, {&centre, 1}, 2);
     // Points put into the patch, free vertices of it taken out.
     EditMesh local{TriMesh(patch.mesh)};
     std::vector<TriId> touched;
@@ -169,7 +169,7 @@ TEST(LocalPatch, RingsGrowByVertices) {
   for (TriId centre = 0; centre < mesh.triangleSlots(); centre += 17) {
     std::set<TriId> naive{centre};
     for (unsigned rings = 0; rings < 4; ++rings) {
-      const LocalPatch patch = extractPatch(mesh, notes, centre, rings);
+      const LocalPatch patch = extractPatch(mesh, notes, {&centre, 1}, rings);
       EXPECT_EQ(std::set<TriId>(patch.triangles.begin(), patch.triangles.end()), naive) << rings << " rings";
       std::set<VertexId> corners;
       for (const TriId t : naive) corners.insert(mesh.triangle(t).v.begin(), mesh.triangle(t).v.end());

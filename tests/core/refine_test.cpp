@@ -267,6 +267,41 @@ TEST(Refine, ChannelsOfAnyWidth) {
 
 // Neither huge nor tiny coordinates matter, nor how the input lies. A mesh depends on every rounding, so one count says
 // little; several together hardly change.
+// A sea with an inlet that narrows to an angle, or as much water between two features: the rays are of uneven lengths, and end near
+// others. Only what fills the angle is excused, so all the rest has to be good.
+Pslg narrowInlet(double angle_deg, bool water_beside) {
+  const double along = std::cos(toRadians(angle_deg)), across = std::sin(toRadians(angle_deg));
+  Pslg pslg;
+  pslg.points = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}, {-2, 0}, {-2 + 2.27, 0}, {-2 + 2.38 * along, 2.38 * across}};
+  pslg.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {4, 6}};
+  if (!water_beside) {
+    // Land behind the rays, with a tip of its own at the end of each.
+    pslg.points.insert(pslg.points.end(), {{-2.2, 1.1}, {-2.2, -0.9}});
+    pslg.segments.insert(pslg.segments.end(), {{6, 7}, {7, 8}, {8, 5}});
+    pslg.holes = {{-2.15, 0.1}};
+  }
+  return pslg;
+}
+
+TEST(Refine, InletsOfAnyAngle) {
+  for (const bool water_beside : {false, true}) {
+    for (const double angle : {0.03, 0.12, 0.4, 1.0, 2.0, 4.0, 7.0, 12.0, 20.0}) {
+      for (const double min_angle : {25.0, 33.0}) {
+        const Pslg pslg = narrowInlet(angle, water_beside);
+        const RefineOptions options{.min_angle_deg = min_angle};
+        SCOPED_TRACE("an angle of " + std::to_string(angle) + (water_beside ? ", water beside, " : ", ") +
+                     std::to_string(min_angle));
+        const auto [mesh, stats] = refined(pslg, options);
+        expectRefined(mesh, pslg, options, stats);
+        // Where water lies on both sides of a ray, no good triangle leads from its length to the width of a tiny angle.
+        const bool has_limits = water_beside && angle < 2.0;
+        EXPECT_LE(stats.unresolved.size(), has_limits ? mesh.triangles.size() / 10 : 0);
+        EXPECT_LT(mesh.triangles.size(), 2500u);
+      }
+    }
+  }
+}
+
 TEST(Refine, ScaleMoveAndTurnHardlyChangeTheCount) {
   for (const Algorithm algorithm : {Algorithm::Optimal, Algorithm::Relocate}) {
     const RefineOptions options{.min_angle_deg = 33.0, .algorithm = algorithm};
