@@ -27,26 +27,23 @@ double SizeTree::at(const Point& x) const {
     v -= up;
     cell = &cells_[cell->below + right + 2 * up];
   }
-  const std::uint32_t number = cell->below;
-  const Leaf& leaf = leaves_[number];
+  const Leaf& leaf = leaves_[cell->below];
   // From the centre, -1 to 1; the triangle between the centre, the middle of the nearest side and the nearest corner.
   const double s = 2.0 * u - 1.0, t = 2.0 * v - 1.0;
   const double centre = leaf[4];
-  const int dx = s < 0.0 ? -1 : 1, dy = t < 0.0 ? -1 : 1;
+  const int dx = s < 0.0 ? -1 : 1, dy = t < 0.0 ? -3 : 3;
   const double as = std::abs(s), at = std::abs(t);
-  const double corner = leaf[4 + dx + 3 * dy];
-  const double middle = as >= at ? leaf[4 + dx] : leaf[4 + 3 * dy];
+  const bool beside = as >= at;
+  const double corner = leaf[static_cast<std::size_t>(4 + dx + dy)];
+  double middle = leaf[static_cast<std::size_t>(4 + (beside ? dx : dy))];
+  if (std::isnan(middle)) middle = 0.5 * (corner + leaf[static_cast<std::size_t>(beside ? 4 + dx - dy : 4 - dx + dy)]);
   const double far = std::max(as, at), near = std::min(as, at);
-  double size = centre + far * (middle - centre) + near * (corner - middle);
-  if (first_cap_.empty()) return size;
-  for (std::uint32_t k = first_cap_[number]; k < first_cap_[number + 1]; ++k)
-    size = std::min(size, caps_[k].size + slope_ * distance(caps_[k].place, x));
-  return size;
+  return centre + far * (middle - centre) + near * (corner - middle);
 }
 
 std::size_t SizeTree::bytes() const {
   return cells_.size() * sizeof(Cell) + leaves_.size() * sizeof(Leaf) + start_.size() * sizeof(start_[0]) +
-         start_level_.size() + caps_.size() * sizeof(Cap) + first_cap_.size() * sizeof(first_cap_[0]);
+         start_level_.size();
 }
 
 }  // namespace coastmesh

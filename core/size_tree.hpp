@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "core/size_function.hpp"
 
@@ -29,25 +30,35 @@ class SizeSource {
   virtual void sample(std::span<const Point> places, std::span<double> sizes) const = 0;
   // Bounds of the lengths within each box, from outside. `low` may be 0 and `high` infinite where nothing is known.
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
+  // Whether anyone will ask for lengths within the box: elsewhere the tree stays as coarse as it can.
+  virtual bool isWanted(const SizeBox&) const { return true; }
 };
 
 struct SizeTreeOptions {
   double grade = 0.3;  // above 0: no two places' lengths differ by more than this times their distance
-  // Cells are split down to so many times the least length in them, where that changes within them; further where what lies between
-  // their corners is not known from these to `tolerance`.
-  double coarsest = 2.0;
-  double finest = 0.5;
-  double tolerance = 0.03;                // relative
+  // Cells are split down to so many times the least length in them, where that changes within them; further, to `finest`, where what
+  // lies between their corners is not known from these to `tolerance`: twice that in a cell half as large as the length.
+  double coarsest = 3.0;
+  double finest = 0.25;
+  double tolerance = 0.04;                // relative
   std::uint32_t most_cells = 64'000'000;  // past that no cell is split
 };
 
 // A size function on a quadtree: cells about as large as the lengths wanted there, coarser where these hardly change, so that memory
-// follows the mesh. Lengths are linear on the triangles between a cell's centre and its sides, and where they are graded, at most what
-// the places allow that they grow from.
+// follows the mesh. Lengths are linear on the triangles between a cell's centre and the edges of its rim, and continuous from one cell
+// to the next.
+//
+// No two places' lengths differ by more than the grade times their distance. Proof: on each triangle the gradient is at most the grade
+// (`SizeGrading`; the builder sees to it that this holds for the rounded values that are kept). The triangles fill the root square, a
+// convex set, so that the straight way between two places in it is a row of pieces, each in one triangle, and on each the length
+// changes by at most the grade times the piece. A place beyond the square is answered as the nearest place in it, and nearest places
+// of a convex set are no further apart than the places themselves.
 class SizeTree final : public SizeFunction {
  public:
-  // Covers the box from `low` to `high`; beyond it the nearest place counts. Throws nothing but what `source` does.
-  SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options);
+  // Covers the box from `low` to `high`; beyond it the nearest place counts. `loop` lends threads; the tree does not depend on it.
+  // Throws nothing but what `source` does.
+  SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,
+           const ItemLoop& loop = inOrder);
 
   double at(const Point& x) const override;
   double least() const override { return least_; }
@@ -66,13 +77,8 @@ class SizeTree final : public SizeFunction {
     std::uint32_t below = 0;  // the first of four children in a row, or, where `is_leaf`, a leaf's number
     bool is_leaf = true;
   };
-  // At 3 i + j in rows from below: corners, middles of sides, centre.
+  // In rows from below: corners, middles of sides, centre. The middle of a side is NaN where lengths are linear along it.
   using Leaf = std::array<float, 9>;
-  // A place that lengths grow from.
-  struct Cap {
-    Point place;
-    double size = 0.0;
-  };
 
   static constexpr int kStartLevels = 8;  // a table leads straight to this level
 
@@ -80,9 +86,6 @@ class SizeTree final : public SizeFunction {
   double side_ = 1.0;  // of the root
   std::vector<Cell> cells_;
   std::vector<Leaf> leaves_;
-  std::vector<Cap> caps_;                  // leaf after leaf
-  std::vector<std::uint32_t> first_cap_;   // of each leaf, and the end; empty where there are none
-  double slope_ = 0.0;                     // of the growth from them
   std::vector<std::uint32_t> start_;       // the cell at kStartLevels, or the leaf above it
   std::vector<std::uint8_t> start_level_;  // its level
   double least_ = 0.0, most_ = 0.0;

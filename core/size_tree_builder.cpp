@@ -1,24 +1,28 @@
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
-#include <utility>
+#include <span>
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
 #include "core/size_grading.hpp"
+#include "core/size_places.hpp"
 #include "core/size_tree.hpp"
 
 namespace coastmesh {
 
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Where the least size in a cell is known to be less than that at its corners, sides and centre by this factor, something small lies
 // between them. Bounds of what grows with a distance are off by less.
 constexpr double kHidden = 1.5;
 constexpr int kLevels = 24;
 constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // of the root's side: a leaf of the last level has a centre
+// Where slopes are compared, rounding counts.
+constexpr double kSafely = 1.0 - 1e-6;
 
 struct Square {
   std::uint32_t x = 0, y = 0;  // of the lower left corner, in units
@@ -26,34 +30,46 @@ struct Square {
   std::uint32_t side() const { return kUnits >> level; }
 };
 
-std::uint64_t keyOf(std::uint32_t x, std::uint32_t y) { return (std::uint64_t{y} << 32) | x; }
-
 }  // namespace
 
 class SizeTreeBuilder {
  public:
-  SizeTreeBuilder(SizeTree& tree, const SizeSource& source, const SizeTreeOptions& options)
-      : tree_(tree), source_(source), options_(options) {}
+  SizeTreeBuilder(SizeTree& tree, const SizeSource& source, const SizeTreeOptions& options, const ItemLoop& loop)
+      : tree_(tree), source_(source), options_(options), loop_(loop) {}
 
   void build() {
     tree_.cells_.push_back({});
     squares_.push_back({});
+    known_.push_back(kNone);
     refine();
     balance();
     number();
-    sampleVertices();
-    const std::vector<double> own = vertices_;
-    tree_.slope_ = kSizeGrowth * options_.grade;
-    const std::vector<std::uint32_t> sources = gradeSizes(vertices_, places_, leaf_vertices_, options_.grade);
+    grade();
     fill();
-    if (!sources.empty()) fillCaps(sources, own);
     makeStart();
   }
 
  private:
+  // Of a cell's vertices those that it always has.
+  static constexpr std::array<unsigned, 5> kOwn = {0, 2, 4, 6, 8};
+  static constexpr std::array<unsigned, 4> kMiddles = {1, 3, 5, 7};
+
   double unit() const { return tree_.side_ / kUnits; }
-  Point placeOf(std::uint32_t x, std::uint32_t y) const {
-    return {tree_.origin_.x + unit() * x, tree_.origin_.y + unit() * y};
+  SizeBox boxOf(std::uint32_t c) const {
+    const Square& s = squares_[c];
+    const double half = 0.5 * unit() * s.side();
+    return {tree_.origin_ + Point{unit() * s.x + half, unit() * s.y + half}, half};
+  }
+  // Where vertex i of a cell is, as `LeafVertices` counts them.
+  SizePlaces::Place vertexOf(std::uint32_t c, unsigned i) const {
+    const Square& s = squares_[c];
+    return {s.x + (i % 3) * (s.side() / 2), s.y + (i / 3) * (s.side() / 2)};
+  }
+  void addOwnVertices(std::uint32_t c) {
+    if (known_[c] != kNone) return;
+    known_[c] = static_cast<std::uint32_t>(own_vertices_.size());
+    std::array<std::uint32_t, 5>& numbers = own_vertices_.emplace_back();
+    for (std::size_t k = 0; k < kOwn.size(); ++k) numbers[k] = vertices_.add(vertexOf(c, kOwn[k]));
   }
 
   void split(std::uint32_t c) {
@@ -63,6 +79,7 @@ class SizeTreeBuilder {
     for (unsigned k = 0; k < 4; ++k) {
       tree_.cells_.push_back({});
       squares_.push_back({square.x + (k % 2) * half, square.y + (k / 2) * half, square.level + 1});
+      known_.push_back(kNone);
     }
   }
 
@@ -76,60 +93,80 @@ class SizeTreeBuilder {
     std::uint32_t first = 0;
     std::vector<SizeBox> boxes;
     std::vector<SizeRange> ranges;
-    std::vector<Point> places;
-    std::vector<double> sizes;
     std::vector<std::uint32_t> unsure;
     std::vector<double> lows;  // of the unsure ones
     for (int level = 0; level < kLevels; ++level) {
       const auto end = static_cast<std::uint32_t>(tree_.cells_.size());
-      if (first == end) return;
+      const std::vector<std::uint32_t> wanted =
+          joined(overStretches(loop_, end - first, [&](std::size_t from, std::size_t to) {
+            std::vector<std::uint32_t> here;
+            for (auto c = static_cast<std::uint32_t>(first + from); c < first + to; ++c)
+              if (source_.isWanted(boxOf(c))) here.push_back(c);
+            return here;
+          }));
+      if (wanted.empty()) return;
       boxes.clear();
-      for (std::uint32_t c = first; c < end; ++c) {
-        const Square& s = squares_[c];
-        boxes.push_back({placeOf(s.x + s.side() / 2, s.y + s.side() / 2), 0.5 * unit() * s.side()});
-      }
+      for (const std::uint32_t c : wanted) boxes.push_back(boxOf(c));
       ranges.resize(boxes.size());
       source_.bound(boxes, ranges);
       unsure.clear();
       lows.clear();
-      for (std::uint32_t c = first; c < end && !isFull(); ++c) {
-        const auto [low, high] = ranges[c - first];
+      for (std::size_t k = 0; k < wanted.size() && !isFull(); ++k) {
+        const auto [low, high] = ranges[k];
         if (!(high > low * (1.0 + options_.tolerance))) continue;
-        const double side = 2.0 * boxes[c - first].half;
+        const double side = 2.0 * boxes[k].half;
         if (side > options_.coarsest * low) {
-          split(c);
+          split(wanted[k]);
         } else if (side > options_.finest * low) {
-          unsure.push_back(c);
+          unsure.push_back(wanted[k]);
           lows.push_back(low);
         }
       }
-      splitWhereBent(unsure, lows, places, sizes);
+      splitWhereBent(unsure, lows);
       first = end;
     }
   }
 
   // Splits cells whose centre or sides are not what the corners tell, or that hold something much smaller than all of these.
-  void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<double>& lows,
-                      std::vector<Point>& places, std::vector<double>& sizes) {
-    places.clear();
-    for (const std::uint32_t c : cells) {
-      const Square& s = squares_[c];
-      for (unsigned i = 0; i < 9; ++i)
-        places.push_back(placeOf(s.x + (i % 3) * (s.side() / 2), s.y + (i / 3) * (s.side() / 2)));
+  void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<double>& lows) {
+    std::vector<std::array<std::uint32_t, 4>> middles(cells.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      addOwnVertices(cells[k]);
+      for (std::size_t i = 0; i < kMiddles.size(); ++i) middles[k][i] = vertices_.add(vertexOf(cells[k], kMiddles[i]));
     }
-    sizes.resize(places.size());
-    source_.sample(places, sizes);
-    for (std::size_t k = 0; k < cells.size() && !isFull(); ++k) {
-      const double* v = sizes.data() + 9 * k;
-      const double centre = v[4];
-      const double corners = 0.25 * (v[0] + v[2] + v[6] + v[8]);
-      double off = std::abs(corners - centre);
-      off = std::max({off, std::abs(0.5 * (v[0] + v[2]) - v[1]), std::abs(0.5 * (v[0] + v[6]) - v[3]),
-                      std::abs(0.5 * (v[2] + v[8]) - v[5]), std::abs(0.5 * (v[6] + v[8]) - v[7])});
-      const double least = *std::min_element(v, v + 9);
-      const bool is_bent = std::isfinite(off) ? off > options_.tolerance * centre : std::isfinite(least);
-      if (is_bent || least > kHidden * lows[k]) split(cells[k]);
+    sample();
+    const auto isBent = [&](std::size_t k) {
+      std::array<double, 9> v;
+      for (std::size_t i = 0; i < kOwn.size(); ++i) v[kOwn[i]] = sizes_.own[own_vertices_[known_[cells[k]]][i]];
+      for (std::size_t i = 0; i < kMiddles.size(); ++i) v[kMiddles[i]] = sizes_.own[middles[k][i]];
+      // How far off four triangles would be; eight of them are about half as far off.
+      double off = std::abs(0.25 * (v[0] + v[2] + v[6] + v[8]) - v[4]);
+      off = 0.5 * std::max({off, std::abs(0.5 * (v[0] + v[2]) - v[1]), std::abs(0.5 * (v[0] + v[6]) - v[3]),
+                            std::abs(0.5 * (v[2] + v[8]) - v[5]), std::abs(0.5 * (v[6] + v[8]) - v[7])});
+      const double least = std::ranges::min(v), side = unit() * squares_[cells[k]].side();
+      if (least > kHidden * lows[k]) return true;
+      return std::isfinite(off) ? off * side > options_.tolerance * least * least : std::isfinite(least);
+    };
+    const std::vector<std::uint32_t> bent =
+        joined(overStretches(loop_, cells.size(), [&](std::size_t first, std::size_t last) {
+          std::vector<std::uint32_t> here;
+          for (std::size_t k = first; k < last; ++k)
+            if (isBent(k)) here.push_back(cells[k]);
+          return here;
+        }));
+    for (std::size_t k = 0; k < bent.size() && !isFull(); ++k) split(bent[k]);
+  }
+
+  // Asks for the sizes at vertices that are new.
+  void sample() {
+    const std::size_t known = sizes_.own.size();
+    std::vector<Point> places(vertices_.size() - known);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto [x, y] = vertices_[static_cast<std::uint32_t>(known + k)];
+      places[k] = tree_.origin_ + Point{unit() * x, unit() * y};
     }
+    sizes_.own.resize(vertices_.size());
+    source_.sample(places, std::span(sizes_.own).subspan(known));
   }
 
   // The cell that holds the unit square with this lower left corner, no deeper than `level`.
@@ -142,110 +179,160 @@ class SizeTreeBuilder {
     return c;
   }
 
+  // A leaf beside this one, two levels coarser or more; kNone where there is none.
+  std::uint32_t tooLargeBeside(std::uint32_t c) const {
+    const Square s = squares_[c];
+    for (int k = 0; k < 4; ++k) {
+      const std::int64_t x = std::int64_t{s.x} + (k == 0 ? -1 : k == 1 ? std::int64_t{s.side()} : 0);
+      const std::int64_t y = std::int64_t{s.y} + (k == 2 ? -1 : k == 3 ? std::int64_t{s.side()} : 0);
+      if (x < 0 || y < 0 || x >= kUnits || y >= kUnits) continue;
+      const std::uint32_t beside = find(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), s.level);
+      if (tree_.cells_[beside].is_leaf && squares_[beside].level + 1 < s.level) return beside;
+    }
+    return kNone;
+  }
+
   // Splits leaves until those side by side differ by one level at most.
   void balance() {
-    std::vector<std::uint32_t> waiting;
-    for (std::uint32_t c = 0; c < tree_.cells_.size(); ++c)
-      if (tree_.cells_[c].is_leaf) waiting.push_back(c);
-    std::ranges::stable_sort(waiting,
-                             [&](std::uint32_t a, std::uint32_t b) { return squares_[a].level < squares_[b].level; });
+    std::vector<std::uint32_t> waiting =
+        joined(overStretches(loop_, tree_.cells_.size(), [&](std::size_t first, std::size_t last) {
+          std::vector<std::uint32_t> here;
+          for (auto c = static_cast<std::uint32_t>(first); c < last; ++c)
+            if (tree_.cells_[c].is_leaf && tooLargeBeside(c) != kNone) here.push_back(c);
+          return here;
+        }));
     while (!waiting.empty()) {
       const std::uint32_t c = waiting.back();
-      waiting.pop_back();
-      if (!tree_.cells_[c].is_leaf) continue;
-      const Square s = squares_[c];
-      for (int k = 0; k < 4; ++k) {
-        const std::int64_t x = std::int64_t{s.x} + (k == 0 ? -1 : k == 1 ? std::int64_t{s.side()} : 0);
-        const std::int64_t y = std::int64_t{s.y} + (k == 2 ? -1 : k == 3 ? std::int64_t{s.side()} : 0);
-        if (x < 0 || y < 0 || x >= kUnits || y >= kUnits) continue;
-        const std::uint32_t beside = find(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), s.level);
-        if (!tree_.cells_[beside].is_leaf || squares_[beside].level + 1 >= s.level) continue;
-        split(beside);
-        for (std::uint32_t child = 0; child < 4; ++child) waiting.push_back(tree_.cells_[beside].below + child);
-        waiting.push_back(c);
-        break;
+      const std::uint32_t beside = tree_.cells_[c].is_leaf ? tooLargeBeside(c) : kNone;
+      if (beside == kNone) {
+        waiting.pop_back();
+        continue;
       }
+      split(beside);
+      for (std::uint32_t child = 0; child < 4; ++child) waiting.push_back(tree_.cells_[beside].below + child);
     }
   }
 
-  // Numbers leaves, and their corners and centres; the middle of a side only where smaller leaves meet it there.
+  // Numbers leaves, their corners, centres and middles of sides; asks for the sizes at those that are wanted.
   void number() {
-    std::unordered_map<std::uint64_t, std::uint32_t> numbers;
-    std::vector<std::uint32_t> leaf_cells;
+    leaf_cells_.clear();
     for (std::uint32_t c = 0; c < tree_.cells_.size(); ++c) {
       if (!tree_.cells_[c].is_leaf) continue;
-      tree_.cells_[c].below = static_cast<std::uint32_t>(leaf_cells.size());
-      leaf_cells.push_back(c);
+      tree_.cells_[c].below = static_cast<std::uint32_t>(leaf_cells_.size());
+      leaf_cells_.push_back(c);
     }
-    numbers.reserve(2 * leaf_cells.size());
-    const auto numberOf = [&](std::uint32_t x, std::uint32_t y) {
-      const auto [entry, fresh] = numbers.try_emplace(keyOf(x, y), static_cast<std::uint32_t>(places_.size()));
-      if (fresh) places_.push_back(placeOf(x, y));
-      return entry->second;
-    };
-    leaf_vertices_.resize(leaf_cells.size());
-    for (std::size_t l = 0; l < leaf_cells.size(); ++l) {
-      const Square& s = squares_[leaf_cells[l]];
-      const std::uint32_t half = s.side() / 2;
-      for (const unsigned i : {0u, 2u, 6u, 8u})
-        leaf_vertices_[l][i] = numberOf(s.x + (i % 3) * half, s.y + (i / 3) * half);
-      leaf_vertices_[l][4] = static_cast<std::uint32_t>(places_.size());
-      places_.push_back(placeOf(s.x + half, s.y + half));
-    }
-    for (std::size_t l = 0; l < leaf_cells.size(); ++l) {
-      const Square& s = squares_[leaf_cells[l]];
-      const std::uint32_t half = s.side() / 2;
-      for (const unsigned i : {1u, 3u, 5u, 7u}) {
-        const auto entry = numbers.find(keyOf(s.x + (i % 3) * half, s.y + (i / 3) * half));
-        leaf_vertices_[l][i] = entry == numbers.end() ? kNone : entry->second;
+    is_wanted_.assign(leaf_cells_.size(), 0);
+    forEachByStretches(loop_, leaf_cells_.size(),
+                       [&](std::size_t l) { is_wanted_[l] = source_.isWanted(boxOf(leaf_cells_[l])); });
+    for (std::size_t l = 0; l < leaf_cells_.size(); ++l)
+      if (is_wanted_[l]) addOwnVertices(leaf_cells_[l]);
+    sample();
+    for (const std::uint32_t c : leaf_cells_) addOwnVertices(c);
+    sizes_.own.resize(vertices_.size(), kInfinity);
+
+    // The middle of a side where smaller leaves meet it, or where that on the other side is as large and knows of it.
+    constexpr std::uint8_t kMeeting = 2;
+    leaf_vertices_.resize(leaf_cells_.size());
+    forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
+      for (std::size_t k = 0; k < kOwn.size(); ++k)
+        leaf_vertices_[l][kOwn[k]] = own_vertices_[known_[leaf_cells_[l]]][k];
+      for (const unsigned i : kMiddles) leaf_vertices_[l][i] = vertices_.find(vertexOf(leaf_cells_[l], i));
+    });
+    std::vector<std::uint8_t> sides(vertices_.size(), 0);
+    for (const LeafVertices& leaf : leaf_vertices_) {
+      for (const unsigned i : {0u, 2u, 6u, 8u}) sides[leaf[i]] = kMeeting;
+      for (const unsigned i : kMiddles) {
+        if (leaf[i] == kNone || sides[leaf[i]] == kMeeting) continue;
+        const auto [x, y] = vertices_[leaf[i]];
+        const bool at_rim = x == 0 || y == 0 || x == kUnits || y == kUnits;
+        sides[leaf[i]] = at_rim || sides[leaf[i]] > 0 ? kMeeting : std::uint8_t{1};
       }
     }
-    squares_ = {};
+    forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
+      for (const unsigned i : kMiddles) {
+        std::uint32_t& v = leaf_vertices_[l][i];
+        if (v != kNone && sides[v] < kMeeting) v = kNone;
+      }
+    });
+    sizes_.size.insert(sizes_.size.end(), sizes_.own.begin() + static_cast<std::ptrdiff_t>(sizes_.size.size()),
+                       sizes_.own.end());
+    sizes_.source.resize(vertices_.size(), kNone);
   }
 
-  void sampleVertices() {
-    vertices_.resize(places_.size());
-    source_.sample(places_, vertices_);
-    // Where nothing is wanted: as large as the whole.
-    for (double& size : vertices_)
-      if (!(size < tree_.side_)) size = tree_.side_;
+  LeavesRound leavesRound(std::uint32_t v) const {
+    LeavesRound round;
+    const auto [x, y] = vertices_[v];
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t left = k % 2, below = k / 2;
+      if (x < left || y < below || x - left >= kUnits || y - below >= kUnits) continue;
+      const std::uint32_t leaf = tree_.cells_[find(x - left, y - below, kLevels)].below;
+      const auto end = round.leaves.begin() + static_cast<std::ptrdiff_t>(round.count);
+      if (std::find(round.leaves.begin(), end, leaf) == end) round.leaves[round.count++] = leaf;
+    }
+    return round;
+  }
+
+  void grade() {
+    const auto grading = [&] {
+      return SizeGrading(
+          sizes_, vertices_, unit(), leaf_vertices_, [this](std::uint32_t v) { return leavesRound(v); },
+          kSafely * options_.grade, loop_);
+    };
+    for (int round = 0; round < kLevels; ++round) {
+      grading().spread();
+      if (!splitGraded()) break;
+      balance();
+      number();
+    }
+    // Where nothing is wanted anywhere: as large as the whole.
+    for (double& size : sizes_.size) size = std::min(size, tree_.side_);
+    grading().flatten();
+  }
+
+  // Splits leaves that are too large for what grows into them.
+  bool splitGraded() {
+    const std::size_t before = tree_.cells_.size();
+    for (std::size_t l = 0; l < leaf_cells_.size(); ++l) {
+      if (!is_wanted_[l]) continue;
+      std::array<std::uint32_t, 9> sources;
+      std::size_t count = 0;
+      for (const std::uint32_t v : leaf_vertices_[l])
+        if (v != kNone && sizes_.source[v] != kNone) sources[count++] = sizes_.source[v];
+      if (count > 0) splitBelow(leaf_cells_[l], std::span(sources).first(count));
+    }
+    return tree_.cells_.size() > before;
+  }
+
+  void splitBelow(std::uint32_t c, std::span<const std::uint32_t> sources) {
+    const Square square = squares_[c];
+    if (square.level == kLevels || isFull()) return;
+    const double half = 0.5 * unit() * square.side();
+    const Point centre{unit() * square.x + half, unit() * square.y + half};
+    double low = kInfinity;
+    for (const std::uint32_t s : sources) {
+      const Point off = Point{unit() * vertices_[s].x, unit() * vertices_[s].y} - centre;
+      const Point beyond{std::max(std::abs(off.x) - half, 0.0), std::max(std::abs(off.y) - half, 0.0)};
+      low = std::min(low, sizes_.own[s] + kSizeGrowth * options_.grade * std::sqrt(squaredLength(beyond)));
+    }
+    if (2.0 * half <= options_.coarsest * low) return;
+    split(c);
+    for (std::uint32_t k = 0; k < 4; ++k) splitBelow(tree_.cells_[c].below + k, sources);
   }
 
   void fill() {
     tree_.leaves_.resize(leaf_vertices_.size());
-    float least = std::numeric_limits<float>::max(), most = 0.0F;
+    double least = kInfinity, most = 0.0;
     for (std::size_t l = 0; l < leaf_vertices_.size(); ++l) {
-      const LeafVertices& from = leaf_vertices_[l];
-      SizeTree::Leaf& to = tree_.leaves_[l];
-      for (const unsigned i : {0u, 2u, 4u, 6u, 8u}) to[i] = static_cast<float>(vertices_[from[i]]);
-      const auto middle = [&](unsigned i, unsigned a, unsigned b) {
-        to[i] = from[i] == kNone ? 0.5F * (to[a] + to[b]) : static_cast<float>(vertices_[from[i]]);
-      };
-      middle(1, 0, 2);
-      middle(3, 0, 6);
-      middle(5, 2, 8);
-      middle(7, 6, 8);
-      for (const float size : to) {
-        least = std::min(least, size);
-        most = std::max(most, size);
+      for (unsigned i = 0; i < 9; ++i) {
+        const std::uint32_t v = leaf_vertices_[l][i];
+        tree_.leaves_[l][i] = v == kNone ? std::nanf("") : static_cast<float>(sizes_.size[v]);
+        if (v == kNone) continue;
+        least = std::min(least, sizes_.size[v]);
+        most = std::max(most, sizes_.size[v]);
       }
     }
     tree_.least_ = least;
     tree_.most_ = most;
-  }
-
-  void fillCaps(const std::vector<std::uint32_t>& sources, const std::vector<double>& own) {
-    std::vector<std::uint32_t> here;
-    for (const LeafVertices& leaf : leaf_vertices_) {
-      tree_.first_cap_.push_back(static_cast<std::uint32_t>(tree_.caps_.size()));
-      here.clear();
-      for (const std::uint32_t v : leaf)
-        if (v != kNone && sources[v] != kNone) here.push_back(sources[v]);
-      std::ranges::sort(here);
-      here.erase(std::unique(here.begin(), here.end()), here.end());
-      for (const std::uint32_t v : here) tree_.caps_.push_back({places_[v], own[v]});
-    }
-    tree_.first_cap_.push_back(static_cast<std::uint32_t>(tree_.caps_.size()));
   }
 
   void makeStart() {
@@ -269,18 +356,24 @@ class SizeTreeBuilder {
   SizeTree& tree_;
   const SizeSource& source_;
   const SizeTreeOptions& options_;
-  std::vector<Square> squares_;  // one a cell
-  std::vector<Point> places_;    // of the vertices of the triangles between cells' centres and sides
-  std::vector<double> vertices_;
+  const ItemLoop& loop_;
+  std::vector<Square> squares_;                             // one a cell
+  std::vector<std::uint32_t> known_;                        // one a cell: where its vertices stand, if it has some
+  std::vector<std::array<std::uint32_t, 5>> own_vertices_;  // numbers, in the order of kOwn
+  SizePlaces vertices_;                                     // in units; some are of cells that were split
+  GradedSizes sizes_;                                       // at the vertices
+  std::vector<std::uint32_t> leaf_cells_;
   std::vector<LeafVertices> leaf_vertices_;
+  std::vector<char> is_wanted_;  // leaves
 };
 
-SizeTree::SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options) {
+SizeTree::SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,
+                   const ItemLoop& loop) {
   // A hair larger, so that nothing lies on the root's own sides.
   const double extent = std::max(high.x - low.x, high.y - low.y);
   side_ = 1.01 * (extent > 0.0 ? extent : 1.0);
   origin_ = midpoint(low, high) - Point{0.5 * side_, 0.5 * side_};
-  SizeTreeBuilder(*this, source, options).build();
+  SizeTreeBuilder(*this, source, options, loop).build();
 }
 
 }  // namespace coastmesh

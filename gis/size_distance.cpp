@@ -1,13 +1,12 @@
 #include "gis/size_distance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/hilbert.hpp"
 #include "core/metric.hpp"
+#include "gis/box.hpp"
 #include "gis/segment_tags.hpp"
 
 namespace coastmesh {
@@ -16,104 +15,139 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double distanceTo(const Point& x, const Point& a, const Point& b) {
-  const Point ab = b - a;
-  const double squared = squaredLength(ab);
-  const double share = squared > 0.0 ? std::clamp(dot(x - a, ab) / squared, 0.0, 1.0) : 0.0;
-  return distance(x, a + share * ab);
-}
-
-double distanceTo(const Point& x, const Box& box) {
-  const Point off{std::max({box.xmin - x.x, 0.0, x.x - box.xmax}), std::max({box.ymin - x.y, 0.0, x.y - box.ymax})};
-  return std::sqrt(squaredLength(off));  // std::hypot would take most of the time
-}
-
 }  // namespace
 
+struct DistanceField::Search {
+  Point x;
+  double per_metre;  // 1 / scale
+  double best;       // a size; where all lines are alike, the square of a distance
+  std::uint32_t nearest = kNone;
+};
+
 DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(const Point&)> scale, double most_m)
-    : scale_(std::move(scale)), most_m_(most_m) {
+    : most_m_(most_m), scale_(std::move(scale)) {
   if (lines.empty()) return;
   std::vector<Point> middles;
   for (const SizedLine& line : lines) {
     middles.push_back(midpoint(line.a, line.b));
     most_rate_ = std::max(most_rate_, line.rate);
+    least_size_m_ = std::min(least_size_m_, line.size_m);
+    alike_ = alike_ && line.rate == lines.front().rate && line.size_m == lines.front().size_m;
   }
-  for (const std::uint32_t i : hilbertOrder(middles)) lines_.push_back(lines[i]);
-  for (const SizedLine& line : lines_) nodes_.push_back({Box::of(line.a, line.b), line.size_m, line.rate});
-  level_begin_ = {0, nodes_.size()};
-  while (level_begin_.back() - level_begin_[level_begin_.size() - 2] > 1) {
-    const std::size_t begin = level_begin_[level_begin_.size() - 2], end = level_begin_.back();
-    for (std::size_t first = begin; first < end; first += kFanout) {
-      Node node{{}, kInfinity, kInfinity};
-      for (std::size_t i = first; i < std::min(end, first + kFanout); ++i) {
-        node.box.add(nodes_[i].box);
-        node.size_m = std::min(node.size_m, nodes_[i].size_m);
-        node.rate = std::min(node.rate, nodes_[i].rate);
-      }
-      nodes_.push_back(node);
-    }
-    level_begin_.push_back(nodes_.size());
-  }
-}
-
-void DistanceField::descend(std::size_t level, std::size_t node, const Point& x, double scale, double& best) const {
-  const auto lineFrom = [&](std::size_t i) {
-    const SizedLine& line = lines_[i];
-    best = std::min(best, line.size_m + line.rate * distanceTo(x, line.a, line.b) / scale);
+  struct Node {
+    Box box;
+    double size_m = kInfinity, rate = kInfinity;
   };
-  if (level == 0) return lineFrom(node);
-  const std::size_t first = level_begin_[level - 1] + node * kFanout;
-  const std::size_t count = std::min(level_begin_[level], first + kFanout) - first;
-  if (level == 1) {
-    for (std::size_t i = first; i < first + count; ++i) lineFrom(i);  // sooner done than put in order
-    return;
+  std::vector<Node> nodes;
+  const auto add = [&](std::size_t i, const Node& node) {
+    if (i % kFanout == 0) nodes.emplace_back();
+    nodes.back().box.add(node.box);
+    nodes.back().size_m = std::min(nodes.back().size_m, node.size_m);
+    nodes.back().rate = std::min(nodes.back().rate, node.rate);
+  };
+  for (const std::uint32_t i : hilbertOrder(middles)) {
+    const SizedLine& line = lines[i];
+    const Point along = line.b - line.a;
+    const double square = squaredLength(along);
+    add(lines_.size(), {Box::of(line.a, line.b), line.size_m, line.rate});
+    lines_.push_back({line.a, along, square > 0.0 ? 1.0 / square : 0.0, line.size_m, line.rate});
   }
-  // The most promising first.
-  std::array<std::pair<double, std::size_t>, kFanout> order;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Node& child = nodes_[first + k];
-    order[k] = {child.size_m + child.rate * distanceTo(x, child.box) / scale, node * kFanout + k};
-  }
-  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
-  for (std::size_t k = 0; k < count; ++k) {
-    if (order[k].first >= best) return;
-    descend(level - 1, order[k].second, x, scale, best);
+  do {
+    level_begin_.push_back(groups_.size());
+    const std::vector<Node> below = std::exchange(nodes, {});
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const std::size_t k = i % kFanout;
+      if (k == 0) {
+        Group& group = groups_.emplace_back();
+        for (auto* of : {&group.xmin, &group.ymin, &group.size_m, &group.rate}) of->fill(kInfinity);
+        for (auto* of : {&group.xmax, &group.ymax}) of->fill(-kInfinity);
+      }
+      Group& group = groups_.back();
+      group.xmin[k] = below[i].box.xmin, group.ymin[k] = below[i].box.ymin;
+      group.xmax[k] = below[i].box.xmax, group.ymax[k] = below[i].box.ymax;
+      group.size_m[k] = below[i].size_m, group.rate[k] = below[i].rate;
+      add(i, below[i]);
+    }
+  } while (nodes.size() > 1);
+}
+
+template <bool kAlike>
+void DistanceField::measure(std::uint32_t i, Search& search) const {
+  const Line& line = lines_[i];
+  const Point to = search.x - line.a;
+  const double share = std::min(std::max(dot(to, line.along) * line.inverse_square, 0.0), 1.0);
+  const double square = squaredLength(to - share * line.along);
+  const double value = kAlike ? square : line.size_m + line.rate * std::sqrt(square) * search.per_metre;
+  if (value < search.best) {
+    search.best = value;
+    search.nearest = i;
   }
 }
 
-double DistanceField::sizeAt(const Point& x, double scale, double start) const {
+template <bool kAlike>
+void DistanceField::descend(std::size_t level, std::size_t number, Search& search) const {
+  const Group& group = groups_[level_begin_[level] + number];
+  std::array<double, kFanout> off;
+  for (std::size_t k = 0; k < kFanout; ++k) {
+    const double dx = std::max(std::max(group.xmin[k] - search.x.x, search.x.x - group.xmax[k]), 0.0);
+    const double dy = std::max(std::max(group.ymin[k] - search.x.y, search.x.y - group.ymax[k]), 0.0);
+    off[k] = dx * dx + dy * dy;
+    if constexpr (!kAlike) off[k] = group.size_m[k] + group.rate[k] * std::sqrt(off[k]) * search.per_metre;
+  }
+  // The most promising first; mostly few are left.
+  std::array<std::uint8_t, kFanout> order;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < kFanout; ++k) {
+    if (!(off[k] < search.best)) continue;
+    std::size_t at = count++;
+    for (; at > 0 && off[k] < off[order[at - 1]]; --at) order[at] = order[at - 1];
+    order[at] = static_cast<std::uint8_t>(k);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(off[order[i]] < search.best)) return;
+    const std::size_t node = number * kFanout + order[i];
+    if (level > 0) {
+      descend<kAlike>(level - 1, node, search);
+    } else {
+      const std::size_t end = std::min(lines_.size(), (node + 1) * kFanout);
+      for (std::size_t line = node * kFanout; line < end; ++line)
+        measure<kAlike>(static_cast<std::uint32_t>(line), search);
+    }
+  }
+}
+
+double DistanceField::sizeAt(const Point& x, double scale, double most_m, std::uint32_t& nearest) const {
   if (lines_.empty()) return kInfinity;
-  double best = start;
-  descend(level_begin_.size() - 2, 0, x, scale, best);
-  return best;
-}
-
-double DistanceField::startFrom(double size, const Point& from, const Point& x, double scale) const {
-  return (size + most_rate_ * distance(from, x) / scale) * (1.0 + 1e-3);
+  Search search{x, 1.0 / scale, most_m};
+  const auto run = [&]<bool kAlike>() {
+    if (nearest != kNone) measure<kAlike>(nearest, search);
+    descend<kAlike>(level_begin_.size() - 1, 0, search);
+    if (search.nearest != kNone) nearest = search.nearest;
+  };
+  if (!alike_) {
+    run.operator()<false>();
+    return search.best;
+  }
+  const Line& line = lines_.front();
+  if (!(most_m > line.size_m) || line.rate == 0.0) return std::min(most_m, line.size_m);
+  const double reach = (most_m - line.size_m) / line.rate * scale;
+  search.best = reach * reach;
+  run.operator()<true>();
+  return search.nearest == kNone ? most_m : line.size_m + line.rate * std::sqrt(search.best) * search.per_metre;
 }
 
 void DistanceField::sample(std::span<const Point> places, std::span<double> sizes) const {
-  double start = kInfinity;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double scale = scale_(places[i]);
-    if (i > 0) start = startFrom(sizes[i - 1], places[i - 1], places[i], scale);
-    sizes[i] = sizeAt(places[i], scale, std::min(start, most_m_));
-  }
+  std::uint32_t nearest = kNone;
+  for (std::size_t i = 0; i < places.size(); ++i) sizes[i] = sizeAt(places[i], scale_(places[i]), most_m_, nearest);
 }
 
 void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
-  if (lines_.empty()) {
-    std::ranges::fill(ranges, SizeRange{kInfinity, kInfinity});
-    return;
-  }
-  const double least = nodes_.back().size_m;
-  double start = kInfinity, size = kInfinity;
+  std::uint32_t nearest = kNone;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const double scale = scale_(boxes[i].centre);
-    if (i > 0) start = startFrom(size, boxes[i - 1].centre, boxes[i].centre, scale);
     const double reach = most_rate_ * std::sqrt(2.0) * boxes[i].half / scale * 1.01;
-    size = sizeAt(boxes[i].centre, scale, std::min(start, most_m_ + reach));
-    ranges[i] = {std::max(least, size - reach), size + reach};
+    const double size = sizeAt(boxes[i].centre, scale, most_m_ + reach, nearest);
+    ranges[i] = {std::max(least_size_m_, size - reach), size + reach};
   }
 }
 

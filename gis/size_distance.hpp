@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <vector>
 
+#include "core/ids.hpp"
 #include "core/pslg.hpp"
-#include "gis/box.hpp"
 #include "gis/size_field.hpp"
 
 namespace coastmesh {
@@ -18,7 +20,8 @@ struct SizedLine {
   double rate = 0.0;    // 0 or more
 };
 
-// size + rate * distance, the least over all lines. A packed tree whose nodes know the least size and rate below them.
+// size + rate * distance, the least over all lines. A packed tree whose nodes know the least size and rate below them; what was
+// nearest to one place is where the search for the next one starts.
 class DistanceField final : public SizeField {
  public:
   // `scale` is plane length over metres at a place. Sizes above `most_m` are not told apart: to find the nearest line from
@@ -31,21 +34,29 @@ class DistanceField final : public SizeField {
 
  private:
   static constexpr std::size_t kFanout = 8;
-  struct Node {
-    Box box;
-    double size_m, rate;
+  struct Line {
+    Point a, along;               // `along` to the other end
+    double inverse_square = 0.0;  // of its length; 0 for a point
+    double size_m = 0.0, rate = 0.0;
   };
+  // The boxes of so many nodes of the level below; those that are not there lie infinitely far away.
+  struct Group {
+    std::array<double, kFanout> xmin, ymin, xmax, ymax, size_m, rate;
+  };
+  struct Search;
 
-  // `start`: an upper bound; what is no less need not be found.
-  double sizeAt(const Point& x, double scale, double start) const;
-  // At most so much at `x`, where it is `size` at `from`.
-  double startFrom(double size, const Point& from, const Point& x, double scale) const;
-  void descend(std::size_t level, std::size_t node, const Point& x, double scale, double& best) const;
+  // `most_m`: what is no less need not be found. `nearest`: the line found, where there is one; before, one to begin with.
+  double sizeAt(const Point& x, double scale, double most_m, std::uint32_t& nearest) const;
+  template <bool kAlike>
+  void measure(std::uint32_t line, Search& search) const;
+  template <bool kAlike>
+  void descend(std::size_t level, std::size_t group, Search& search) const;
 
-  std::vector<SizedLine> lines_;  // along Hilbert's curve
-  std::vector<Node> nodes_;       // level after level, the lines' own first
+  std::vector<Line> lines_;    // along Hilbert's curve
+  std::vector<Group> groups_;  // level after level; of the first level's the nodes are `kFanout` lines in a row
   std::vector<std::size_t> level_begin_;
-  double most_rate_ = 0.0;
+  bool alike_ = true;  // all lines have the same size and rate: squares of distances do
+  double most_rate_ = 0.0, least_size_m_ = std::numeric_limits<double>::infinity();
   double most_m_;
   std::function<double(const Point&)> scale_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gis/domain_mask.hpp"
 #include "gis/error.hpp"
 #include "gis/plane_table.hpp"
 #include "gis/size_channel.hpp"
@@ -19,8 +20,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Several fields as one source in plane units.
 class ComposedSizes final : public SizeSource {
  public:
-  ComposedSizes(const SizeOptions& options, std::function<double(const Point&)> scale, const ItemLoop& loop)
-      : options_(options), scale_(std::move(scale)), loop_(loop) {}
+  ComposedSizes(const SizeOptions& options, std::function<double(const Point&)> scale, const DomainMask& mask,
+                const ItemLoop& loop)
+      : options_(options), scale_(std::move(scale)), mask_(mask), loop_(loop) {}
 
   void add(std::unique_ptr<SizeField> field) { fields_.push_back(std::move(field)); }
   void setFloor(std::unique_ptr<SizeField> field) { floor_ = std::move(field); }
@@ -40,6 +42,8 @@ class ComposedSizes final : public SizeSource {
       for (std::size_t i = 0; i < out.size(); ++i) out[i] = bounded(out[i], own[i]) * scale_(here[i]);
     });
   }
+
+  bool isWanted(const SizeBox& box) const override { return mask_.meets(box); }
 
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
     forStretches(loop_, boxes.size(), [&](std::size_t first, std::size_t last) {
@@ -71,6 +75,7 @@ class ComposedSizes final : public SizeSource {
 
   const SizeOptions& options_;
   std::function<double(const Point&)> scale_;
+  const DomainMask& mask_;
   const ItemLoop& loop_;
   std::vector<std::unique_ptr<SizeField>> fields_;
   std::unique_ptr<SizeField> floor_;  // what the time step allows
@@ -134,7 +139,8 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
       square, kScaleTolerance);
   const auto scale = [table](const Point& x) { return table->at(x).x; };
 
-  ComposedSizes source(options, scale, loop);
+  const DomainMask mask(domain.pslg, {middle, 0.505 * extent});
+  ComposedSizes source(options, scale, mask, loop);
   const double most_m = std::min(options.most_m, options.size_m);
   if (options.shore_m < kInfinity)
     source.add(
@@ -157,7 +163,7 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
   }
   SizeTreeOptions tree;
   tree.grade = options.grade;
-  auto size = std::make_unique<SizeTree>(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}, source, tree);
+  auto size = std::make_unique<SizeTree>(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}, source, tree, loop);
   if (!size->isComplete()) {
     throw InputError(
         "the sizes asked for are so small that there is no room even for a map of them: give a larger --size-min");

@@ -24,6 +24,7 @@ class FunctionSource final : public SizeSource {
   void sample(std::span<const Point> places, std::span<double> sizes) const override {
     std::ranges::transform(places, sizes.begin(), f_);
   }
+  double least() const { return least_; }
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const double at = f_(boxes[i].centre), reach = slope_ * std::sqrt(2.0) * boxes[i].half;
@@ -91,31 +92,52 @@ TEST(SizeTree, SaysWhereItIsTooSmall) {
   EXPECT_LE(tree.cells(), 4000u);
 }
 
+double distanceTo(const Point& x, const Point& a, const Point& b) {
+  const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
+  return distance(x, a + share * (b - a));
+}
+
 class GradedTree : public ::testing::TestWithParam<double> {};
 
-// Neighbours in a mesh lie about a size apart.
-TEST_P(GradedTree, NoTwoNeighboursDifferMore) {
+// From a ten-thousandth of the whole to all of it, within cells and across many; sources with steps, cones, waves, cells of all levels
+// side by side, and places that nobody asks for.
+TEST_P(GradedTree, NoTwoPlacesDifferMore) {
   const double grade = GetParam();
+  const double none = std::numeric_limits<double>::infinity();
   const std::vector<FunctionSource> sources = {
       // A step at an oblique edge.
       FunctionSource(0.01, 1e3, [](const Point& p) { return p.x > 0.3 && p.y > 0.4 && p.x + p.y < 0.9 ? 0.01 : 0.2; }),
       FunctionSource(0.002, 1.0, [](const Point& p) { return 0.002 + std::hypot(p.x - 0.123, p.y - 0.456); }),
       FunctionSource(0.03, 2.0,
                      [](const Point& p) { return 0.06 + 0.03 * std::sin(30.0 * p.x) * std::sin(20.0 * p.y); }),
+      // As steep as allowed: where nothing is to spare, interpolation between vertices must not exceed it.
+      FunctionSource(0.01, grade,
+                     [=](const Point& p) {
+                       return 0.01 + grade * std::min(distanceTo(p, {-0.5, 0.1}, {0.3, 0.7}),
+                                                      distanceTo(p, {0.3, 0.7}, {0.9, 0.3}));
+                     }),
+      FunctionSource(1e-4, 3.0,
+                     [](const Point& p) {
+                       return 1e-4 +
+                              3.0 * std::min({std::hypot(p.x, p.y - 0.5), 0.01 + std::hypot(p.x - 0.6, p.y - 0.2),
+                                              0.1 + std::abs(p.x + 0.7)});
+                     }),
+      // Nothing wanted in the east.
+      FunctionSource(0.02, 1e3, [=](const Point& p) { return p.x < 0.2 ? 0.02 : none; }),
   };
-  for (const FunctionSource& source : sources) {
-    const SizeTree tree = treeOf(source, grade);
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const SizeTree tree = treeOf(sources[s], grade);
     std::mt19937_64 random(2);
     double most = 0.0;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 50000; ++i) {
       const Point p = randomPlace(random);
-      const double size = tree.at(p), angle = uniform(random, 0.0, 6.2832), length = size * uniform(random, 0.7, 1.5);
+      const double angle = uniform(random, 0.0, 6.2832), length = std::exp(uniform(random, std::log(1e-4), 0.0));
       const Point q = p + Point{length * std::cos(angle), length * std::sin(angle)};
-      if (q.x < -1.0 || q.x > 1.0 || q.y < 0.0 || q.y > 1.0) continue;
-      most = std::max(most, std::abs(tree.at(q) - size) / length);
+      most = std::max(most, std::abs(tree.at(q) - tree.at(p)) / length);
     }
-    EXPECT_LE(most, grade);
-    EXPECT_GE(most, 0.5 * grade) << "graded more than asked";
+    EXPECT_LE(most, grade) << "source " << s;
+    EXPECT_GE(most, 0.5 * grade) << "graded more than asked, source " << s;
+    EXPECT_GE(tree.least(), sources[s].least() * (1.0 - 1e-6)) << "source " << s;
   }
 }
 
@@ -134,7 +156,107 @@ TEST_P(GradedTree, GrowsAsFastAsItMay) {
   }
 }
 
+// Against the largest function that is nowhere above the wanted one and nowhere too steep.
+TEST_P(GradedTree, GrowsFromManyPlacesAsFastAsItMay) {
+  const double grade = GetParam();
+  std::mt19937_64 random(4);
+  std::vector<std::pair<Point, double>> sources;
+  for (int i = 0; i < 12; ++i) sources.push_back({randomPlace(random), 0.004 * std::exp(uniform(random, -1.0, 2.0))});
+  const auto f = [&](double rate) {
+    return [=](const Point& p) {
+      double least = 0.4;
+      for (const auto& [place, size] : sources) least = std::min(least, size + rate * distance(p, place));
+      return least;
+    };
+  };
+  const SizeTree tree = treeOf(FunctionSource(0.001, 3.0, f(3.0)), grade);
+  double sum = 0.0;
+  constexpr int kPlaces = 10000;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Point p = randomPlace(random);
+    const double share = tree.at(p) / f(grade)(p);
+    EXPECT_GE(share, 0.75) << p.x << ", " << p.y;
+    sum += share / kPlaces;
+  }
+  EXPECT_GE(sum, 0.93);
+  EXPECT_LE(sum, 1.05);
+}
+
+// Squares that nobody asks for stay coarse, and take nothing away from those beside them.
+TEST(SizeTree, CoarseWhereNobodyAsks) {
+  class Half final : public SizeSource {
+   public:
+    explicit Half(bool masked) : masked_(masked) {}
+    void sample(std::span<const Point> places, std::span<double> sizes) const override {
+      std::ranges::transform(places, sizes.begin(), [](const Point& p) { return 0.004 + 0.1 * std::abs(p.y - 0.5); });
+    }
+    void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const double at = 0.004 + 0.1 * std::abs(boxes[i].centre.y - 0.5), reach = 0.1 * boxes[i].half;
+        ranges[i] = {std::max(0.004, at - reach), at + reach};
+      }
+    }
+    bool isWanted(const SizeBox& box) const override { return !masked_ || box.centre.x - box.half < 0.0; }
+
+   private:
+    bool masked_;
+  };
+  const SizeTreeOptions options{.grade = 0.2};
+  const SizeTree all({-1.0, 0.0}, {1.0, 1.0}, Half(false), options);
+  const SizeTree half({-1.0, 0.0}, {1.0, 1.0}, Half(true), options);
+  EXPECT_LT(half.leaves(), 6 * all.leaves() / 10);
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 10000; ++i) {
+    const Point p = randomPlace(random);
+    if (p.x >= 0.0) continue;
+    EXPECT_NEAR(half.at(p), all.at(p), 1e-6);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Grades, GradedTree, ::testing::Values(0.05, 0.15, 0.3));
+
+// Triangles that tilting alone would take long to mend: a pit of one vertex on a field that is nearly as steep as allowed.
+TEST(SizeGrading, EndsWithNothingSteep) {
+  SizePlaces places;
+  std::vector<LeafVertices> leaves;
+  constexpr std::uint32_t kCells = 32;
+  for (std::uint32_t j = 0; j < kCells; ++j) {
+    for (std::uint32_t i = 0; i < kCells; ++i) {
+      LeafVertices leaf;
+      leaf.fill(kNone);
+      for (const std::uint32_t k : {0u, 2u, 4u, 6u, 8u}) leaf[k] = places.add({2 * i + k % 3, 2 * j + k / 3});
+      leaves.push_back(leaf);
+    }
+  }
+  const auto leavesRound = [&](std::uint32_t v) {
+    LeavesRound round;
+    for (std::uint32_t l = 0; l < leaves.size(); ++l)
+      if (std::ranges::find(leaves[l], v) != leaves[l].end()) round.leaves[round.count++] = l;
+    return round;
+  };
+  GradedSizes sizes;
+  for (std::uint32_t v = 0; v < places.size(); ++v) sizes.own.push_back(1.0 + 0.2 * (places[v].x + 0.5 * places[v].y));
+  sizes.own[places.find({21, 21})] = 0.5;
+  sizes.size = sizes.own;
+  sizes.source.assign(places.size(), kNone);
+  const double grade = 0.201 * std::sqrt(1.25);
+  const ItemLoop loop = inOrder;
+  SizeGrading(sizes, places, 1.0, leaves, leavesRound, grade, loop).flatten();
+  for (const LeafVertices& leaf : leaves) {
+    forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      // Along and across: the slope from two edges at right angles.
+      const auto place = [&](std::uint32_t v) { return Point{1.0 * places[v].x, 1.0 * places[v].y}; };
+      const Point ab = place(b) - place(a), ac = place(c) - place(a);
+      ASSERT_EQ(dot(ab, ac), 0.0);
+      EXPECT_LE(std::hypot((sizes.size[b] - sizes.size[a]) / std::sqrt(squaredLength(ab)),
+                           (sizes.size[c] - sizes.size[a]) / std::sqrt(squaredLength(ac))),
+                grade * (1.0 + 1e-12));
+    });
+  }
+  // Down the slope from the pit next to nothing is lost.
+  const std::uint32_t below = places.find({10, 4});
+  EXPECT_NEAR(sizes.size[below], sizes.own[below], 0.01 * sizes.own[below]);
+}
 
 }  // namespace
 }  // namespace coastmesh
