@@ -63,6 +63,10 @@ class Repairer {
       if (round == 0) takeKinds();
       if (!mend(defects)) break;
     }
+    if (grid_.triangles.empty())
+      throw InputError(std::string("no triangle is left once those that ") +
+                       kTargetNames[static_cast<std::size_t>(targets_.front())] +
+                       " refuses are taken out: each stood alone; a smaller --size-max makes more of them");
     for (auto& [target, defect] : findDefects()) report_.left.emplace_back(target, std::move(defect));
     measureChanged();
     return std::move(report_);

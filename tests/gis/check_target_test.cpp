@@ -10,6 +10,7 @@
 
 #include "core/quality.hpp"
 #include "gis/assign_boundaries.hpp"
+#include "gis/error.hpp"
 #include "gis/grid_io.hpp"
 #include "gis/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
@@ -158,6 +159,15 @@ TEST(CheckTarget, OrphanCell) {
     EXPECT_EQ(kindsIn(grid, target), Kinds{TargetDefectKind::OrphanCell});
     expectMended(grid, {target}, 433001.0);
   }
+}
+
+TEST(CheckTarget, NothingLeftIsAnError) {
+  Grid grid = soundGrid();
+  grid.nodes = {{0.0, 0.0}, {1000.0, 0.0}, {500.0, 866.0}, {20000.0, 0.0}, {21000.0, 0.0}, {20500.0, 866.0}};
+  grid.z.assign(grid.nodes.size(), -20.0);
+  grid.triangles = {{0, 1, 2}, {3, 4, 5}};
+  grid.boundaries = {{BoundaryRole::Land, true, {0, 1, 2}}, {BoundaryRole::Land, true, {3, 4, 5}}};
+  EXPECT_THROW(repairForTargets(grid, std::array{Target::Fvcom}), InputError);
 }
 
 TEST(CheckTarget, UnknownDepth) {
