@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "gis/error.hpp"
 #include "gis/poly_io.hpp"
 #include "gis/segment_tags.hpp"
+#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -36,17 +38,33 @@ struct CleanedInput {
   std::string last_unwanted;
 };
 
+struct CleanedGroup {
+  std::optional<Domain> domain;
+  CleanReport report;
+  std::string refused, unwanted;
+};
+
+void cleanGroup(const JobInput& input, std::size_t group, const ItemLoop& loop, CleanedGroup& cleaned) {
+  try {
+    cleaned.domain = input.domain(group, cleaned.report, loop);
+  } catch (const NothingWanted& nothing) {
+    cleaned.unwanted = nothing.what();
+  } catch (const InputError& error) {
+    cleaned.refused = error.what();
+  }
+}
+
 CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
+  std::vector<CleanedGroup> groups(input.groups());
+  const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
+  const ItemLoop loop = [&control](std::size_t count, const auto& work) { forEachItem(count, control, work); };
+  withThreads({}, [&] { loop(groups.size(), [&](std::size_t g) { cleanGroup(input, g, loop, groups[g]); }); });
   CleanedInput cleaned;
-  for (std::size_t g = 0; g < input.groups(); ++g) {
-    interrupt.check();
-    try {
-      cleaned.domains.push_back(input.domain(g, cleaned.report));
-    } catch (const NothingWanted& nothing) {
-      cleaned.last_unwanted = nothing.what();
-    } catch (const InputError& error) {
-      cleaned.refused.emplace_back(error.what());
-    }
+  for (CleanedGroup& group : groups) {
+    cleaned.report.append(std::move(group.report));
+    if (group.domain) cleaned.domains.push_back(std::move(*group.domain));
+    if (!group.unwanted.empty()) cleaned.last_unwanted = group.unwanted;
+    if (!group.refused.empty()) cleaned.refused.push_back(group.refused);
   }
   if (cleaned.domains.empty()) {
     throw InputError(cleaned.refused.empty() ? cleaned.last_unwanted : cleaned.refused.front());

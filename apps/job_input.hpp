@@ -52,7 +52,7 @@ class JobInput {
   // Square metres on the ellipsoid; none for a .poly, which says only with its holes what is inside.
   std::optional<double> area(std::size_t group) const;
   // The same of what was made of a group, where frames and coasts leave but a part of it.
-  std::optional<double> area(std::size_t group, const Domain& domain) const;
+  std::optional<double> area(std::size_t group, const Domain& domain, const ItemLoop& loop = inOrder) const;
 
  private:
   void readPolyFile(const std::string& path);

@@ -35,10 +35,12 @@ Point centreOf(const Pslg& pslg) {
 
 // Least and greatest scale at (a sample of) the points: a scale has its greatest on the rim of what is mapped.
 std::pair<double, double> scaleRange(const Domain& domain) {
-  constexpr std::size_t kSample = 4096;
+  constexpr std::size_t kLeastSample = 16, kMostSample = 1024, kPointsForOne = 16;
+  const std::size_t count = domain.pslg.points.size();
   double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
-  const std::size_t step = std::max<std::size_t>(1, domain.pslg.points.size() / kSample);
-  for (std::size_t i = 0; i < domain.pslg.points.size(); i += step) {
+  const std::size_t step =
+      std::max<std::size_t>(1, count / std::clamp(count / kPointsForOne, kLeastSample, kMostSample));
+  for (std::size_t i = 0; i < count; i += step) {
     const double scale = domain.projection.scaleAt(domain.pslg.points[i]);
     least = std::min(least, scale);
     greatest = std::max(greatest, scale);
@@ -171,14 +173,15 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   // Small regions go without the clock, which would cost them more than the work.
   constexpr std::size_t kWorthThreads = 10000;
   const bool many_points = input.pointsOf(group) >= kWorthThreads;
-  Domain domain = input.domain(group, clean, many_points ? clean_recorder.loop("clean", control) : ItemLoop(inOrder));
+  const ItemLoop clean_loop = many_points ? clean_recorder.loop("clean", control) : ItemLoop(inOrder);
+  Domain domain = input.domain(group, clean, clean_loop);
   result.edits = clean.counts;
   result.notes = std::move(clean.notes);
   clean = {};
   result.projection = domain.projection.description();
   result.projection_reason = domain.projection.reason();
   std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain);
-  result.input_area_m2 = input.area(group, domain);
+  result.input_area_m2 = input.area(group, domain, clean_loop);
   result.clean_s = cleaning.seconds();
   result.log.append(clean_recorder.finish("clean"));
 

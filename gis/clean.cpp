@@ -128,7 +128,7 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
   const std::size_t edits_before = report.edits.size();
   CleanChains chains = makeChains(coastline, members, projection, options, report, loop);
   const NodedEdges edges = nodeChains(chains, coastline, projection, report, loop);
-  LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report);
+  LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report, loop);
   if (options.pinches == Pinches::Keep) tellPinches(chains.vertices, labelled.segments, coastline, report);
   refuseEmpty(coastline, members, labelled.segments);
   keepFramedEdits(coastline, members, edits_before, report);

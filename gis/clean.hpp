@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,6 +65,11 @@ struct CleanReport {
     edits.push_back({kind, place, fid});
     ++counts[static_cast<std::size_t>(kind)];
   }
+  void append(CleanReport&& more) {
+    edits.insert(edits.end(), more.edits.begin(), more.edits.end());
+    std::ranges::move(more.notes, std::back_inserter(notes));
+    for (std::size_t kind = 0; kind < kEditKinds; ++kind) counts[kind] += more.counts[kind];
+  }
 };
 
 // A group of features as a valid PSLG in the working plane.
@@ -87,7 +94,8 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
                      const CleanOptions& options, CleanReport& report, const ItemLoop& loop = inOrder);
 
 // Area of the group's polygons on the ellipsoid (or in the plane), holes taken out, in square metres, edges geodesic.
-double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members);
+double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members,
+                    const ItemLoop& loop = inOrder);
 
 // Area of what the domain's labels hold, as above.
 double geodesicArea(const Domain& domain, const Crs& crs);

@@ -167,7 +167,7 @@ std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& s
 // it drowns in the coordinates' own grain.
 double snapInPlane(const std::vector<InputChain>& chains, const Coastline& coastline, const Projection& projection,
                    double snap_m) {
-  constexpr std::size_t kSample = 256;
+  constexpr std::size_t kLeastSample = 8, kMostSample = 256, kPointsForOne = 64;
   if (snap_m <= 0 || chains.empty()) return 0;
   double scale = std::numeric_limits<double>::infinity(), grain = scale;
   const auto take = [&](const InputChain& chain, const Point& point) {
@@ -177,7 +177,8 @@ double snapInPlane(const std::vector<InputChain>& chains, const Coastline& coast
   };
   std::size_t count = 0, passed = 0;
   for (const InputChain& chain : chains) count += chain.points.size();
-  const std::size_t step = std::max<std::size_t>(1, count / kSample);
+  const std::size_t step =
+      std::max<std::size_t>(1, count / std::clamp(count / kPointsForOne, kLeastSample, kMostSample));
   for (const InputChain& chain : chains) {
     for (std::size_t i = (step - passed % step) % step; i < chain.points.size(); i += step)
       take(chain, chain.points[i]);

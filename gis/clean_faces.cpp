@@ -28,7 +28,7 @@ struct MapEdge {
 class Labeller {
  public:
   Labeller(const CleanChains& chains, const NodedEdges& noded, const Coastline& coastline, const Projection& projection,
-           bool dissolve, CleanReport& report)
+           bool dissolve, CleanReport& report, const ItemLoop& loop)
       : chains_(chains),
         noded_(noded),
         coastline_(coastline),
@@ -36,7 +36,7 @@ class Labeller {
         dissolve_(dissolve),
         report_(report),
         ends_(listEdges()),
-        map_(chains.vertices.plane, ends_) {
+        map_(chains.vertices.plane, ends_, loop) {
     for (const CleanChain& chain : chains.chains) {
       if (useOf(chain.feature) == FeatureUse::Coast) first_coast_ = std::min(first_coast_, chain.feature);
     }
@@ -326,8 +326,8 @@ class Labeller {
 }  // namespace
 
 LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
-                         const Projection& projection, bool dissolve, CleanReport& report) {
-  return Labeller(chains, edges, coastline, projection, dissolve, report).run();
+                         const Projection& projection, bool dissolve, CleanReport& report, const ItemLoop& loop) {
+  return Labeller(chains, edges, coastline, projection, dissolve, report, loop).run();
 }
 
 }  // namespace coastmesh

@@ -20,6 +20,7 @@ struct LabelledEdges {
 // the first of them. What is dropped goes to the report. Throws
 // InputError where coasts do not tell water from land.
 LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
-                         const Projection& projection, bool dissolve, CleanReport& report);
+                         const Projection& projection, bool dissolve, CleanReport& report,
+                         const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

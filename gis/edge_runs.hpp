@@ -56,7 +56,7 @@ class EdgeRuns {
   template <typename BoxOf, typename Active, typename Found>
   void visitPairs(std::size_t first, std::size_t last, double margin, BoxOf&& box_of, Active&& active,
                   Found&& found) const {
-    Some own, others;
+    Some own, near_other, others;
     std::vector<std::uint32_t> near;
     for (std::size_t block = first; block < last; ++block) {
       const std::span<const std::uint32_t> runs = tree_.block(block);
@@ -72,8 +72,10 @@ class EdgeRuns {
         for (const std::uint32_t other : near) {
           if (other == run || !boxes_[other].meets(around)) continue;
           if (other < run && anyActive(other, active)) continue;  // found from there
-          others.takeThose(begin_[other], begin_[other + 1], around, box_of);
-          pairsBetween(own, boxes_[other], others, active, found);
+          near_other.takeThose(own, boxes_[other]);
+          if (near_other.size == 0) continue;
+          others.takeThose(begin_[other], begin_[other + 1], near_other.bounds(), box_of);
+          pairsBetween(near_other, others, active, found);
         }
       }
     }
@@ -88,10 +90,22 @@ class EdgeRuns {
     std::uint32_t edge[kLongest];
     Box box[kLongest];
 
+    Box bounds() const {
+      Box bounds;
+      for (std::size_t i = 0; i < size; ++i) bounds.add(box[i]);
+      return bounds;
+    }
     template <typename BoxOf>
     void take(std::uint32_t begin, std::uint32_t end, BoxOf&& box_of) {
       size = 0;
       for (std::uint32_t e = begin; e < end; ++e) edge[size] = e, box[size++] = box_of(e);
+    }
+    void takeThose(const Some& some, const Box& around) {
+      size = 0;
+      for (std::size_t i = 0; i < some.size; ++i) {
+        edge[size] = some.edge[i], box[size] = some.box[i];
+        size += box[size].meets(around) ? 1 : 0;
+      }
     }
     template <typename BoxOf>
     void takeThose(std::uint32_t begin, std::uint32_t end, const Box& around, BoxOf&& box_of) {
@@ -114,10 +128,8 @@ class EdgeRuns {
   }
 
   template <typename Active, typename Found>
-  static void pairsBetween(const Some& own, const Box& around_others, const Some& others, Active& active,
-                           Found& found) {
-    for (std::size_t i = 0; i < own.size && others.size > 0; ++i) {
-      if (!own.box[i].meets(around_others)) continue;
+  static void pairsBetween(const Some& own, const Some& others, Active& active, Found& found) {
+    for (std::size_t i = 0; i < own.size; ++i) {
       for (std::size_t j = 0; j < others.size; ++j) {
         const std::uint32_t e = own.edge[i], f = others.edge[j];
         if (own.box[i].meets(others.box[j]) && (active(e) || active(f))) found(std::min(e, f), std::max(e, f));

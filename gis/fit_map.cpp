@@ -206,12 +206,17 @@ FittedMap because(FittedMap map, const std::string& reason) {
   return map;
 }
 
-FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings,
-                    const Ellipsoid& ellipsoid) {
-  constexpr double kLargeCap = 30;  // degrees
-  constexpr double kElongated = 1.5;
+constexpr double kLargeCap = 30;  // degrees
+
+// So small, and so far from the poles, that no cap around it reaches a pole or is large.
+bool isPlainlySmall(const Extent& extent) {
+  return extent.height() < 10 && extent.width < 20 && extent.south > -60 && extent.north < 60;
+}
+
+// The map for what is large or near a pole, if it is.
+std::optional<FittedMap> mapAboutCentre(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings,
+                                        const Extent& extent, const Ellipsoid& ellipsoid) {
   const std::vector<Direction> directions = thinned(lonlat);
-  const Extent extent = extentOf(lonlat);
   const Cap cap = leastCap(extent, directions);
   const auto atPole = [](const Point& p) { return std::abs(p.y) == 90; };
   if (cap.radius > 90) {
@@ -225,7 +230,16 @@ FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<const Ri
   if (cap.radius > kLargeCap || holds_pole) {
     return because(oblique(cap.centre, ellipsoid), radius + "the centre" + (holds_pole ? ", a pole among it" : ""));
   }
+  return std::nullopt;
+}
 
+FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings,
+                    const Ellipsoid& ellipsoid) {
+  constexpr double kElongated = 1.5;
+  const Extent extent = extentOf(lonlat);
+  if (!isPlainlySmall(extent)) {
+    if (std::optional<FittedMap> map = mapAboutCentre(lonlat, rings, extent, ellipsoid)) return std::move(*map);
+  }
   const Point middle{extent.mid_lon, extent.midLat()};
   const double width = extent.width * std::cos(middle.y * Math::degree());
   const std::string spans = "spans " + degreesInWords(extent.height()) + " from south to north and " +

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "gis/clean.hpp"
 #include "gis/ogr_support.hpp"
@@ -73,7 +75,6 @@ double RingArea::of(const Ring& ring) const {
 // None for rings whose longitudes jump or that come near to a pole.
 std::optional<double> RingArea::awayFromPoles(const Ring& lonlat) const {
   constexpr double kWidest = 90, kHighest = 89;  // degrees
-  if (std::abs(lonlat.back().y) > kHighest) return std::nullopt;
   GeographicLib::Accumulator<double> sum;
   EdgeArea::Vertex from = edges_.at(lonlat.back());
   for (const Point& p : lonlat) {
@@ -102,17 +103,23 @@ double RingArea::onEllipsoid(const Ring& lonlat) const {
   return std::abs(area - rough) <= std::abs(rest - rough) ? area : rest;
 }
 
-double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members) {
+double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members, const ItemLoop& loop) {
   const RingArea area(coastline.crs);
-  double sum = 0;
+  std::vector<std::pair<const Ring*, double>> rings;  // with the sign that they count with
   for (const std::size_t member : members) {
     if (coastline.features[member].use != FeatureUse::Area) continue;
     for (const Polygon& polygon : coastline.features[member].polygons) {
-      sum += area.of(polygon.outer);
-      for (const Ring& hole : polygon.holes) sum -= area.of(hole);
+      rings.emplace_back(&polygon.outer, 1);
+      for (const Ring& hole : polygon.holes) rings.emplace_back(&hole, -1);
     }
   }
-  return sum;
+  std::vector<double> areas(rings.size());
+  constexpr std::size_t kWorthAStretch = 32;
+  const auto work = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) areas[i] = rings[i].second * area.of(*rings[i].first);
+  };
+  forStretches(loop, rings.size(), work, kWorthAStretch);
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 namespace {

@@ -15,6 +15,7 @@ struct PlanarMap::Builder {
   const std::vector<Point>& points;
   const std::vector<std::pair<VertexId, VertexId>>& edges;
   PlanarMap& map;
+  const ItemLoop& loop;
   std::vector<std::uint32_t> loop_of;  // by half-edge: the closed walk that it belongs to
   std::uint32_t loops = 0;
 
@@ -102,9 +103,14 @@ struct PlanarMap::Builder {
     const EdgeRuns runs(edges.size(), [&](std::size_t e) { return boxOf(e); });
     const double span = runs.bounds().xmax - runs.bounds().xmin;
     const double first_reach = span / std::sqrt(static_cast<double>(edges.size()) + 1);
-    for (const VertexId v : least) {
-      const HalfEdge hit = firstToTheLeft(at(v), runs, first_reach, span);
-      faces.unite(loop_of[outerAt(v)] + 1, hit == kNone ? 0 : loop_of[hit] + 1);
+    std::vector<HalfEdge> hit(least.size());
+    constexpr std::size_t kWorthAStretch = 128;
+    const auto work = [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) hit[i] = firstToTheLeft(at(least[i]), runs, first_reach, span);
+    };
+    forStretches(loop, least.size(), work, kWorthAStretch);
+    for (std::size_t i = 0; i < least.size(); ++i) {
+      faces.unite(loop_of[outerAt(least[i])] + 1, hit[i] == kNone ? 0 : loop_of[hit[i]] + 1);
     }
     numberFaces(faces);
   }
@@ -151,12 +157,12 @@ struct PlanarMap::Builder {
     std::vector<std::uint32_t> number(loops + 1, kNone), face_of_loop(loops);
     number[0] = kOuterFace;
     std::uint32_t count = 1;
-    for (std::uint32_t loop = 0; loop < loops; ++loop) {
-      std::uint32_t& face = number[faces.find(loop + 1)];
+    for (std::uint32_t l = 0; l < loops; ++l) {
+      std::uint32_t& face = number[faces.find(l + 1)];
       if (face == kNone) face = count++;
-      face_of_loop[loop] = face;
+      face_of_loop[l] = face;
     }
-    for (std::uint32_t& loop : loop_of) loop = face_of_loop[loop];
+    for (std::uint32_t& l : loop_of) l = face_of_loop[l];
     map.face_of_ = std::move(loop_of);
     auto& begin = map.face_begin_;
     begin.assign(count + 1, 0);
@@ -168,8 +174,9 @@ struct PlanarMap::Builder {
   }
 };
 
-PlanarMap::PlanarMap(const std::vector<Point>& points, const std::vector<std::pair<VertexId, VertexId>>& edges) {
-  Builder builder{points, edges, *this, {}, 0};
+PlanarMap::PlanarMap(const std::vector<Point>& points, const std::vector<std::pair<VertexId, VertexId>>& edges,
+                     const ItemLoop& loop) {
+  Builder builder{points, edges, *this, loop, {}, 0};
   builder.makeFans();
   builder.walkLoops();
   builder.nestPieces();

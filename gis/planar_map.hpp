@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "gis/box_tree.hpp"
 
@@ -25,7 +26,8 @@ class PlanarMap {
   static constexpr std::uint32_t kOuterFace = 0;
 
   // REQUIRES: exact planarity; no edge twice. `points` and `edges` are not kept.
-  PlanarMap(const std::vector<Point>& points, const std::vector<std::pair<VertexId, VertexId>>& edges);
+  PlanarMap(const std::vector<Point>& points, const std::vector<std::pair<VertexId, VertexId>>& edges,
+            const ItemLoop& loop = inOrder);
 
   std::size_t faceCount() const { return face_begin_.size() - 1; }
   std::uint32_t faceOf(HalfEdge h) const { return face_of_[h]; }

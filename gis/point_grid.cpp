@@ -12,15 +12,23 @@ namespace {
 // Cells are so many tolerances wide: most often all that is near a point lies in its own cell.
 constexpr double kCellWidth = 16;
 
+// Rounded down; the library's is a call.
+std::int64_t roundedDown(double x) {
+  const auto towards_zero = static_cast<std::int64_t>(x);
+  return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);
+}
+
 }  // namespace
 
 PointGrid::PointGrid(const std::vector<Point>& points, double tolerance, std::size_t expected_size)
-    : points_(&points), tolerance_(tolerance), slots_(std::bit_ceil(expected_size + expected_size / 2 + 8)) {}
+    : points_(&points),
+      tolerance_(tolerance),
+      per_unit_(1 / (kCellWidth * tolerance)),
+      slots_(std::bit_ceil(expected_size + expected_size / 2 + 8)) {}
 
 PointGrid::Cell PointGrid::cellOf(double x, double y) const {
   if (tolerance_ == 0) return {std::bit_cast<std::int64_t>(x + 0.0), std::bit_cast<std::int64_t>(y + 0.0)};
-  const double size = kCellWidth * tolerance_;
-  return {static_cast<std::int64_t>(std::floor(x / size)), static_cast<std::int64_t>(std::floor(y / size))};
+  return {roundedDown(x * per_unit_), roundedDown(y * per_unit_)};
 }
 
 std::uint64_t PointGrid::hashOf(const Cell& cell) {

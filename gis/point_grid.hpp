@@ -40,6 +40,7 @@ class PointGrid {
 
   const std::vector<Point>* points_;
   double tolerance_;
+  double per_unit_;          // cells in a unit of length
   std::vector<Slot> slots_;  // a power of two of them
   std::size_t size_ = 0;
 };
