@@ -18,10 +18,13 @@ namespace {
 
 // How far the shore may be moved, as a share of the size wanted there.
 constexpr double kShareMoved = 0.25;
+// The same for the rim of open water, which nature did not draw: its sides have vertices for the curve that they are in the plane.
+constexpr double kShareOfOpenMoved = 0.01;
 // An island that is longer than so many elements stays, however thin.
 constexpr double kLongestIsland = 3.0;
 
-bool isShore(const Segment& s) { return s.tag != kOpenTag && (s.left >= 0) != (s.right >= 0); }
+bool isRim(const Segment& s) { return (s.left >= 0) != (s.right >= 0); }
+bool isShore(const Segment& s) { return s.tag != kOpenTag && isRim(s); }
 
 // Marks the segments of islands that are smaller than an equilateral triangle of the size wanted there.
 class IslandSearch {
@@ -116,19 +119,22 @@ class IslandSearch {
 Domain followSizes(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
   std::vector<bool> goes = IslandSearch(domain, size).run(coastline, domain, report);
   LabelledEdges edges;
-  std::vector<bool> was_used(domain.pslg.points.size(), false), fixed(domain.pslg.points.size(), false);
+  std::vector<bool> was_used(domain.pslg.points.size(), false);
+  std::vector<double> share(domain.pslg.points.size(), kShareMoved);  // below 0: may not move at all
   for (SegmentId s = 0; s < domain.pslg.segments.size(); ++s) {
     const Segment& segment = domain.pslg.segments[s];
     was_used[segment.a] = was_used[segment.b] = true;
     if (goes[s]) continue;
     edges.segments.push_back(segment);
-    if (!isShore(segment)) fixed[segment.a] = fixed[segment.b] = true;
+    if (isShore(segment)) continue;
+    for (const VertexId v : {segment.a, segment.b})
+      share[v] = std::min(share[v], isRim(segment) ? kShareOfOpenMoved : -1.0);
   }
   for (VertexId v = 0; v < was_used.size(); ++v)
     if (!was_used[v]) edges.points.push_back(v);
 
   const CleanVertices vertices{std::move(domain.pslg.points), std::move(domain.input_points), {}};
-  const auto tolerance = [&](VertexId v) { return fixed[v] ? -1.0 : kShareMoved * size.at(vertices.plane[v]); };
+  const auto tolerance = [&](VertexId v) { return share[v] < 0.0 ? -1.0 : share[v] * size.at(vertices.plane[v]); };
   edges.segments = simplifyEdges(vertices, edges, coastline, tolerance, report);
 
   Domain coarse;

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/refine.hpp"
 #include "gis/node_sizes.hpp"
+#include "gis/segment_tags.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 #include "tests/support/size_figures.hpp"
@@ -58,6 +60,30 @@ TEST(FollowSizes, CoarseWhereElementsAreLarge) {
     EXPECT_LE(least, 0.25 * 2.0 + 1e-9);
   }
   EXPECT_NO_THROW(constrainedDelaunay(coarse.pslg));
+}
+
+TEST(FollowSizes, OpenRimKeepsItsCorners) {
+  Domain domain;
+  constexpr VertexId kOnASide = 50;
+  const Point corners[] = {{0.0, 0.0}, {100.0, 0.0}, {100.0, 100.0}, {0.0, 100.0}};
+  for (unsigned side = 0; side < 4; ++side) {
+    const Point &from = corners[side], &to = corners[(side + 1) % 4];
+    const Point out{(to - from).y / 100.0, (from - to).x / 100.0};
+    for (VertexId i = 0; i < kOnASide; ++i) {
+      const double t = static_cast<double>(i) / kOnASide;
+      domain.pslg.points.push_back(from + t * (to - from) + 0.8 * t * (1.0 - t) * out);
+    }
+  }
+  const auto count = static_cast<VertexId>(domain.pslg.points.size());
+  for (VertexId v = 0; v < count; ++v) domain.pslg.segments.push_back({v, (v + 1) % count, kOpenTag, 0, kOutside});
+  domain.input_points = domain.pslg.points;
+  const SizeOf size(10.0, 10.0, [](const Point&) { return 10.0; });
+  CleanReport report;
+  const Domain coarse = followSizes(std::move(domain), size, oneFeature(), report);
+  EXPECT_LT(coarse.pslg.points.size(), 20u);
+  for (const Point& corner : corners)
+    EXPECT_EQ(std::ranges::count(coarse.pslg.points, corner), 1) << corner.x << ", " << corner.y;
+  for (const Segment& s : coarse.pslg.segments) EXPECT_EQ(s.tag, kOpenTag);
 }
 
 TEST(FollowSizes, SmallIslandsGoAndAreCounted) {
