@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -20,7 +22,7 @@ class SizePlaces {
   // kNone where it has none.
   std::uint32_t find(const Place& place) const { return table_.empty() ? kNone : table_[slotOf(place)]; }
   std::uint32_t add(const Place& place) {
-    if (2 * places_.size() >= table_.size()) grow();
+    if (8 * places_.size() >= 3 * table_.size()) grow();
     std::uint32_t& number = table_[slotOf(place)];
     if (number == kNone) {
       number = size();
@@ -30,22 +32,29 @@ class SizePlaces {
   }
 
  private:
-  // Where it is, or the free slot where it would be.
+  static constexpr std::size_t kBlock = 64;
+
+  // Where it is, or the free slot where it would be. Places of a row of cells of one level follow one another there: a block of 8 by 8
+  // stays together.
   std::size_t slotOf(const Place& place) const {
-    std::uint64_t hash = (std::uint64_t{place.y} << 32 | place.x) * 0x9E3779B97F4A7C15u;
+    constexpr int kMostShift = 31;
+    const int level = std::min(std::countr_zero(place.x | place.y), kMostShift);
+    const std::uint64_t x = place.x >> level, y = place.y >> level;
+    std::uint64_t hash = ((y >> 3) << 32 | (x >> 3)) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(level);
     hash = (hash ^ (hash >> 32)) * 0xD6E8FEB86659FD93u;
-    std::size_t slot = (hash >> 32) & (table_.size() - 1);
-    while (table_[slot] != kNone && places_[table_[slot]] != place) slot = (slot + 1) & (table_.size() - 1);
+    // An odd step comes by every slot.
+    const std::uint64_t step = (hash >> 40) * kBlock + 1, last = table_.size() - 1;
+    std::uint64_t slot = ((hash >> 20) * kBlock + (y & 7) * 8 + (x & 7)) & last;
+    while (table_[slot] != kNone && places_[table_[slot]] != place) slot = (slot + step) & last;
     return slot;
   }
   void grow() {
-    constexpr std::size_t kFirst = 64;
-    table_.assign(table_.empty() ? kFirst : 2 * table_.size(), kNone);
+    table_.assign(table_.empty() ? 4 * kBlock : 2 * table_.size(), kNone);
     for (std::uint32_t i = 0; i < size(); ++i) table_[slotOf(places_[i])] = i;
   }
 
   std::vector<Place> places_;
-  std::vector<std::uint32_t> table_;  // a power of two, at most half full
+  std::vector<std::uint32_t> table_;  // a power of two, at most three eighths full
 };
 
 }  // namespace coastmesh

@@ -151,10 +151,23 @@ class SizeTreeBuilder {
         joined(overStretches(loop_, cells.size(), [&](std::size_t first, std::size_t last) {
           std::vector<std::uint32_t> here;
           for (std::size_t k = first; k < last; ++k)
-            if (isBent(k)) here.push_back(cells[k]);
+            if (isBent(k)) here.push_back(static_cast<std::uint32_t>(k));
           return here;
         }));
-    for (std::size_t k = 0; k < bent.size() && !isFull(); ++k) split(bent[k]);
+    for (const std::uint32_t k : bent) {
+      if (isFull()) return;
+      LeafVertices around;
+      for (std::size_t i = 0; i < kOwn.size(); ++i) around[kOwn[i]] = own_vertices_[known_[cells[k]]][i];
+      for (std::size_t i = 0; i < kMiddles.size(); ++i) around[kMiddles[i]] = middles[k][i];
+      split(cells[k]);
+      // Four of each child's vertices have a number.
+      for (std::uint32_t child = 0; child < 4; ++child) {
+        const std::uint32_t c = tree_.cells_[cells[k]].below + child, first = child % 2 + 3 * (child / 2);
+        known_[c] = static_cast<std::uint32_t>(own_vertices_.size());
+        own_vertices_.push_back(
+            {around[first], around[first + 1], vertices_.add(vertexOf(c, 4)), around[first + 3], around[first + 4]});
+      }
+    }
   }
 
   // Asks for the sizes at vertices that are new.
@@ -213,7 +226,7 @@ class SizeTreeBuilder {
     }
   }
 
-  // Numbers leaves, their corners, centres and middles of sides; asks for the sizes at those that are wanted.
+  // Numbers leaves, their corners, centres and middles of sides; asks for the sizes at those that are new.
   void number() {
     leaf_cells_.clear();
     for (std::uint32_t c = 0; c < tree_.cells_.size(); ++c) {
@@ -224,11 +237,8 @@ class SizeTreeBuilder {
     is_wanted_.assign(leaf_cells_.size(), 0);
     forEachByStretches(loop_, leaf_cells_.size(),
                        [&](std::size_t l) { is_wanted_[l] = source_.isWanted(boxOf(leaf_cells_[l])); });
-    for (std::size_t l = 0; l < leaf_cells_.size(); ++l)
-      if (is_wanted_[l]) addOwnVertices(leaf_cells_[l]);
-    sample();
     for (const std::uint32_t c : leaf_cells_) addOwnVertices(c);
-    sizes_.own.resize(vertices_.size(), kInfinity);
+    sample();
 
     // The middle of a side where smaller leaves meet it, or where that on the other side is as large and knows of it.
     constexpr std::uint8_t kMeeting = 2;

@@ -31,6 +31,7 @@ class DistanceField final : public SizeField {
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
+  double least() const override { return least_size_m_; }
 
  private:
   static constexpr std::size_t kFanout = 8;

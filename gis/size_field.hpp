@@ -18,6 +18,8 @@ class SizeField {
   virtual void sample(std::span<const Point> places, std::span<double> sizes) const = 0;
   // Bounds of the sizes within each box, from outside.
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
+  // No size is less anywhere: where another field asks for less, this one is not asked.
+  virtual double least() const { return 0.0; }
 };
 
 }  // namespace coastmesh

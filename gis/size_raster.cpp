@@ -223,6 +223,7 @@ RasterField::RasterField(const RasterFile& raster, const Crs& input, const Proje
         }
       },
       4);
+  for (const Tile& tile : tiles_) least_ = std::min(least_, static_cast<double>(tile.front().low));
 }
 
 RasterField::Tile RasterField::compress(const RasterTile& tile, std::span<const float> sizes) const {
@@ -414,6 +415,12 @@ void FirstOfFields::sample(std::span<const Point> places, std::span<double> size
     for (std::size_t i = 0; i < sizes.size(); ++i)
       if (!std::isfinite(sizes[i])) sizes[i] = own[i];
   }
+}
+
+double FirstOfFields::least() const {
+  double least = kInfinity;
+  for (const auto& field : fields_) least = std::min(least, field->least());
+  return least;
 }
 
 void FirstOfFields::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {

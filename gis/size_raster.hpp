@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -62,6 +63,7 @@ class RasterField final : public SizeField {
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
+  double least() const override { return least_; }
 
  private:
   struct Node {
@@ -80,6 +82,7 @@ class RasterField final : public SizeField {
   std::unique_ptr<PlaneTable> to_pixel_;
   std::array<int, 4> window_{};  // of the tiles kept: first column and row, and the ends
   std::vector<Tile> tiles_;      // in rows
+  double least_ = std::numeric_limits<double>::infinity();
 };
 
 // The first of several fields that wants anything counts.
@@ -89,6 +92,7 @@ class FirstOfFields final : public SizeField {
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
+  double least() const override;
 
  private:
   std::vector<std::unique_ptr<SizeField>> fields_;

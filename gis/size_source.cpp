@@ -33,9 +33,18 @@ class ComposedSizes final : public SizeSource {
       const auto out = sizes.subspan(first, last - first);
       std::vector<double> own(here.size());
       std::ranges::fill(out, options_.size_m);
+      std::vector<Point> asked;
+      std::vector<std::size_t> which;
       for (const auto& field : fields_) {
-        field->sample(here, own);
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::min(out[i], own[i]);
+        asked.clear();
+        which.clear();
+        for (std::size_t i = 0; i < out.size(); ++i) {
+          if (!(out[i] > field->least())) continue;
+          asked.push_back(here[i]);
+          which.push_back(i);
+        }
+        field->sample(asked, std::span(own).first(asked.size()));
+        for (std::size_t k = 0; k < which.size(); ++k) out[which[k]] = std::min(out[which[k]], own[k]);
       }
       std::ranges::fill(own, 0.0);
       if (floor_) floor_->sample(here, own);
@@ -51,10 +60,21 @@ class ComposedSizes final : public SizeSource {
       const auto out = ranges.subspan(first, last - first);
       std::vector<SizeRange> own(here.size());
       std::ranges::fill(out, SizeRange{options_.size_m, options_.size_m});
+      std::vector<SizeBox> asked;
+      std::vector<std::size_t> which;
       for (const auto& field : fields_) {
-        field->bound(here, own);
-        for (std::size_t i = 0; i < out.size(); ++i)
-          out[i] = {std::min(out[i].low, own[i].low), std::min(out[i].high, own[i].high)};
+        asked.clear();
+        which.clear();
+        for (std::size_t i = 0; i < out.size(); ++i) {
+          if (!(out[i].high > field->least())) continue;
+          asked.push_back(here[i]);
+          which.push_back(i);
+        }
+        field->bound(asked, std::span(own).first(asked.size()));
+        for (std::size_t k = 0; k < which.size(); ++k) {
+          SizeRange& range = out[which[k]];
+          range = {std::min(range.low, own[k].low), std::min(range.high, own[k].high)};
+        }
       }
       std::ranges::fill(own, SizeRange{kInfinity, kInfinity});
       if (floor_) floor_->bound(here, own);
