@@ -63,10 +63,18 @@ struct Corner {
   bool open;                         // an open boundary runs along it
 };
 
+// The way from a pinched vertex along the shore.
+struct Way {
+  enum class End { Beyond, Back, Stuck } end = End::Stuck;
+  std::vector<std::uint32_t> segments;  // the last leads to `to`
+  std::vector<VertexId> passed;         // vertices between the pinched one and `to`
+  VertexId to = kNone;
+};
+
 // What takes a corner's place: from on its first edge to on its last, by `tip`.
 struct Notch {
   Point first, tip, last;
-  bool whole_first, whole_last;  // the edge's other end itself
+  bool whole_first, whole_last;  // a vertex that is there
 };
 
 class PinchOpener {
@@ -90,16 +98,15 @@ class PinchOpener {
       at_[v] = {};
     }
     if (pinched.empty()) return;
-    std::vector<Box> boxes;
-    boxes.reserve(segments_.size());
+    boxes_.reserve(segments_.size());
     for (std::uint32_t s = 0; s < segments_.size(); ++s) {
       const Point &a = at(segments_[s].a), &b = at(segments_[s].b);
-      boxes.push_back(Box::of(a, b).grownBy(distance(a, b) * kReach));
+      boxes_.push_back(Box::of(a, b).grownBy(distance(a, b) * kReach));
       for (const VertexId v : {segments_[s].a, segments_[s].b}) {
         if (sectors[v] >= 2) at_[v].push_back(s);
       }
     }
-    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+    tree_ = BoxTree(boxes_, BoxTree::Order::Hilbert);
     std::size_t left = 0;
     for (const VertexId v : pinched) {
       const Segment& beside = segments_[at_[v].front()];
@@ -114,6 +121,7 @@ class PinchOpener {
     if (left > 0) {
       report_.notes.push_back(std::to_string(left) + " places where rings touch could not be opened for want of room");
     }
+    std::erase_if(segments_, [](const Segment& s) { return s.a == kNone; });
     std::ranges::sort(segments_, [](const Segment& s, const Segment& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });
   }
 
@@ -174,54 +182,141 @@ class PinchOpener {
     return corners;
   }
 
-  // True iff one sector of the outside is left.
+  // True iff one sector of the outside is left, or none.
   bool open(VertexId v) {
-    const std::vector<Spoke> spokes = spokesOf(v);
-    const std::vector<Corner> corners = cornersOf(v, spokes);
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const Spoke& spoke : spokes) shortest = std::min(shortest, distance(at(v), at(spoke.end)));
-    std::size_t left = corners.size();
-    for (const Corner& corner : corners) {
-      if (left > 1 && cut(v, spokes, corner, shortest)) --left;
+    // Each cut takes a corner away.
+    for (std::size_t round = at_.at(v).size(); round > 0; --round) {
+      const std::vector<Spoke> spokes = spokesOf(v);
+      const std::vector<Corner> corners = cornersOf(v, spokes);
+      if (corners.size() < 2) return true;
+      const double scale = scaleAround(v, spokes);
+      if (std::ranges::none_of(corners, [&](const Corner& corner) { return cut(v, spokes, corner, scale); })) break;
     }
-    return left == 1;
+    return cornersOf(v, spokesOf(v)).size() < 2;
   }
 
-  bool cut(VertexId v, const std::vector<Spoke>& spokes, const Corner& corner, double shortest) {
+  // What there is of shore in the snap distance's reach is none to be kept.
+  double leastScale() const { return kLeastScale * snap_; }
+
+  // How far the nearest vertices are, along each of the spokes.
+  double scaleAround(VertexId v, const std::vector<Spoke>& spokes) const {
+    double scale = std::numeric_limits<double>::infinity();
+    for (const Spoke& spoke : spokes) {
+      const Way way = follow(v, spoke, leastScale());
+      if (way.end == Way::End::Back) continue;
+      scale = std::min(scale, distance(at(v), at(way.end == Way::End::Beyond ? way.to : spoke.end)));
+    }
+    return std::isfinite(scale) ? scale : leastScale();
+  }
+
+  // Along the shore from v until a vertex is as far from it as `reach`, or is v again.
+  Way follow(VertexId v, const Spoke& spoke, double reach) const {
+    constexpr std::size_t kFarthest = 64;  // edges
+    Way way;
+    way.segments.push_back(spoke.segment);
+    way.to = spoke.end;
+    while (way.segments.size() <= kFarthest) {
+      if (way.to == v) way.end = Way::End::Back;
+      if (way.to != v && distance(at(v), at(way.to)) >= reach) way.end = Way::End::Beyond;
+      if (way.end != Way::End::Stuck) return way;
+      const std::optional<std::uint32_t> next = nextAlong(way.segments.back(), way.to);
+      if (!next) return way;
+      way.passed.push_back(way.to);
+      way.segments.push_back(*next);
+      way.to = otherEnd(*next, way.to);
+    }
+    return way;
+  }
+
+  VertexId otherEnd(std::uint32_t segment, VertexId v) const {
+    return segments_[segment].a == v ? segments_[segment].b : segments_[segment].a;
+  }
+
+  // The shore's other segment at u, where there are two of one kind.
+  std::optional<std::uint32_t> nextAlong(std::uint32_t segment, VertexId u) const {
+    std::optional<std::uint32_t> next;
+    for (const std::uint32_t other : segmentsNear(Box::of(at(u), at(u)))) {
+      if (other == segment || (segments_[other].a != u && segments_[other].b != u)) continue;
+      if (next && *next != other) return std::nullopt;
+      next = other;
+    }
+    if (!next || segments_[*next].tag != segments_[segment].tag) return std::nullopt;
+    const auto leftOf = [&](const Segment& s) { return s.a == u ? s.left : s.right; };  // on the way from u
+    const auto rightOf = [&](const Segment& s) { return s.a == u ? s.right : s.left; };
+    const Segment &s = segments_[segment], &t = segments_[*next];
+    return leftOf(s) == rightOf(t) && rightOf(s) == leftOf(t) ? next : std::nullopt;
+  }
+
+  bool cut(VertexId v, const std::vector<Spoke>& spokes, const Corner& corner, double scale) {
     const Point& centre = at(v);
     const Spoke &first = spokes[corner.first], &last = spokes[corner.last];
+    for (const Spoke& spoke : {first, last}) {
+      if (dropLobe(follow(v, spoke, leastScale()), v)) return true;
+    }
     const double grain = std::ldexp(std::max(std::abs(centre.x), std::abs(centre.y)), -40);
     const double least = std::max(kSnapMargin * snap_, grain);
-    double gap = std::clamp(kPinchGap * shortest, std::min(least, kReach * shortest), kReach * shortest);
-    Box box = Box::of(at(first.end), at(last.end));
-    box.add(centre);
-    const std::vector<std::uint32_t> near = segmentsNear(box.grownBy(gap));
+    double gap = std::clamp(kPinchGap * scale, std::min(least, kReach * scale), kReach * scale);
     constexpr int kMostHalvings = 40;
     for (int halving = 0; halving < kMostHalvings && gap >= least; ++halving, gap /= 2) {
-      const Notch notch = notchFor(centre, at(first.end), at(last.end), corner, gap);
-      if (!fits(v, first, last, notch, gap, near)) continue;
-      apply(v, first, last, notch);
+      const double to_first = shoulder(gap, corner.water_before), to_last = shoulder(gap, corner.water_after);
+      const Way along_first = follow(v, first, kShoulder * gap), along_last = follow(v, last, kShoulder * gap);
+      if (along_first.end != Way::End::Beyond || along_last.end != Way::End::Beyond) continue;
+      const Notch notch = notchFor(centre, along_first, to_first, along_last, to_last, gap);
+      if (!fits(v, along_first, along_last, notch, gap)) continue;
+      apply(v, first, along_first, last, along_last, notch);
       return true;
     }
     return false;
   }
 
-  static Notch notchFor(const Point& centre, const Point& first, const Point& last, const Corner& corner, double gap) {
-    // As far along the edge as the water beside it takes to become as wide as the gap.
-    const auto along = [&](double water) {
-      return std::max(kShoulder * gap, gap / (2 * std::sin(std::min(water, std::numbers::pi) / 2)));
-    };
-    const auto shoulder = [&](const Point& end, double water, bool& whole) {
-      const double length = distance(centre, end), share = along(water) / length;
+  // A ring that leads back to v within the snap distance's reach, with nothing in it, goes: island or lake.
+  bool dropLobe(const Way& way, VertexId v) {
+    if (way.end != Way::End::Back) return false;
+    Ring ring{at(v)};
+    Box box = Box::of(at(v), at(v));
+    for (const VertexId u : way.passed) {
+      ring.push_back(at(u));
+      box.add(at(u));
+    }
+    ChainIndex index(ChainIndex::Kind::Rings);
+    index.add(ring);
+    index.build();
+    for (const std::uint32_t number : segmentsNear(box)) {
+      if (std::ranges::find(way.segments, number) != way.segments.end()) continue;
+      const Segment& s = segments_[number];
+      for (const VertexId u : {s.a, s.b}) {
+        if (u != v && index.locate(at(u)) != Location::Outside) return false;
+      }
+    }
+    for (const std::uint32_t number : way.segments) drop(v, number);
+    return true;
+  }
+
+  void drop(VertexId v, std::uint32_t segment) {
+    segments_[segment].a = segments_[segment].b = kNone;
+    std::erase(at_[v], segment);
+  }
+
+  // How far from the vertex a notch begins: where the water beside the edge has become as wide as the gap.
+  static double shoulder(double gap, double water) {
+    return std::max(kShoulder * gap, gap / (2 * std::sin(std::min(water, std::numbers::pi) / 2)));
+  }
+
+  Notch notchFor(const Point& centre, const Way& along_first, double to_first, const Way& along_last, double to_last,
+                 double gap) const {
+    const auto beginOn = [&](const Way& way, double reach, bool& whole) {
+      const Point &near = way.passed.empty() ? centre : at(way.passed.back()), &far = at(way.to);
+      const double begin = distance(centre, near), end = distance(centre, far);
+      const double share = (reach - begin) / (end - begin);
       whole = !(share < kMostOfEdge);
-      return whole ? end : Point{centre.x + share * (end.x - centre.x), centre.y + share * (end.y - centre.y)};
+      return whole ? far : Point{near.x + share * (far.x - near.x), near.y + share * (far.y - near.y)};
     };
     Notch notch{};
-    notch.first = shoulder(first, corner.water_before, notch.whole_first);
-    notch.last = shoulder(last, corner.water_after, notch.whole_last);
-    const double length = distance(centre, first), cosine = std::cos(corner.angle / 2),
-                 sine = std::sin(corner.angle / 2);
-    const double x = (first.x - centre.x) / length * gap, y = (first.y - centre.y) / length * gap;
+    notch.first = beginOn(along_first, to_first, notch.whole_first);
+    notch.last = beginOn(along_last, to_last, notch.whole_last);
+    const double angle = angleBetween(centre, notch.first, notch.last), length = distance(centre, notch.first);
+    const double x = (notch.first.x - centre.x) / length * gap, y = (notch.first.y - centre.y) / length * gap;
+    const double cosine = std::cos(angle / 2), sine = std::sin(angle / 2);
     notch.tip = {centre.x + cosine * x - sine * y, centre.y + sine * x + cosine * y};
     return notch;
   }
@@ -233,6 +328,8 @@ class PinchOpener {
       const auto more = added_.find(s);
       if (more != added_.end()) near.insert(near.end(), more->second.begin(), more->second.end());
     });
+    near.insert(near.end(), strayed_.begin(), strayed_.end());
+    std::erase_if(near, [&](std::uint32_t s) { return segments_[s].a == kNone; });
     return near;
   }
 
@@ -249,28 +346,44 @@ class PinchOpener {
     return segmentsMeet(a, b, c, d);
   }
 
-  bool fits(VertexId v, const Spoke& first, const Spoke& last, const Notch& notch, double gap,
-            const std::vector<std::uint32_t>& near) const {
+  // Whether the corner from v to the notch holds nothing, and the notch's edges meet nothing.
+  bool fits(VertexId v, const Way& along_first, const Way& along_last, const Notch& notch, double gap) const {
     const Point& centre = at(v);
     if (orient2d(centre, notch.first, notch.tip) <= 0 || orient2d(centre, notch.tip, notch.last) <= 0) return false;
+    Ring corner{centre};
+    for (const VertexId u : along_first.passed) corner.push_back(at(u));
+    corner.insert(corner.end(), {notch.first, notch.tip, notch.last});
+    for (auto u = along_last.passed.rbegin(); u != along_last.passed.rend(); ++u) corner.push_back(at(*u));
+    ChainIndex index(ChainIndex::Kind::Rings);
+    index.add(corner);
+    index.build();
     std::vector<std::pair<Point, Point>> edges{{notch.first, notch.tip}, {notch.tip, notch.last}, {centre, notch.tip}};
-    if (!notch.whole_first) edges.emplace_back(notch.first, at(first.end));
-    if (!notch.whole_last) edges.emplace_back(notch.last, at(last.end));
+    if (!notch.whole_first) edges.emplace_back(notch.first, at(along_first.to));
+    if (!notch.whole_last) edges.emplace_back(notch.last, at(along_last.to));
     const auto holds = [&](const Point& p) {
-      const auto in = [&](const Point& a, const Point& b, const Point& c) {
-        return orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0;
-      };
       if (p == centre || (notch.whole_first && p == notch.first) || (notch.whole_last && p == notch.last)) return false;
-      return in(centre, notch.first, notch.tip) || in(centre, notch.tip, notch.last);
+      return index.locate(p) != Location::Outside;
     };
-    for (const std::uint32_t number : near) {
-      if (number == first.segment || number == last.segment) continue;
+    const auto isOn = [](const Way& way, std::uint32_t number) {
+      return std::ranges::find(way.segments, number) != way.segments.end();
+    };
+    const auto clashes = [&](const Point& a, const Point& b) {
+      return std::ranges::any_of(edges, [&](const auto& edge) { return clash(edge.first, edge.second, a, b); });
+    };
+    // What is passed by goes, but may not come between the vertex and the notch.
+    for (const Way* way : {&along_first, &along_last}) {
+      for (std::size_t i = 0; i + 1 < way->segments.size(); ++i) {
+        const Segment& s = segments_[way->segments[i]];
+        if (clashes(at(s.a), at(s.b))) return false;
+      }
+    }
+    Box box = Box::of(at(along_first.to), at(along_last.to));
+    for (const Point& p : corner) box.add(p);
+    for (const std::uint32_t number : segmentsNear(box.grownBy(gap))) {
+      if (isOn(along_first, number) || isOn(along_last, number)) continue;
       const Segment& s = segments_[number];
       const Point &a = at(s.a), &b = at(s.b);
-      if (holds(a) || holds(b)) return false;
-      for (const auto& [p, q] : edges) {
-        if (clash(p, q, a, b)) return false;
-      }
+      if (holds(a) || holds(b) || clashes(a, b)) return false;
       if (s.a != v && s.b != v && distanceToSegment(notch.tip, a, b) < gap / 2) return false;
     }
     return true;
@@ -291,6 +404,7 @@ class PinchOpener {
     const std::uint32_t original = originalOf(beside);
     added_[original].push_back(number);
     original_of_added_.push_back(original);
+    noteStrayed(number);
   }
 
   std::uint32_t originalOf(std::uint32_t segment) const {
@@ -301,24 +415,42 @@ class PinchOpener {
     Segment& s = segments_[segment];
     (s.a == from ? s.a : s.b) = to;
     if (s.a > s.b) std::swap(s.a, s.b), std::swap(s.left, s.right);
+    noteStrayed(segment);
+  }
+
+  // What does not lie where it is looked for is looked at always.
+  void noteStrayed(std::uint32_t segment) {
+    const Segment& s = segments_[segment];
+    if (!boxes_[originalOf(segment)].contains(Box::of(at(s.a), at(s.b)))) strayed_.push_back(segment);
   }
 
   // An edge that is taken whole goes on from its far end to the tip; of another the near part becomes water.
-  void apply(VertexId v, const Spoke& first, const Spoke& last, const Notch& notch) {
+  void apply(VertexId v, const Spoke& first, const Way& along_first, const Spoke& last, const Way& along_last,
+             const Notch& notch) {
     const std::int32_t first_tag = segments_[first.segment].tag, last_tag = segments_[last.segment].tag;
     const VertexId tip = addVertex(notch.tip);
     const VertexId on_first = notch.whole_first ? tip : addVertex(notch.first);
     const VertexId on_last = notch.whole_last ? tip : addVertex(notch.last);
-    moveEnd(first.segment, v, on_first);
-    moveEnd(last.segment, v, on_last);
-    if (on_first != tip) addSegment(on_first, tip, first_tag, first.right, kOutside, first.segment);
-    if (on_last != tip) addSegment(tip, on_last, last_tag, last.left, kOutside, last.segment);
-    if (first.right != last.left) addSegment(v, tip, 0, last.left, first.right, first.segment);
-    std::erase_if(at_[v], [&](std::uint32_t s) { return s == first.segment || s == last.segment; });
+    const auto take = [&](const Way& way, VertexId from) {
+      for (std::size_t i = 0; i + 1 < way.segments.size(); ++i) drop(v, way.segments[i]);
+      std::erase(at_[v], way.segments.back());
+      moveEnd(way.segments.back(), way.passed.empty() ? v : way.passed.back(), from);
+    };
+    take(along_first, on_first);
+    take(along_last, on_last);
+    const std::uint32_t beside_first = along_first.segments.back(), beside_last = along_last.segments.back();
+    if (on_first != tip) addSegment(on_first, tip, first_tag, first.right, kOutside, beside_first);
+    if (on_last != tip) addSegment(tip, on_last, last_tag, last.left, kOutside, beside_last);
+    if (first.right != last.left) {
+      addSegment(v, tip, 0, last.left, first.right, beside_first);
+      at_[v].push_back(static_cast<std::uint32_t>(segments_.size() - 1));
+    }
   }
 
   // More than the snap distance, so that what was parted is not brought together again.
   static constexpr double kSnapMargin = 1.5;
+  // In snap distances: where the least gap is as wide as it may be.
+  static constexpr double kLeastScale = kSnapMargin / kReach;
 
   CleanVertices& vertices_;
   std::vector<Segment>& segments_;
@@ -327,10 +459,12 @@ class PinchOpener {
   double snap_;
   CleanReport& report_;
   std::uint32_t originals_;
-  BoxTree tree_;                                                         // over the first `originals_` segments
+  std::vector<Box> boxes_;  // of the first `originals_` segments, with their surroundings
+  BoxTree tree_;            // over the first `originals_` segments
   std::unordered_map<VertexId, std::vector<std::uint32_t>> at_;          // segments at pinched vertices
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> added_;  // by original segment
   std::vector<std::uint32_t> original_of_added_;
+  std::vector<std::uint32_t> strayed_;
 };
 
 }  // namespace

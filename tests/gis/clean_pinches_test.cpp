@@ -19,6 +19,7 @@ struct Cleaned {
 
   std::uint64_t count(EditKind kind) const { return report.counts[static_cast<std::size_t>(kind)]; }
   double area(RegionId region) const { return labelledArea(domain.pslg, region); }
+  std::size_t segments() const { return domain.pslg.segments.size(); }
 };
 
 Cleaned cleanWith(const std::vector<Feature>& features, Pinches pinches, double snap = 0) {
@@ -157,6 +158,39 @@ TEST(Pinches, TheGapIsNarrowerWhereLittleRoomIs) {
   EXPECT_EQ(opened.count(EditKind::OpenedPinch), 1u);
   EXPECT_EQ(pinchesIn(opened.domain.pslg), 0u);
   EXPECT_DOUBLE_EQ(opened.area(1), 0.49 * 0.49 / 2);
+}
+
+TEST(Pinches, WhatIsNoLargerThanAFewSnapDistancesGoes) {
+  const double snap = 0.001;
+  const Ring islet{{4, 4}, {4.003, 4.001}, {4.001, 4.003}};
+  Cleaned opened = cleanWith({polygonFeature(1, square(0, 0, 10), {square(2, 2, 2), islet})}, Pinches::Open, snap);
+  EXPECT_EQ(opened.count(EditKind::OpenedPinch), 1u);
+  EXPECT_EQ(opened.segments(), 8u);
+  EXPECT_EQ(opened.area(0), 96);
+  // The same as water, at a corner of the lake.
+  Feature lake = polygonFeature(1, square(0, 0, 10));
+  lake.polygons.push_back({{{10, 10}, {10.003, 10.001}, {10.001, 10.003}}, {}});
+  opened = cleanWith({lake}, Pinches::Open, snap);
+  EXPECT_EQ(opened.count(EditKind::OpenedPinch), 1u);
+  EXPECT_EQ(opened.domain.pslg.points.size(), 4u);
+  EXPECT_EQ(opened.area(0), 100);
+  // An islet that is larger than that is parted.
+  const Ring larger{{4, 4}, {4.3, 4.1}, {4.1, 4.3}};
+  opened = cleanWith({polygonFeature(1, square(0, 0, 10), {square(2, 2, 2), larger})}, Pinches::Open, snap);
+  EXPECT_EQ(pinchesIn(opened.domain.pslg), 0u);
+  EXPECT_NEAR(opened.area(0), 96 - 0.04, 1e-3);
+}
+
+// An island whose corner is two vertices a few snap distances apart: the gap is as wide as its larger edges ask for.
+TEST(Pinches, VerticesBesideTheCornerAreNoMeasure) {
+  const double snap = 0.001;
+  const Ring island{{4, 4}, {4.003, 4}, {6, 4}, {6, 6}, {4, 6}, {4, 4.003}};
+  const Cleaned opened =
+      cleanWith({polygonFeature(1, square(0, 0, 10), {{{4, 4}, {1, 5}, {5, 1}}, island})}, Pinches::Open, snap);
+  EXPECT_EQ(opened.count(EditKind::OpenedPinch), 1u);
+  EXPECT_EQ(pinchesIn(opened.domain.pslg), 0u);
+  EXPECT_NEAR(opened.area(0), 92, 0.2);
+  EXPECT_GT(shortestEdge(opened.domain.pslg), 0.05);
 }
 
 TEST(Pinches, TheGapIsWiderThanTheSnapDistance) {
