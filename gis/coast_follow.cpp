@@ -20,6 +20,8 @@ namespace {
 constexpr double kShareMoved = 0.25;
 // The same for the rim of open water, which nature did not draw: its sides have vertices for the curve that they are in the plane.
 constexpr double kShareOfOpenMoved = 0.01;
+// Where that rim turns by more than this it has a corner, which stays.
+constexpr double kCosineOfCorner = 0.985;  // of 10 degrees
 // An island that is longer than so many elements stays, however thin.
 constexpr double kLongestIsland = 3.0;
 
@@ -114,21 +116,39 @@ class IslandSearch {
   BoxTree tree_;
 };
 
+bool isCorner(const Point& from, const Point& at, const Point& to) {
+  const Point in = at - from, out = to - at;
+  return dot(in, out) < kCosineOfCorner * std::sqrt(squaredLength(in) * squaredLength(out));
+}
+
+// How far each vertex may be moved, as a share of the size wanted there; below 0: not at all.
+std::vector<double> sharesMoved(const Pslg& pslg) {
+  std::vector<double> share(pslg.points.size(), kShareMoved);
+  std::vector<VertexId> open_beside(pslg.points.size(), kNone);
+  for (const Segment& s : pslg.segments) {
+    if (isShore(s)) continue;
+    for (const auto& [v, w] : {std::pair(s.a, s.b), std::pair(s.b, s.a)}) {
+      const VertexId before = std::exchange(open_beside[v], w);
+      const bool stays =
+          !isRim(s) || (before != kNone && isCorner(pslg.points[before], pslg.points[v], pslg.points[w]));
+      share[v] = std::min(share[v], stays ? -1.0 : kShareOfOpenMoved);
+    }
+  }
+  return share;
+}
+
 }  // namespace
 
 Domain followSizes(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
   std::vector<bool> goes = IslandSearch(domain, size).run(coastline, domain, report);
   LabelledEdges edges;
   std::vector<bool> was_used(domain.pslg.points.size(), false);
-  std::vector<double> share(domain.pslg.points.size(), kShareMoved);  // below 0: may not move at all
+  const std::vector<double> share = sharesMoved(domain.pslg);
   for (SegmentId s = 0; s < domain.pslg.segments.size(); ++s) {
     const Segment& segment = domain.pslg.segments[s];
     was_used[segment.a] = was_used[segment.b] = true;
     if (goes[s]) continue;
     edges.segments.push_back(segment);
-    if (isShore(segment)) continue;
-    for (const VertexId v : {segment.a, segment.b})
-      share[v] = std::min(share[v], isRim(segment) ? kShareOfOpenMoved : -1.0);
   }
   for (VertexId v = 0; v < was_used.size(); ++v)
     if (!was_used[v]) edges.points.push_back(v);

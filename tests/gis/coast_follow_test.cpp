@@ -77,13 +77,15 @@ TEST(FollowSizes, OpenRimKeepsItsCorners) {
   const auto count = static_cast<VertexId>(domain.pslg.points.size());
   for (VertexId v = 0; v < count; ++v) domain.pslg.segments.push_back({v, (v + 1) % count, kOpenTag, 0, kOutside});
   domain.input_points = domain.pslg.points;
-  const SizeOf size(10.0, 10.0, [](const Point&) { return 10.0; });
-  CleanReport report;
-  const Domain coarse = followSizes(std::move(domain), size, oneFeature(), report);
-  EXPECT_LT(coarse.pslg.points.size(), 20u);
-  for (const Point& corner : corners)
-    EXPECT_EQ(std::ranges::count(coarse.pslg.points, corner), 1) << corner.x << ", " << corner.y;
-  for (const Segment& s : coarse.pslg.segments) EXPECT_EQ(s.tag, kOpenTag);
+  for (const double length : {10.0, 500.0}) {
+    const SizeOf size(length, length, [length](const Point&) { return length; });
+    CleanReport report;
+    const Domain coarse = followSizes(Domain(domain), size, oneFeature(), report);
+    EXPECT_LT(coarse.pslg.points.size(), 20u);
+    for (const Point& corner : corners)
+      EXPECT_EQ(std::ranges::count(coarse.pslg.points, corner), 1) << corner.x << ", " << corner.y;
+    for (const Segment& s : coarse.pslg.segments) EXPECT_EQ(s.tag, kOpenTag);
+  }
 }
 
 TEST(FollowSizes, SmallIslandsGoAndAreCounted) {
