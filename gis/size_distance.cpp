@@ -71,6 +71,13 @@ DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(
   } while (nodes.size() > 1);
 }
 
+void DistanceField::limitRate(double rate) {
+  most_rate_ = std::min(most_rate_, rate);
+  for (Line& line : lines_) line.rate = std::min(line.rate, rate);
+  for (Group& group : groups_)
+    for (double& least : group.rate) least = std::min(least, rate);
+}
+
 template <bool kAlike>
 void DistanceField::measure(std::uint32_t i, Search& search) const {
   const Line& line = lines_[i];

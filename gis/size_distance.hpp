@@ -32,6 +32,7 @@ class DistanceField final : public SizeField {
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
   double least() const override { return least_size_m_; }
+  void limitRate(double rate) override;
 
  private:
   static constexpr std::size_t kFanout = 8;

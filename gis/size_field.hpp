@@ -20,6 +20,8 @@ class SizeField {
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
   // No size is less anywhere: where another field asks for less, this one is not asked.
   virtual double least() const { return 0.0; }
+  // What grows with a distance grows no faster: so it is graded before it is interpolated.
+  virtual void limitRate(double) {}
 };
 
 }  // namespace coastmesh

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/metric.hpp"
 #include "gis/domain_mask.hpp"
 #include "gis/error.hpp"
 #include "gis/plane_table.hpp"
@@ -52,6 +53,10 @@ class ComposedSizes final : public SizeSource {
     });
   }
 
+  void limitSize(double most_m) { most_m_ = most_m; }
+  void limitRate(double rate) {
+    for (const auto& field : fields_) field->limitRate(rate);
+  }
   bool isWanted(const SizeBox& box) const override { return mask_.meets(box); }
 
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
@@ -90,10 +95,11 @@ class ComposedSizes final : public SizeSource {
 
  private:
   double bounded(double size, double floor) const {
-    return std::min(std::max({size, options_.least_m, std::isfinite(floor) ? floor : 0.0}), options_.most_m);
+    return std::min({std::max({size, options_.least_m, std::isfinite(floor) ? floor : 0.0}), options_.most_m, most_m_});
   }
 
   const SizeOptions& options_;
+  double most_m_ = kInfinity;
   std::function<double(const Point&)> scale_;
   const DomainMask& mask_;
   const ItemLoop& loop_;
@@ -129,6 +135,33 @@ std::unique_ptr<SizeField> rasterFields(const std::vector<RasterFile>& rasters, 
   return std::make_unique<FirstOfFields>(std::move(fields));
 }
 
+// The tree grades lengths of the plane; what is asked for is that lengths on the ground are graded. The gradient of a length h on the
+// ground is that of the plane's length k h, less h times the gradient of the scale k: at most so much. Infinite h counts as `most_m`.
+double gradeForScale(const ComposedSizes& source, const std::function<double(const Point&)>& scale,
+                     const SizeBox& square, double most_m) {
+  constexpr int kProbes = 64;
+  const double step = 2.0 * square.half / kProbes;
+  std::vector<Point> places;
+  for (int j = 0; j < kProbes; ++j) {
+    for (int i = 0; i < kProbes; ++i) {
+      const Point place = square.centre + Point{(i + 0.5) * step - square.half, (j + 0.5) * step - square.half};
+      if (source.isWanted({place, 0.5 * step})) places.push_back(place);
+    }
+  }
+  std::vector<double> lengths(places.size());
+  source.sample(places, lengths);
+  double most = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Point x{0.5 * step, 0.0}, y{0.0, 0.5 * step};
+    const double k = scale(places[i]), h = std::min(lengths[i] / k, most_m);
+    const double slope =
+        std::hypot(scale(places[i] + x) - scale(places[i] - x), scale(places[i] + y) - scale(places[i] - y));
+    if (std::isfinite(slope)) most = std::max(most, h * slope / step);
+  }
+  constexpr double kBetweenProbes = 1.25;
+  return kBetweenProbes * most;
+}
+
 }  // namespace
 
 SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
@@ -159,17 +192,17 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
       square, kScaleTolerance);
   const auto scale = [table](const Point& x) { return table->at(x).x; };
 
-  const DomainMask mask(domain.pslg, {middle, 0.505 * extent});
+  const SizeBox root{middle, 0.505 * extent};
+  const DomainMask mask(domain.pslg, root);
   ComposedSizes source(options, scale, mask, loop);
-  const double most_m = std::min(options.most_m, options.size_m);
+  const double reach_m = extent / scale(middle), most_m = std::min(options.most_m, options.size_m);
   if (options.shore_m < kInfinity)
     source.add(
         std::make_unique<DistanceField>(shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale, most_m));
   if (options.channel_elements > 0.0) {
-    source.add(
-        std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.grade,
-                                                     options.least_m, std::min(most_m, extent / scale(middle)), scale),
-                                        scale, most_m));
+    source.add(std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.grade,
+                                                            options.least_m, std::min(most_m, reach_m), scale),
+                                               scale, most_m));
   }
   for (const SizedFeatures& features : inputs.features)
     for (auto& field : featureFields(features, projection, scale)) source.add(std::move(field));
@@ -181,8 +214,15 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
     source.setFloor(rasterFields(inputs.bathymetry, inputs.crs, projection, square,
                                  courantRule(options.time_step_s, options.courant, options.depth), loop));
   }
+  source.limitRate(options.grade);
+  double for_scale = gradeForScale(source, scale, root, reach_m);
+  if (for_scale > 0.5 * options.grade) {  // elements as large as seas: no larger than leaves half of the grade
+    source.limitSize(0.5 * options.grade / for_scale * reach_m);
+    for_scale = 0.5 * options.grade;
+  }
   SizeTreeOptions tree;
-  tree.grade = options.grade;
+  tree.grade = options.grade - for_scale;
+  source.limitRate(tree.grade);
   auto size = std::make_unique<SizeTree>(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}, source, tree, loop);
   if (!size->isComplete()) {
     throw InputError(

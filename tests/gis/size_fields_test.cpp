@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
+#include <GeographicLib/Geodesic.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -278,6 +279,44 @@ TEST_F(SizeFiles, DepthsInAnotherCrsAskForWavelengths) {
     const Point place = projection.forward({lon, 50.4});
     const double wanted = 44712.0 * std::sqrt(9.80665 * (10.0 + (x - 300000.0) / 1000.0)) / 400.0;
     EXPECT_NEAR(size->at(place) / projection.scaleAt(place) / wanted, 1.0, 0.03) << lon;
+  }
+}
+
+// As asked for: in metres, along geodesics. Far from the middle of such a plane the scale is not 1, and changes.
+TEST(ComposedSizes, GradedOnTheGround) {
+  for (const double rate : {0.05, 0.2, 1.0}) {
+    Coastline coast;
+    coast.crs = wgs84();
+    coast.features.emplace_back();
+    coast.features.back().polygons.push_back(
+        {{{-60.0, 0.0}, {0.0, -10.0}, {20.0, 50.0}, {-10.0, 75.0}, {-70.0, 60.0}}, {}});
+    CleanReport report;
+    const Projection projection = Projection::fitted(coast, {0});
+    const Domain domain = cleanFeatures(coast, {0}, projection, {}, report);
+    SizeOptions options;
+    options.shore_m = 20000.0;
+    options.shore_rate = rate;
+    options.grade = 0.2;
+    const auto size = sizesIn(options, domain, coast.crs);
+    const GeographicLib::Geodesic& geodesic = GeographicLib::Geodesic::WGS84();
+    std::mt19937_64 random(9);
+    double most = 0.0, largest = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+      const Point a{uniform(random, -50.0, 0.0), uniform(random, 5.0, 60.0)};
+      const double reach = std::exp(uniform(random, std::log(1e-3), std::log(20.0)));
+      const Point b = a + reach * Point{uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0)};
+      double metres = 0.0;
+      geodesic.Inverse(a.y, a.x, b.y, b.x, metres);
+      const auto sizeAt = [&](const Point& p) {
+        const Point place = projection.forward(p);
+        return size->at(place) / projection.scaleAt(place);
+      };
+      most = std::max(most, std::abs(sizeAt(b) - sizeAt(a)) / metres);
+      largest = std::max(largest, sizeAt(a));
+    }
+    EXPECT_LE(most, 0.2);
+    EXPECT_GE(most, 0.8 * std::min(rate, 0.2));
+    EXPECT_GT(largest, 20000.0 + 0.8 * std::min(rate, 0.18) * 1e6) << "not graded that much";
   }
 }
 
