@@ -11,6 +11,7 @@
 #include "gis/geodesic_area.hpp"
 #include "gis/point_grid.hpp"
 #include "gis/seam.hpp"
+#include "gis/turned_rings.hpp"
 
 namespace coastmesh {
 
@@ -193,9 +194,14 @@ std::vector<std::uint32_t> holdersOf(const Point& place, const Coastline& coastl
   std::vector<std::uint32_t> holders;
   const auto holds = [&](const Feature& feature) {
     ChainIndex index(ChainIndex::Kind::Rings);
+    const bool may_jump = coastline.crs.geographic && feature.use != FeatureUse::Frame;
+    const auto add = [&](const Ring& ring) {
+      if (!may_jump) return index.add(ring);
+      for (const Ring& turned : turnedRings(ring)) index.add(turned);
+    };
     for (const Polygon& polygon : feature.polygons) {
-      index.add(polygon.outer);
-      for (const Ring& hole : polygon.holes) index.add(hole);
+      add(polygon.outer);
+      for (const Ring& hole : polygon.holes) add(hole);
     }
     index.build();
     for (const double turn : {-360.0, 0.0, 360.0}) {

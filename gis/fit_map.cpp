@@ -151,13 +151,12 @@ Cap leastCap(const Extent& extent, const std::vector<Direction>& directions) {
 
 // The centre of a stereographic projection for what is larger than a hemisphere: its antipode, which has no image, lies
 // as far inside of what the rings leave out as possible.
-Point centreAwayFromLand(const std::vector<const Ring*>& rings, const std::vector<Direction>& directions) {
+Point centreAwayFromLand(const std::vector<const Ring*>& rings, double west, const std::vector<Direction>& directions) {
   ChainIndex index(ChainIndex::Kind::Rings);
   for (const Ring* ring : rings) index.add(*ring);
   index.build();
-  const double west = index.bounds().xmin;  // longitudes may run from -180 or from 0
-  constexpr int kTrials = 4000;             // some 3 degrees apart
-  constexpr double kLeastClearance = 0.5;   // degrees
+  constexpr int kTrials = 4000;            // some 3 degrees apart
+  constexpr double kLeastClearance = 0.5;  // degrees
   std::optional<Point> best;
   double best_clearance = kLeastClearance;
   for (int i = 0; i < kTrials; ++i) {
@@ -220,7 +219,8 @@ std::optional<FittedMap> mapAboutCentre(const std::vector<Point>& lonlat, const 
   const Cap cap = leastCap(extent, directions);
   const auto atPole = [](const Point& p) { return std::abs(p.y) == 90; };
   if (cap.radius > 90) {
-    const Point centre = centreAwayFromLand(rings, directions);
+    const double west = std::ranges::min(lonlat, {}, &Point::x).x;  // longitudes may run from -180 or from 0
+    const Point centre = centreAwayFromLand(rings, west, directions);
     return because(atPole(centre) ? polar(centre, ellipsoid) : oblique(centre, ellipsoid),
                    "larger than a hemisphere: projected away from the middle of what is left out");
   }

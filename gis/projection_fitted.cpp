@@ -8,6 +8,7 @@
 #include "gis/fit_map.hpp"
 #include "gis/ogr_support.hpp"
 #include "gis/projection_impl.hpp"
+#include "gis/turned_rings.hpp"
 
 namespace coastmesh {
 
@@ -105,7 +106,11 @@ std::shared_ptr<const Projection::Impl> fitTo(const Coastline& coastline, const 
     }
     if (!is_ring) return;
     if (to_geographic.isIdentity()) {
-      rings.push_back(&chain);
+      if (feature.use == FeatureUse::Frame || !longitudesJump(chain)) {
+        rings.push_back(&chain);
+      } else {
+        for (Ring& turned : turnedRings(chain)) projected_rings.push_back(std::move(turned));
+      }
     } else {
       projected_rings.emplace_back(lonlat.end() - static_cast<std::ptrdiff_t>(chain.size()), lonlat.end());
     }

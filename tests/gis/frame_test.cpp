@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <GeographicLib/Geodesic.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -188,6 +189,29 @@ double zone(double south, double north, double width) {
   };
   const double b = 6378137.0 * (1 - 1 / 298.257223563);
   return b * b * (below(north) - below(south)) * width * M_PI / 180;
+}
+
+// Files that are not cut at the antimeridian: islands whose rings jump from one end of the map to the other, and a continent
+// round a pole without an edge along it. The places between, all round the globe, are no land.
+TEST(Frame, RingsThatJumpHoldNothingBetween) {
+  std::vector<Feature> land;
+  Ring antarctica;
+  for (int lon = -175; lon <= 175; lon += 10) antarctica.push_back({static_cast<double>(lon), -70});
+  land.push_back(polygonFeature(1, antarctica));
+  land.push_back(polygonFeature(2, square(20, 10, 30)));
+  double islands = 0;
+  const RingArea area(wgs84());
+  // One for each latitude at which the map might be turned away from the land.
+  for (int lat = -60; lat < 60; lat += 10) {
+    const double south = lat + 0.5, north = lat + 9.5;
+    land.push_back(polygonFeature(100 + lat, {{179.5, south}, {-179.5, south}, {-179.5, north}, {179.5, north}}));
+    islands += area.of({{179.5, south}, {180.5, south}, {180.5, north}, {179.5, north}});
+  }
+  const Framed framed = frame(coastlineOf(land, wgs84()), boxOf(-180, -90, 180, 90, DomainSide::Outside));
+  ASSERT_EQ(framed.domains.size(), 1u);
+  const double globe = GeographicLib::Geodesic::WGS84().EllipsoidArea();
+  const double expected = globe - islands - area.of(antarctica) - area.of(square(20, 10, 30));
+  EXPECT_NEAR(framed.area() / expected, 1, 1e-4);
 }
 
 // An island that its file cuts at the antimeridian, in data that run from -180 and from 0, and boxes in either turn.
