@@ -142,6 +142,7 @@ class TargetCheck {
         const Point &a = grid_.nodes[edges[e][0]], &b = grid_.nodes[edges[e][1]];
         if (edges[e][0] == node || edges[e][1] == node || p == a || p == b) return;
         const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+        if (grid_.crs.geographic && std::abs(dx) > 180) return;  // across the antimeridian, not all round the globe
         const double off = std::abs(dx * (p.y - a.y) - dy * (p.x - a.x)) / square;
         const double along = (dx * (p.x - a.x) + dy * (p.y - a.y)) / square;
         hangs = hangs || (off < kOnEdge && along > 0.0 && along < 1.0);

@@ -131,6 +131,17 @@ TEST(CheckTarget, HangingNode) {
   for (const Target target : kAll) EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::HangingNode));
 }
 
+// Its southern side runs along a parallel from 179.97 to -179.95.
+TEST(CheckTarget, NothingHangsOnAnEdgeAcrossTheAntimeridian) {
+  Grid grid = soundGrid();
+  grid.crs = wgs84();
+  for (Point& p : grid.nodes) {
+    p = {179.97 + 1e-5 * p.x, 1e-5 * p.y};
+    if (p.x > 180) p.x -= 360;
+  }
+  EXPECT_FALSE(kindsIn(grid, Target::Adcirc).contains(TargetDefectKind::HangingNode));
+}
+
 TEST(CheckTarget, PinchedNode) {
   const TriMesh mesh = lattice(
       6, 6, [](int i, int j) { return (i < 3) == (j < 3); },
