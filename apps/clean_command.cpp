@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -6,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "apps/commands.hpp"
@@ -54,6 +56,22 @@ void cleanGroup(const JobInput& input, std::size_t group, const ItemLoop& loop, 
   }
 }
 
+// A vertex on the antimeridian has the longitude of the side that its edges lead to; -180 where they lead to both, whichever
+// ring was read first, so that a cleaned file that is cleaned again comes out the same.
+void putOnOneSide(Domain& domain) {
+  std::vector<char> west(domain.input_points.size(), 0), east = west;
+  for (const Segment& s : domain.pslg.segments) {
+    for (const auto& [v, other] : {std::pair(s.a, s.b), std::pair(s.b, s.a)}) {
+      const double x = domain.input_points[other].x;
+      if (std::abs(x) < 180) (x < 0 ? west : east)[v] = 1;
+    }
+  }
+  for (std::size_t v = 0; v < domain.input_points.size(); ++v) {
+    Point& p = domain.input_points[v];
+    if (std::abs(p.x) == 180 && (west[v] || east[v])) p.x = west[v] ? -180 : 180;
+  }
+}
+
 CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
   std::vector<CleanedGroup> groups(input.groups());
   const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
@@ -62,7 +80,10 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
   CleanedInput cleaned;
   for (CleanedGroup& group : groups) {
     cleaned.report.append(std::move(group.report));
-    if (group.domain) cleaned.domains.push_back(std::move(*group.domain));
+    if (group.domain) {
+      if (input.coastline().crs.geographic) putOnOneSide(*group.domain);
+      cleaned.domains.push_back(std::move(*group.domain));
+    }
     if (!group.unwanted.empty()) cleaned.last_unwanted = group.unwanted;
     if (!group.refused.empty()) cleaned.refused.push_back(group.refused);
   }

@@ -205,6 +205,12 @@ def cases():
                says="if they are degrees", fixed=True)
     yield Case("at_the_antimeridian", [polygon([(179, 10), (180, 10), (180, 11), (179, 11)]),
                polygon([(-180, 10), (-179, 10), (-179, 11), (-180, 11)])], crs=degrees, exit=None, fixed=True)
+    west = polygon([(179.5, -17.5), (180, -17), (179.5, -16.5)])
+    east = polygon([(-180, -17), (-179.5, -17.5), (-179.5, -16.5)])
+    for name, pinches in ("kept", []), ("opened", opened):
+        yield Case(f"touching_at_the_antimeridian_{name}", [west, east], crs=degrees, exit=0, fixed=True, islands=2 if pinches else 1,
+                   options=["--domain", "outside", "--bbox=177,-20,-178,-15"] + pinches,
+                   edits=["opened_pinch" if pinches else "touching_ring"])
     yield Case("past_the_antimeridian", [polygon([(179, 10), (181, 10), (181, 11), (179, 11)])], crs=degrees, exit=None,
                fixed=True)
     yield Case("round_the_pole", [polygon([(-180, 80), (-90, 80), (0, 80), (90, 80), (180, 80), (180, 90), (-180, 90)])],
@@ -297,7 +303,8 @@ def check_case(program, case, suffix, change, folder):
     if "open" in case.options:
         opened = run(program, "check", mesh, "--pinches", "--target", "adcirc")
         require(opened.returncode == 0, f"check --pinches --target adcirc: {opened.stdout} {opened.stderr}")
-        same = run(program, "check", mesh, "--input", file, "--input-pinches", "open")
+        others = [o for o in options if o not in ("--pinches", "open")]
+        same = run(program, "check", mesh, "--input", file, "--input-pinches", "open", *others)
         require(same.returncode == 0, f"check --input: {same.stdout} {same.stderr}")
     result = json.loads(report.read_text())
     require(result["refine"]["unresolved"]["count"] == 0 or case.exit is None, "angles fall short")
