@@ -14,7 +14,9 @@
 #include "apps/exit_codes.hpp"
 #include "apps/input_usage.hpp"
 #include "apps/job_input.hpp"
+#include "apps/report_sections.hpp"
 #include "apps/staged_file.hpp"
+#include "apps/stopwatch.hpp"
 #include "apps/vector_output.hpp"
 #include "gis/cleaned_layers.hpp"
 #include "gis/error.hpp"
@@ -29,8 +31,13 @@ namespace {
 struct CleanUsage {
   InputOptions input;
   std::string output;
+  std::string report;
   bool overwrite = false;
   bool quiet = false;
+};
+
+struct Seconds {
+  double read = 0.0, clean = 0.0, write = 0.0, total = 0.0;
 };
 
 struct CleanedInput {
@@ -222,6 +229,26 @@ Pslg joinedPslg(const CleanedInput& cleaned, const CleanUsage& usage, const Crs&
   return joined;
 }
 
+std::string reportOf(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned,
+                     const Seconds& seconds) {
+  std::size_t points = 0, segments = 0;
+  for (const Domain& domain : cleaned.domains) {
+    points += domain.pslg.points.size();
+    segments += domain.pslg.segments.size();
+  }
+  Json read = readSection(usage.input.files, input.report(), input.coastline().crs);
+  read["refused"] = cleaned.refused;
+  for (const std::string& note : cleaned.report.notes) read["notes"].push_back(note);
+  return textOf(
+      {{"coastmesh", COASTMESH_VERSION},
+       {"input", std::move(read)},
+       {"clean", editsSection(cleaned.report.counts)},
+       {"graph", {{"points", points}, {"segments", segments}, {"regions", cleaned.domains.size()}}},
+       {"time_s",
+        {{"read", seconds.read}, {"clean", seconds.clean}, {"write", seconds.write}, {"total", seconds.total}}},
+       {"peak_memory_mib", peakMemoryMib()}});
+}
+
 void printReport(const CleanUsage& usage, const CleanedInput& cleaned) {
   std::size_t points = 0;
   std::size_t segments = 0;
@@ -236,14 +263,21 @@ void printReport(const CleanUsage& usage, const CleanedInput& cleaned) {
                 static_cast<unsigned long long>(cleaned.report.counts[kind]));
   }
   std::printf("wrote %s\n", usage.output.c_str());
+  if (!usage.report.empty()) std::printf("wrote %s\n", usage.report.c_str());
 }
 
 int runClean(const CleanUsage& usage, Interrupt& interrupt) {
   const bool poly = std::filesystem::path(usage.output).extension() == ".poly";
   if (!poly) requireVectorFormat(usage.output, 2);
   StagedFile output(usage.output, usage.overwrite, interrupt);
+  std::optional<StagedFile> report;
+  if (!usage.report.empty()) report.emplace(usage.report, usage.overwrite, interrupt);
+  const Stopwatch watch;
+  Seconds seconds;
   const JobInput input(usage.input);
+  seconds.read = watch.seconds();
   const CleanedInput cleaned = cleanAll(input, interrupt);
+  seconds.clean = watch.seconds() - seconds.read;
   if (poly) {
     const Pslg pslg = joinedPslg(cleaned, usage, input.coastline().crs);
     output.make([&pslg](const std::string& path) { writePoly(pslg, path); });
@@ -251,8 +285,12 @@ int runClean(const CleanUsage& usage, Interrupt& interrupt) {
     output.make(
         [&](const std::string& path) { writeVectorLayers(path, input.coastline().crs, layersOf(cleaned, input)); });
   }
+  seconds.total = watch.seconds();
+  seconds.write = seconds.total - seconds.read - seconds.clean;
+  if (report) report->write(reportOf(usage, input, cleaned, seconds));
   interrupt.close();
   output.commit();
+  if (report) report->commit();
   for (const std::string& reason : cleaned.refused) {
     std::fprintf(stderr, "coastmesh: warning: left out: %s\n", reason.c_str());
   }
@@ -270,6 +308,7 @@ Command declareClean(CLI::App& root) {
                     "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
   declareInputOptions(line, usage->input);
   declarePinches(line, usage->input);
+  line.text("--report", usage->report, kOutputFile, "write what was read and mended, and the time it took, as JSON");
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
   line.flag("--quiet", usage->quiet, "print no summary");
   line.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");

@@ -1,18 +1,15 @@
 #include "apps/mesh_report.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numeric>
+
+#include "apps/report_sections.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -25,39 +22,14 @@ Json inputSection(const MeshJob& job, const MeshJobResult& result) {
   for (const Refusal& refusal : result.refusals) {
     refused.push_back({{"source", refusal.source}, {"fids", refusal.fids}, {"reason", refusal.reason}});
   }
-  return {{"files", job.input.files},
-          {"features", result.read.features},
-          {"rings", result.read.rings},
-          {"points", result.read.points},
-          {"skipped_empty", result.read.skipped_empty},
-          {"skipped_points", result.read.skipped_points},
-          {"crs", nameOf(result.crs)},
-          {"projection", result.regions == 1 ? Json(result.first_projection) : Json(nullptr)},
-          {"projection_reason", result.regions == 1 ? Json(result.first_projection_reason) : Json(nullptr)},
-          {"scale", {{"least", finiteOrNull(result.least_scale)}, {"greatest", finiteOrNull(result.greatest_scale)}}},
-          {"projections", std::move(projections)},
-          {"area_m2", orNull(result.input_area_m2)},
-          {"refused", std::move(refused)},
-          {"filtered", result.read.filtered},
-          {"beyond_frame", result.read.beyond_frame},
-          {"notes", result.read.notes},
-          {"warnings", result.read.warnings}};
-}
-
-// "touching ring" as "touching_ring".
-std::string keyOf(std::string_view words) {
-  std::string key(words);
-  for (char& c : key) {
-    if (c == ' ' || c == '-') c = '_';
-  }
-  return key;
-}
-
-Json cleanSection(const MeshJobResult& result) {
-  Json section = Json::object();
-  for (std::size_t kind = 0; kind < kEditKinds; ++kind) {
-    section[keyOf(toString(static_cast<EditKind>(kind)))] = result.edits[kind];
-  }
+  Json section = readSection(job.input.files, result.read, result.crs);
+  section.update(
+      {{"projection", result.regions == 1 ? Json(result.first_projection) : Json(nullptr)},
+       {"projection_reason", result.regions == 1 ? Json(result.first_projection_reason) : Json(nullptr)},
+       {"scale", {{"least", finiteOrNull(result.least_scale)}, {"greatest", finiteOrNull(result.greatest_scale)}}},
+       {"projections", std::move(projections)},
+       {"area_m2", orNull(result.input_area_m2)},
+       {"refused", std::move(refused)}});
   return section;
 }
 
@@ -164,12 +136,6 @@ std::string grouped(std::uint64_t number) {
 
 }  // namespace
 
-double peakMemoryMib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
 std::string digestText(std::uint64_t digest) {
   char text[20];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(digest));
@@ -179,7 +145,7 @@ std::string digestText(std::uint64_t digest) {
 std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads) {
   const Json report{{"coastmesh", COASTMESH_VERSION},
                     {"input", inputSection(job, result)},
-                    {"clean", cleanSection(result)},
+                    {"clean", editsSection(result.edits)},
                     {"refine", refineSection(job, result)},
                     {"mesh", meshSection(result)},
                     {"depth", Json::parse(depthSection(job.finish, result.finish))},
@@ -189,8 +155,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"parallel", parallelSection(result.log)},
                     {"peak_memory_mib", peakMemoryMib()},
                     {"threads", threads}};
-  // Names in the input need not be UTF-8.
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return textOf(report);
 }
 
 std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {

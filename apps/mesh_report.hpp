@@ -15,9 +15,6 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
 // A few lines for people.
 std::string meshSummary(const MeshJob& job, const MeshJobResult& result);
 
-// The most memory that the process has held, in MiB.
-double peakMemoryMib();
-
 std::string digestText(std::uint64_t digest);  // 16 hexadecimal digits
 
 }  // namespace coastmesh

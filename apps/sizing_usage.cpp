@@ -67,9 +67,8 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
       [&sizes](const std::string& chosen) {
         sizes.coast = chosen == "follow" ? CoastDetail::Follow : CoastDetail::Keep;
       },
-      "whether the coast keeps its detail, or follows the sizes: where elements are larger it is simplified, and "
-      "islands "
-      "smaller than an element go");
+      "whether the coast keeps its detail, or follows the sizes: where elements are larger it is simplified, as are "
+      "the sides of a frame, and islands smaller than an element go");
   line.number("--time-step", sizes.time_step_s, "S", kNotNegative,
               "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
               "asks for none");

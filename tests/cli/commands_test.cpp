@@ -138,6 +138,12 @@ TEST_F(Commands, CleanWritesItsLayers) {
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_NE(run.output.find("crossing: 1"), std::string::npos) << run.output;
   EXPECT_EQ(runProgram({"clean", input, "-o", file("clean.poly")}).code, 0);
+  ASSERT_EQ(runProgram({"clean", input, "-o", file("told.gpkg"), "--report", file("clean.json")}).code, 0);
+  const Json report = Json::parse(readText(file("clean.json")));
+  EXPECT_GT(report["input"]["points"], 3);
+  EXPECT_GT(report["graph"]["segments"], 2);
+  EXPECT_TRUE(report["clean"].contains("touching_ring"));
+  for (const char* stage : {"read", "clean", "write", "total"}) EXPECT_GE(report["time_s"][stage], 0.0) << stage;
   EXPECT_EQ(info(file("clean.poly"))["kind"], "poly");
   EXPECT_EQ(info(file("clean.poly"))["points"], 5);
   EXPECT_EQ(runProgram({"clean", input, "-o", file("clean.geojson")}).code, 4);
