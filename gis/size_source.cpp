@@ -222,7 +222,9 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
   }
   SizeTreeOptions tree;
   tree.grade = options.grade - for_scale;
-  source.limitRate(tree.grade);
+  // A little less: what is only just too steep everywhere would have to be flattened everywhere.
+  constexpr double kJustBelow = 0.99;
+  source.limitRate(kJustBelow * tree.grade);
   auto size = std::make_unique<SizeTree>(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}, source, tree, loop);
   if (!size->isComplete()) {
     throw InputError(
