@@ -18,6 +18,10 @@ std::vector<Box> randomBoxes(std::mt19937_64& random, std::size_t n, double exte
   return boxes;
 }
 
+std::string nameOf(const ::testing::TestParamInfo<BoxTree::Order>& order) {
+  return order.param == BoxTree::Order::Hilbert ? "hilbert" : "given";
+}
+
 class BoxTreeTest : public ::testing::TestWithParam<BoxTree::Order> {};
 
 TEST_P(BoxTreeTest, FindsWhatAScanFinds) {
@@ -67,7 +71,8 @@ TEST(BoxTreeOrder, NodesOfTheOrderGivenTellTheirItems) {
       [](std::uint32_t) {});
 }
 
-INSTANTIATE_TEST_SUITE_P(Orders, BoxTreeTest, ::testing::Values(BoxTree::Order::Given, BoxTree::Order::Hilbert));
+INSTANTIATE_TEST_SUITE_P(Orders, BoxTreeTest, ::testing::Values(BoxTree::Order::Given, BoxTree::Order::Hilbert),
+                         nameOf);
 
 }  // namespace
 }  // namespace coastmesh

@@ -35,6 +35,8 @@ struct Extent {
   double degrees;  // of a cell
 };
 
+void PrintTo(const Extent& extent, std::ostream* out) { *out << extent.degrees << " degrees"; }
+
 class TriangleAreas : public ::testing::TestWithParam<Extent> {};
 
 // The triangles of a square of cells add up to the geodesic polygon round it, whatever their size and place.

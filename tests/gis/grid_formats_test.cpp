@@ -128,6 +128,8 @@ const Place kPlaces[] = {
     {"plane", "plane", {-3.0, 1e-7}, 1.0 / 3.0},
 };
 
+void PrintTo(const Place& place, std::ostream* out) { *out << place.name; }
+
 class RoundTrip : public ::testing::TestWithParam<std::tuple<GridFormat, Place>> {};
 
 TEST_P(RoundTrip, GivesTheSameGrid) {

@@ -10,12 +10,21 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "gis/geodesy.hpp"
 #include "gis/grid.hpp"
+#include "gis/grid_io.hpp"
+
+namespace coastmesh {
+
+// In a test's name.
+inline void PrintTo(const GridFormat& format, std::ostream* out) { *out << format.name; }
+
+}  // namespace coastmesh
 
 namespace coastmesh::testing {
 

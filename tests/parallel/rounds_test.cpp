@@ -24,6 +24,8 @@ struct Case {
   RefineOptions options;
 };
 
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
 // Large enough to be cut into several pieces.
 std::vector<Case> cases() {
   std::vector<Case> all;
