@@ -228,8 +228,8 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         return paths
 
     def _report(self, arguments):
-        """Where the report goes, and whether it is for us alone."""
-        if not any(option["name"] == "--report" for option in self.command["options"]):
+        """Where the report on a mesh goes, and whether it is for us alone."""
+        if self.name() != "mesh":
             return None, False
         for word in arguments:
             if word.startswith("--report="):
