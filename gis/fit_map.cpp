@@ -149,12 +149,31 @@ Cap leastCap(const Extent& extent, const std::vector<Direction>& directions) {
   return best;
 }
 
+// Where the globe is on land, or in no group.
+class LeftOut {
+ public:
+  explicit LeftOut(const std::vector<RingGroup>& groups) {
+    for (const RingGroup& group : groups) {
+      ChainIndex& index = (group.is_land ? land_ : water_).emplace_back(ChainIndex::Kind::Rings);
+      for (const Ring* ring : group.rings) index.add(*ring);
+      index.build();
+    }
+  }
+
+  bool holds(const Point& p) const {
+    const auto isIn = [&](const ChainIndex& index) { return index.locate(p) == Location::Inside; };
+    const auto touches = [&](const ChainIndex& index) { return index.locate(p) != Location::Outside; };
+    return std::ranges::any_of(land_, isIn) || std::ranges::none_of(water_, touches);
+  }
+
+ private:
+  std::vector<ChainIndex> land_, water_;
+};
+
 // The centre of a stereographic projection for what is larger than a hemisphere: its antipode, which has no image, lies
-// as far inside of what the rings leave out as possible.
-Point centreAwayFromLand(const std::vector<const Ring*>& rings, double west, const std::vector<Direction>& directions) {
-  ChainIndex index(ChainIndex::Kind::Rings);
-  for (const Ring* ring : rings) index.add(*ring);
-  index.build();
+// as far inside of what is left out as possible.
+Point centreAwayFromLand(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions) {
+  const LeftOut left_out(groups);
   constexpr int kTrials = 4000;            // some 3 degrees apart
   constexpr double kLeastClearance = 0.5;  // degrees
   std::optional<Point> best;
@@ -170,7 +189,7 @@ Point centreAwayFromLand(const std::vector<const Ring*>& rings, double west, con
     const double clearance = std::acos(std::clamp(nearest, -1.0, 1.0)) / Math::degree();
     if (clearance <= best_clearance) continue;
     const Point as_given{west + std::fmod(trial.x - west + 720, 360.0), trial.y};
-    if (index.locate(as_given) != Location::Outside) continue;
+    if (!left_out.holds(as_given)) continue;
     best = trial, best_clearance = clearance;
   }
   if (!best) {
@@ -213,14 +232,14 @@ bool isPlainlySmall(const Extent& extent) {
 }
 
 // The map for what is large or near a pole, if it is.
-std::optional<FittedMap> mapAboutCentre(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings,
+std::optional<FittedMap> mapAboutCentre(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups,
                                         const Extent& extent, const Ellipsoid& ellipsoid) {
   const std::vector<Direction> directions = thinned(lonlat);
   const Cap cap = leastCap(extent, directions);
   const auto atPole = [](const Point& p) { return std::abs(p.y) == 90; };
   if (cap.radius > 90) {
     const double west = std::ranges::min(lonlat, {}, &Point::x).x;  // longitudes may run from -180 or from 0
-    const Point centre = centreAwayFromLand(rings, west, directions);
+    const Point centre = centreAwayFromLand(groups, west, directions);
     return because(atPole(centre) ? polar(centre, ellipsoid) : oblique(centre, ellipsoid),
                    "larger than a hemisphere: projected away from the middle of what is left out");
   }
@@ -233,12 +252,12 @@ std::optional<FittedMap> mapAboutCentre(const std::vector<Point>& lonlat, const 
   return std::nullopt;
 }
 
-FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings,
+FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups,
                     const Ellipsoid& ellipsoid) {
   constexpr double kElongated = 1.5;
   const Extent extent = extentOf(lonlat);
   if (!isPlainlySmall(extent)) {
-    if (std::optional<FittedMap> map = mapAboutCentre(lonlat, rings, extent, ellipsoid)) return std::move(*map);
+    if (std::optional<FittedMap> map = mapAboutCentre(lonlat, groups, extent, ellipsoid)) return std::move(*map);
   }
   const Point middle{extent.mid_lon, extent.midLat()};
   const double width = extent.width * std::cos(middle.y * Math::degree());
@@ -260,8 +279,8 @@ FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<const Ri
 
 }  // namespace
 
-FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<const Ring*>& rings, const Ellipsoid& ellipsoid) {
-  return chooseMap(lonlat, rings, ellipsoid);
+FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid) {
+  return chooseMap(lonlat, groups, ellipsoid);
 }
 
 }  // namespace coastmesh

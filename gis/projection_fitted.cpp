@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "gis/crs_map.hpp"
 #include "gis/error.hpp"
@@ -90,8 +92,9 @@ std::shared_ptr<const Projection::Impl> fitTo(const Coastline& coastline, const 
                                               const ToGeographic& to_geographic) {
   constexpr double kMostLongitude = 540;  // degrees: -180 to 180, 0 to 360, and some overlap
   std::vector<Point> lonlat;
-  std::vector<Ring> projected_rings;
-  std::vector<const Ring*> rings;
+  std::deque<Ring> projected_rings;
+  std::vector<RingGroup> groups(1);  // the frame and lines of the coast; then one a feature
+  const Feature* last = nullptr;
   double west = std::numeric_limits<double>::infinity(), east = -west;
   std::size_t count = 0;
   forEachChain(coastline, members,
@@ -105,21 +108,24 @@ std::shared_ptr<const Projection::Impl> fitTo(const Coastline& coastline, const 
       lonlat.push_back(p);
     }
     if (!is_ring) return;
+    const bool is_whole = feature.use == FeatureUse::Land || feature.use == FeatureUse::Area;
+    if (is_whole && std::exchange(last, &feature) != &feature) groups.push_back({{}, feature.use == FeatureUse::Land});
+    std::vector<const Ring*>& rings = (is_whole ? groups.back() : groups.front()).rings;
+    const auto addProjected = [&](Ring ring) { rings.push_back(&projected_rings.emplace_back(std::move(ring))); };
     if (to_geographic.isIdentity()) {
       if (feature.use == FeatureUse::Frame || !longitudesJump(chain)) {
         rings.push_back(&chain);
       } else {
-        for (Ring& turned : turnedRings(chain)) projected_rings.push_back(std::move(turned));
+        for (Ring& turned : turnedRings(chain)) addProjected(std::move(turned));
       }
     } else {
-      projected_rings.emplace_back(lonlat.end() - static_cast<std::ptrdiff_t>(chain.size()), lonlat.end());
+      addProjected({lonlat.end() - static_cast<std::ptrdiff_t>(chain.size()), lonlat.end()});
     }
   });
   if (lonlat.empty()) throw InputError("the features hold no point");
-  for (const Ring& ring : projected_rings) rings.push_back(&ring);
   const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
   const Ellipsoid ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
-  return std::make_shared<Fitted>(to_geographic, fitMap(lonlat, rings, ellipsoid), middle);
+  return std::make_shared<Fitted>(to_geographic, fitMap(lonlat, groups, ellipsoid), middle);
 }
 
 }  // namespace

@@ -143,6 +143,24 @@ TEST(Fitted, TheWholeOceanIsSeenFromTheOtherSideOfItsLargestLand) {
   }
 }
 
+// Land that is there twice is land all the same.
+TEST(Fitted, LandMayBeThereTwice) {
+  Ring land;
+  for (int i = 0; i < 72; ++i) {
+    double lat, lon;
+    GeographicLib::Geodesic::WGS84().Direct(45, 90, 5.0 * i, 2.5e6, lat, lon);
+    land.push_back({lon, lat});
+  }
+  Coastline coastline = coastlineOf(
+      {polygonFeature(1, land), polygonFeature(2, land), polygonFeature(3, graticuleRing(-180, 180, -90, 90))},
+      wgs84());
+  coastline.features[0].use = coastline.features[1].use = FeatureUse::Land;
+  coastline.features[2].use = FeatureUse::Frame;
+  const Projection projection = Projection::fitted(coastline, {0, 1, 2});
+  EXPECT_EQ(projection.description().find("oblique stereographic"), 0u) << projection.description();
+  for (const Point& p : land) expectFaithful(projection, p);
+}
+
 TEST(Fitted, RefusesAGlobeWithoutLand) {
   Ring all;
   for (int lon = -180; lon <= 180; lon += 5) all.push_back({static_cast<double>(lon), -90});
