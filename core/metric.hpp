@@ -21,6 +21,11 @@ inline double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b
 inline double squaredLength(const Point& a) { return dot(a, a); }
 inline double squaredDistance(const Point& a, const Point& b) { return squaredLength(b - a); }
 inline double distance(const Point& a, const Point& b) { return std::sqrt(squaredDistance(a, b)); }
+inline double squaredDistanceToSegment(const Point& p, const Point& a, const Point& b) {
+  const double square = squaredDistance(a, b);
+  const double share = square > 0.0 ? std::clamp(dot(p - a, b - a) / square, 0.0, 1.0) : 0.0;
+  return squaredDistance(p, a + share * (b - a));
+}
 inline Point midpoint(const Point& a, const Point& b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
 
 // The angle at b on the way a, b, c, in radians, 0 to pi.

@@ -7,6 +7,7 @@
 #include "gis/clean_faces.hpp"
 #include "gis/clean_pinches.hpp"
 #include "gis/clean_simplify.hpp"
+#include "gis/domain_of_edges.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -67,25 +68,6 @@ void keepFramedEdits(const Coastline& coastline, const std::vector<std::size_t>&
   report.edits.erase(kept, report.edits.end());
 }
 
-// Only the vertices that are used, in their order.
-Domain compact(const CleanVertices& vertices, LabelledEdges&& edges, const Projection& projection) {
-  std::vector<Segment>& segments = edges.segments;
-  Domain domain;
-  domain.projection = projection;
-  std::vector<VertexId> renumbered(vertices.plane.size(), kNone);
-  for (const Segment& s : segments) renumbered[s.a] = renumbered[s.b] = 0;
-  for (const VertexId v : edges.points) renumbered[v] = 0;
-  for (VertexId v = 0; v < renumbered.size(); ++v) {
-    if (renumbered[v] == kNone) continue;
-    renumbered[v] = static_cast<VertexId>(domain.pslg.points.size());
-    domain.pslg.points.push_back(vertices.plane[v]);
-    domain.input_points.push_back(vertices.input[v]);
-  }
-  for (Segment& s : segments) s.a = renumbered[s.a], s.b = renumbered[s.b];
-  domain.pslg.segments = std::move(segments);
-  return domain;
-}
-
 }  // namespace
 
 std::string_view toString(EditKind kind) {
@@ -140,7 +122,7 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
     labelled.segments =
         openPinches(chains.vertices, std::move(labelled.segments), coastline, projection, chains.snap, report);
   }
-  return compact(chains.vertices, std::move(labelled), projection);
+  return domainOf(chains.vertices, std::move(labelled), projection);
 }
 
 }  // namespace coastmesh

@@ -7,6 +7,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "gis/box_tree.hpp"
 #include "gis/chain_index.hpp"
@@ -28,14 +29,6 @@ std::vector<std::uint32_t> outsideSectors(std::size_t vertices, const std::vecto
 
 std::int64_t fidBeside(const Segment& s, const Coastline& coastline) {
   return coastline.features[static_cast<std::size_t>(std::max(s.left, s.right))].fid;
-}
-
-double distance(const Point& p, const Point& q) { return std::hypot(q.x - p.x, q.y - p.y); }
-
-double distanceToSegment(const Point& p, const Point& a, const Point& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
-  return distance(p, {a.x + t * dx, a.y + t * dy});
 }
 
 // The angle from vp counter-clockwise to vq, in (0, 2 pi).
@@ -384,7 +377,7 @@ class PinchOpener {
       const Segment& s = segments_[number];
       const Point &a = at(s.a), &b = at(s.b);
       if (holds(a) || holds(b) || clashes(a, b)) return false;
-      if (s.a != v && s.b != v && distanceToSegment(notch.tip, a, b) < gap / 2) return false;
+      if (s.a != v && s.b != v && squaredDistanceToSegment(notch.tip, a, b) < gap * gap / 4) return false;
     }
     return true;
   }

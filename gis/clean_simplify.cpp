@@ -6,6 +6,7 @@
 #include <queue>
 #include <unordered_set>
 
+#include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "gis/box_tree.hpp"
 #include "gis/segment_tags.hpp"
@@ -27,13 +28,6 @@ struct Piece {
   std::vector<VertexId> dropped;
   bool alive = true;
 };
-
-double squaredDistance(const Point& p, const Point& a, const Point& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const double t = square > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
-  const double ex = a.x + t * dx - p.x, ey = a.y + t * dy - p.y;
-  return ex * ex + ey * ey;
-}
 
 class Simplifier {
  public:
@@ -129,9 +123,9 @@ class Simplifier {
   double costOf(VertexId v) const {
     const auto [first, second] = links_[v].segment;
     const Point &a = at(other(first, v)), &b = at(other(second, v));
-    double cost = squaredDistance(at(v), a, b);
+    double cost = squaredDistanceToSegment(at(v), a, b);
     for (const std::uint32_t s : {first, second}) {
-      for (const VertexId d : pieces_[s].dropped) cost = std::max(cost, squaredDistance(at(d), a, b));
+      for (const VertexId d : pieces_[s].dropped) cost = std::max(cost, squaredDistanceToSegment(at(d), a, b));
     }
     return cost;
   }
@@ -232,7 +226,7 @@ std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdg
   simplifier.restrictTo([&](VertexId v, VertexId p, VertexId q) {
     if (!std::ranges::binary_search(edges.traces, v)) return false;
     const Point &a = vertices.input[p], &b = vertices.input[q];
-    return std::abs(a.x - b.x) < 180 && squaredDistance(vertices.input[v], a, b) <= grain * grain;
+    return std::abs(a.x - b.x) < 180 && squaredDistanceToSegment(vertices.input[v], a, b) <= grain * grain;
   });
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));

@@ -10,6 +10,7 @@
 #include "gis/clean_chains.hpp"
 #include "gis/clean_faces.hpp"
 #include "gis/clean_simplify.hpp"
+#include "gis/domain_of_edges.hpp"
 #include "gis/segment_tags.hpp"
 
 namespace coastmesh {
@@ -157,20 +158,8 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const Coastline& c
   const auto tolerance = [&](VertexId v) { return share[v] < 0.0 ? -1.0 : share[v] * size.at(vertices.plane[v]); };
   edges.segments = simplifyEdges(vertices, edges, coastline, tolerance, report);
 
-  Domain coarse;
-  coarse.projection = domain.projection;
+  Domain coarse = domainOf(vertices, std::move(edges), domain.projection);
   coarse.pslg.holes = std::move(domain.pslg.holes);
-  std::vector<VertexId> renumbered(vertices.plane.size(), kNone);
-  for (const Segment& s : edges.segments) renumbered[s.a] = renumbered[s.b] = 0;
-  for (const VertexId v : edges.points) renumbered[v] = 0;
-  for (VertexId v = 0; v < renumbered.size(); ++v) {
-    if (renumbered[v] == kNone) continue;
-    renumbered[v] = static_cast<VertexId>(coarse.pslg.points.size());
-    coarse.pslg.points.push_back(vertices.plane[v]);
-    coarse.input_points.push_back(vertices.input[v]);
-  }
-  for (Segment& s : edges.segments) s.a = renumbered[s.a], s.b = renumbered[s.b];
-  coarse.pslg.segments = std::move(edges.segments);
   return coarse;
 }
 

@@ -7,29 +7,15 @@
 #include "core/check.hpp"
 #include "core/delaunay.hpp"
 #include "gis/clean.hpp"
+#include "tests/support/cleaned.hpp"
 #include "tests/support/gis_shapes.hpp"
 #include "tests/support/pslg_check.hpp"
 
 namespace coastmesh {
 namespace {
 
-struct Cleaned {
-  Domain domain;
-  CleanReport report;
-
-  std::uint64_t count(EditKind kind) const { return report.counts[static_cast<std::size_t>(kind)]; }
-  double area(RegionId region) const { return labelledArea(domain.pslg, region); }
-  std::size_t segments() const { return domain.pslg.segments.size(); }
-};
-
 Cleaned cleanWith(const std::vector<Feature>& features, Pinches pinches, double snap = 0) {
-  const Coastline coastline = coastlineOf(features);
-  Cleaned cleaned;
-  cleaned.domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(),
-                                 {.snap_m = snap, .pinches = pinches}, cleaned.report);
-  EXPECT_EQ(defectOfLabelled(cleaned.domain.pslg), "");
-  EXPECT_EQ(cleaned.domain.pslg.points.size(), cleaned.domain.input_points.size());
-  return cleaned;
+  return cleanInPlane(features, {.snap_m = snap, .pinches = pinches});
 }
 
 // Vertices in which the triangles of the domain touch without sharing an edge.
