@@ -84,6 +84,12 @@ ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::st
   return child.wait();
 }
 
+std::string inputFile(const std::string& name) {
+  const fs::path path = fs::path(COASTMESH_CLI_INPUTS) / name;
+  if (!fs::exists(path)) throw std::runtime_error("no input " + path.string());
+  return path.string();
+}
+
 std::string readText(const fs::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();

@@ -22,6 +22,9 @@ ProgramRun runProgram(const std::vector<std::string>& arguments);
 // Starts the program, sends `signal_number` once its standard output holds `awaited`, and waits for its end.
 ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::string& awaited, int signal_number);
 
+// A file of tests/cli/inputs.
+std::string inputFile(const std::string& name);
+
 std::string readText(const std::filesystem::path& path);
 void writeText(const std::filesystem::path& path, const std::string& text);
 
