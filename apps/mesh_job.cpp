@@ -11,6 +11,7 @@
 #include "apps/grid_pieces.hpp"
 #include "apps/mesh_group.hpp"
 #include "apps/stopwatch.hpp"
+#include "gis/grid_edit.hpp"
 #include "parallel/recorder.hpp"
 
 namespace coastmesh {
@@ -67,36 +68,6 @@ void addRefusal(const JobInput& input, std::size_t group, GroupResult&& part, Me
   refusal.reason = std::move(part.refusal);
   refusal.place = part.refusal_place;
   result.refusals.push_back(std::move(refusal));
-}
-
-// Appends `part` to `whole`, its indices shifted.
-void appendGrid(Grid& whole, Grid&& part) {
-  if (whole.triangles.empty()) {
-    whole = std::move(part);
-    return;
-  }
-  const auto node_shift = static_cast<std::uint32_t>(whole.nodes.size());
-  const auto feature_shift = static_cast<std::uint32_t>(whole.features.size());
-  for (auto& corners : part.triangles) {
-    for (std::uint32_t& node : corners) node += node_shift;
-  }
-  for (std::uint32_t& feature : part.feature_of) feature += feature_shift;
-  const std::uint32_t piece_shift = whole.piece_of.empty() ? 0 : std::ranges::max(whole.piece_of) + 1;
-  for (std::uint32_t& piece : part.piece_of) piece += piece_shift;
-  for (Boundary& boundary : part.boundaries) {
-    for (std::uint32_t& node : boundary.nodes) node += node_shift;
-  }
-  const auto append = [](auto& to, auto& from) { std::move(from.begin(), from.end(), std::back_inserter(to)); };
-  append(whole.nodes, part.nodes);
-  append(whole.z, part.z);
-  append(whole.size_m, part.size_m);
-  append(whole.triangles, part.triangles);
-  append(whole.feature_of, part.feature_of);
-  append(whole.piece_of, part.piece_of);
-  append(whole.min_angle_deg, part.min_angle_deg);
-  append(whole.area_m2, part.area_m2);
-  append(whole.features, part.features);
-  append(whole.boundaries, part.boundaries);
 }
 
 void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, MeshJobResult& result,

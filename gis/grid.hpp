@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,16 @@ struct Boundary {
   std::vector<double> weir{};               // of a weir: heights and coefficients, the same number a node
 };
 
+// A line inside the mesh that the user named: a chain of nodes along edges, with the mesh on both sides; a closed one does
+// not repeat its first node.
+enum class LineKind { Constraint, Weir, RegionBorder };
+struct GridLine {
+  LineKind kind = LineKind::Constraint;
+  std::string name;
+  bool closed = false;
+  std::vector<std::uint32_t> nodes;
+};
+
 // Where a triangle came from.
 struct GridFeature {
   std::int64_t fid = 0;
@@ -56,8 +67,24 @@ struct Grid {
   std::vector<double> area_m2;                          // empty or one a triangle, on the ellipsoid
   std::vector<GridFeature> features;
   std::vector<Boundary> boundaries;
+  std::vector<GridLine> lines;
   std::vector<std::string> notes;  // what a file says of itself and is not so: "NETA is 12, but 11 nodes follow"
 };
+
+// The arrays that have one entry a node, and one a triangle: what edits a grid goes through these. Each names every
+// member of Grid, so that a new one does not compile until it is put here where it belongs.
+template <typename AnyGrid>
+auto nodeArrays(AnyGrid& grid) {
+  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, min_angle_deg, area_m2, features, boundaries,
+         lines, notes] = grid;
+  return std::tie(nodes, z, size_m);
+}
+template <typename AnyGrid>
+auto triangleArrays(AnyGrid& grid) {
+  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, min_angle_deg, area_m2, features, boundaries,
+         lines, notes] = grid;
+  return std::tie(triangles, feature_of, piece_of, min_angle_deg, area_m2);
+}
 
 // The grid of several meshed domains, in their order. `coastline.features` gives names; nodes of the PSLG come back
 // with the input's own bits, Steiner points through the domain's inverse projection.

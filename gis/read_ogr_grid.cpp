@@ -19,6 +19,7 @@
 #include "core/predicates.hpp"
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
+#include "gis/grid_edit.hpp"
 #include "gis/grid_layers.hpp"
 #include "gis/ogr_support.hpp"
 
@@ -141,15 +142,6 @@ std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
   return order;
 }
 
-template <typename T>
-void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-  if (values.empty()) return;
-  std::vector<T> sorted;
-  sorted.reserve(values.size());
-  for (const std::uint32_t i : order) sorted.push_back(std::move(values[i]));
-  values = std::move(sorted);
-}
-
 void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid, NodeIndex& index) {
   if (companion.layer == nullptr) return;
   LayerReader reader(*companion.layer, companion.path, errors);
@@ -172,10 +164,7 @@ void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& gr
                                   : std::numeric_limits<double>::quiet_NaN());
   }
   if (!has_z) grid.z.clear();
-  const std::vector<std::uint32_t> order = orderOf(ids);
-  reorder(grid.nodes, order);
-  reorder(grid.z, order);
-  reorder(grid.size_m, order);
+  orderNodes(grid, orderOf(ids));
   for (std::uint32_t i = 0; i < grid.nodes.size(); ++i) index.emplace(grid.nodes[i], i);
 }
 
@@ -207,19 +196,6 @@ class FeatureTable {
   std::map<std::tuple<std::int64_t, std::string, std::string>, std::uint32_t> index_;
 };
 
-// Numbers the features in the order of their first triangles, for files that hold triangles in an order of their own.
-void sortFeatures(Grid& grid) {
-  std::vector<std::uint32_t> rank(grid.features.size(), kNone), order;
-  for (std::uint32_t& feature : grid.feature_of) {
-    if (rank[feature] == kNone) {
-      rank[feature] = static_cast<std::uint32_t>(order.size());
-      order.push_back(feature);
-    }
-    feature = rank[feature];
-  }
-  reorder(grid.features, order);
-}
-
 void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
   const int id_field = reader.field("id"), angle_field = reader.field("min_angle"),
             area_field = reader.field("area_m2");
@@ -236,21 +212,14 @@ void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
   if (!ids.empty()) {
     const std::vector<std::uint32_t> order = orderOf(ids);
     reorder(corners, order);
-    reorder(grid.min_angle_deg, order);
-    reorder(grid.area_m2, order);
-    reorder(grid.feature_of, order);
+    orderTriangles(grid, order);
     sortFeatures(grid);
   }
-  const bool has_z = !grid.z.empty(), has_size = !grid.size_m.empty();
   for (const auto& places : corners) {
     auto& triangle = grid.triangles.emplace_back();
     for (unsigned i = 0; i < 3; ++i) {
       const auto [at, added] = index.emplace(places[i], static_cast<std::uint32_t>(grid.nodes.size()));
-      if (added) {
-        grid.nodes.push_back(places[i]);
-        if (has_z) grid.z.push_back(std::numeric_limits<double>::quiet_NaN());
-        if (has_size) grid.size_m.push_back(std::numeric_limits<double>::quiet_NaN());
-      }
+      if (added) addNode(grid, places[i]);
       triangle[i] = at->second;
     }
   }

@@ -12,6 +12,7 @@
 #include "core/quality.hpp"
 #include "gis/error.hpp"
 #include "gis/geodesy.hpp"
+#include "gis/grid_edit.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/rim_boundaries.hpp"
 
@@ -21,7 +22,7 @@ namespace {
 constexpr int kMostRounds = 40;
 constexpr double kMoveApart = 0.05;  // of the way into the fan of triangles that gets a node of its own
 
-using Corners = std::array<std::uint32_t, 3>;
+using Corners = GridCorners;
 
 NodePair keyOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -69,6 +70,7 @@ class Repairer {
                        " refuses are taken out: each stood alone; a smaller --size-max makes more of them");
     for (auto& [target, defect] : findDefects()) report_.left.emplace_back(target, std::move(defect));
     measureChanged();
+    requireConsistent(grid_);
     return std::move(report_);
   }
 
@@ -113,6 +115,29 @@ class Repairer {
       for (const std::uint32_t node : grid_.triangles[t]) triangles_at_[node].push_back(t);
     touched_.assign(grid_.triangles.size(), false);
     dead_.assign(grid_.triangles.size(), false);
+    line_edges_.clear();
+    for (const GridLine& line : grid_.lines)
+      for (const auto& [a, b] : edgesOf({BoundaryRole::Land, line.closed, line.nodes})) line_edges_.insert(keyOf(a, b));
+  }
+
+  std::uint32_t featureOf(std::uint32_t t) const { return grid_.feature_of.empty() ? 0 : grid_.feature_of[t]; }
+
+  // An inner edge that has to stay: it is part of a line, or features meet there.
+  bool isFixed(std::uint32_t a, std::uint32_t b, std::uint32_t left, std::uint32_t right) const {
+    return line_edges_.contains(keyOf(a, b)) || featureOf(left) != featureOf(right);
+  }
+  // The other ends of such edges at a node.
+  std::set<std::uint32_t> fixedNeighbours(std::uint32_t node) const {
+    std::set<std::uint32_t> fixed;
+    std::map<std::uint32_t, std::uint32_t> triangle_at;  // one with the edge to a neighbour
+    for (const std::uint32_t t : triangles_at_[node]) {
+      for (const std::uint32_t other : grid_.triangles[t]) {
+        if (other == node) continue;
+        const std::uint32_t seen = triangle_at.try_emplace(other, t).first->second;
+        if (isFixed(node, other, t, seen)) fixed.insert(other);
+      }
+    }
+    return fixed;
   }
 
   void tell(TargetDefectKind kind, Target target, const Point& place, std::string what) {
@@ -227,16 +252,11 @@ class Repairer {
     const auto fans = fansAt(node);
     for (std::size_t f = 1; f < fans.size(); ++f) {
       const Point place = grid_.nodes[node];
-      Point inwards{0.0, 0.0};
-      for (const std::uint32_t t : fans[f]) {
-        for (const std::uint32_t corner : grid_.triangles[t]) {
-          inwards.x += (grid_.nodes[corner].x - place.x) / 3.0 / static_cast<double>(fans[f].size());
-          inwards.y += (grid_.nodes[corner].y - place.y) / 3.0 / static_cast<double>(fans[f].size());
-        }
-      }
-      const auto twin = static_cast<std::uint32_t>(grid_.nodes.size());
-      grid_.nodes.push_back({place.x + kMoveApart * inwards.x, place.y + kMoveApart * inwards.y});
-      if (!grid_.z.empty()) grid_.z.push_back(double{grid_.z[node]});
+      std::vector<Point> corners;
+      for (const std::uint32_t t : fans[f])
+        for (const std::uint32_t corner : grid_.triangles[t]) corners.push_back(grid_.nodes[corner]);
+      const std::uint32_t twin = detachTriangles(
+          grid_, node, fans[f], placeBetween(grid_.crs, place, meanPlace(grid_.crs, corners), kMoveApart));
       for (const std::uint32_t t : fans[f]) {
         for (unsigned i = 0; i < 3; ++i) {
           const std::uint32_t a = mesh_.origin(edgeRef(t, i)), b = mesh_.target(edgeRef(t, i));
@@ -245,7 +265,6 @@ class Repairer {
           kinds_[keyOf(twin, other)] = kinds_[keyOf(node, other)];
           kinds_.erase(keyOf(node, other));
         }
-        std::ranges::replace(grid_.triangles[t], node, twin);
       }
       const std::vector<Point> plane = localPlane(grid_.crs, std::array{place, grid_.nodes[twin]});
       tell(TargetDefectKind::PinchedNode, target, place,
@@ -294,7 +313,15 @@ class Repairer {
     std::vector<PatchTriangle> triangles;
     RimKinds halves;             // edges of the rim that splitting made
     std::vector<NodePair> gone;  // and the one it split
+    Point fresh{};               // of the node that is to be added, which has the number after the grid's last
   };
+
+  std::vector<Point> planeOf(const Patch& patch, std::span<const std::uint32_t> nodes) const {
+    std::vector<Point> places;
+    for (const std::uint32_t node : nodes)
+      places.push_back(node < grid_.nodes.size() ? grid_.nodes[node] : patch.fresh);
+    return localPlane(grid_.crs, places);
+  }
 
   Patch patchRound(const std::vector<std::uint32_t>& middle) const {
     std::set<std::uint32_t> members;
@@ -318,7 +345,7 @@ class Repairer {
     Score score{0, 180.0};
     std::map<NodePair, std::vector<std::uint32_t>> apexes;
     for (const PatchTriangle& triangle : patch.triangles) {
-      const std::vector<Point> p = localPlane(grid_, triangle.v);
+      const std::vector<Point> p = planeOf(patch, triangle.v);
       if (orient2d(p[0], p[1], p[2]) <= 0) return {std::numeric_limits<int>::max(), 0.0};
       const auto angles = anglesDeg(p[0], p[1], p[2]);
       score.min_angle = std::min(score.min_angle, std::ranges::min(angles));
@@ -337,7 +364,7 @@ class Repairer {
       for (const auto& [edge, ends] : apexes) {
         if (ends.size() != 2) continue;
         const std::array<std::uint32_t, 4> nodes{edge[0], edge[1], ends[0], ends[1]};
-        std::vector<Point> p = localPlane(grid_, nodes);
+        std::vector<Point> p = planeOf(patch, nodes);
         if (orient2d(p[0], p[1], p[2]) < 0) std::swap(p[0], p[1]);
         score.defects += orthogonality(p[0], p[1], p[2], p[3]) > 0.5;
       }
@@ -379,17 +406,20 @@ class Repairer {
     return *std::ranges::find_if(triangle.v, [&](std::uint32_t node) { return node != a && node != b; });
   }
 
-  static std::optional<Patch> flipped(Patch patch, std::uint32_t a, std::uint32_t b) {
+  std::optional<Patch> flipped(Patch patch, std::uint32_t a, std::uint32_t b) const {
     const auto left = findEdge(patch, a, b), right = findEdge(patch, b, a);
     if (!left || !right) return std::nullopt;
+    if (isFixed(a, b, patch.triangles[*left].source, patch.triangles[*right].source)) return std::nullopt;
     const std::uint32_t c = apexOf(patch.triangles[*left], a, b), d = apexOf(patch.triangles[*right], a, b);
     patch.triangles[*left].v = {a, d, c};
     patch.triangles[*right].v = {d, b, c};
     return patch;
   }
 
-  // `middle` is a new node on the edge.
-  std::optional<Patch> split(Patch patch, std::uint32_t a, std::uint32_t b, std::uint32_t middle) const {
+  // The patch with a new node on the edge.
+  Patch split(Patch patch, std::uint32_t a, std::uint32_t b, double share) const {
+    const auto middle = static_cast<std::uint32_t>(grid_.nodes.size());
+    patch.fresh = placeBetween(grid_.crs, grid_.nodes[a], grid_.nodes[b], share);
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
       const auto side = findEdge(patch, from, to);
       if (!side) continue;
@@ -433,17 +463,19 @@ class Repairer {
     Score best = scoreOf(before, before);
     const int defects_before = best.defects;
     std::optional<Patch> chosen;
-    Point chosen_place;
+    const std::set<std::uint32_t> fixed = fixedNeighbours(node);
     for (std::size_t first = 0; first < n; ++first) {
       // From `first` on, `half` triangles go to the new node.
-      Point middle{0.0, 0.0};
+      std::vector<Point> places;
       std::set<NodePair> moved;
+      bool moves_fixed = false;
       for (std::size_t k = 0; k <= half; ++k) {
-        const std::uint32_t a = ring[(first + k) % n];
-        middle.x += (grid_.nodes[a].x - place.x) / static_cast<double>(half + 1);
-        middle.y += (grid_.nodes[a].y - place.y) / static_cast<double>(half + 1);
-        if (k < half) moved.insert({a, ring[(first + k + 1) % n]});
+        places.push_back(grid_.nodes[ring[(first + k) % n]]);
+        if (k < half) moved.insert({ring[(first + k) % n], ring[(first + k + 1) % n]});
+        moves_fixed = moves_fixed || (k > 0 && k < half && fixed.contains(ring[(first + k) % n]));
       }
+      if (moves_fixed) continue;
+      const Point middle = meanPlace(grid_.crs, places);
       Patch patch = before;
       std::uint32_t source = kNone;
       for (PatchTriangle& triangle : patch.triangles) {
@@ -457,19 +489,15 @@ class Repairer {
       patch.triangles.push_back({{node, ring[first], fresh}, kNone, source});
       patch.triangles.push_back({{node, fresh, ring[(first + half) % n]}, kNone, source});
       for (const double share : {0.3, 0.5, 0.7}) {
-        const Point fresh_place{place.x + share * middle.x, place.y + share * middle.y};
-        grid_.nodes.push_back(fresh_place);
+        patch.fresh = placeBetween(grid_.crs, place, middle, share);
         const Score score = scoreOf(patch, before);
-        grid_.nodes.pop_back();
         if (score.defects >= defects_before || (chosen && !score.betterThan(best))) continue;
         best = score;
         chosen = patch;
-        chosen_place = fresh_place;
       }
     }
     if (!chosen) return;
-    grid_.nodes.push_back(chosen_place);
-    if (!grid_.z.empty()) grid_.z.push_back(double{grid_.z[node]});
+    copyNode(grid_, node, chosen->fresh);
     put(*chosen);
     tell(defect.kind, target, defect.place, "node split in two");
   }
@@ -492,39 +520,29 @@ class Repairer {
     Score best = scoreOf(before, before);
     const int defects_before = best.defects;
     std::optional<Patch> chosen;
-    std::string what;
-    Point chosen_place;
-    double chosen_z = 0.0;
-    const auto consider = [&](const std::optional<Patch>& patch, const char* text, const Point& place, double z) {
-      if (!patch) return;
-      const Score score = scoreOf(*patch, before);
+    NodePair edge{};
+    std::optional<double> split_at;  // the share of the edge, none where it is flipped
+    const auto consider = [&](const Patch& patch, const NodePair& at_edge, std::optional<double> share) {
+      const Score score = scoreOf(patch, before);
       if (score.defects >= defects_before || (chosen && !score.betterThan(best))) return;
       best = score;
       chosen = patch;
-      what = text;
-      chosen_place = place;
-      chosen_z = z;
+      edge = at_edge;
+      split_at = share;
     };
-    const auto fresh = static_cast<std::uint32_t>(grid_.nodes.size());
     for (const auto& [a, b] : edges) {
-      consider(flipped(before, a, b), "edge flipped", {}, 0.0);
-      for (const double at : {0.5, 0.4, 0.6, 0.3, 0.7}) {
-        const Point &p = grid_.nodes[a], &q = grid_.nodes[b];
-        const Point place{p.x + at * (q.x - p.x), p.y + at * (q.y - p.y)};
-        const double z = grid_.z.empty() ? 0.0 : grid_.z[a] + at * (grid_.z[b] - grid_.z[a]);
-        grid_.nodes.push_back(place);
-        consider(split(before, a, b, fresh), "edge split", place, z);
-        grid_.nodes.pop_back();
-      }
+      if (const auto patch = flipped(before, a, b)) consider(*patch, {a, b}, std::nullopt);
+      for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7}) consider(split(before, a, b, share), {a, b}, share);
     }
     if (!chosen) return;
-    const bool has_new = std::ranges::count(chosen->triangles, kNone, &PatchTriangle::slot) > 0;
-    if (has_new) {
-      grid_.nodes.push_back(chosen_place);
-      if (!grid_.z.empty()) grid_.z.push_back(chosen_z);
-    }
+    if (split_at) splitEdge(edge[0], edge[1], *split_at);
     put(*chosen);
-    tell(defect.kind, target, defect.place, what);
+    tell(defect.kind, target, defect.place, split_at ? "edge split" : "edge flipped");
+  }
+
+  void splitEdge(std::uint32_t a, std::uint32_t b, double share) {
+    const std::uint32_t middle = addNodeBetween(grid_, a, b, share);
+    if (line_edges_.erase(keyOf(a, b)) > 0) line_edges_.insert({keyOf(a, middle), keyOf(middle, b)});
   }
 
   void put(const Patch& patch) {
@@ -532,10 +550,7 @@ class Repairer {
     for (const auto& [edge, kind] : patch.halves) kinds_[edge] = kind;
     for (const PatchTriangle& triangle : patch.triangles) {
       if (triangle.slot == kNone) {
-        grid_.triangles.push_back(triangle.v);
-        if (!grid_.feature_of.empty()) grid_.feature_of.push_back(std::uint32_t{grid_.feature_of[triangle.source]});
-        if (!grid_.min_angle_deg.empty()) grid_.min_angle_deg.push_back(0.0);
-        if (!grid_.area_m2.empty()) grid_.area_m2.push_back(0.0);
+        copyTriangle(grid_, triangle.source, triangle.v);
         changed_.push_back(true);
         touched_.push_back(true);
         dead_.push_back(false);
@@ -556,7 +571,7 @@ class Repairer {
       if (report_.repairs.size() == before) splitNode(node, defect, target);
       return;
     }
-    if (round.size() < 3) return;
+    if (round.size() < 3 || !fixedNeighbours(node).empty()) return;
     if (std::ranges::any_of(round, [&](std::uint32_t t) { return touched_[t] || dead_[t]; })) return;
     Corners corners = grid_.triangles[round[0]];
     // What the other two have and the first has not takes the node's place.
@@ -570,40 +585,14 @@ class Repairer {
 
   // --- What remains. ---
 
-  template <typename T>
-  static void keep(std::vector<T>& values, const std::vector<bool>& gone) {
-    if (values.empty()) return;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!gone[i]) values[kept++] = values[i];
-    values.resize(kept);
-  }
-
   // Takes out dead triangles and nodes without triangles.
   void compact() {
-    keep(grid_.triangles, dead_);
-    keep(grid_.feature_of, dead_);
-    keep(grid_.min_angle_deg, dead_);
-    keep(grid_.area_m2, dead_);
-    std::size_t kept = 0;
+    const std::vector<std::uint32_t> triangle_index = removeTriangles(grid_, dead_);
+    std::vector<bool> changed(grid_.triangles.size(), false);
     for (std::size_t t = 0; t < changed_.size(); ++t)
-      if (!dead_[t]) changed_[kept++] = changed_[t];
-    changed_.resize(kept);
-    std::vector<std::uint32_t> index(grid_.nodes.size(), kNone);
-    for (const Corners& corners : grid_.triangles)
-      for (const std::uint32_t node : corners) index[node] = 0;
-    std::uint32_t count = 0;
-    for (std::size_t node = 0; node < index.size(); ++node) {
-      if (index[node] == kNone) continue;
-      index[node] = count;
-      grid_.nodes[count] = grid_.nodes[node];
-      if (!grid_.z.empty()) grid_.z[count] = grid_.z[node];
-      ++count;
-    }
-    grid_.nodes.resize(count);
-    if (!grid_.z.empty()) grid_.z.resize(count);
-    for (Corners& corners : grid_.triangles)
-      for (std::uint32_t& node : corners) node = index[node];
+      if (triangle_index[t] != kNone) changed[triangle_index[t]] = changed_[t];
+    changed_ = std::move(changed);
+    const std::vector<std::uint32_t> index = removeUnusedNodes(grid_);
     RimKinds kinds;
     for (const auto& [edge, kind] : kinds_)
       if (index[edge[0]] != kNone && index[edge[1]] != kNone) kinds[keyOf(index[edge[0]], index[edge[1]])] = kind;
@@ -641,6 +630,7 @@ class Repairer {
   std::vector<std::vector<std::uint32_t>> triangles_at_;
   std::vector<bool> touched_, dead_, changed_;
   RimKinds kinds_;
+  std::set<NodePair> line_edges_;
   Found pending_;
   bool boundaries_done_ = false;
 };

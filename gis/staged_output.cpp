@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "gis/error.hpp"
+#include "gis/grid_edit.hpp"
 #include "gis/grid_formats.hpp"
 #include "gis/grid_io.hpp"
 #include "gis/prj_file.hpp"
@@ -158,6 +159,7 @@ bool StagedOutput::keepsPrj(const Grid& grid) const {
 void StagedOutput::write(const Grid& grid) {
   assert(!staging_folder_.empty());
   if (grid.triangles.empty()) failToWrite(path_, "the mesh has no triangles");
+  requireConsistent(grid);
   const fs::path staging(staging_folder_);
   std::error_code error;
   for (const fs::path& earlier : filesIn(staging)) {
