@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Meshes a lake and a sea with a synthetic DEM, in one command each into the formats of all models, and reads them with
-readers of its own and with netCDF4 where it is installed: sound grids, right depths, boundaries as drawn.
+readers of its own and with netCDF4: sound grids, right depths, boundaries as drawn. Exit code 1 for a difference, else 77
+where a Python module that is needed is not installed.
 
   check_models.py --program build/release/bin/coastmesh --lake data/lake_superior.geojson [--keep DIR] [--dem-mib 64]
 
@@ -8,6 +9,7 @@ The DEM is written as a GeoTIFF of that size; with some thousand MiB it shows th
 """
 
 import argparse
+import importlib.util
 import json
 import math
 import pathlib
@@ -18,7 +20,7 @@ import tempfile
 import strict_readers as readers
 
 OUTPUTS = ["fort.14", "hgrid.gr3", "mesh.nc", "mesh.msh", "mesh.slf", "mesh_grd.dat", "mesh.2dm", "mesh.vtu", "mesh_ww3.msh"]
-failed = []
+failed, missing = [], set()
 
 
 def expect(what, condition, detail=""):
@@ -112,7 +114,7 @@ def check_case(name, program, folder, arguments, targets, dem, tolerance, is_ope
         expect("mesh.nc: z positive up", data["mesh2d_node_z"].positive == "up")
         expect("mesh.nc: z", [-z for z in data["mesh2d_node_z"][:].tolist()] == grids["fort.14"]["depth"])
     except ImportError:
-        print("SKIPPED for want of netCDF4", file=sys.stderr)
+        missing.add("netCDF4")
     for target in targets:
         for output in OUTPUTS[:-1]:
             code = subprocess.run([program, "check", str(folder / output), "--target", target, "--quiet"]).returncode
@@ -132,6 +134,9 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the files; else a temporary one")
     parser.add_argument("--dem-mib", type=int, default=16)
     options = parser.parse_args()
+    if not (importlib.util.find_spec("numpy") and importlib.util.find_spec("osgeo")):
+        print("SKIPPED for want of numpy and GDAL's Python module", file=sys.stderr)
+        return 77
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.keep or pathlib.Path(temporary)
         folder.mkdir(exist_ok=True)
@@ -155,8 +160,10 @@ def main():
         on_frame = lambda x, y: abs(x) < 1e-3 or abs(x - 10) < 1e-3 or abs(y - 50) < 1e-3 or abs(y - 60) < 1e-3
         check_case("Sea", options.program, sea, [str(land), *frame], targets, folder / "sea_dem.tif",
                    60 * pixel**2 / 4 + 1e-3, on_frame)
+    if missing:
+        print(f"SKIPPED for want of: {', '.join(sorted(missing))}", file=sys.stderr)
     print(f"{len(failed)} failures")
-    return 1 if failed else 0
+    return 1 if failed else 77 if missing else 0
 
 
 if __name__ == "__main__":
