@@ -11,15 +11,12 @@
 #include "gis/box_tree.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/rim_boundaries.hpp"
+#include "gis/target_limits.hpp"
 
 namespace coastmesh {
 namespace {
 
-constexpr double kLargestAngleDeg = 143.0;
-constexpr std::uint32_t kFewestCells = 4, kMostCells = 10;
-constexpr double kLargestCosine = 0.5;
-constexpr double kLargestCourant = 1.0, kLeastCourant = 0.4;
-constexpr double kGravity = 9.81;
+constexpr double kGravity = 9.81;  // m/s2
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
     "wrong count",     "broken edge",     "clockwise",      "unused node",    "repeated node",        "hanging node",
@@ -82,13 +79,13 @@ class TargetCheck {
         add(TargetDefectKind::OrphanCell, middle(t), static_cast<std::int64_t>(t));
       if (target_ != Target::Swan) continue;
       const double largest = std::ranges::max(anglesDeg(corners[0], corners[1], corners[2]));
-      if (largest > kLargestAngleDeg)
+      if (largest > kSwanLargestAngleDeg)
         add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
     }
   }
 
   void checkNodes() {
-    std::vector<std::uint32_t> cells(grid_.nodes.size(), 0), rim_starts(grid_.nodes.size(), 0);
+    std::vector<int> cells(grid_.nodes.size(), 0), rim_starts(grid_.nodes.size(), 0);
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       for (unsigned i = 0; i < 3; ++i) {
         ++cells[mesh_.triangles[t].v[i]];
@@ -101,7 +98,7 @@ class TargetCheck {
       if (rim_starts[node] > 1) add(TargetDefectKind::PinchedNode, place, -1, node, rim_starts[node]);
       if (!grid_.z.empty() && std::isnan(grid_.z[node])) add(TargetDefectKind::UnknownDepth, place, -1, node);
       const bool inner = cells[node] > 0 && rim_starts[node] == 0;
-      if (target_ == Target::Swan && inner && (cells[node] < kFewestCells || cells[node] > kMostCells))
+      if (target_ == Target::Swan && inner && (cells[node] < kSwanFewestCells || cells[node] > kSwanMostCells))
         add(TargetDefectKind::Valence, place, -1, node, cells[node]);
     }
     std::vector<std::uint32_t> order(grid_.nodes.size());
@@ -233,7 +230,7 @@ class TargetCheck {
         const std::array<std::uint32_t, 4> nodes{mesh_.origin(e), mesh_.target(e), mesh_.apex(e), mesh_.apex(twin)};
         const std::vector<Point> p = localPlane(grid_, nodes);
         const double cosine = orthogonality(p[0], p[1], p[2], p[3]);
-        if (cosine > kLargestCosine)
+        if (cosine > kDflowfmLargestCosine)
           add(TargetDefectKind::NotOrthogonal, middle(nodes[0], nodes[1]), t, nodes[0], cosine);
       }
     }
@@ -249,7 +246,7 @@ class TargetCheck {
           std::min({std::hypot(p[1].x - p[0].x, p[1].y - p[0].y), std::hypot(p[2].x - p[1].x, p[2].y - p[1].y),
                     std::hypot(p[0].x - p[2].x, p[0].y - p[2].y)});
       const double courant = std::sqrt(kGravity * depth) * options_.time_step_s / shortest;
-      if (target_ == Target::Schism ? courant < kLeastCourant : courant > kLargestCourant)
+      if (target_ == Target::Schism ? courant < kSchismLeastCourant : courant > kLargestCourant)
         add(TargetDefectKind::Courant, middle(t), static_cast<std::int64_t>(t), -1, courant);
     }
   }

@@ -34,8 +34,8 @@ enum class TargetDefectKind {
   TwoOpenEdges,    // a triangle with two open edges
   OpenAndSolid,    // a triangle with an open edge and a solid one
   LoneWall,        // a single solid edge between two openings, which codes at nodes cannot say
-  Valence,         // an inner node with fewer than 4 or more than 10 triangles
-  LargeAngle,      // an angle above 143 degrees
+  Valence,         // an inner node with too few or too many triangles
+  LargeAngle,      // an angle larger than the model takes
   NotOrthogonal,   // an edge that the line between the neighbours' centres crosses askew
   Courant,         // a triangle whose Courant number the time step puts out of range
 };
@@ -55,10 +55,8 @@ struct TargetCheckOptions {
   double time_step_s = 0.0;  // seconds; 0: Courant numbers are not looked at
 };
 
-// Everything that makes the model refuse the grid, by kind; boundaries are taken as they stand. Bounds: angles up to
-// 143 degrees and 4 to 10 triangles round an inner node for SWAN; cosines of at most 0.5 for D-FlowFM; Courant numbers
-// of sqrt(g depth) over the shortest edge of at most 1 for ADCIRC, FVCOM, TELEMAC and D-FlowFM, at least 0.4 for
-// SCHISM.
+// Everything that makes the model refuse the grid, by kind; boundaries are taken as they stand. The bounds are in
+// target_limits.hpp; a Courant number is sqrt(g depth) times the time step over the shortest edge.
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {});
 
 // D-FlowFM's measure at the edge from `a` to `b` between triangles with apexes `left` and `right`: the cosine of the

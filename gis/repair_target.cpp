@@ -15,6 +15,7 @@
 #include "gis/grid_edit.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/rim_boundaries.hpp"
+#include "gis/target_limits.hpp"
 
 namespace coastmesh {
 namespace {
@@ -349,7 +350,7 @@ class Repairer {
       if (orient2d(p[0], p[1], p[2]) <= 0) return {std::numeric_limits<int>::max(), 0.0};
       const auto angles = anglesDeg(p[0], p[1], p[2]);
       score.min_angle = std::min(score.min_angle, std::ranges::min(angles));
-      if (isFor(Target::Swan)) score.defects += std::ranges::max(angles) > 143.0;
+      if (isFor(Target::Swan)) score.defects += std::ranges::max(angles) > kSwanLargestAngleDeg;
       int open = 0, solid = 0;
       for (unsigned i = 0; i < 3; ++i) {
         const std::uint32_t a = triangle.v[next3(i)], b = triangle.v[prev3(i)];
@@ -366,7 +367,7 @@ class Repairer {
         const std::array<std::uint32_t, 4> nodes{edge[0], edge[1], ends[0], ends[1]};
         std::vector<Point> p = planeOf(patch, nodes);
         if (orient2d(p[0], p[1], p[2]) < 0) std::swap(p[0], p[1]);
-        score.defects += orthogonality(p[0], p[1], p[2], p[3]) > 0.5;
+        score.defects += orthogonality(p[0], p[1], p[2], p[3]) > kDflowfmLargestCosine;
       }
     }
     if (isFor(Target::Swan)) score.defects += badValences(patch, before);
@@ -390,7 +391,7 @@ class Repairer {
     int bad = 0;
     for (const auto& [node, count] : cells) {
       const bool inner = !on_rim.contains(node) && (node >= triangles_at_.size() || kindsAt(node).empty());
-      if (inner && count > 0) bad += std::max({0, 4 - count, count - 10});
+      if (inner && count > 0) bad += std::max({0, kSwanFewestCells - count, count - kSwanMostCells});
     }
     return bad;
   }

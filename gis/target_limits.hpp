@@ -1,0 +1,21 @@
+#pragma once
+
+namespace coastmesh {
+
+// What models take: `checkTarget` measures against these, and `repairForTargets` works towards them.
+
+// SWAN, SwanCheckGrid: it stops at an angle with a cosine of -0.8 or less (143.13 degrees), and at an inner node with
+// fewer or more triangles.
+inline constexpr double kSwanLargestAngleDeg = 143.0;
+inline constexpr int kSwanFewestCells = 4, kSwanMostCells = 10;
+
+// D-Flow FM, user manual, "orthogonality": the cosine of the angle between an edge and the line between the centres
+// beside it.
+inline constexpr double kDflowfmLargestCosine = 0.5;
+
+// Courant numbers: explicit schemes (ADCIRC, FVCOM, TELEMAC, D-Flow FM) want it small; SCHISM's scheme wants it large
+// (SCHISM's manual, "grid generation").
+inline constexpr double kLargestCourant = 1.0;
+inline constexpr double kSchismLeastCourant = 0.4;
+
+}  // namespace coastmesh
