@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "gis/error.hpp"
 #include "gis/ogr_support.hpp"
@@ -29,58 +30,89 @@ std::string subdatasetHint(GDALDataset& dataset) {
 struct RasterBand::Dataset {
   GDALDataset* dataset = nullptr;
   GDALRasterBand* band = nullptr;
-  GDALRasterBand* mask = nullptr;  // null where every pixel has a value
-  std::array<double, 6> to_pixel{};
+  std::vector<GDALRasterBand*> masks;  // 0 where a pixel has no value
+  std::optional<double> no_data;       // where the mask does not tell it
+  bool is_single = false;              // values are in single precision
   double scale = 1.0;
   double offset = 0.0;
 
   ~Dataset() {
     if (dataset != nullptr) GDALClose(dataset);
   }
+
+  bool isNoData(double value) const {
+    // A value of no data that single precision cannot say comes back rounded.
+    return no_data && (value == *no_data || (is_single && static_cast<float>(value) == static_cast<float>(*no_data)));
+  }
 };
 
-RasterBand::RasterBand(std::string path) : path_(std::move(path)), dataset_(std::make_unique<Dataset>()) {
+RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>()) {
+  geometry_.path = std::move(path);
+  const std::string& name = geometry_.path;
   GDALAllRegister();
   const OgrErrors errors;
   if (GDALGetCacheMax64() > kCacheBytes) GDALSetCacheMax64(kCacheBytes);
   Dataset& raster = *dataset_;
-  raster.dataset = GDALDataset::Open(path_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR);
-  if (raster.dataset == nullptr) throw InputError("cannot read '" + path_ + "' as a raster: " + errors.text());
+  raster.dataset = GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR);
+  if (raster.dataset == nullptr) throw InputError("cannot read '" + name + "' as a raster: " + errors.text());
   if (raster.dataset->GetRasterCount() == 0)
-    throw InputError("'" + path_ + "' has no raster band" + subdatasetHint(*raster.dataset));
+    throw InputError("'" + name + "' has no raster band" + subdatasetHint(*raster.dataset));
   raster.band = raster.dataset->GetRasterBand(1);
-  if ((raster.band->GetMaskFlags() & GMF_ALL_VALID) == 0) raster.mask = raster.band->GetMaskBand();
+  const GDALDataType type = raster.band->GetRasterDataType();
+  if (GDALDataTypeIsComplex(type))
+    throw InputError("'" + name + "': its first band holds complex numbers; give one of plain numbers");
+  const int mask = raster.band->GetMaskFlags();
+  if ((mask & GMF_ALL_VALID) == 0) raster.masks.push_back(raster.band->GetMaskBand());
+  // GDAL takes alpha bands of whole numbers only for masks.
+  for (int b = 2; b <= raster.dataset->GetRasterCount() && (mask & GMF_ALPHA) == 0; ++b) {
+    GDALRasterBand* const band = raster.dataset->GetRasterBand(b);
+    if (band->GetColorInterpretation() == GCI_AlphaBand) raster.masks.push_back(band);
+  }
+  // GDAL has one mask a band: where that is another, it says nothing of the value of no data.
+  int has_no_data = 0;
+  if ((mask & GMF_NODATA) == 0 && type != GDT_Int64 && type != GDT_UInt64) {
+    const double no_data = raster.band->GetNoDataValue(&has_no_data);
+    if (has_no_data != 0) raster.no_data = no_data;
+  }
+  raster.is_single = type == GDT_Float32;
   raster.scale = raster.band->GetScale();
   raster.offset = raster.band->GetOffset();
-  std::array<double, 6> to_place{};
+  std::array<double, 6>& to_place = geometry_.to_place;
   if (raster.dataset->GetGeoTransform(to_place.data()) != CE_None ||
-      !GDALInvGeoTransform(to_place.data(), raster.to_pixel.data()))
-    throw InputError("'" + path_ + "' does not say where its pixels lie (no geotransform); warp it with gdalwarp");
-  columns_ = raster.dataset->GetRasterXSize();
-  rows_ = raster.dataset->GetRasterYSize();
-  crs_ = fromOgr(raster.dataset->GetSpatialRef());
+      !GDALInvGeoTransform(to_place.data(), geometry_.to_pixel.data()))
+    throw InputError("'" + name + "' does not say where its pixels lie (no geotransform); warp it with gdalwarp");
+  geometry_.columns = raster.dataset->GetRasterXSize();
+  geometry_.rows = raster.dataset->GetRasterYSize();
+  geometry_.crs = fromOgr(raster.dataset->GetSpatialRef());
 
   int block_columns = 1, block_rows = 1;
   raster.band->GetBlockSize(&block_columns, &block_rows);
   const auto side = static_cast<std::int64_t>(std::sqrt(static_cast<double>(kTilePixels)));
   tile_columns_ = block_columns * std::max<std::int64_t>(1, side / block_columns);
   tile_rows_ = block_rows * std::max<std::int64_t>(1, kTilePixels / tile_columns_ / block_rows);
-  if (crs_.geographic && to_place[1] != 0.0) {
-    period_ = 360.0 / std::abs(to_place[1]);
-    wraps_ = std::abs(static_cast<double>(columns_) - period_) < 0.5;
-    if (wraps_) period_ = static_cast<double>(columns_);
+  if (geometry_.crs.geographic && to_place[1] != 0.0) {
+    geometry_.period = 360.0 / std::abs(to_place[1]);
+    geometry_.wraps = std::abs(geometry_.columns - geometry_.period) < 0.5;
+    if (geometry_.wraps) geometry_.period = geometry_.columns;
   }
 }
 
 RasterBand::~RasterBand() = default;
 RasterBand::RasterBand(RasterBand&&) noexcept = default;
 
-Point RasterBand::pixelOf(const Point& place) const {
-  const std::array<double, 6>& to = dataset_->to_pixel;
+RasterGeometry readRasterGeometry(const std::string& path) { return RasterBand(path).geometry(); }
+
+Point RasterGeometry::placeOf(const Point& pixel) const {
+  const std::array<double, 6>& to = to_place;
+  return {to[0] + to[1] * pixel.x + to[2] * pixel.y, to[3] + to[4] * pixel.x + to[5] * pixel.y};
+}
+
+Point RasterGeometry::pixelOf(const Point& place) const {
+  const std::array<double, 6>& to = to_pixel;
   Point pixel{to[0] + to[1] * place.x + to[2] * place.y, to[3] + to[4] * place.x + to[5] * place.y};
-  const auto width = static_cast<double>(columns_);
-  if (period_ > 0.0 && (pixel.x < 0.0 || pixel.x > width)) {
-    const double turned = pixel.x - period_ * std::floor(pixel.x / period_);
+  const double width = columns;
+  if (period > 0.0 && (pixel.x < 0.0 || pixel.x > width)) {
+    const double turned = pixel.x - period * std::floor(pixel.x / period);
     if (turned <= width) pixel.x = turned;
   }
   return pixel;
@@ -91,25 +123,28 @@ void RasterBand::readInto(const RasterWindow& window, double* values, std::int64
   const int column = static_cast<int>(window.column), row = static_cast<int>(window.row),
             columns = static_cast<int>(window.columns), rows = static_cast<int>(window.rows);
   const auto fail = [&] {
-    throw InputError("cannot read '" + path_ + "' at pixel " + std::to_string(column) + ", " + std::to_string(row) +
+    throw InputError("cannot read '" + path() + "' at pixel " + std::to_string(column) + ", " + std::to_string(row) +
                      ": " + errors.text());
   };
   if (dataset_->band->RasterIO(GF_Read, column, row, columns, rows, values, columns, rows, GDT_Float64, 0,
                                stride * static_cast<GSpacing>(sizeof(double)), nullptr) != CE_None)
     fail();
-  std::vector<GByte> mask;
-  if (dataset_->mask != nullptr) {
-    mask.resize(static_cast<std::size_t>(window.columns * window.rows));
-    if (dataset_->mask->RasterIO(GF_Read, column, row, columns, rows, mask.data(), columns, rows, GDT_Byte, 0, 0,
-                                 nullptr) != CE_None)
+  const auto count = static_cast<std::size_t>(window.columns * window.rows);
+  std::vector<bool> hidden(count, false);
+  std::vector<float> shown(dataset_->masks.empty() ? 0 : count);
+  for (GDALRasterBand* const mask : dataset_->masks) {
+    if (mask->RasterIO(GF_Read, column, row, columns, rows, shown.data(), columns, rows, GDT_Float32, 0, 0, nullptr) !=
+        CE_None)
       fail();
+    for (std::size_t i = 0; i < count; ++i)
+      if (shown[i] == 0.0F) hidden[i] = true;
   }
   for (std::int64_t r = 0; r < window.rows; ++r) {
     for (std::int64_t c = 0; c < window.columns; ++c) {
       double& value = values[r * stride + c];
-      const bool masked = !mask.empty() && mask[static_cast<std::size_t>(r * window.columns + c)] == 0;
-      value = masked || !std::isfinite(value) ? std::numeric_limits<double>::quiet_NaN()
-                                              : dataset_->offset + dataset_->scale * value;
+      const bool masked = hidden[static_cast<std::size_t>(r * window.columns + c)];
+      value = masked || !std::isfinite(value) || dataset_->isNoData(value) ? std::numeric_limits<double>::quiet_NaN()
+                                                                           : dataset_->offset + dataset_->scale * value;
     }
   }
 }
@@ -118,8 +153,8 @@ std::vector<double> RasterBand::read(const RasterWindow& window) const {
   std::vector<double> values(static_cast<std::size_t>(window.columns * window.rows));
   const std::int64_t end = window.column + window.columns;
   for (std::int64_t at = window.column; at < end;) {
-    const std::int64_t inside = wraps_ ? (at % columns_ + columns_) % columns_ : at;
-    const std::int64_t count = std::min(end - at, columns_ - inside);
+    const std::int64_t inside = wraps() ? (at % columns() + columns()) % columns() : at;
+    const std::int64_t count = std::min(end - at, columns() - inside);
     readInto({inside, window.row, count, window.rows}, values.data() + (at - window.column), window.columns);
     at += count;
   }

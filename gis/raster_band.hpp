@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -18,26 +19,44 @@ struct RasterWindow {
   std::int64_t rows = 0;
 };
 
-// The first band of a raster that GDAL reads, a window at a time. For one thread.
+// Where the pixels of a raster lie, without its values.
+struct RasterGeometry {
+  std::string path;
+  int columns = 0, rows = 0;
+  std::array<double, 6> to_place{};  // GDAL's geotransform
+  std::array<double, 6> to_pixel{};  // its inverse
+  Crs crs;                           // a plane where the raster tells none
+  double period = 0.0;               // columns after which longitudes repeat: 360 degrees of them; 0 for other CRS
+  bool wraps = false;                // the last column meets the first, to half a pixel
+
+  // A place of the raster's CRS in columns and rows, from the corner of the first pixel; longitudes in the turn that
+  // the raster has.
+  Point pixelOf(const Point& place) const;
+  Point placeOf(const Point& pixel) const;
+};
+
+// Throws InputError as `RasterBand` does.
+RasterGeometry readRasterGeometry(const std::string& path);
+
+// The first band of a raster that GDAL reads, a window at a time. For one thread. This alone reads rasters, so that what
+// is missing is missing for depths and sizes alike: pixels of no data, those that are no finite number, and those that a
+// mask (of the band, of the raster, an alpha band) leaves out.
 class RasterBand {
  public:
-  // Throws InputError, also for a raster without a place in its CRS.
+  // Throws InputError, also for a raster without a place in its CRS, and for complex numbers.
   explicit RasterBand(std::string path);
   ~RasterBand();
   RasterBand(RasterBand&&) noexcept;
   RasterBand& operator=(RasterBand&&) = delete;
 
-  const std::string& path() const { return path_; }
-  const Crs& crs() const { return crs_; }  // a plane where the raster tells none
-  std::int64_t columns() const { return columns_; }
-  std::int64_t rows() const { return rows_; }
-  // Columns after which longitudes repeat: 360 degrees of them; 0 where the raster is not of longitudes.
-  double period() const { return period_; }
-  bool wraps() const { return wraps_; }  // the last column meets the first
-
-  // A place of the raster's CRS in columns and rows, from the corner of the first pixel; longitudes in the turn that
-  // the raster has.
-  Point pixelOf(const Point& place) const;
+  const RasterGeometry& geometry() const { return geometry_; }
+  const std::string& path() const { return geometry_.path; }
+  const Crs& crs() const { return geometry_.crs; }
+  std::int64_t columns() const { return geometry_.columns; }
+  std::int64_t rows() const { return geometry_.rows; }
+  double period() const { return geometry_.period; }
+  bool wraps() const { return geometry_.wraps; }
+  Point pixelOf(const Point& place) const { return geometry_.pixelOf(place); }
   // The size of windows that are read with least effort: whole blocks of the file.
   std::int64_t tileColumns() const { return tile_columns_; }
   std::int64_t tileRows() const { return tile_rows_; }
@@ -51,15 +70,10 @@ class RasterBand {
 
   void readInto(const RasterWindow& window, double* values, std::int64_t stride) const;
 
-  std::string path_;
+  RasterGeometry geometry_;
   std::unique_ptr<Dataset> dataset_;
-  Crs crs_;
-  std::int64_t columns_ = 0;
-  std::int64_t rows_ = 0;
   std::int64_t tile_columns_ = 1;
   std::int64_t tile_rows_ = 1;
-  double period_ = 0.0;
-  bool wraps_ = false;
 };
 
 }  // namespace coastmesh

@@ -1,7 +1,5 @@
 #include "gis/size_raster.hpp"
 
-#include <gdal_priv.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,120 +25,28 @@ constexpr double kSteepShare = 0.6;
 // More surroundings than this, in pixels, are not looked at.
 constexpr int kMostMargin = 200;
 
-using Dataset = std::unique_ptr<GDALDataset>;
-
-Dataset open(const std::string& path, const OgrErrors& errors) {
-  GDALAllRegister();
-  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset || dataset->GetRasterCount() < 1) {
-    throw InputError(path + ": cannot be read as a raster" +
-                     (errors.text().empty() ? "; check the path" : " (" + errors.text() + ")"));
+// The tile's values with its margin: as far as the raster goes, which is round the Earth where it wraps.
+void readTile(const RasterBand& band, int x, int y, RasterTile& tile) {
+  const RasterGeometry& raster = band.geometry();
+  const int height = tile.height + 2 * tile.margin;
+  tile.values.assign(tile.stride() * static_cast<std::size_t>(height), std::nanf(""));
+  const int left = x - tile.margin, right = x + tile.width + tile.margin;
+  const int x0 = raster.wraps ? left : std::max(0, left), x1 = raster.wraps ? right : std::min(raster.columns, right);
+  const int y0 = std::max(0, y - tile.margin), y1 = std::min(raster.rows, y + tile.height + tile.margin);
+  if (x0 >= x1 || y0 >= y1) return;
+  const std::vector<double> values = band.read({x0, y0, x1 - x0, y1 - y0});
+  const auto columns = static_cast<std::size_t>(x1 - x0);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(y1 - y0); ++row) {
+    const std::size_t to = (row + static_cast<std::size_t>(y0 - y + tile.margin)) * tile.stride();
+    for (std::size_t column = 0; column < columns; ++column)
+      tile.values[to + column + static_cast<std::size_t>(x0 - left)] =
+          static_cast<float>(values[row * columns + column]);
   }
-  return dataset;
-}
-
-// Reads windows of one band, no data and beyond the rim as NaN, scale and offset applied. For one thread.
-class WindowReader {
- public:
-  explicit WindowReader(const RasterFile& raster) : raster_(raster), dataset_(open(raster.path, errors_)) {
-    GDALRasterBand& band = *dataset_->GetRasterBand(1);
-    int has = 0;
-    const double no_data = band.GetNoDataValue(&has);
-    if (has) no_data_ = no_data;
-    scale_ = band.GetScale(&has);
-    if (!has) scale_ = 1.0;
-    offset_ = band.GetOffset(&has);
-    if (!has) offset_ = 0.0;
-    is_double_ = band.GetRasterDataType() == GDT_Float64;
-  }
-
-  void read(int x, int y, RasterTile& tile) {
-    const int stride = static_cast<int>(tile.stride()), rows = tile.height + 2 * tile.margin;
-    tile.values.assign(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows), std::nanf(""));
-    const int x0 = std::max(0, x - tile.margin), y0 = std::max(0, y - tile.margin);
-    const int x1 = std::min(raster_.width, x + tile.width + tile.margin);
-    const int y1 = std::min(raster_.height, y + tile.height + tile.margin);
-    if (x0 >= x1 || y0 >= y1) return;
-    buffer_.resize(static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(y1 - y0));
-    errors_.clear();
-    if (dataset_->GetRasterBand(1)->RasterIO(GF_Read, x0, y0, x1 - x0, y1 - y0, buffer_.data(), x1 - x0, y1 - y0,
-                                             GDT_Float64, 0, 0) != CE_None) {
-      throw InputError(raster_.path + ": cannot be read at column " + std::to_string(x0) + ", row " +
-                       std::to_string(y0) + " (" + errors_.text() + ")");
-    }
-    for (int j = y0; j < y1; ++j) {
-      for (int i = x0; i < x1; ++i) {
-        const double raw = buffer_[static_cast<std::size_t>(j - y0) * static_cast<std::size_t>(x1 - x0) +
-                                   static_cast<std::size_t>(i - x0)];
-        if (isNoData(raw)) continue;
-        tile.values[static_cast<std::size_t>(j - y + tile.margin) * static_cast<std::size_t>(stride) +
-                    static_cast<std::size_t>(i - x + tile.margin)] = static_cast<float>(scale_ * raw + offset_);
-      }
-    }
-  }
-
- private:
-  bool isNoData(double raw) const {
-    if (!std::isfinite(raw)) return true;
-    // A value of no data that single precision cannot say comes back rounded.
-    return no_data_ && (raw == *no_data_ || (!is_double_ && static_cast<float>(raw) == static_cast<float>(*no_data_)));
-  }
-
-  const RasterFile& raster_;
-  OgrErrors errors_;
-  Dataset dataset_;
-  std::optional<double> no_data_;
-  double scale_ = 1.0, offset_ = 0.0;
-  bool is_double_ = false;
-  std::vector<double> buffer_;
-};
-
-Point toPixel(const RasterFile& raster, const Point& ground) {
-  const auto& to_pixel = raster.to_pixel;
-  Point pixel{to_pixel[0] + to_pixel[1] * ground.x + to_pixel[2] * ground.y,
-              to_pixel[3] + to_pixel[4] * ground.x + to_pixel[5] * ground.y};
-  if (raster.wraps) {
-    pixel.x -= raster.width * std::floor(pixel.x / raster.width);
-  } else if (raster.crs.geographic && raster.to_ground[1] != 0.0 && (pixel.x < 0.0 || pixel.x > raster.width)) {
-    // The same meridian, a turn on or back.
-    const double turn = 360.0 / std::abs(raster.to_ground[1]);
-    const double other = pixel.x < 0.0 ? pixel.x + turn : pixel.x - turn;
-    if (other >= 0.0 && other <= raster.width) pixel.x = other;
-  }
-  return pixel;
-}
-
-Point toGround(const RasterFile& raster, const Point& pixel) {
-  const auto& g = raster.to_ground;
-  return {g[0] + g[1] * pixel.x + g[2] * pixel.y, g[3] + g[4] * pixel.x + g[5] * pixel.y};
 }
 
 }  // namespace
 
-RasterFile openRaster(const std::string& path) {
-  const OgrErrors errors;
-  const Dataset dataset = open(path, errors);
-  RasterFile raster;
-  raster.path = path;
-  raster.width = dataset->GetRasterXSize();
-  raster.height = dataset->GetRasterYSize();
-  if (dataset->GetGeoTransform(raster.to_ground.data()) != CE_None) {
-    throw InputError(path +
-                     ": has no georeference, so its pixels lie nowhere; give it one with gdal_translate -a_ullr");
-  }
-  if (!GDALInvGeoTransform(raster.to_ground.data(), raster.to_pixel.data())) {
-    throw InputError(path + ": its georeference folds all pixels into a line; correct it");
-  }
-  if (GDALDataTypeIsComplex(dataset->GetRasterBand(1)->GetRasterDataType())) {
-    throw InputError(path + ": its first band holds complex numbers; give one of plain numbers");
-  }
-  const OGRSpatialReference* srs = dataset->GetSpatialRef();
-  if (srs && !srs->IsEmpty()) raster.crs = fromOgr(srs);
-  raster.wraps = raster.crs.geographic && std::abs(raster.width * raster.to_ground[1] - 360.0) < 1e-6 * 360.0;
-  return raster;
-}
-
-RasterField::RasterField(const RasterFile& raster, const Crs& input, const Projection& projection, const Box& box,
+RasterField::RasterField(const RasterGeometry& raster, const Crs& input, const Projection& projection, const Box& box,
                          const TileRule& rule, const ItemLoop& loop)
     : raster_(raster) {
   // From the working plane to the raster's own coordinates: both CRS, where there are two.
@@ -149,7 +55,7 @@ RasterField::RasterField(const RasterFile& raster, const Crs& input, const Proje
     map.emplace(toOgr(input), toOgr(raster.crs));
   const auto pixelOf = [raster, map, projection](const Point& x) {
     const Point ground = projection.inverse(x);
-    return toPixel(raster, map ? map->forward(ground) : ground);
+    return raster.pixelOf(map ? map->forward(ground) : ground);
   };
   constexpr double kPixelTolerance = 0.1;
   to_pixel_ = std::make_unique<PlaneTable>(pixelOf, box, kPixelTolerance);
@@ -170,8 +76,8 @@ RasterField::RasterField(const RasterFile& raster, const Crs& input, const Proje
   const auto tileOf = [](double pixel, int most) {
     return static_cast<int>(std::floor(std::clamp(pixel, 0.0, static_cast<double>(most)) / kTile));
   };
-  window_ = {tileOf(pixels.xmin, raster.width), tileOf(pixels.ymin, raster.height),
-             tileOf(pixels.xmax, raster.width - 1) + 1, tileOf(pixels.ymax, raster.height - 1) + 1};
+  window_ = {tileOf(pixels.xmin, raster.columns), tileOf(pixels.ymin, raster.rows),
+             tileOf(pixels.xmax, raster.columns - 1) + 1, tileOf(pixels.ymax, raster.rows - 1) + 1};
   if (pixels.xmax < 0.0 || pixels.ymax < 0.0 || window_[0] >= window_[2] || window_[1] >= window_[3]) {
     window_ = {0, 0, 0, 0};
     return;
@@ -180,21 +86,21 @@ RasterField::RasterField(const RasterFile& raster, const Crs& input, const Proje
   tiles_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
 
   const auto planeOf = [&](const Point& pixel) {
-    const Point ground = toGround(raster_, pixel);
+    const Point ground = raster_.placeOf(pixel);
     return projection.forward(map ? map->inverse(ground) : ground);
   };
   forStretches(
       loop, tiles_.size(),
       [&](std::size_t first, std::size_t last) {
-        WindowReader reader(raster_);
+        const RasterBand band(raster_.path);
         RasterTile tile;
         tile.file = raster_.path;
         std::vector<float> sizes;
         for (std::size_t t = first; t < last; ++t) {
           const int x = (window_[0] + static_cast<int>(t % static_cast<std::size_t>(columns))) * kTile;
           const int y = (window_[1] + static_cast<int>(t / static_cast<std::size_t>(columns))) * kTile;
-          tile.width = std::min(kTile, raster_.width - x);
-          tile.height = std::min(kTile, raster_.height - y);
+          tile.width = std::min(kTile, raster_.columns - x);
+          tile.height = std::min(kTile, raster_.rows - y);
           const Point middle{x + 0.5 * tile.width, y + 0.5 * tile.height};
           const Point at = planeOf(middle);
           const double scale = projection.scaleAt(at);
@@ -216,7 +122,7 @@ RasterField::RasterField(const RasterFile& raster, const Crs& input, const Proje
             }
             tile.margin = 1 + static_cast<int>(margin);
           }
-          reader.read(x, y, tile);
+          readTile(band, x, y, tile);
           sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);
           rule.sizes(tile, sizes);
           tiles_[t] = compress(tile, sizes);
@@ -307,7 +213,7 @@ RasterField::Tile RasterField::compress(const RasterTile& tile, std::span<const 
 
 // The size at a pixel; infinite beyond what was kept.
 float RasterField::pixel(std::int64_t x, std::int64_t y) const {
-  if (raster_.wraps) x = (x % raster_.width + raster_.width) % raster_.width;
+  if (raster_.wraps) x = (x % raster_.columns + raster_.columns) % raster_.columns;
   const std::int64_t column = x / kTile - window_[0], row = y / kTile - window_[1];
   if (x < 0 || y < 0 || column < 0 || row < 0 || column >= window_[2] - window_[0] || row >= window_[3] - window_[1])
     return kNothing;
@@ -325,8 +231,8 @@ void RasterField::sample(std::span<const Point> places, std::span<double> sizes)
     const Point p = to_pixel_->at(places[i]);
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
     // Half a pixel beyond the last centres, the nearest counts.
-    if (!raster_.wraps && (p.x < 0.0 || p.x > raster_.width)) continue;
-    if (p.y < 0.0 || p.y > raster_.height) continue;
+    if (!raster_.wraps && (p.x < 0.0 || p.x > raster_.columns)) continue;
+    if (p.y < 0.0 || p.y > raster_.rows) continue;
     const double u = p.x - 0.5, v = p.y - 0.5;
     const double x = std::floor(u), y = std::floor(v);
     double sum = 0.0, weight = 0.0;
@@ -373,7 +279,7 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
     }
     const double extent = known ? std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) : 0.0;
     // A box across the seam of a raster that wraps, or beyond what the projection reaches, may hold anything.
-    if (!known || (raster_.wraps && extent > 0.5 * raster_.width)) {
+    if (!known || (raster_.wraps && extent > 0.5 * raster_.columns)) {
       ranges[i] = {0.0, kInfinity};
       continue;
     }
@@ -382,10 +288,10 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
         static_cast<std::int64_t>(std::floor(pixels.xmin)), static_cast<std::int64_t>(std::floor(pixels.ymin)),
         static_cast<std::int64_t>(std::ceil(pixels.xmax)), static_cast<std::int64_t>(std::ceil(pixels.ymax))};
     const bool within = window[0] >= (raster_.wraps ? -kTile : 0) && window[1] >= 0 &&
-                        window[2] <= raster_.width + (raster_.wraps ? kTile : 0) && window[3] <= raster_.height;
+                        window[2] <= raster_.columns + (raster_.wraps ? kTile : 0) && window[3] <= raster_.rows;
     SizeRange range{kInfinity, within ? 0.0 : kInfinity};
     for (std::int64_t turn = raster_.wraps ? -1 : 0; turn <= (raster_.wraps ? 1 : 0); ++turn) {
-      const std::int64_t shift = turn * raster_.width;
+      const std::int64_t shift = turn * raster_.columns;
       const auto tileOf = [](std::int64_t pixel, int low, int high) {
         return static_cast<int>(std::clamp<std::int64_t>(pixel >= 0 ? pixel / kTile : -1, low, high));
       };

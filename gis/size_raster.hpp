@@ -14,22 +14,10 @@
 #include "gis/crs.hpp"
 #include "gis/plane_table.hpp"
 #include "gis/projection.hpp"
+#include "gis/raster_band.hpp"
 #include "gis/size_field.hpp"
 
 namespace coastmesh {
-
-// What a raster file says of itself; its values are read in blocks, never as a whole.
-struct RasterFile {
-  std::string path;
-  int width = 0, height = 0;          // pixels
-  std::array<double, 6> to_ground{};  // GDAL's geotransform
-  std::array<double, 6> to_pixel{};   // its inverse
-  Crs crs;                            // a plane where the file does not say
-  bool wraps = false;                 // columns go once round the Earth
-};
-
-// Throws InputError: unreadable, no georeference, no band of numbers.
-RasterFile openRaster(const std::string& path);
 
 // A square of pixels while it is looked at, with some of its surroundings.
 struct RasterTile {
@@ -58,7 +46,7 @@ class RasterField final : public SizeField {
  public:
   // Of the part of the raster that `box` of the working plane lies in. `input` is the CRS that `projection` starts from. Throws
   // InputError.
-  RasterField(const RasterFile& raster, const Crs& input, const Projection& projection, const Box& box,
+  RasterField(const RasterGeometry& raster, const Crs& input, const Projection& projection, const Box& box,
               const TileRule& rule, const ItemLoop& loop);
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
@@ -78,7 +66,7 @@ class RasterField final : public SizeField {
   void boundIn(const Tile& tile, std::uint32_t node, int x, int y, int side, const std::array<std::int64_t, 4>& window,
                SizeRange& range) const;
 
-  RasterFile raster_;
+  RasterGeometry raster_;
   std::unique_ptr<PlaneTable> to_pixel_;
   std::array<int, 4> window_{};  // of the tiles kept: first column and row, and the ends
   std::vector<Tile> tiles_;      // in rows

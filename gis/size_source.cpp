@@ -125,11 +125,11 @@ TileRule rawRule() {
       }};
 }
 
-std::unique_ptr<SizeField> rasterFields(const std::vector<RasterFile>& rasters, const Crs& input,
+std::unique_ptr<SizeField> rasterFields(const std::vector<RasterGeometry>& rasters, const Crs& input,
                                         const Projection& projection, const Box& box, const TileRule& rule,
                                         const ItemLoop& loop) {
   std::vector<std::unique_ptr<SizeField>> fields;
-  for (const RasterFile& raster : rasters)
+  for (const RasterGeometry& raster : rasters)
     fields.push_back(std::make_unique<RasterField>(raster, input, projection, box, rule, loop));
   if (fields.size() == 1) return std::move(fields.front());
   return std::make_unique<FirstOfFields>(std::move(fields));
@@ -169,9 +169,9 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   inputs.crs = crs;
   for (const std::string& path : options.features)
     inputs.features.push_back(readSizedFeatures(path, crs, options.grade));
-  for (const std::string& path : options.rasters) inputs.rasters.push_back(openRaster(path));
+  for (const std::string& path : options.rasters) inputs.rasters.push_back(readRasterGeometry(path));
   if (options.depth.any() || options.time_step_s > 0.0)
-    for (const std::string& path : options.bathymetry) inputs.bathymetry.push_back(openRaster(path));
+    for (const std::string& path : options.bathymetry) inputs.bathymetry.push_back(readRasterGeometry(path));
   return inputs;
 }
 

@@ -46,7 +46,7 @@ struct SizeOptions {
 // What the options name, read once for all groups of features.
 struct SizeInputs {
   std::vector<SizedFeatures> features;
-  std::vector<RasterFile> rasters, bathymetry;
+  std::vector<RasterGeometry> rasters, bathymetry;
   Crs crs;  // of the input
 };
 

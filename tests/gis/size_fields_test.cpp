@@ -1,6 +1,7 @@
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
+#include <unistd.h>
 
 #include <GeographicLib/Geodesic.hpp>
 #include <algorithm>
@@ -49,7 +50,8 @@ class SizeFiles : public ::testing::Test {
   void SetUp() override {
     GDALAllRegister();
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / (std::string("coastmesh-sizes-") + test->name());
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("coastmesh-sizes-") + std::to_string(getpid()) + test->name());
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
