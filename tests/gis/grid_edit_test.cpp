@@ -325,6 +325,18 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
       grid.z[node] = zAt(p);
       grid.size_m[node] = sizeOfZ(grid.z[node]);
     }
+    // Others so close to the lines that angles on these want flips of their edges.
+    for (const std::uint32_t k : {1u, 3u, 6u, 8u}) {
+      const auto below_weir = 2 * (kSide + 1) + k, beside_border = k * (kSide + 1) + 4;
+      if (below(random, 2) == 0) grid.nodes[below_weir].y = 2880.0;
+      if (below(random, 2) == 0) grid.nodes[beside_border].x = kBorderX - 120.0;
+      for (const std::uint32_t node : {below_weir, beside_border}) {
+        grid.z[node] = zAt(grid.nodes[node]);
+        grid.size_m[node] = sizeOfZ(grid.z[node]);
+      }
+    }
+    // Where features meet is kept without a line, too.
+    if (below(random, 2) == 0) std::erase_if(grid.lines, [](const GridLine& line) { return line.name == "border"; });
     // A triangle of its own, and a node of none.
     const std::uint32_t lone = addNode(grid, {-900.0, 0.0});
     addNode(grid, {-900.0, 500.0});
@@ -373,6 +385,31 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
   EXPECT_GT(split, 5u);
   EXPECT_GT(flipped, 5u);
   EXPECT_GT(taken_out, 5u);
+}
+
+// Nodes that repairs make lie between those that they are made from, where longitudes jump too.
+TEST(RepairTarget, NodesAcrossTheAntimeridian) {
+  std::size_t made = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Grid grid = valuedGrid(random, [](int i, int j) { return !(i == 5 && j == 5) && !(i == 4 && j == 6); });
+    grid.lines.clear();
+    grid.z.clear();
+    grid.size_m.clear();
+    grid.crs = wgs84();
+    for (Point& p : grid.nodes) {
+      if (below(random, 12) == 0 && p.y > 500.0 && p.y < 9500.0) p.y += 600.0;
+      p = {180.0 + (p.x - kBorderX) * 1e-5, p.y * 1e-5};
+      if (p.x > 180.0) p.x -= 360.0;
+    }
+    const std::size_t before = grid.nodes.size();
+    const RepairReport report = repairForTargets(grid, std::array{Target::Swan, Target::Dflowfm});
+    EXPECT_GT(std::ranges::count(report.repairs, TargetDefectKind::PinchedNode, &Repair::kind), 0);
+    made += grid.nodes.size() - std::min(before, grid.nodes.size());
+    for (const Point& p : grid.nodes) EXPECT_TRUE(std::abs(p.x) > 179.9 && std::abs(p.x) <= 180.0) << p.x;
+  }
+  EXPECT_GT(made, 10u);
 }
 
 // A line through a node that is doubled goes on with the triangles that it runs along.
