@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -101,7 +102,8 @@ TEST_F(Commands, CheckFindsDefectsAndPlacesThem) {
   words >> tag >> id >> a >> b >> c >> material;
   text.replace(line, text.find('\n', line) - line, "E3T 1 " + b + " " + a + " " + c + " " + material);
   const ProgramRun turned = runProgram({"check", write("turned.2dm", text)});
-  EXPECT_NE(turned.code, 0) << turned.output;
+  EXPECT_EQ(turned.code, 1) << turned.errors;
+  EXPECT_THAT(turned.output, testing::HasSubstr("triangle not counter-clockwise: 1"));
 }
 
 TEST_F(Commands, ConvertKeepsTheMesh) {
