@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -42,6 +43,12 @@ void showWarnings(const MeshJobResult& result) {
     std::fprintf(stderr, "coastmesh: warning: left out: %zu more, which --report lists\n",
                  result.refusals.size() - shown);
   }
+}
+
+// Why there is no mesh at all.
+std::string reasonOf(const std::vector<Refusal>& refusals) {
+  if (refusals.size() == 1) return refusals.front().reason;
+  return "none of the " + std::to_string(refusals.size()) + " parts of the input can be meshed";
 }
 
 // The outputs that a run leaves behind when it ends well.
@@ -105,12 +112,12 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   result.seconds.total = secondsSince(start);
   if (!usage.report.empty()) outputs.writeReport(meshReport(usage.job, result, threadsAsked(usage.job.parallel)));
   outputs.commit();
-  if (!any && result.refusals.empty()) throw InputError(result.last_unwanted);
-  if (!any) {
-    throw InputError(result.refusals.size() == 1 ? result.refusals.front().reason
-                                                 : "none of the " + std::to_string(result.refusals.size()) +
-                                                       " parts of the input can be meshed");
+  if (!any && !result.refusals.empty() && std::ranges::all_of(result.refusals, &Refusal::over_budget)) {
+    std::fprintf(stderr, "coastmesh: error: %s\n", reasonOf(result.refusals).c_str());
+    return kExitShort;
   }
+  if (!any && result.refusals.empty()) throw InputError(result.last_unwanted);
+  if (!any) throw InputError(reasonOf(result.refusals));
 
   display.show("done", 1.0);
   display.clear();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -12,6 +13,7 @@
 #include "apps/stopwatch.hpp"
 #include "core/check.hpp"
 #include "core/delaunay.hpp"
+#include "core/estimate_vertices.hpp"
 #include "gis/chain_index.hpp"
 #include "gis/coast_follow.hpp"
 #include "gis/error.hpp"
@@ -48,6 +50,44 @@ std::pair<double, double> scaleRange(const Domain& domain) {
   return {least, greatest};
 }
 
+// At its peak, of the whole program, with what GIS layers take besides: measured.
+constexpr double kBytesPerVertex = 600.0;
+// Estimates are right to half as much; what asks for more than this many times the budget is not begun.
+constexpr double kClearlyMore = 2.0;
+constexpr double kMostTold = 1e18;
+
+double mostVertices(const GroupRoom& room) {
+  return std::min(kClearlyMore * static_cast<double>(room.vertices), room.memory / kBytesPerVertex);
+}
+
+std::string amount(const char* format, double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool over_budget, bool shared) {
+  const VertexDemand& demand = error.demand;
+  std::string text = "these sizes ";
+  if (demand.map_too_large) {
+    text += "change so much that a map of them takes more than the mesh may, most of all near ";
+  } else {
+    text += demand.vertices > kMostTold ? "ask for more than " : "ask for about ";
+    text += amount("%.2g", std::min(demand.vertices, kMostTold)) + " vertices, most of them near ";
+  }
+  text += pointText(demand.place);
+  if (std::isfinite(demand.size_m)) text += ", where " + demand.option + amount(" asks for %.3g m", demand.size_m);
+  text += "; ";
+  if (over_budget) {
+    text += "--max-vertices allows " + std::to_string(room.vertices);
+    if (shared) text += " here, this feature's share by points";
+  } else {
+    text += "there is memory for about " + amount("%.2g", room.memory / kBytesPerVertex);
+  }
+  text += ": ask for larger ones, or give a larger --size-min";
+  return over_budget ? text + " or --max-vertices" : text;
+}
+
 MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t budget) {
   MeshOptions options = job.mesh;
   options.refine.max_vertices = budget;
@@ -56,6 +96,14 @@ MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t b
     options.refine.size_max *= domain.projection.scaleAt(centreOf(domain.pslg));
   }
   return options;
+}
+
+// Where `--size-max` is only a bound there is no map of sizes, but no mesh has fewer vertices than equilateral triangles of that size.
+void requireMemory(const MeshJob& job, const Domain& domain, const GroupRoom& room, std::optional<double> area_m2) {
+  if (job.sizes.any() || !area_m2 || !std::isfinite(job.sizes.most_m)) return;
+  const double least = 2.0 / std::sqrt(3.0) * *area_m2 / job.sizes.most_m / job.sizes.most_m;
+  if (std::min(least, static_cast<double>(room.vertices)) * kBytesPerVertex <= room.memory) return;
+  throw TooManyVertices({least, domain.projection.inverse(centreOf(domain.pslg)), job.sizes.most_m, "--size-max"});
 }
 
 // Leaves the failing region where its finder can send it from.
@@ -166,7 +214,7 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
 }
 
 void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
-               std::uint64_t budget, const RunControl& control, GroupResult& result) {
+               const GroupRoom& room, const RunControl& control, GroupResult& result) {
   const Stopwatch cleaning;
   Recorder clean_recorder;
   CleanReport clean;
@@ -185,18 +233,25 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   result.clean_s = cleaning.seconds();
   result.log.append(clean_recorder.finish("clean"));
 
-  MeshOptions options = optionsFor(job, domain, budget);
+  requireMemory(job, domain, room, result.input_area_m2);
+  MeshOptions options = optionsFor(job, domain, room.vertices);
   std::unique_ptr<SizeFunction> size;
   if (job.sizes.any()) {
     Recorder recorder;
     const Stopwatch sizing;
-    size = makeSizeFunction(job.sizes, sizes, domain, recorder.loop("size", control));
+    auto [function, demand] =
+        makeSizeFunction(job.sizes, sizes, domain, mostVertices(room), recorder.loop("size", control));
+    size = std::move(function);
     options.refine.size = size.get();
     if (job.sizes.coast == CoastDetail::Follow) {
       CleanReport coarser;
       domain = followSizes(std::move(domain), *size, input.coastline(), coarser);
       for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     }
+    demand.vertices +=
+        verticesOfSegments(domain.pslg, *size, std::max(0.0, 2.0 * mostVertices(room) - demand.vertices));
+    result.estimated_vertices = demand.vertices;
+    if (demand.vertices > mostVertices(room)) throw TooManyVertices(demand);
     result.size_s = sizing.seconds();
     result.log.append(recorder.finish());
   }
@@ -236,13 +291,24 @@ void refuse(const BadPslg& error, const JobInput& input, std::size_t group, Grou
   result.refusal = featureText(first) + ": " + error.what() + " at " + pointText(*result.refusal_place);
 }
 
+void refuse(const TooManyVertices& error, const GroupRoom& room, std::uint64_t whole_budget, const Feature& first,
+            GroupResult& result) {
+  result.estimated_vertices = std::min(error.demand.vertices, kMostTold);
+  result.over_budget = kClearlyMore * static_cast<double>(room.vertices) <= room.memory / kBytesPerVertex;
+  result.refusal_place = error.demand.place;
+  result.refusal =
+      featureText(first) + ": " + demandText(error, room, result.over_budget, room.vertices < whole_budget);
+}
+
 }  // namespace
 
 GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
-                      std::uint64_t budget, const RunControl& control) {
+                      const GroupRoom& room, const RunControl& control) {
   GroupResult result;
   try {
-    fillGroup(job, input, sizes, group, budget, control, result);
+    fillGroup(job, input, sizes, group, room, control, result);
+  } catch (const TooManyVertices& error) {
+    refuse(error, room, job.mesh.refine.max_vertices, input.coastline().features[input.members(group).front()], result);
   } catch (const NothingWanted& nothing) {
     result.unwanted = nothing.what();
   } catch (const InputError& error) {

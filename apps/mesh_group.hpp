@@ -22,16 +22,24 @@ struct GroupResult {
   double check_s = 0.0;
   MeshSeconds mesh_s;
   std::size_t pieces = 1;
-  WorkLog log;          // of all that was done
-  std::string refusal;  // empty where it was meshed, or nothing of it was wanted
+  WorkLog log;                      // of all that was done
+  double estimated_vertices = 0.0;  // from the sizes asked for; 0 where there are none
+  std::string refusal;              // empty where it was meshed, or nothing of it was wanted
+  bool over_budget = false;         // refused because its sizes ask for clearly more than `--max-vertices`
   std::optional<Point> refusal_place;
   std::string unwanted;            // why nothing of it was wanted, where that is so
   std::vector<std::string> notes;  // what cleaning decided
 };
 
-// Projects, cleans, meshes and checks a group of at most `budget` vertices. What cannot be meshed is told in `refusal`.
-// Throws Cancelled, BadMesh.
+// What a group's mesh may take.
+struct GroupRoom {
+  std::uint64_t vertices = 0;  // its share of `--max-vertices`
+  double memory = 0.0;         // bytes
+};
+
+// Projects, cleans, meshes and checks a group. What cannot be meshed is told in `refusal`: so is that its sizes ask for clearly more
+// than there is room for, before that is taken. Throws Cancelled, BadMesh.
 GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
-                      std::uint64_t budget, const RunControl& control);
+                      const GroupRoom& room, const RunControl& control);
 
 }  // namespace coastmesh

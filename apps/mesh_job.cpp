@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "apps/available_memory.hpp"
 #include "apps/grid_pieces.hpp"
 #include "apps/mesh_group.hpp"
 #include "apps/stopwatch.hpp"
@@ -67,6 +68,7 @@ void addRefusal(const JobInput& input, std::size_t group, GroupResult&& part, Me
   refusal.source = input.coastline().features[input.members(group).front()].source;
   refusal.reason = std::move(part.refusal);
   refusal.place = part.refusal_place;
+  refusal.over_budget = part.over_budget;
   result.refusals.push_back(std::move(refusal));
 }
 
@@ -74,6 +76,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
               Stage& small_groups) {
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += part.edits[kind];
   result.seconds.clean += part.clean_s;
+  result.estimated_vertices += part.estimated_vertices;
   std::ranges::move(part.notes, std::back_inserter(result.read.notes));
   if (!part.unwanted.empty()) {
     ++result.read.beyond_frame;
@@ -195,11 +198,12 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const std::vector<std::size_t> order = workOrder(points);
   GroupProgress progress(points, control);
   OrderedMerge merge(input, result);
+  const double memory = availableMemory();
   forEachItem(order.size(), RunControl{control.cancelled, {}}, [&](std::size_t i) {
     const std::size_t g = order[i];
     const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
-    merge.add(g, meshGroup(job, input, sizes, g, budget, inner));
+    merge.add(g, meshGroup(job, input, sizes, g, {budget, memory}, inner));
     progress.report(g, 1.0);
   });
   merge.finish();

@@ -44,6 +44,7 @@ struct Refusal {
   std::vector<std::int64_t> fids;
   std::string reason;
   std::optional<Point> place;  // in the input's CRS, where one is known
+  bool over_budget = false;    // its sizes ask for clearly more than `max_vertices`
 };
 
 // A triangle short of the bounds that no input angle explains.
@@ -79,10 +80,11 @@ struct MeshJobResult {
   std::string first_projection;                      // of the first region, with its parameters
   std::string first_projection_reason;
   double least_scale = std::numeric_limits<double>::infinity(), greatest_scale = 0.0;  // plane over true length
-  std::uint64_t regions = 0;  // groups of features that were meshed
-  std::uint64_t pieces = 0;   // that they were cut into
-  WorkLog log;                // groups that were cut, one after another, then the others
-  RefineStats refine;         // `unresolved` is empty: see below
+  std::uint64_t regions = 0;        // groups of features that were meshed
+  std::uint64_t pieces = 0;         // that they were cut into
+  WorkLog log;                      // groups that were cut, one after another, then the others
+  double estimated_vertices = 0.0;  // from the sizes asked for, of what was refused too; 0 where there are none
+  RefineStats refine;               // `unresolved` is empty: see below
   std::uint64_t unresolved = 0;
   std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them
   std::vector<Refusal> refusals;

@@ -55,6 +55,7 @@ Json refineSection(const MeshJob& job, const MeshJobResult& result) {
           {"size_max_m", finiteOrNull(job.sizes.most_m)},
           {"sized", job.sizes.any()},
           {"grade", job.sizes.grade},
+          {"estimated_vertices", job.sizes.any() ? finiteOrNull(std::round(result.estimated_vertices)) : Json(nullptr)},
           {"shrink", job.mesh.shrink},
           {"smooth", job.mesh.smooth},
           {"steiner_points", stats.steiner_points},
@@ -165,6 +166,9 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
                 quality.min_angle_deg, quality.max_angle_deg, result.seconds.total, peakMemoryMib());
   std::string text = grouped(quality.vertices) + " vertices, " + grouped(quality.triangles) + " triangles, " +
                      grouped(result.refine.steiner_points) + " Steiner points\n" + figures + "\n";
+  if (job.sizes.any())
+    text += "about " + grouped(static_cast<std::uint64_t>(std::min(result.estimated_vertices, 1e18))) +
+            " vertices were to be expected of these sizes\n";
   if (quality.below_bound_explained > 0) {
     text += grouped(quality.below_bound_explained) + " triangles at input angles too small for the bound\n";
   }

@@ -37,8 +37,9 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   declareInputOptions(line, usage.job.input);
   declarePinches(line, usage.job.input);
   declareFinishOptions(line, usage.job.finish);
-  line.integer("--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
-               "stop refining at so many vertices, with exit code 1");
+  line.integer(
+      "--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
+      "stop refining at so many vertices, with exit code 1; where sizes ask for clearly more, nothing is made");
   line.flag("--cut,!--no-cut", usage.cut, "cut large seas into pieces, to be refined at the same time");
   line.flag("--mark-pieces", usage.job.mesh.mark_pieces,
             "write which piece each triangle was refined in, to .nc, for plot --color piece");

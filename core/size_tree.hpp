@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,15 @@ class SizeSource {
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
   // Whether anyone will ask for lengths within the box: elsewhere the tree stays as coarse as it can.
   virtual bool isWanted(const SizeBox&) const { return true; }
+  // How much of the box is to be meshed, 0 to 1.
+  virtual double share(const SizeBox& box) const { return isWanted(box) ? 1.0 : 0.0; }
+};
+
+// How many vertices lengths ask for: the integral of 2 / (sqrt(3) h²) over what is to be meshed.
+struct SizeDemand {
+  double vertices = 0.0;
+  SizeBox most_in;    // of the tree's cells the one that asks for the most
+  double size = 0.0;  // the length there, plane units
 };
 
 struct SizeTreeOptions {
@@ -42,6 +52,8 @@ struct SizeTreeOptions {
   double finest = 0.25;
   double tolerance = 0.04;                // relative
   std::uint32_t most_cells = 64'000'000;  // past that no cell is split
+  // Where the lengths certainly ask for more vertices, the tree is not finished.
+  double most_vertices = std::numeric_limits<double>::infinity();
 };
 
 // A size function on a quadtree: cells about as large as the lengths wanted there, coarser where these hardly change, so that memory
@@ -60,13 +72,16 @@ class SizeTree final : public SizeFunction {
   SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,
            const ItemLoop& loop = inOrder);
 
+  // REQUIRES, as do the bounds: `isComplete()`.
   double at(const Point& x) const override;
   double least() const override { return least_; }
   double most() const override { return most_; }
   std::size_t cells() const { return cells_.size(); }
   std::size_t leaves() const { return leaves_.size(); }
-  // Whether `most_cells` were enough.
+  // Whether `most_cells` and `most_vertices` were enough. Where not, there is the demand and nothing else.
   bool isComplete() const { return complete_; }
+  // Where the tree is not complete, by what was known of lengths up to then: only its order of magnitude is right.
+  const SizeDemand& demand() const { return demand_; }
   std::size_t bytes() const;
 
  private:
@@ -90,6 +105,7 @@ class SizeTree final : public SizeFunction {
   std::vector<std::uint8_t> start_level_;  // its level
   double least_ = 0.0, most_ = 0.0;
   bool complete_ = true;
+  SizeDemand demand_;
 };
 
 }  // namespace coastmesh

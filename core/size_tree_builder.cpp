@@ -21,6 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHidden = 1.5;
 constexpr int kLevels = 24;
 constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // of the root's side: a leaf of the last level has a centre
+// Vertices of equilateral triangles with edges of length 1, on an area of 1.
+const double kVerticesPerArea = 2.0 / std::sqrt(3.0);
 // Where slopes are compared, rounding counts.
 constexpr double kSafely = 1.0 - 1e-6;
 
@@ -42,9 +44,12 @@ class SizeTreeBuilder {
     squares_.push_back({});
     known_.push_back(kNone);
     refine();
+    if (!tree_.complete_) return;
     balance();
     number();
     grade();
+    tree_.demand_ = demandOfLeaves();
+    if (!tree_.complete_) return;
     fill();
     makeStart();
   }
@@ -88,6 +93,81 @@ class SizeTreeBuilder {
     return !tree_.complete_;
   }
 
+  // What cells ask for whose lengths lie in these ranges: surely, and probably.
+  struct Demand {
+    double least = 0.0, likely = 0.0;
+    double most_here = -1.0;  // of `likely`, in one cell
+    SizeBox most_in;
+    double size = 0.0;
+
+    void add(const Demand& other) {
+      least += other.least;
+      likely += other.likely;
+      if (!(other.most_here > most_here)) return;
+      most_here = other.most_here;
+      most_in = other.most_in;
+      size = other.size;
+    }
+  };
+
+  Demand demandOf(std::uint32_t c, const SizeRange& range) const {
+    const SizeBox box = boxOf(c);
+    const double area = source_.share(box) * 4.0 * box.half * box.half;
+    if (!(area > 0.0) || range.low == kInfinity) return {};
+    // Graded, lengths grow no faster from the least one; the mean of 1 / h² of what grows evenly is that of both ends' product.
+    const double high = std::min(range.high, range.low + options_.grade * std::sqrt(8.0) * box.half);
+    const double low = range.low > 0.0 ? range.low : high;
+    const double likely = kVerticesPerArea * area / low / high;
+    return {kVerticesPerArea * area / range.high / range.high, likely, likely, box, low};
+  }
+
+  // Whether what is likely is far too much and has hardly become less over some levels: what small places seem to ask for halves from
+  // one level to the next, and what lines and areas ask for stays.
+  bool isSurelyTooMuch(double likely) {
+    constexpr std::size_t kLevelsAlike = 3;
+    constexpr double kAlike = 0.8, kFarTooMuch = 1.5;
+    likely_.push_back(likely);
+    if (likely_.size() <= kLevelsAlike || !(likely > kFarTooMuch * options_.most_vertices)) return false;
+    return std::all_of(likely_.end() - kLevelsAlike - 1, likely_.end() - 1,
+                       [&](double before) { return likely >= kAlike * before; });
+  }
+
+  // Gives up: what is asked for is more than what is allowed.
+  void abandon(const Demand& demand) {
+    tree_.complete_ = false;
+    tree_.demand_ = {std::max(demand.likely, demand.least), demand.most_in, demand.size};
+  }
+
+  // Of graded lengths.
+  SizeDemand demandOfLeaves() const {
+    const std::vector<Demand> parts =
+        overStretches(loop_, leaf_cells_.size(), [&](std::size_t first, std::size_t last) {
+          Demand sum;
+          for (std::size_t l = first; l < last; ++l) {
+            if (!is_wanted_[l]) continue;
+            const SizeBox box = boxOf(leaf_cells_[l]);
+            const double share = source_.share(box);
+            if (!(share > 0.0)) continue;
+            Demand here{0.0, 0.0, 0.0, box, kInfinity};
+            forEachTriangle(leaf_vertices_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+              const double x = sizes_.size[a], y = sizes_.size[b], z = sizes_.size[c];
+              const auto atMiddle = [](double p, double q) { return 4.0 / (p + q) / (p + q); };
+              const double area =
+                  0.5 * unit() * unit() * std::abs(cross(gridPoint(b) - gridPoint(a), gridPoint(c) - gridPoint(a)));
+              here.likely += kVerticesPerArea * share * area * (atMiddle(x, y) + atMiddle(y, z) + atMiddle(z, x)) / 3.0;
+              here.size = std::min({here.size, x, y, z});
+            });
+            here.most_here = here.likely;
+            sum.add(here);
+          }
+          return sum;
+        });
+    Demand all;
+    for (const Demand& part : parts) all.add(part);
+    return {all.likely, all.most_in, all.size};
+  }
+  Point gridPoint(std::uint32_t v) const { return {1.0 * vertices_[v].x, 1.0 * vertices_[v].y}; }
+
   // Level by level, so that many places are asked for at once.
   void refine() {
     std::uint32_t first = 0;
@@ -95,6 +175,8 @@ class SizeTreeBuilder {
     std::vector<SizeRange> ranges;
     std::vector<std::uint32_t> unsure;
     std::vector<double> lows;  // of the unsure ones
+    Demand settled;            // by cells that stay as they are
+    bool too_much = false;
     for (int level = 0; level < kLevels; ++level) {
       const auto end = static_cast<std::uint32_t>(tree_.cells_.size());
       const std::vector<std::uint32_t> wanted =
@@ -104,11 +186,17 @@ class SizeTreeBuilder {
               if (source_.isWanted(boxOf(c))) here.push_back(c);
             return here;
           }));
-      if (wanted.empty()) return;
+      if (wanted.empty()) break;
       boxes.clear();
       for (const std::uint32_t c : wanted) boxes.push_back(boxOf(c));
       ranges.resize(boxes.size());
       source_.bound(boxes, ranges);
+      Demand pending = settled;
+      for (std::size_t k = 0; k < wanted.size(); ++k) pending.add(demandOf(wanted[k], ranges[k]));
+      // Few cells more cost nothing and tell better how much it is.
+      constexpr std::uint32_t kFewCells = 20'000;
+      too_much |= isSurelyTooMuch(pending.likely) || pending.least > options_.most_vertices;
+      if (too_much && end >= kFewCells) return abandon(pending);
       unsure.clear();
       lows.clear();
       for (std::size_t k = 0; k < wanted.size() && !isFull(); ++k) {
@@ -123,8 +211,12 @@ class SizeTreeBuilder {
         }
       }
       splitWhereBent(unsure, lows);
+      if (!tree_.complete_) return abandon(pending);
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        if (tree_.cells_[wanted[k]].is_leaf) settled.add(demandOf(wanted[k], ranges[k]));
       first = end;
     }
+    if (too_much) abandon(settled);
   }
 
   // Splits cells whose centre or sides are not what the corners tell, or that hold something much smaller than all of these.
@@ -375,6 +467,7 @@ class SizeTreeBuilder {
   std::vector<std::uint32_t> leaf_cells_;
   std::vector<LeafVertices> leaf_vertices_;
   std::vector<char> is_wanted_;  // leaves
+  std::vector<double> likely_;   // demand as each level of cells told it
 };
 
 SizeTree::SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,

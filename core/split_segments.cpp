@@ -21,18 +21,21 @@ struct Cut {
 
 // Steps along a segment in which lengths are added up, a wanted length: enough where it changes by a third from one edge to the next.
 constexpr double kStepsALength = 4.0;
-constexpr double kMostSteps = 1e7;
 
-// Shares of the way from a to b that lie one wanted length apart, stretched to fit.
-void evenShares(const Point& a, const Point& b, const SizeFunction& size, std::vector<double>& shares) {
+// Shares of the way from a to b that lie one wanted length apart, stretched to fit. What needs clearly more than `most` of them is looked
+// at as far as these go.
+void evenShares(const Point& a, const Point& b, const SizeFunction& size, std::uint64_t most,
+                std::vector<double>& shares) {
   shares.clear();
   const double length = distance(a, b);
   // How many wanted lengths there are up to each step, by the trapezoid rule; steps follow the wanted length.
   std::vector<std::pair<double, double>> marks{{0.0, 0.0}};
   double along = 0.0, count = 0.0, here = size.at(a);
-  while (along < length && static_cast<double>(marks.size()) < kMostSteps) {
+  const double most_steps = 2.0 * kStepsALength * (static_cast<double>(most) + 1.0);
+  while (along < length && static_cast<double>(marks.size()) < most_steps) {
     const double step = std::min(here / kStepsALength, length - along);
     const double next = step >= length - along ? length : along + step;
+    if (!(next > along)) break;  // lengths below what coordinates tell apart
     const double there = size.at(a + (next / length) * (b - a));
     count += 0.5 * (next - along) * (1.0 / here + 1.0 / there);
     along = next;
@@ -76,16 +79,18 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
     }
   }
   const VertexId before = static_cast<VertexId>(mesh.points.size());
+  const std::uint64_t most = std::min<std::uint64_t>(options.max_vertices, kNone);
   EditMesh edit(std::move(mesh));
   std::vector<double> shares;
   std::vector<TriId> touched, star;
   std::vector<EdgeRef> opposite;
   for (const Cut& cut : cuts) {
+    if (edit.vertexCount() >= most) break;
     const Point a = edit.point(cut.a), b = edit.point(cut.b);
-    evenShares(a, b, *options.size, shares);
+    evenShares(a, b, *options.size, most - edit.vertexCount(), shares);
     VertexId from = cut.a;
     for (const double share : shares) {
-      if (edit.vertexCount() >= options.max_vertices) break;
+      if (edit.vertexCount() >= most) break;
       edit.star(from, opposite);
       star.clear();
       for (const EdgeRef e : opposite) star.push_back(triOf(e));

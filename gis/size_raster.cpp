@@ -250,6 +250,56 @@ void RasterField::sample(std::span<const Point> places, std::span<double> sizes)
   }
 }
 
+// Of what `sample` answers in a box of a few pixels, given in pixels. Between the lines through pixels' centres and along their rims
+// sizes are bilinear or a pixel's own, so that corners tell; the bounds of all pixels near it would be far off where one is much
+// smaller than those round it.
+SizeRange RasterField::boundBetween(const Box& pixels) const {
+  if (pixels.ymax < 0.0 || pixels.ymin > raster_.rows) return {kInfinity, kInfinity};
+  if (!raster_.wraps && (pixels.xmax < 0.0 || pixels.xmin > raster_.columns)) return {kInfinity, kInfinity};
+  const auto knots = [](double from, double to) {
+    std::vector<double> at{from};
+    for (double k = std::floor(2.0 * from) + 1.0; k < 2.0 * to; k += 1.0) at.push_back(0.5 * k);
+    at.push_back(to);
+    return at;
+  };
+  const std::vector<double> xs = knots(pixels.xmin, pixels.xmax), ys = knots(pixels.ymin, pixels.ymax);
+  SizeRange range{kInfinity, 0.0};
+  for (std::size_t j = 0; j + 1 < ys.size(); ++j) {
+    for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+      const double x = 0.5 * (xs[i] + xs[i + 1]), y = 0.5 * (ys[j] + ys[j + 1]);
+      if ((!raster_.wraps && (x < 0.0 || x > raster_.columns)) || y < 0.0 || y > raster_.rows) {
+        range.high = kInfinity;
+        continue;
+      }
+      const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
+      std::array<double, 4> around;
+      for (int k = 0; k < 4; ++k)
+        around[static_cast<std::size_t>(k)] =
+            pixel(static_cast<std::int64_t>(left) + k % 2, static_cast<std::int64_t>(top) + k / 2);
+      double low = kInfinity, high = 0.0;
+      const bool all = std::ranges::all_of(around, [](double size) { return std::isfinite(size); });
+      for (int k = 0; k < 4; ++k) {
+        double size = around[static_cast<std::size_t>(k)];
+        if (all) {
+          const double u = xs[i + static_cast<std::size_t>(k % 2)] - 0.5 - left;
+          const double v = ys[j + static_cast<std::size_t>(k / 2)] - 0.5 - top;
+          size = (1.0 - v) * ((1.0 - u) * around[0] + u * around[1]) + v * ((1.0 - u) * around[2] + u * around[3]);
+        }
+        low = std::min(low, size);
+        if (std::isfinite(size)) high = std::max(high, size);
+      }
+      if (low == kInfinity) high = kInfinity;
+      const double own = pixel(static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y)));
+      if (own < kSteepShare * high) {
+        high = own < kSteepShare * low ? own : own / kSteepShare;
+        low = std::min(low, own);
+      }
+      range = {std::min(range.low, low), std::max(range.high, high)};
+    }
+  }
+  return range;
+}
+
 void RasterField::boundIn(const Tile& tile, std::uint32_t node, int x, int y, int side,
                           const std::array<std::int64_t, 4>& window, SizeRange& range) const {
   const Node& n = tile[node];
@@ -283,7 +333,13 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
       ranges[i] = {0.0, kInfinity};
       continue;
     }
-    pixels = pixels.grownBy(1.0 + 0.05 * extent);
+    pixels = pixels.grownBy(0.05 * extent + 1e-6);
+    constexpr double kFewPixels = 2.0;
+    if (extent <= kFewPixels) {
+      ranges[i] = boundBetween(pixels);
+      continue;
+    }
+    pixels = pixels.grownBy(1.0);
     const std::array<std::int64_t, 4> window = {
         static_cast<std::int64_t>(std::floor(pixels.xmin)), static_cast<std::int64_t>(std::floor(pixels.ymin)),
         static_cast<std::int64_t>(std::ceil(pixels.xmax)), static_cast<std::int64_t>(std::ceil(pixels.ymax))};

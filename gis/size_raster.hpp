@@ -63,6 +63,7 @@ class RasterField final : public SizeField {
 
   Tile compress(const RasterTile& tile, std::span<const float> sizes) const;
   float pixel(std::int64_t x, std::int64_t y) const;
+  SizeRange boundBetween(const Box& pixels) const;
   void boundIn(const Tile& tile, std::uint32_t node, int x, int y, int side, const std::array<std::int64_t, 4>& window,
                SizeRange& range) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -25,7 +26,11 @@ class ComposedSizes final : public SizeSource {
                 const ItemLoop& loop)
       : options_(options), scale_(std::move(scale)), mask_(mask), loop_(loop) {}
 
-  void add(std::unique_ptr<SizeField> field) { fields_.push_back(std::move(field)); }
+  // `option` asks for it.
+  void add(std::string option, std::unique_ptr<SizeField> field) {
+    fields_.push_back(std::move(field));
+    asking_.push_back(std::move(option));
+  }
   void setFloor(std::unique_ptr<SizeField> field) { floor_ = std::move(field); }
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override {
@@ -54,6 +59,23 @@ class ComposedSizes final : public SizeSource {
   }
 
   void limitSize(double most_m) { most_m_ = most_m; }
+  double share(const SizeBox& box) const override { return mask_.share(box); }
+
+  // What decides on the size at a place.
+  std::string optionAt(const Point& place) const {
+    double least = options_.size_m, own = 0.0;
+    std::string option = "--size";
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      fields_[f]->sample(std::span(&place, 1), std::span(&own, 1));
+      if (!(own < least)) continue;
+      least = own;
+      option = asking_[f];
+    }
+    if (least < options_.least_m) option = "--size-min";
+    if (options_.most_m <= least) option = "--size-max";
+    if (most_m_ < std::min(least, options_.most_m)) option = "--grade";
+    return option;
+  }
   void limitRate(double rate) {
     for (const auto& field : fields_) field->limitRate(rate);
   }
@@ -104,6 +126,7 @@ class ComposedSizes final : public SizeSource {
   const DomainMask& mask_;
   const ItemLoop& loop_;
   std::vector<std::unique_ptr<SizeField>> fields_;
+  std::vector<std::string> asking_;   // one a field
   std::unique_ptr<SizeField> floor_;  // what the time step allows
 };
 
@@ -162,7 +185,41 @@ double gradeForScale(const ComposedSizes& source, const std::function<double(con
   return kBetweenProbes * most;
 }
 
+// A map of sizes takes about a cell for two vertices; more, where something small lies on few of them.
+constexpr double kCellsPerVertex = 2.0;
+constexpr double kLeastCells = 200'000.0;
+
+std::string askingOfDepths(const DepthRules& rules) {
+  std::string options;
+  for (const auto& [asked, option] : {std::pair{rules.wave_elements > 0.0, "--wave-elements"},
+                                      {rules.slope_elements > 0.0, "--slope-elements"},
+                                      {!rules.bands.empty(), "--depth-band"}})
+    if (asked) options += (options.empty() ? "" : " or ") + std::string(option);
+  return options;
+}
+
+// Where in the cell that asks for the most the size is the least.
+VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, const Projection& projection) {
+  constexpr int kProbes = 8;
+  const SizeBox& box = demand.most_in;
+  const double step = 2.0 * box.half / kProbes;
+  std::vector<Point> places;
+  for (int j = 0; j < kProbes; ++j)
+    for (int i = 0; i < kProbes; ++i)
+      places.push_back(box.centre + Point{(i + 0.5) * step - box.half, (j + 0.5) * step - box.half});
+  std::erase_if(places, [&](const Point& place) { return !source.isWanted({place, 0.5 * step}); });
+  if (places.empty()) places.push_back(box.centre);
+  std::vector<double> sizes(places.size());
+  source.sample(places, sizes);
+  const Point& place = places[static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin())];
+  return {demand.vertices, projection.inverse(place),
+          std::min(std::ranges::min(sizes), demand.size) / projection.scaleAt(place), source.optionAt(place)};
+}
+
 }  // namespace
+
+TooManyVertices::TooManyVertices(VertexDemand d)
+    : std::runtime_error("sizes ask for more vertices than there is room for"), demand(std::move(d)) {}
 
 SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   SizeInputs inputs;
@@ -175,8 +232,8 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   return inputs;
 }
 
-std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs,
-                                               const Domain& domain, const ItemLoop& loop) {
+DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
+                             double most_vertices, const ItemLoop& loop) {
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
   const double extent = std::max(box.xmax - box.xmin, box.ymax - box.ymin);
@@ -197,19 +254,21 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
   ComposedSizes source(options, scale, mask, loop);
   const double reach_m = extent / scale(middle), most_m = std::min(options.most_m, options.size_m);
   if (options.shore_m < kInfinity)
-    source.add(
-        std::make_unique<DistanceField>(shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale, most_m));
+    source.add("--size-shore", std::make_unique<DistanceField>(
+                                   shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale, most_m));
   if (options.channel_elements > 0.0) {
-    source.add(std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.grade,
+    source.add("--channel-elements",
+               std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.grade,
                                                             options.least_m, std::min(most_m, reach_m), scale),
                                                scale, most_m));
   }
   for (const SizedFeatures& features : inputs.features)
-    for (auto& field : featureFields(features, projection, scale)) source.add(std::move(field));
+    for (auto& field : featureFields(features, projection, scale)) source.add("--size-features", std::move(field));
   if (!inputs.rasters.empty())
-    source.add(rasterFields(inputs.rasters, inputs.crs, projection, square, rawRule(), loop));
+    source.add("--size-raster", rasterFields(inputs.rasters, inputs.crs, projection, square, rawRule(), loop));
   if (options.depth.any())
-    source.add(rasterFields(inputs.bathymetry, inputs.crs, projection, square, depthRule(options.depth), loop));
+    source.add(askingOfDepths(options.depth),
+               rasterFields(inputs.bathymetry, inputs.crs, projection, square, depthRule(options.depth), loop));
   if (options.time_step_s > 0.0) {
     source.setFloor(rasterFields(inputs.bathymetry, inputs.crs, projection, square,
                                  courantRule(options.time_step_s, options.courant, options.depth), loop));
@@ -217,7 +276,13 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
   source.limitRate(options.grade);
   double for_scale = gradeForScale(source, scale, root, reach_m);
   if (for_scale > 0.5 * options.grade) {  // elements as large as seas: no larger than leaves half of the grade
-    source.limitSize(0.5 * options.grade / for_scale * reach_m);
+    const double most = 0.5 * options.grade / for_scale * reach_m;
+    if (most < options.least_m) {
+      throw InputError(
+          "--grade: on a projection with so much change of scale, sizes of --size-min cannot differ by as "
+          "little as that; give a larger one");
+    }
+    source.limitSize(most);
     for_scale = 0.5 * options.grade;
   }
   SizeTreeOptions tree;
@@ -225,12 +290,23 @@ std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const
   // A little less: what is only just too steep everywhere would have to be flattened everywhere.
   constexpr double kJustBelow = 0.99;
   source.limitRate(kJustBelow * tree.grade);
+  tree.most_vertices = most_vertices;
+  tree.most_cells =
+      static_cast<std::uint32_t>(std::min<double>(tree.most_cells, kLeastCells + kCellsPerVertex * most_vertices));
   auto size = std::make_unique<SizeTree>(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}, source, tree, loop);
-  if (!size->isComplete()) {
-    throw InputError(
-        "the sizes asked for are so small that there is no room even for a map of them: give a larger --size-min");
+  VertexDemand demand = demandOf(source, size->demand(), projection);
+  demand.map_too_large = !size->isComplete() && !(demand.vertices > most_vertices);
+  if (!size->isComplete()) throw TooManyVertices(std::move(demand));
+  // Of the extent: below it coordinates do not tell the corners of good triangles apart.
+  constexpr double kLeastSize = 1e-9;
+  if (size->least() < kLeastSize * extent) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "sizes come down to %.3g m, too little for coordinates over an extent of %.3g m: give a --size-min",
+                  size->least() / scale(middle), reach_m);
+    throw InputError(text);
   }
-  return size;
+  return {std::move(size), std::move(demand)};
 }
 
 }  // namespace coastmesh

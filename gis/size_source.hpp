@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -53,9 +54,30 @@ struct SizeInputs {
 // Throws InputError.
 SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs);
 
-// The size function of a domain in its plane: the least that any of the options asks for, within the bounds, not below what the time
-// step allows, graded. `loop` lends threads; the function does not depend on it. Throws InputError.
-std::unique_ptr<SizeFunction> makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs,
-                                               const Domain& domain, const ItemLoop& loop);
+// How many vertices sizes ask for, and where most of them lie.
+struct VertexDemand {
+  double vertices = 0.0;       // without those that segments add, see `verticesOfSegments`
+  Point place;                 // in the input's CRS
+  double size_m = 0.0;         // wanted there
+  std::string option;          // that asks for it
+  bool map_too_large = false;  // no fine enough map of the sizes could be made
+};
+
+// They ask for more than there is room for.
+struct TooManyVertices : std::runtime_error {
+  explicit TooManyVertices(VertexDemand d);
+  VertexDemand demand;
+};
+
+struct DomainSizes {
+  std::unique_ptr<SizeFunction> function;  // in the domain's plane
+  VertexDemand demand;
+};
+
+// The sizes of a domain: the least that any of the options asks for, within the bounds, not below what the time step allows, graded.
+// `loop` lends threads; the function does not depend on it. Throws InputError, BadPslg; TooManyVertices where they ask for more than
+// `most_vertices`: then the demand is right in its order of magnitude, and little memory was taken to find it.
+DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
+                             double most_vertices, const ItemLoop& loop);
 
 }  // namespace coastmesh

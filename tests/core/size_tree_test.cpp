@@ -85,6 +85,26 @@ TEST(SizeTree, WhereNothingIsWantedItIsAsLargeAsTheWhole) {
   EXPECT_TRUE(std::isfinite(tree.most()));
 }
 
+// Of lines and areas as soon as it is sure; of a place that asks for little not, however small it is.
+TEST(SizeTree, StopsWhereMoreIsAskedForThanAllowed) {
+  const auto cone = [](const Point& p) { return 1e-7 + 0.3 * std::hypot(p.x - 0.1, p.y - 0.4); };
+  const auto line = [](const Point& p) { return 1e-6 + 0.3 * std::abs(p.y - 0.4); };
+  const SizeTreeOptions options{.grade = 0.3, .most_vertices = 20'000.0};
+  const SizeTree round_one({-1.0, 0.0}, {1.0, 1.0}, FunctionSource(1e-7, 0.3, cone), options);
+  EXPECT_TRUE(round_one.isComplete());
+  EXPECT_LT(round_one.demand().vertices, 3'000.0);
+  const SizeTree along({-1.0, 0.0}, {1.0, 1.0}, FunctionSource(1e-6, 0.3, line), options);
+  EXPECT_FALSE(along.isComplete());
+  EXPECT_LT(along.cells(), 100'000u);
+  // Two sides of a line of length 2.02.
+  const double needed = 2.0 / std::sqrt(3.0) * 2.02 * 2.0 / (0.3 * 1e-6);
+  EXPECT_NEAR(std::log(along.demand().vertices / needed), 0.0, std::log(3.0));
+  EXPECT_NEAR(along.demand().most_in.centre.y, 0.4, along.demand().most_in.half + 1e-9);
+  const SizeTree flat({-1.0, 0.0}, {1.0, 1.0}, FunctionSource(1e-3, 0.0, [](const Point&) { return 1e-3; }), options);
+  EXPECT_FALSE(flat.isComplete());
+  EXPECT_NEAR(flat.demand().vertices, 2.0 / std::sqrt(3.0) * 2.02 * 2.02 / 1e-6, 1.0);
+}
+
 TEST(SizeTree, SaysWhereItIsTooSmall) {
   const FunctionSource source(1e-4, 1.0, [](const Point& p) { return 1e-4 + std::abs(p.y - 0.3); });
   const SizeTree tree({-1.0, 0.0}, {1.0, 1.0}, source, {.grade = 1.0, .most_cells = 1000});

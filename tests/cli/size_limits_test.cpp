@@ -1,0 +1,149 @@
+// Sizes that ask for more than there is room for: told at once, with how much that is, and nothing is made.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class SizeLimits : public ProgramTest {
+ protected:
+  ProgramRun mesh(const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments{"mesh", lake(), "-o", file("a.2dm"), "--report", file("a.json"), "--overwrite"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return runProgram(arguments);
+  }
+  Json report() const { return Json::parse(readText(file("a.json"))); }
+  bool isMeshThere() const { return names().contains("a.2dm"); }
+  // Round the lake, with one pixel in it that is not like the others; as text, in the lake's CRS.
+  std::string raster(const std::string& name, double elsewhere, double there) const {
+    std::ostringstream text;
+    text << "ncols 20\nnrows 20\nxllcorner -87.51\nyllcorner 41.595\ncellsize 0.0025\n";
+    for (int row = 0; row < 20; ++row)
+      for (int column = 0; column < 20; ++column)
+        text << (row == 13 && column == 4 ? there : elsewhere) << (column < 19 ? ' ' : '\n');
+    return write(name, text.str());
+  }
+};
+
+TEST_F(SizeLimits, BeyondTheBudgetNothingIsMade) {
+  const std::vector<std::vector<std::string>> cases{
+      {"--size", "1e-3"},
+      {"--size", "1e-300"},
+      {"--size-shore", "1e-3"},
+      {"--size-shore", "1e-3", "--coast", "follow"},
+      {"--size-raster", raster("sizes.asc", 500.0, 0.5)},
+      {"--bathymetry", raster("depths.asc", -100.0, -90.0), "--wave-elements", "1e9"},
+      {"--bathymetry", file("depths.asc"), "--wave-elements", "1e308"},
+      {"--bathymetry", file("depths.asc"), "--depth-band", "0,95,0.01"},
+      {"--channel-elements", "1e308", "--size-min", "0.01"},
+      {"--size", "100", "--grade", "1e-300"},
+  };
+  for (std::vector<std::string> options : cases) {
+    options.insert(options.end(), {"--max-vertices", "20000"});
+    const ProgramRun run = mesh(options);
+    const std::string shown = ::testing::PrintToString(options) + run.errors;
+    EXPECT_EQ(run.code, 1) << shown;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << shown;
+    EXPECT_NE(run.errors.find("--max-vertices allows 20000"), std::string::npos) << shown;
+    EXPECT_FALSE(isMeshThere()) << shown;
+    const Json json = report();
+    EXPECT_GT(json["refine"]["estimated_vertices"].get<double>(), 40000.0) << shown;
+    EXPECT_EQ(json["input"]["refused"].size(), 1u) << shown;
+    EXPECT_LT(json["peak_memory_mib"].get<double>(), 500.0) << shown;
+  }
+}
+
+TEST_F(SizeLimits, BeyondTheMemoryNothingIsTaken) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--size", "1e-3"},
+                                             {"--size-shore", "1e-8"},
+                                             {"--size-max", "1e-3"},
+                                             {"--size", "100", "--grade", "1e-300"}}) {
+    const ProgramRun run = mesh(options);
+    const std::string shown = ::testing::PrintToString(options) + run.errors;
+    EXPECT_EQ(run.code, 3) << shown;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << shown;
+    EXPECT_NE(run.errors.find("there is memory for about"), std::string::npos) << shown;
+    EXPECT_FALSE(isMeshThere()) << shown;
+    EXPECT_LT(report()["peak_memory_mib"].get<double>(), 500.0) << shown;
+  }
+}
+
+TEST_F(SizeLimits, NamesTheOptionAndThePlace) {
+  const ProgramRun run = mesh({"--size-raster", raster("sizes.asc", 500.0, 0.5), "--max-vertices", "3000"});
+  EXPECT_NE(run.errors.find("where --size-raster asks for 0.5 m"), std::string::npos) << run.errors;
+  double lon = 0.0, lat = 0.0;
+  const std::size_t at = run.errors.find("near (");
+  ASSERT_NE(at, std::string::npos) << run.errors;
+  ASSERT_EQ(std::sscanf(run.errors.c_str() + at, "near (%lf, %lf)", &lon, &lat), 2);
+  EXPECT_NEAR(lon, -87.49875, 0.0015);
+  EXPECT_NEAR(lat, 41.61125, 0.0015);
+}
+
+TEST_F(SizeLimits, EstimatesAreRightToHalfAsMuch) {
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"--size", "50"},
+           {"--size", "20"},
+           {"--size-shore", "10", "--size-max", "300"},
+           {"--size-shore", "5", "--shore-rate", "0.3", "--coast", "follow"},
+           {"--size-raster", raster("sizes.asc", 80.0, 8.0)},
+           {"--channel-elements", "6", "--size-min", "5", "--size-max", "200"},
+           {"--bathymetry", raster("depths.asc", -100.0, -20.0), "--wave-elements", "30000"}}) {
+    const ProgramRun run = mesh(options);
+    const std::string shown = ::testing::PrintToString(options) + run.errors;
+    EXPECT_EQ(run.code, 0) << shown;
+    const Json json = report();
+    const double share = json["refine"]["estimated_vertices"].get<double>() / json["mesh"]["vertices"].get<double>();
+    EXPECT_GT(share, 1.0 / 1.5) << shown;
+    EXPECT_LT(share, 1.5) << shown;
+    EXPECT_NE(run.output.find("were to be expected of these sizes"), std::string::npos) << shown;
+  }
+}
+
+TEST_F(SizeLimits, ALittleBeyondTheBudgetItIsRefinedAsFarAsThatGoes) {
+  ASSERT_EQ(mesh({"--size", "30"}).code, 0);
+  const auto vertices = report()["mesh"]["vertices"].get<std::uint64_t>();
+  EXPECT_EQ(mesh({"--size", "30", "--max-vertices", std::to_string(vertices * 3 / 4)}).code, 1);
+  EXPECT_TRUE(report()["refine"]["budget_reached"].get<bool>());
+  EXPECT_EQ(runProgram({"check", file("a.2dm"), "--assume-crs", "EPSG:4326"}).code, 0);
+}
+
+// A plane graph that says with its holes what is inside.
+TEST_F(SizeLimits, OfAPlaneGraph) {
+  const std::string poly = write("ring.poly",
+                                 "8 2 0 0\n0 0 0\n1 10 0\n2 10 10\n3 0 10\n4 1 1\n5 9 1\n6 9 9\n7 1 9\n"
+                                 "8 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n4 4 5\n5 5 6\n6 6 7\n7 7 4\n1\n0 5 5\n");
+  const auto run = [&](const std::string& size, const std::string& most) {
+    return runProgram({"mesh", poly, "-o", file("a.2dm"), "--report", file("a.json"), "--overwrite", "--size", size,
+                       "--max-vertices", most})
+        .code;
+  };
+  EXPECT_EQ(run("0.1", "20000"), 0);
+  EXPECT_NEAR(report()["refine"]["estimated_vertices"].get<double>() / report()["mesh"]["vertices"].get<double>(), 1.0,
+              0.15);
+  EXPECT_EQ(run("0.01", "20000"), 1);
+  EXPECT_EQ(report()["mesh"]["triangles"], 0);
+}
+
+TEST_F(SizeLimits, OneLakeOfSeveralIsLeftOut) {
+  const std::string input = write("two.geojson", geoJsonPolygons({{{{0, 0}, {0.001, 0}, {0.001, 0.001}, {0, 0.001}}},
+                                                                  {{{1, 1}, {1.5, 1}, {1.5, 1.5}, {1, 1.5}}}}));
+  for (const std::string threads : {"1", "2"}) {
+    const ProgramRun run = runProgram(
+        {"mesh", input, "-o", file(threads + ".2dm"), "--size", "50", "--max-vertices", "20000", "--threads", threads});
+    EXPECT_EQ(run.code, 1) << run.errors;
+    EXPECT_NE(run.errors.find("feature 1: these sizes ask for about"), std::string::npos) << run.errors;
+    EXPECT_NE(run.errors.find("share by points"), std::string::npos) << run.errors;
+  }
+  EXPECT_EQ(readText(file("1.2dm")), readText(file("2.2dm")));
+}
+
+}  // namespace
+}  // namespace coastmesh::test
