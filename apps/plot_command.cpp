@@ -59,7 +59,8 @@ Command declarePlot(CLI::App& root) {
   CommandLine line(root, "plot", "Draw a mesh");
   declareMeshFile(line, "MESH", "mesh to draw", usage->mesh);
   line.requiredText("-o,--output", usage->output, kOutputFile, "picture to write: .svg or .png");
-  line.integer("--size", usage->plot.size_px, "PX", 16, 20000, "longer side of the map");
+  line.integer("--size", usage->plot.size_px, "PX", PlotOptions::kLeastSize, PlotOptions::kMostSize,
+               "longer side of the map");
   line.text("--bbox", usage->bbox, "W,S,E,N", "what to show, in the mesh's CRS; all of it by default");
   line.choice("--color", usage->color, plotColorNames(), "what the triangles' colour tells");
   line.flag("--edges,!--no-edges", usage->plot.edges, "draw the triangles' edges");

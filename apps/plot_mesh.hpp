@@ -18,7 +18,9 @@ const std::vector<std::string>& plotColorNames();
 PlotColor plotColorNamed(const std::string& name);
 
 struct PlotOptions {
-  std::uint64_t size_px = 1600;               // longer side of the map, 16 to 20000
+  static constexpr std::uint64_t kLeastSize = 16, kMostSize = 20000;
+
+  std::uint64_t size_px = 1600;               // longer side of the map, kLeastSize to kMostSize
   std::optional<std::array<double, 4>> bbox;  // west, south, east, north in the grid's CRS
   PlotColor color = PlotColor::None;
   bool edges = true;

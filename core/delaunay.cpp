@@ -24,6 +24,9 @@ void checkReferences(const Pslg& pslg) {
   for (const Point& p : pslg.points)
     if (!std::isfinite(p.x) || !std::isfinite(p.y))
       refuse(PslgDefect::Kind::NotFinite, p, kNone, "a coordinate is not a finite number");
+  for (const Point& p : pslg.holes)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y))
+      refuse(PslgDefect::Kind::NotFinite, p, kNone, "a coordinate of a hole is not a finite number");
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
     const auto& [a, b, tag, left, right] = pslg.segments[s];
     if (a >= pslg.points.size() || b >= pslg.points.size())

@@ -16,8 +16,18 @@ template <typename T>
 using Rows = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
 // Rows of two numbers; empty for an empty array of whatever shape.
+// What numpy would convert into something else than was given.
+void requirePlain(const py::object& object, const std::string& name) {
+  if (py::module_::import("numpy.ma").attr("is_masked")(object).cast<bool>())
+    throw InputError(name + ": has masked elements; take their rows out, or fill them");
+  const py::array given = py::array::ensure(object);
+  if (!given) PyErr_Clear();
+  if (given && given.dtype().kind() == 'c') throw InputError(name + ": is no array of numbers but of complex ones");
+}
+
 template <typename T>
 Rows<T> pairs(const py::object& object, const std::string& name) {
+  requirePlain(object, name);
   const Rows<T> rows = Rows<T>::ensure(object);
   if (!rows) {
     PyErr_Clear();

@@ -8,6 +8,7 @@
 #include "apps/command_line.hpp"
 #include "apps/plot_mesh.hpp"
 #include "apps/python/arrays.hpp"
+#include "apps/python/pickle.hpp"
 #include "apps/python/run.hpp"
 #include "gis/error.hpp"
 #include "gis/grid_io.hpp"
@@ -37,10 +38,10 @@ py::list featuresOf(const Grid& grid) {
   py::list list;
   for (const GridFeature& feature : grid.features) {
     py::dict attributes;
-    for (const auto& [name, value] : feature.attributes) attributes[py::str(name)] = value;
+    for (const auto& [name, value] : feature.attributes) attributes[textOf(name)] = textOf(value);
     py::dict entry;
     entry["fid"] = feature.fid;
-    entry["source"] = feature.source;
+    entry["source"] = textOf(feature.source);
     entry["attributes"] = attributes;
     list.append(entry);
   }
@@ -66,11 +67,17 @@ void writeFile(const MeshResult& mesh, const std::string& path, const std::strin
   output.commit();
 }
 
-void plotFile(const MeshResult& mesh, const std::string& path, const std::string& color, std::uint64_t size, bool edges,
+void plotFile(const MeshResult& mesh, const std::string& path, const std::string& color, std::int64_t size, bool edges,
               bool overwrite) {
   PlotOptions options;
   options.color = plotColorNamed(color);
-  options.size_px = size;
+  constexpr auto kLeast = static_cast<std::int64_t>(PlotOptions::kLeastSize),
+                 kMost = static_cast<std::int64_t>(PlotOptions::kMostSize);
+  if (size < kLeast || size > kMost) {
+    throw UsageError("size: " + std::to_string(size) + " is not from " + std::to_string(kLeast) + " to " +
+                     std::to_string(kMost) + " pixels");
+  }
+  options.size_px = static_cast<std::uint64_t>(size);
   options.edges = edges;
   requirePlotFormat(path);
   if (!overwrite && std::filesystem::exists(path)) {
@@ -80,14 +87,27 @@ void plotFile(const MeshResult& mesh, const std::string& path, const std::string
   // Drawn aside, so that it appears whole or not at all.
   const std::filesystem::path target(path);
   const std::filesystem::path aside = target.parent_path() / (".part-" + target.filename().string());
-  try {
-    plotMesh(mesh.grid, options, aside.string());
-  } catch (...) {
+  const auto removeAside = [&aside] {
     std::error_code ignored;
     std::filesystem::remove(aside, ignored);
+  };
+  try {
+    plotMesh(mesh.grid, options, aside.string());
+  } catch (const OutputError& error) {
+    removeAside();
+    std::string text = error.what();
+    if (const std::size_t at = text.find(aside.string()); at != std::string::npos)
+      text.replace(at, aside.string().size(), path);
+    throw OutputError(text);
+  } catch (...) {
+    removeAside();
     throw;
   }
-  std::filesystem::rename(aside, target);
+  std::error_code failed;
+  std::filesystem::rename(aside, target, failed);
+  if (!failed) return;
+  removeAside();
+  throw OutputError("'" + path + "' cannot be written: " + failed.message());
 }
 
 MeshResult readMesh(const std::string& path) {
@@ -117,11 +137,11 @@ PYBIND11_MODULE(_coastmesh, m) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const UsageError& error) {
-      PyErr_SetString(usage_error, error.what());
+      PyErr_SetObject(usage_error, textOf(error.what()).ptr());
     } catch (const InputError& error) {
-      PyErr_SetString(input_error, error.what());
+      PyErr_SetObject(input_error, textOf(error.what()).ptr());
     } catch (const OutputError& error) {
-      PyErr_SetString(output_error, error.what());
+      PyErr_SetObject(output_error, textOf(error.what()).ptr());
     }
   });
 
@@ -141,11 +161,18 @@ PYBIND11_MODULE(_coastmesh, m) {
                                return crs.authority.empty() ? crs.wkt : crs.authority;
                              })
       .def_property_readonly("_report", [](const MeshResult& mesh) { return mesh.report; })
-      .def_property_readonly("_warnings", [](const MeshResult& mesh) { return mesh.warnings; })
+      .def_property_readonly("_warnings",
+                             [](const MeshResult& mesh) {
+                               py::list list;
+                               for (const std::string& warning : mesh.warnings) list.append(textOf(warning));
+                               return list;
+                             })
       .def_property_readonly("_refusals", [](const MeshResult& mesh) { return refusalsOf(mesh); })
       .def_property_readonly("_complete", [](const MeshResult& mesh) { return mesh.complete; })
       .def("_write", &writeFile)
-      .def("_plot", &plotFile);
+      .def("_plot", &plotFile)
+      .def(py::pickle([](const MeshResult& mesh) { return py::bytes(bytesOf(mesh)); },
+                      [](const py::bytes& bytes) { return resultOf(bytes); }));
 
   m.def("run", &runFromPython, py::arg("arguments"), py::arg("files"), py::arg("text"), py::arg("graph"),
         py::arg("progress"));

@@ -157,9 +157,9 @@ py::list refusalsOf(const MeshResult& result) {
   py::list list;
   for (const Refusal& refusal : result.refusals) {
     py::dict entry;
-    entry["source"] = refusal.source;
+    entry["source"] = textOf(refusal.source);
     entry["fids"] = refusal.fids;
-    entry["reason"] = refusal.reason;
+    entry["reason"] = textOf(refusal.reason);
     entry["place"] = refusal.place ? py::object(py::make_tuple(refusal.place->x, refusal.place->y)) : py::none();
     list.append(entry);
   }

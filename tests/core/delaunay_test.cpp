@@ -195,6 +195,14 @@ std::optional<PslgDefect> defectIn(const Pslg& pslg) {
 
 using Kind = PslgDefect::Kind;
 
+TEST(PslgDefects, HolesNotFinite) {
+  for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Pslg pslg = squarePslg();
+    pslg.holes = {{0.5, wrong}};
+    EXPECT_EQ(defectIn(pslg)->kind, Kind::NotFinite);
+  }
+}
+
 TEST(PslgDefects, NotFinite) {
   for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     Pslg pslg = squarePslg();

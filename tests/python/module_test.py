@@ -3,9 +3,11 @@
 
 usage: module_test.py PROGRAM DATA   (the program coastmesh, the folder data/)
 """
+import copy
 import gc
 import json
 import os
+import pickle
 import shutil
 import signal
 import subprocess
@@ -100,6 +102,16 @@ class ArraysTest(unittest.TestCase):
         self.assertEqual(crossing.refusals[0]["place"], (2.0, 2.0))
         refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.nan, SQUARE), RIM)
         refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.inf, SQUARE), RIM)
+        for wrong in (np.nan, np.inf):
+            refused(coastmesh.InputError, "finite", SQUARE, RIM, holes=[[wrong, 1]])
+        masked = np.ma.array(SQUARE, mask=np.zeros((4, 2), bool))
+        self.assertEqual(len(coastmesh.mesh(masked, RIM).triangles), 2)
+        masked[1, 0] = np.ma.masked
+        refused(coastmesh.InputError, "points.*masked", masked, RIM)
+        refused(coastmesh.InputError, "segments.*masked", SQUARE, np.ma.array(RIM, mask=RIM == 2))
+        refused(coastmesh.InputError, "points.*complex", SQUARE + 1j, RIM)
+        refused(coastmesh.InputError, "holes.*complex", SQUARE, RIM, np.array([[1 + 1j, 1]]))
+        refused(TypeError, "config", SQUARE, RIM, config="nope.toml")
         refused(coastmesh.InputError, "same place", np.zeros((4, 2)), RIM)
         refused(coastmesh.InputError, "nowhere.shp", "nowhere.shp")
         refused(coastmesh.InputError, "GeoJSON", '{"type":')
@@ -153,6 +165,61 @@ class FilesTest(unittest.TestCase):
             np.testing.assert_array_equal(coastmesh.mesh(given).points, expected.points)
         self.assertEqual(expected.features[0]["source"], "GeoJSON")
 
+    def test_lists_of_shapes_are_meshed_together(self):
+        class Shape:
+            crs = None
+
+            def __init__(self, east):
+                ring = [[x + east, y] for x, y in POLYGON["coordinates"][0]]
+                self.__geo_interface__ = {"type": "Polygon", "coordinates": [ring]}
+
+        mesh = coastmesh.mesh([Shape(0), Shape(1)])
+        self.assertEqual(len(mesh.features), 2)
+        self.assertAlmostEqual(areas(mesh).sum(), 0.08)
+        with self.assertRaisesRegex(TypeError, "number 1 of the list is a int"):
+            coastmesh.mesh([Shape(0), 3])
+        other = Shape(1)
+        other.crs = "EPSG:3067"
+        with self.assertRaisesRegex(coastmesh.InputError, "another CRS"):
+            coastmesh.mesh([Shape(0), other])
+
+    def test_meshes_are_pickled_and_copied(self):
+        mesh = coastmesh.mesh(LAKE, min_angle=30, threads=1)
+        for twin in (pickle.loads(pickle.dumps(mesh)), copy.deepcopy(mesh)):
+            for name in ("points", "triangles", "min_angle", "area", "feature"):
+                np.testing.assert_array_equal(getattr(twin, name), getattr(mesh, name))
+            self.assertEqual((twin.crs, twin.report, twin.features), (mesh.crs, mesh.report, mesh.features))
+            self.assertEqual(len(twin.boundaries), len(mesh.boundaries))
+            for own, other in zip(twin.boundaries, mesh.boundaries):
+                np.testing.assert_array_equal(own["nodes"], other["nodes"])
+            for got, name in ((twin, "twin.nc"), (mesh, "mesh.nc")):
+                got.write(self.path(name), overwrite=True)
+        with open(self.path("twin.nc"), "rb") as one, open(self.path("mesh.nc"), "rb") as two:
+            self.assertEqual(one.read(), two.read())
+            self.assertTrue(two.tell())
+        made = coastmesh.mesh(SQUARE, RIM)._made
+        whole = made.__getstate__()
+        for damaged in (whole[:-1], whole + b"x", b"", whole.replace(whole[8:13], b"0.0.x", 1)):
+            with self.assertRaisesRegex(Exception, "pickled"):
+                type(made).__new__(type(made)).__setstate__(damaged)
+
+    def test_names_of_files_that_are_no_text(self):
+        name = os.fsdecode(os.path.join(os.fsencode(self.folder), b"lake-\xff.geojson"))
+        with open(name, "w", encoding="utf-8") as file:
+            json.dump(POLYGON, file)
+        mesh = coastmesh.mesh(name)
+        self.assertEqual(mesh.features[0]["source"], name)
+        mesh.write(name + ".2dm")
+        self.assertEqual(len(coastmesh.read(name + ".2dm").points), len(mesh.points))
+        mesh.plot(name + ".png", size=100)
+        self.assertTrue(os.path.exists(name + ".png"))
+        with self.assertRaises(coastmesh.OutputError) as caught:
+            mesh.write(name + ".2dm")
+        self.assertIn("\udcff", str(caught.exception))
+        with self.assertRaises(coastmesh.InputError) as caught:
+            coastmesh.mesh(name + ".missing")
+        self.assertIn("\udcff", str(caught.exception))
+
     def test_what_is_left_out_is_warned_of(self):
         flat = {"type": "Polygon", "coordinates": [[[5, 5], [6, 6], [7, 7], [5, 5]]]}
         features = [{"type": "Feature", "properties": {}, "geometry": g} for g in (POLYGON, flat)]
@@ -175,8 +242,17 @@ class FilesTest(unittest.TestCase):
             self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
         with self.assertRaises(coastmesh.OptionError):
             mesh.plot(self.path("other.png"), color="pink")
-        with self.assertRaises(coastmesh.OutputError):
+        with self.assertRaises(coastmesh.OutputError) as caught:
             mesh.plot(self.path("missing/lake.png"))
+        self.assertIn(self.path("missing/lake.png"), str(caught.exception))
+        os.mkdir(self.path("folder.png"))
+        with self.assertRaises(coastmesh.OutputError) as caught:
+            mesh.plot(self.path("folder.png"), overwrite=True)
+        self.assertIn("'" + self.path("folder.png"), str(caught.exception))
+        os.rmdir(self.path("folder.png"))
+        for size in (0, 15, -1, 20001, 10**9, 10**30, 3.5, True):
+            with self.assertRaisesRegex(coastmesh.OptionError, "size"):
+                mesh.plot(self.path("other.png"), size=size)
         self.assertEqual(sorted(n for n in os.listdir(self.folder) if not n.endswith(".prj")), ["lake.2dm", "lake.png"])
 
 

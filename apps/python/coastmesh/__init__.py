@@ -18,8 +18,8 @@ from . import _coastmesh
 __all__ = ["Error", "InputError", "OptionError", "OutputError", "CoastmeshWarning", "Mesh", "mesh", "options", "read"]
 __version__ = _coastmesh.version
 
-# Options of the program that have no place here: where results go is the caller's affair.
-_NOT_HERE = {"output", "format", "report", "progress", "overwrite", "quiet"}
+# Options of the program that have no place here: where options come from and results go is the caller's affair.
+_NOT_HERE = {"config", "output", "format", "report", "progress", "overwrite", "quiet"}
 
 
 class Error(Exception):
@@ -131,12 +131,14 @@ class Mesh:
     def write(self, path, format=None, overwrite=False):
         """Writes the mesh in the format that the ending of `path`, or `format`, names. Raises OutputError."""
         with _own_errors():
-            self._made._write(os.fspath(path), format or "", overwrite)
+            self._made._write(os.fsencode(path), format or "", overwrite)
 
     def plot(self, path, color="angle", size=1600, edges=True, overwrite=False):
         """Draws the mesh as .png or .svg, `size` pixels on its longer side; `color` as in `coastmesh plot --color`."""
+        if isinstance(size, (bool, np.bool_)) or not isinstance(size, (int, np.integer)) or abs(size) >= 2**63:
+            raise OptionError(f"size: {size!r} is no number of pixels")
         with _own_errors():
-            self._made._plot(os.fspath(path), color, size, edges, overwrite)
+            self._made._plot(os.fsencode(path), color, int(size), edges, overwrite)
 
     def __repr__(self):
         return f"<coastmesh.Mesh: {len(self.points)} points, {len(self.triangles)} triangles>"
@@ -158,7 +160,7 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
     Args:
         source: what to mesh, one of
             - the path of a vector file that GDAL reads or of a .poly, or a list of paths,
-            - GeoJSON as a dict or a str, or whatever has a __geo_interface__ (shapely, geopandas),
+            - GeoJSON as a dict or a str, or whatever has a __geo_interface__ (shapely, geopandas), or a list of such,
             - points in a plane as an array (n, 2), with `segments` and `holes`; also as a tuple of two or three
               arrays, or as a dict with "vertices", "segments" and perhaps "holes".
         segments: array (m, 2) of indices into the points; none: the convex hull is meshed.
@@ -177,7 +179,7 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
     if progress is not None and not callable(progress):
         raise TypeError("progress is not callable")
     with _own_errors():
-        made = _coastmesh.run(_arguments(keywords), files, text, graph, progress)
+        made = _coastmesh.run([*map(os.fsencode, _arguments(keywords))], [*map(os.fsencode, files)], text, graph, progress)
     refusals = made._refusals
     if len(made.triangles) == 0:
         reasons = refusals[0]["reason"] if len(refusals) == 1 else f"none of the {len(refusals)} parts can be meshed"
@@ -190,7 +192,7 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
 def read(path):
     """Reads a mesh from a file in any format that coastmesh reads; returns a Mesh. Raises InputError."""
     with _own_errors():
-        return Mesh(_coastmesh.read(os.fspath(path)))
+        return Mesh(_coastmesh.read(os.fsencode(path)))
 
 
 def _split(source, segments, holes):
@@ -217,6 +219,8 @@ def _split(source, segments, holes):
             raise InputError("there is nothing to mesh")
         if all(isinstance(part, (str, os.PathLike)) for part in source):
             return [os.fspath(part) for part in source], None, None
+        if any(hasattr(part, "__geo_interface__") for part in source):
+            return [], _list_text(source), None
         if isinstance(source, tuple) and len(source) in (2, 3) and np.ndim(source[0]) == 2:
             return [], None, (*source, None)[:3]
         return [], None, (source, None, None)
@@ -225,10 +229,31 @@ def _split(source, segments, holes):
     raise TypeError(f"cannot mesh a {type(source).__name__}: give a path, GeoJSON, or points and segments")
 
 
+def _list_text(shapes):
+    """A list of what has a __geo_interface__ as GeoJSON."""
+    features, crs = [], None
+    for i, shape in enumerate(shapes):
+        if not hasattr(shape, "__geo_interface__"):
+            raise TypeError(f"number {i} of the list is a {type(shape).__name__}, which has no __geo_interface__")
+        own = getattr(shape, "crs", None)
+        if i > 0 and own != crs:
+            raise InputError(f"number {i} of the list is in another CRS than those before it")
+        crs, geojson = own, shape.__geo_interface__
+        if geojson.get("type") == "FeatureCollection":
+            features.extend(geojson["features"])
+        else:
+            features.append(geojson if geojson.get("type") == "Feature" else _feature(geojson))
+    return _geojson_text({"type": "FeatureCollection", "features": features}, crs)
+
+
+def _feature(geometry):
+    return {"type": "Feature", "properties": {}, "geometry": geometry}
+
+
 def _geojson_text(geojson, crs=None):
     kind = geojson.get("type")
     if kind not in ("Feature", "FeatureCollection"):
-        geojson = {"type": "Feature", "properties": {}, "geometry": geojson}
+        geojson = _feature(geojson)
     authority = crs.to_authority() if hasattr(crs, "to_authority") else None
     if authority:
         name = f"urn:ogc:def:crs:{authority[0]}::{authority[1]}"
