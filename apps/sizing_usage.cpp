@@ -54,7 +54,7 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
              "raster of sizes in metres; of several the first that covers a place counts");
   line.number("--wave-elements", sizes.depth.wave_elements, "N", kNotNegative,
               "elements a wavelength; 0 asks for none");
-  line.number("--wave-period", sizes.depth.period_s, "S", kAboveZero,
+  line.number("--wave-period", sizes.depth.period_s, "S", {0.1, 1e8},
               "period of that wave; the default is that of the M2 tide");
   line.number("--slope-elements", sizes.depth.slope_elements, "N", kNotNegative,
               "elements on 2 pi times the depth over its slope; 0 asks for none");
@@ -69,10 +69,10 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
       },
       "whether the coast keeps its detail, or follows the sizes: where elements are larger it is simplified, as are "
       "the sides of a frame, and islands smaller than an element go");
-  line.number("--time-step", sizes.time_step_s, "S", kNotNegative,
+  line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
               "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
               "asks for none");
-  line.number("--courant", sizes.courant, "C", kAboveZero, "largest Courant number");
+  line.number("--courant", sizes.courant, "C", {1e-3, 1e3}, "largest Courant number");
 }
 
 void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeOptions& sizes) {

@@ -115,6 +115,20 @@ TEST_F(SizeLimits, ALittleBeyondTheBudgetItIsRefinedAsFarAsThatGoes) {
   EXPECT_EQ(runProgram({"check", file("a.2dm"), "--assume-crs", "EPSG:4326"}).code, 0);
 }
 
+// What is beyond any wave or model would overflow on the way to a size, and count for nothing.
+TEST_F(SizeLimits, NumbersBeyondAnyUseAreRefused) {
+  const std::string depths = raster("depths.asc", -100.0, -90.0);
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--wave-elements", "100", "--wave-period", "1e-300"},
+                                             {"--wave-elements", "100", "--wave-period", "1e300"},
+                                             {"--size", "50", "--time-step", "1e308"},
+                                             {"--size", "50", "--time-step", "10", "--courant", "1e-300"}}) {
+    std::vector<std::string> options{"--bathymetry", depths};
+    options.insert(options.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(mesh(options).code, 2) << ::testing::PrintToString(wrong);
+  }
+}
+
 // A plane graph that says with its holes what is inside.
 TEST_F(SizeLimits, OfAPlaneGraph) {
   const std::string poly = write("ring.poly",
