@@ -105,18 +105,19 @@ std::int64_t fidOf(RegionId region, const Coastline& coastline) {
   return region < 0 ? -1 : coastline.features[static_cast<std::size_t>(region)].fid;
 }
 
-const char* kindOf(const Segment& segment) {
-  switch (segment.tag) {
-    case kOpenTag:
-      return "open";
-    case kConstraintTag:
-    case kRegionTag:
-      return "constraint";
-    case kWeirTag:
-      return "weir";
-    default:
-      return segment.left < 0 || segment.right < 0 ? "shore" : "border";
+const char* kindOf(const Segment& segment, const Domain& domain) {
+  if (segment.tag == kOpenTag) return "open";
+  if (isLineTag(segment.tag) && lineOfTag(segment.tag) < domain.lines.size()) {
+    switch (domain.lines[lineOfTag(segment.tag)].use) {
+      case FeatureUse::Weir:
+        return "weir";
+      case FeatureUse::Region:
+        return "region";
+      default:
+        return "constraint";
+    }
   }
+  return segment.left < 0 || segment.right < 0 ? "shore" : "border";
 }
 
 bool lexLessPair(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -138,7 +139,7 @@ std::vector<PslgEdge> sortedEdges(const CleanedInput& cleaned, const Coastline& 
   for (std::size_t d = 0; d < cleaned.domains.size(); ++d) {
     const Domain& domain = cleaned.domains[d];
     for (const Segment& s : domain.pslg.segments) {
-      PslgEdge edge{domain.input_points[s.a], domain.input_points[s.b], kindOf(s), d,
+      PslgEdge edge{domain.input_points[s.a], domain.input_points[s.b], kindOf(s, domain), d,
                     fidOf(s.left, coastline), fidOf(s.right, coastline)};
       if (lexLess(edge.b, edge.a)) std::swap(edge.a, edge.b), std::swap(edge.left_fid, edge.right_fid);
       edges.push_back(edge);

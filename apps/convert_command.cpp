@@ -34,6 +34,8 @@ int runConvert(const ConvertUsage& usage, Interrupt& interrupt) {
     std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
   if (const std::string warning = outputs.depthWarning(grid); !warning.empty())
     std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
+  for (const std::string& warning : outputs.lossWarnings(grid, LossesOf::Grid))
+    std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     interrupt.check();
     outputs.write(i, grid);

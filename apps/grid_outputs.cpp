@@ -34,7 +34,9 @@ GridOutputs::GridOutputs(const std::vector<std::string>& paths, const std::strin
   }
   requireApart(paths, inputs);
   for (const std::string& path : paths) {
-    outputs_.emplace_back(path, gridFormatFor(path, format), overwrite);
+    paths_.push_back(path);
+    formats_.push_back(&gridFormatFor(path, format));
+    outputs_.emplace_back(path, *formats_.back(), overwrite);
     if (gridFormatFor(path, format).says_depth) depth_paths_.push_back(path);
     interrupt.guard(outputs_.back().stagingFolder());
   }
@@ -43,6 +45,15 @@ GridOutputs::GridOutputs(const std::vector<std::string>& paths, const std::strin
 std::string GridOutputs::depthWarning(const Grid& grid) const {
   if (!grid.z.empty() || depth_paths_.empty()) return {};
   return "the mesh has no depths: '" + depth_paths_.front() + "' says 0 everywhere; give --bathymetry";
+}
+
+std::vector<std::string> GridOutputs::lossWarnings(const Grid& grid, LossesOf of) const {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    const std::string losses = lossesIn(grid, *formats_[i], of);
+    if (!losses.empty()) warnings.push_back("'" + paths_[i] + "' cannot hold " + losses);
+  }
+  return warnings;
 }
 
 void GridOutputs::write(std::size_t index, const Grid& grid) { outputs_[index].write(grid); }

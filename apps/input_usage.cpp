@@ -23,7 +23,7 @@ void declareInputOptions(CommandLine& line, InputOptions& options) {
   line.texts("--constraints", options.constraints, kVectorFile, false,
              "lines and points in the water that become edges and vertices of the mesh");
   line.texts("--weirs", options.weirs, kVectorFile, false,
-             "lines in the water that become edges of the mesh, marked as weirs");
+             "lines in the water that become edges of the mesh, marked as weirs where the output has room for lines");
   line.texts("--regions", options.regions, kVectorFile, false, "polygons that mark the triangles in them");
   line.flag("--dissolve", options.dissolve,
             "polygons that share an edge become one: lakes cut at a map sheet or a meridian leave no trace");

@@ -60,10 +60,11 @@ class MeshOutputs {
   }
 
   void writeGrids(const Grid& grid, ProgressDisplay& display) {
-    if (const std::string warning = grids_.depthWarning(grid); !warning.empty()) {
-      display.clear();
-      std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
-    }
+    std::vector<std::string> warnings = grids_.lossWarnings(grid, LossesOf::Input);
+    if (const std::string warning = grids_.depthWarning(grid); !warning.empty()) warnings.push_back(warning);
+    if (!warnings.empty()) display.clear();
+    for (const std::string& warning : warnings) std::fprintf(stderr, "coastmesh: warning: %s\n", warning.c_str());
+    warnings_ = std::move(warnings);
     for (std::size_t i = 0; i < grids_.size(); ++i) {
       display.show("write", static_cast<double>(i) / static_cast<double>(grids_.size()));
       grids_.write(i, grid);
@@ -73,6 +74,9 @@ class MeshOutputs {
     display.show("write", 1.0);
     grids_written_ = true;
   }
+
+  // What outputs cannot hold of the mesh, or hold and the mesh has not.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   void writeReport(const std::string& text) {
     if (report_) report_->write(text);
@@ -89,6 +93,7 @@ class MeshOutputs {
   std::optional<StagedFile> report_;
   Interrupt& interrupt_;
   bool grids_written_ = false;
+  std::vector<std::string> warnings_;
 };
 
 int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
@@ -107,6 +112,7 @@ int runMesh(const MeshUsage& usage, Interrupt& interrupt) {
   const auto write_start = std::chrono::steady_clock::now();
   const bool any = result.regions > 0;
   if (any) outputs.writeGrids(result.grid, display);
+  result.output_warnings = outputs.warnings();
   result.seconds.write = secondsSince(write_start);
   result.log.addAlone("write", result.seconds.write);
   result.seconds.total = secondsSince(start);

@@ -17,6 +17,7 @@
 #include "gis/chain_index.hpp"
 #include "gis/coast_follow.hpp"
 #include "gis/error.hpp"
+#include "gis/feature_names.hpp"
 #include "gis/node_sizes.hpp"
 #include "gis/poly_io.hpp"
 #include "parallel/recorder.hpp"
@@ -135,16 +136,6 @@ void placeShortfalls(const RefineStats& stats, const Projection& projection, Gro
   }
 }
 
-// What a region is called: its attribute "tag", "region" or "name", else the number of its feature.
-std::string regionName(const Feature& feature) {
-  for (const std::string_view wanted : {"tag", "region", "name"}) {
-    for (const auto& [key, value] : feature.attributes) {
-      if (key == wanted) return value;
-    }
-  }
-  return std::to_string(feature.fid);
-}
-
 // Triangles in a region belong to a part of their feature that says so. Borders of regions are edges of the mesh, so that
 // each triangle lies in one as a whole; of several regions the first counts.
 void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
@@ -180,7 +171,7 @@ void markRegions(const Coastline& coastline, const std::vector<std::size_t>& mem
         parts.try_emplace({mesh.regions[t], region->first}, static_cast<RegionId>(names.features.size()));
     if (made) {
       Feature name = names.features[static_cast<std::size_t>(mesh.regions[t])];
-      name.region = regionName(coastline.features[region->first]);
+      name.region = regionNameOf(coastline.features[region->first]);
       names.features.push_back(std::move(name));
     }
     mesh.regions[t] = part->second;

@@ -94,7 +94,8 @@ struct MeshJobResult {
   double mesh_area_m2 = 0.0;
   std::uint64_t digest = 0;
   PhaseSeconds seconds;
-  FinishReport finish;  // depths, boundaries and repairs
+  FinishReport finish;                       // depths, boundaries and repairs
+  std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
 
   bool complete() const {
     return unresolved == 0 && !refine.budget_reached && refusals.empty() && finish.repairs.left.empty();

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "apps/report_sections.hpp"
+#include "gis/grid_lines.hpp"
 
 namespace coastmesh {
 
@@ -84,6 +85,17 @@ Json meshSection(const MeshJobResult& result) {
           {"digest", digestText(result.digest)}};
 }
 
+// Lines by their kinds.
+Json lineSection(const Grid& grid) {
+  Json section = Json::object();
+  for (const LineKind kind : kLineKinds) {
+    std::string key(toString(kind));
+    std::ranges::replace(key, ' ', '_');
+    section[key] = std::ranges::count(grid.lines, kind, &GridLine::kind);
+  }
+  return section;
+}
+
 Json timeSection(const PhaseSeconds& seconds) {
   return {{"read", seconds.read},     {"clean", seconds.clean},
           {"size", seconds.size},     {"triangulate", seconds.triangulate},
@@ -151,7 +163,9 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"mesh", meshSection(result)},
                     {"depth", Json::parse(depthSection(job.finish, result.finish))},
                     {"boundaries", Json::parse(boundarySection(job.finish, result.finish, result.grid))},
+                    {"lines", lineSection(result.grid)},
                     {"repairs", Json::parse(repairSection(job.finish, result.finish))},
+                    {"output_warnings", result.output_warnings},
                     {"time_s", timeSection(result.seconds)},
                     {"parallel", parallelSection(result.log)},
                     {"peak_memory_mib", peakMemoryMib()},

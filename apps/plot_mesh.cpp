@@ -16,6 +16,7 @@
 #include "apps/plot_canvas.hpp"
 #include "core/quality.hpp"
 #include "gis/error.hpp"
+#include "gis/grid_names.hpp"
 
 namespace coastmesh {
 
@@ -247,8 +248,15 @@ class MeshPlot {
     if (lowest_z_ > highest_z_) throw InputError("the mesh has no depth to colour it by");
   }
 
-  // Numbers the parts that hang together by edges and lie in one feature.
+  // Numbers the regions by their names where there are any, else the parts that hang together by edges and lie in one
+  // feature.
   void findParts() {
+    if (const std::vector<std::string> names = regionNames(grid_); !names.empty()) {
+      const std::vector<int> numbers = regionNumbers(grid_, names);
+      for (const RegionId feature : mesh_.regions)
+        parts_.push_back(static_cast<std::uint32_t>(numbers[static_cast<std::size_t>(feature)]));
+      return;
+    }
     constexpr std::uint32_t kNoPart = std::numeric_limits<std::uint32_t>::max();
     parts_.assign(mesh_.triangles.size(), kNoPart);
     std::uint32_t count = 0;

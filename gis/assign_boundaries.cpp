@@ -13,6 +13,7 @@
 #include "gis/crs_map.hpp"
 #include "gis/error.hpp"
 #include "gis/geodesy.hpp"
+#include "gis/ibtype.hpp"
 #include "gis/ogr_support.hpp"
 #include "gis/read_layers.hpp"
 
@@ -282,15 +283,16 @@ RimKind kindOfText(const std::string& text, const std::string& what) {
   if (isOneOf({"land", "shore", "coast", "wall", "closed", "solid", "mainland", "island"})) return {BoundaryRole::Land};
   int number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const int last = number % 10;
-  if (error == std::errc() && end == word.data() + word.size() && number >= 0 && number < 100 &&
-      (last <= 2 || number == 30)) {
-    if (last == 2) return {BoundaryRole::River, number == 22 ? -1 : number};
-    return {BoundaryRole::Land, number == 20 || number == 21 ? -1 : number};
+  const bool whole = error == std::errc() && end == word.data() + word.size();
+  const Ibtype* const type = whole ? findIbtype(number) : nullptr;
+  if (type != nullptr && !type->isWeir()) {
+    // An island and a shore are told apart by their loops alone.
+    const BoundaryRole role = type->role == BoundaryRole::River ? BoundaryRole::River : BoundaryRole::Land;
+    return {role, isRolesOwn(number) ? -1 : number};
   }
   throw InputError(what + ": \"" + text +
-                   "\" is no type of boundary; give land, open or river, or a number of ADCIRC's (0, 1, 2, 10, 11, 12, "
-                   "20, 21, 22; -1 for open)");
+                   "\" is no type of boundary; give land, open or river, or a number of ADCIRC's (" + givableIbtypes() +
+                   "; -1 for open)");
 }
 
 namespace {

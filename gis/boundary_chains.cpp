@@ -25,8 +25,8 @@ std::vector<NodePair> edgesOf(const Boundary& boundary) {
   return edges;
 }
 
-void keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
-                  std::vector<std::vector<NodePair>>& edge_groups) {
+std::vector<std::vector<NodePair>> keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                std::vector<std::vector<NodePair>>& edge_groups) {
   struct Sides {
     NodePair edge;  // the lesser node first
     std::uint32_t along = 0;
@@ -40,7 +40,8 @@ void keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
       greatest = std::max({greatest, a, b});
     }
   }
-  if (sides.empty()) return;
+  std::vector<std::vector<NodePair>> inner(edge_groups.size());
+  if (sides.empty()) return inner;
   std::ranges::sort(sides, {}, &Sides::edge);
   const auto repeated = std::ranges::unique(sides, {}, &Sides::edge);
   sides.erase(repeated.begin(), repeated.end());
@@ -59,9 +60,11 @@ void keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
       if (Sides* side = find(a, b)) ++(a < b ? side->along : side->against);
     }
   }
-  for (auto& group : edge_groups) {
+  for (std::size_t g = 0; g < edge_groups.size(); ++g) {
+    std::vector<NodePair>& group = edge_groups[g];
     std::erase_if(group, [&](const NodePair& edge) {
       const Sides* side = find(edge[0], edge[1]);
+      if (side->along == 1 && side->against == 1) inner[g].push_back(edge);
       return side->along + side->against != 1;
     });
     for (NodePair& edge : group) {
@@ -70,6 +73,7 @@ void keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
       if (along != (side->along == 1)) std::swap(edge[0], edge[1]);
     }
   }
+  return inner;
 }
 
 std::vector<Boundary> chainEdges(std::span<const NodePair> edges) {
@@ -115,7 +119,7 @@ std::vector<Boundary> chainEdges(std::span<const NodePair> edges) {
 }
 
 namespace {
-constexpr std::int64_t kMarkerStep = 10;
+constexpr std::int64_t kMarkerStep = 10, kFirstLineMarker = 5;
 }
 
 std::int64_t boundaryMarker(std::size_t index, BoundaryRole role) {
@@ -125,6 +129,16 @@ std::int64_t boundaryMarker(std::size_t index, BoundaryRole role) {
 std::optional<BoundaryRole> roleOfMarker(std::int64_t marker, std::size_t index) {
   for (const BoundaryRole role : kBoundaryRoles)
     if (marker == boundaryMarker(index, role)) return role;
+  return std::nullopt;
+}
+
+std::int64_t lineMarker(std::size_t index, LineKind kind) {
+  return kMarkerStep * static_cast<std::int64_t>(index + 1) + kFirstLineMarker + static_cast<std::int64_t>(kind);
+}
+
+std::optional<LineKind> lineKindOfMarker(std::int64_t marker, std::size_t index) {
+  for (const LineKind kind : {LineKind::Constraint, LineKind::Weir, LineKind::RegionBorder})
+    if (marker == lineMarker(index, kind)) return kind;
   return std::nullopt;
 }
 

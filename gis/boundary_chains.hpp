@@ -19,9 +19,10 @@ BoundaryRole roleOfLoop(std::span<const Point> nodes, std::span<const std::uint3
 // The edges of a boundary, in its direction.
 std::vector<NodePair> edgesOf(const Boundary& boundary);
 
-// Keeps what lies on the rim (has a triangle on one side only) and turns it so that the triangle lies to the left.
-void keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
-                  std::vector<std::vector<NodePair>>& edge_groups);
+// Keeps what lies on the rim (has a triangle on one side only) and turns it so that the triangle lies to the left. What
+// has triangles on both sides is returned, group by group as it was.
+std::vector<std::vector<NodePair>> keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                std::vector<std::vector<NodePair>>& edge_groups);
 
 // Directed edges end to end as boundaries of role Open; `edges` that follow one another there stay together. Open
 // chains come first.
@@ -31,5 +32,10 @@ std::vector<Boundary> chainEdges(std::span<const NodePair> edges);
 // 2 for an island, 3 for open water, 4 for a river.
 std::int64_t boundaryMarker(std::size_t index, BoundaryRole role);
 std::optional<BoundaryRole> roleOfMarker(std::int64_t marker, std::size_t index);  // none: not that boundary's marker
+
+// The same for a line: plus 5 for a constraint, 6 for a weir, 7 for a region's border. Lines are counted on after the
+// boundaries.
+std::int64_t lineMarker(std::size_t index, LineKind kind);
+std::optional<LineKind> lineKindOfMarker(std::int64_t marker, std::size_t index);
 
 }  // namespace coastmesh

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "gis/coast_sides.hpp"
 #include "gis/face_locator.hpp"
+#include "gis/feature_names.hpp"
 #include "gis/planar_map.hpp"
 #include "gis/segment_tags.hpp"
 #include "gis/union_find.hpp"
@@ -19,11 +21,16 @@ namespace {
 // Features that a face lies in, ascending.
 using FeatureSet = std::vector<std::uint32_t>;
 
-// An edge, its uses [first_use, last_use), and the feature whose open line runs along it.
+// An edge and its uses [first_use, last_use).
 struct MapEdge {
   std::uint32_t first_use, last_use;
-  std::uint32_t line = kNone;
 };
+
+// Which of several features with lines along an edge counts; the least, and of those alike the first.
+int rankOf(FeatureUse use) {
+  if (use == FeatureUse::Weir) return 0;
+  return use == FeatureUse::Region ? 2 : 1;
+}
 
 class Labeller {
  public:
@@ -50,7 +57,7 @@ class Labeller {
     tellMisplacedRings();
     LabelledEdges result;
     if (dissolve_) result.traces = dissolve();
-    result.segments = keepEdges();
+    result.segments = keepEdges(result.lines);
     result.points = keepPoints(result.segments);
     return result;
   }
@@ -62,13 +69,9 @@ class Labeller {
     edges_.reserve(uses.size());
     ends.reserve(uses.size());
     for (std::uint32_t first = 0, last = 0; first < uses.size(); first = last) {
-      MapEdge edge{first, first, kNone};
-      for (; last < uses.size() && uses[last].low() == uses[first].low() && uses[last].high() == uses[first].high();
-           ++last) {
-        if (isLine(uses[last])) edge.line = featureOf(uses[last]);
-      }
-      edge.last_use = last;
-      edges_.push_back(edge);
+      while (last < uses.size() && uses[last].low() == uses[first].low() && uses[last].high() == uses[first].high())
+        ++last;
+      edges_.push_back({first, last});
       ends.emplace_back(uses[first].low(), uses[first].high());
     }
     return ends;
@@ -207,37 +210,55 @@ class Labeller {
     return std::binary_search(holders_[face].begin(), holders_[face].end(), feature);
   }
 
-  std::vector<Segment> keepEdges() const {
+  std::vector<Segment> keepEdges(std::vector<DomainLine>& lines) const {
     std::vector<Segment> segments;
+    std::vector<std::pair<std::size_t, LineKey>> on_lines;  // by segment
     segments.reserve(edges_.size());
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       const RegionId left = label(map_.faceOf(2 * e)), right = label(map_.faceOf(2 * e + 1));
-      if (left == right && (left == kOutside || !staysInside(edges_[e]))) continue;
-      segments.push_back({ends_[e].first, ends_[e].second, tagOf(edges_[e], left, right), left, right});
+      const std::optional<LineKey> line = left == kOutside || right == kOutside ? std::nullopt : lineAlong(edges_[e]);
+      if (left == right && !line) continue;
+      if (line) on_lines.emplace_back(segments.size(), *line);
+      segments.push_back({ends_[e].first, ends_[e].second, opens(edges_[e], left, right) ? kOpenTag : 0, left, right});
     }
+    std::map<LineKey, std::size_t> number_of;  // lines in the order of their features
+    for (const auto& [segment, key] : on_lines) number_of.try_emplace(key, 0);
+    for (auto& [key, number] : number_of) {
+      number = lines.size();
+      const Feature& feature = coastline_.features[key.first];
+      const FeatureUse use = rankOf(feature.use) == 1 ? FeatureUse::Constraint : feature.use;
+      lines.push_back({key.first, use, std::string(lineNameOf(feature)), key.second});
+    }
+    for (const auto& [segment, key] : on_lines) segments[segment].tag = lineTag(number_of.at(key));
     return segments;
   }
 
-  bool ofRegion(const MapEdge& edge) const {
+  // A feature, and whether a region has its border there.
+  using LineKey = std::pair<std::uint32_t, bool>;
+
+  // The line that runs along an edge within the domain.
+  std::optional<LineKey> lineAlong(const MapEdge& edge) const {
+    std::uint32_t first = kNone;
+    bool of_region = false;
     for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
-      if (!isLine(noded_.uses[u]) && useOf(featureOf(noded_.uses[u])) == FeatureUse::Region) return true;
+      const std::uint32_t feature = featureOf(noded_.uses[u]);
+      const FeatureUse use = useOf(feature);
+      const bool border = !isLine(noded_.uses[u]);
+      if (border ? use != FeatureUse::Region : use == FeatureUse::Open) continue;
+      of_region = of_region || border;
+      if (first == kNone || std::pair(rankOf(use), feature) < std::pair(rankOf(useOf(first)), first)) first = feature;
     }
-    return false;
+    return first == kNone ? std::nullopt : std::optional(LineKey(first, of_region));
   }
 
-  bool staysInside(const MapEdge& edge) const {
-    return (edge.line != kNone && useOf(edge.line) != FeatureUse::Open) || ofRegion(edge);
-  }
-
-  std::int32_t tagOf(const MapEdge& edge, RegionId left, RegionId right) const {
-    if (left == right && ofRegion(edge)) return kRegionTag;
-    if (left == right) return useOf(edge.line) == FeatureUse::Weir ? kWeirTag : kConstraintTag;
-    if (left != kOutside && right != kOutside) return 0;
+  // Whether open water goes on beyond an edge of the rim.
+  bool opens(const MapEdge& edge, RegionId left, RegionId right) const {
+    if (left != kOutside && right != kOutside) return false;
     for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
       const FeatureUse use = useOf(featureOf(noded_.uses[u]));
-      if (use == FeatureUse::Frame || use == FeatureUse::Open) return kOpenTag;
+      if (use == FeatureUse::Frame || use == FeatureUse::Open) return true;
     }
-    return 0;
+    return false;
   }
 
   // Vertices asked for that lie in water and on no segment; those elsewhere are told of.

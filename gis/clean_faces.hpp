@@ -12,7 +12,8 @@ namespace coastmesh {
 struct LabelledEdges {
   std::vector<Segment> segments;  // tagged: see segment_tags.hpp
   std::vector<VertexId> points;
-  std::vector<VertexId> traces;  // vertices of edges that were dissolved, ascending
+  std::vector<VertexId> traces;   // vertices of edges that were dissolved, ascending
+  std::vector<DomainLine> lines;  // what the tags refer to
 };
 
 // Labels the faces between noded edges: a face belongs to the first feature that holds it by the even-odd rule, within

@@ -89,6 +89,10 @@ class Noder {
   const Point& at(VertexId v) const { return chains_.vertices.plane[v]; }
   std::uint32_t featureOf(const EdgeUse& use) const { return chains_.chains[use.chain].feature; }
   bool isLine(const EdgeUse& use) const { return !chains_.chains[use.chain].isRing(); }
+  // What a line is for; before that of all lines for rings.
+  int lineUse(const EdgeUse& use) const {
+    return isLine(use) ? static_cast<int>(coastline_.features[featureOf(use)].use) : -1;
+  }
   bool ofFrame(const EdgeUse& use) const { return coastline_.features[featureOf(use)].use == FeatureUse::Frame; }
   std::int64_t fidOf(std::uint32_t edge) const {
     return coastline_.features[featureOf(uses_[edges_[edge].first_use])].fid;
@@ -105,7 +109,7 @@ class Noder {
   // Sorts the uses, lets those of one feature cancel in pairs, and lists the edges.
   void collapse(bool tell) {
     const auto key = [&](const EdgeUse& use) {
-      return std::tuple(use.low(), use.high(), isLine(use), featureOf(use), use.chain, use.a);
+      return std::tuple(use.low(), use.high(), lineUse(use), featureOf(use), use.chain, use.a);
     };
     sortByLow();
     const auto before = [&](const EdgeUse& p, const EdgeUse& q) { return key(p) < key(q); };
@@ -125,7 +129,7 @@ class Noder {
         const EdgeUse use = uses_[i];
         std::size_t same = 0;
         for (; i < uses_.size() && uses_[i].low() == low && uses_[i].high() == high &&
-               isLine(uses_[i]) == isLine(use) && (isLine(use) || featureOf(uses_[i]) == featureOf(use));
+               lineUse(uses_[i]) == lineUse(use) && (isLine(use) || featureOf(uses_[i]) == featureOf(use));
              ++i)
           ++same;
         if (isLine(use) || same % 2 == 1) uses_[kept++] = use;

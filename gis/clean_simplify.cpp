@@ -33,7 +33,7 @@ class Simplifier {
  public:
   Simplifier(const CleanVertices& vertices, const LabelledEdges& edges,
              const std::function<double(VertexId)>& tolerance)
-      : vertices_(vertices), tolerance_(tolerance), links_(vertices.plane.size()) {
+      : vertices_(vertices), lines_(edges.lines), tolerance_(tolerance), links_(vertices.plane.size()) {
     pieces_.reserve(edges.segments.size());
     for (const VertexId v : edges.points) links_[v].degree = 3;  // not to be taken, but in the way
     for (const Segment& s : edges.segments) {
@@ -105,7 +105,7 @@ class Simplifier {
     if (links_[v].degree != 2 || kept_.contains(v)) return false;
     const auto [first, second] = links_[v].segment;
     const std::int32_t tag = pieces_[first].segment.tag;
-    if (tag != pieces_[second].segment.tag || tag == kRegionTag) return false;
+    if (tag != pieces_[second].segment.tag || (isLineTag(tag) && lines_[lineOfTag(tag)].borders_region)) return false;
     const auto [left, right] = labelsFrom(first, v);
     if (labelsFrom(second, v) != std::pair(right, left)) return false;
     const VertexId p = other(first, v), q = other(second, v);
@@ -186,6 +186,7 @@ class Simplifier {
   }
 
   const CleanVertices& vertices_;
+  const std::vector<DomainLine>& lines_;
   const std::function<double(VertexId)>& tolerance_;  // in the plane
   std::vector<Link> links_;
   std::vector<Piece> pieces_;

@@ -143,6 +143,7 @@ std::vector<double> sharesMoved(const Pslg& pslg) {
 Domain followSizes(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
   std::vector<bool> goes = IslandSearch(domain, size).run(coastline, domain, report);
   LabelledEdges edges;
+  edges.lines = std::move(domain.lines);
   std::vector<bool> was_used(domain.pslg.points.size(), false);
   const std::vector<double> share = sharesMoved(domain.pslg);
   for (SegmentId s = 0; s < domain.pslg.segments.size(); ++s) {

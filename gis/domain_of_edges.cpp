@@ -20,6 +20,7 @@ Domain domainOf(const CleanVertices& vertices, LabelledEdges&& edges, const Proj
   }
   for (Segment& s : segments) s.a = renumbered[s.a], s.b = renumbered[s.b];
   domain.pslg.segments = std::move(segments);
+  domain.lines = std::move(edges.lines);
   return domain;
 }
 

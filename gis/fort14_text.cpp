@@ -5,6 +5,7 @@
 
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
+#include "gis/ibtype.hpp"
 #include "gis/text_reader.hpp"
 
 namespace coastmesh {
@@ -19,23 +20,15 @@ struct Segment {
   const Boundary* weir = nullptr;
 };
 
-bool isWeirBetweenShores(int ibtype) { return ibtype % 10 == 4 || ibtype % 10 == 5; }
-
-// Heights and coefficients that follow a node of the type.
-std::size_t weirValues(int ibtype) {
-  if (ibtype % 10 == 3) return 2;
-  if (ibtype % 10 == 4) return 3;
-  return ibtype % 10 == 5 ? 6 : 0;
-}
-
-int ibtypeOf(const Boundary& boundary) {
-  if (boundary.ibtype >= 0) return boundary.ibtype;
-  if (boundary.role == BoundaryRole::River) return 22;
-  return boundary.role == BoundaryRole::Island && boundary.closed ? 21 : 20;
+// A weir's number without its heights would make a file that ADCIRC misreads: the role's own stands there then.
+int adcircType(const Boundary& boundary) {
+  const Ibtype* const told = findIbtype(boundary.ibtype);
+  const bool complete = told != nullptr && !isBareWeir(boundary);
+  return complete ? told->number : ibtypeOf(boundary.role, boundary.closed);
 }
 
 int typeOf(const Boundary& boundary, Fort14Kind kind) {
-  if (kind == Fort14Kind::Adcirc) return ibtypeOf(boundary);
+  if (kind == Fort14Kind::Adcirc) return adcircType(boundary);
   return boundary.role == BoundaryRole::Island && boundary.closed ? 1 : 0;
 }
 
@@ -49,7 +42,7 @@ std::vector<Segment> segmentsOf(const Grid& grid, Fort14Kind kind, bool open) {
     if (isOpen(boundary, kind) != open || boundary.nodes.empty()) continue;
     const int type = open ? 0 : typeOf(boundary, kind);
     const bool weir = kind == Fort14Kind::Adcirc && !open && !boundary.weir.empty();
-    const bool closes_itself = type % 10 == 1;
+    const bool closes_itself = !open && findIbtype(type)->closesItself();
     if (!boundary.closed || closes_itself || weir) {
       segments.push_back({boundary.nodes, type, weir ? &boundary : nullptr});
       continue;
@@ -168,18 +161,13 @@ void readElements(TextReader& file, std::uint64_t count, const NodeNumbers& numb
   if (!in_order) grid.notes.emplace_back("elements are not numbered from 1 in their order");
 }
 
-BoundaryRole roleOfIbtype(int ibtype) {
-  if (ibtype % 10 == 1) return BoundaryRole::Island;
-  return ibtype % 10 == 2 ? BoundaryRole::River : BoundaryRole::Land;
-}
-
-void readNodesOf(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, Boundary& boundary) {
-  const std::size_t values = boundary.ibtype < 0 ? 0 : weirValues(boundary.ibtype);
+void readNodesOf(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, const Ibtype& type,
+                 Boundary& boundary) {
   for (std::uint64_t i = 0; i < count; ++i) {
     file.needLine();
     boundary.nodes.push_back(numbers.read(file));
-    if (values > 0 && isWeirBetweenShores(boundary.ibtype)) boundary.back_nodes.push_back(numbers.read(file));
-    for (std::size_t k = 0; k < values; ++k) boundary.weir.push_back(file.number());
+    if (type.has_back_nodes) boundary.back_nodes.push_back(numbers.read(file));
+    for (std::size_t k = 0; k < type.values; ++k) boundary.weir.push_back(file.number());
   }
 }
 
@@ -196,7 +184,7 @@ void readOpenSegments(TextReader& file, std::uint64_t count, const NodeNumbers& 
   for (std::uint64_t s = 0; s < count; ++s) {
     Boundary boundary{BoundaryRole::Open, false, {}};
     const std::uint64_t length = needCountLine(file);
-    readNodesOf(file, length, numbers, boundary);
+    readNodesOf(file, length, numbers, {}, boundary);
     nodes += length;
     closeLoop(boundary);
     grid.boundaries.push_back(std::move(boundary));
@@ -211,10 +199,11 @@ void readLandSegments(TextReader& file, std::uint64_t count, const NodeNumbers& 
   std::uint64_t nodes = 0;
   for (std::uint64_t s = 0; s < count; ++s) {
     const std::uint64_t length = needCountLine(file);
-    const std::int64_t type = file.integer();
-    if (type < 0 || type > 200) file.fail("there is no boundary type " + std::to_string(type));
-    Boundary boundary{roleOfIbtype(static_cast<int>(type)), false, {}, static_cast<int>(type)};
-    readNodesOf(file, length, numbers, boundary);
+    const std::int64_t number = file.integer();
+    const Ibtype* const type = number < 0 || number > 200 ? nullptr : findIbtype(static_cast<int>(number));
+    if (type == nullptr) file.fail("ADCIRC has no boundary type " + std::to_string(number));
+    Boundary boundary{type->role, false, {}, type->number};
+    readNodesOf(file, length, numbers, *type, boundary);
     nodes += length + boundary.back_nodes.size();
     closeLoop(boundary);
     grid.boundaries.push_back(std::move(boundary));

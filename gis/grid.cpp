@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "core/quality.hpp"
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
 #include "gis/geodesy.hpp"
+#include "gis/grid_lines.hpp"
 #include "gis/segment_tags.hpp"
 
 namespace coastmesh {
@@ -92,6 +94,36 @@ std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts
   return index_of;
 }
 
+LineKind kindOf(FeatureUse use) {
+  if (use == FeatureUse::Weir) return LineKind::Weir;
+  return use == FeatureUse::Region ? LineKind::RegionBorder : LineKind::Constraint;
+}
+
+// The domain's lines as the mesh has them, in their order; those of one feature go on where a region's border joins.
+void appendLines(const Domain& domain, const TriMesh& mesh, const std::vector<std::uint32_t>& index_of,
+                 std::vector<GridLine>& lines) {
+  if (domain.lines.empty()) return;
+  std::vector<std::vector<NodePair>> edges_of(domain.lines.size());
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& triangle = mesh.triangles[t];
+    for (unsigned i = 0; i < 3; ++i) {
+      const SegmentId segment = triangle.seg[i];
+      if (triangle.adj[i] == kNone || segment >= domain.pslg.segments.size()) continue;
+      const std::int32_t tag = domain.pslg.segments[segment].tag;
+      if (!isLineTag(tag) || lineOfTag(tag) >= domain.lines.size()) continue;
+      if (triOf(triangle.adj[i]) < t) continue;  // once of both sides
+      edges_of[lineOfTag(tag)].push_back({index_of[triangle.v[next3(i)]], index_of[triangle.v[prev3(i)]]});
+    }
+  }
+  for (std::size_t first = 0, last = 0; first < edges_of.size(); first = last) {
+    const DomainLine& line = domain.lines[first];
+    std::vector<NodePair> edges;
+    for (; last < edges_of.size() && domain.lines[last].feature == line.feature; ++last)
+      edges.insert(edges.end(), edges_of[last].begin(), edges_of[last].end());
+    std::ranges::move(chainLines(std::move(edges), kindOf(line.use), line.name), std::back_inserter(lines));
+  }
+}
+
 // Edges of the rim that lie on the frame's, with the mesh to the left, sorted.
 std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh) {
   std::vector<NodePair> open;
@@ -171,6 +203,7 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
         if (index_of[v] != kNone) grid.size_m[index_of[v]] = (*part.size_m)[v];
     }
     appendTriangles(*part.mesh, index_of, feature_index, loop, grid);
+    appendLines(*part.domain, *part.mesh, index_of, grid.lines);
     const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh);
     for (Boundary& rim : findBoundaries(*part.mesh, loop)) {
       for (Boundary& boundary : splitLoop(std::move(rim), open)) {

@@ -51,7 +51,7 @@ COASTMESH_GRID_FORMATS(COASTMESH_FORMAT)
 // `path` with another ending in place of its last.
 std::string withEnding(const std::string& path, const char* ending);
 OutputFiles withPrjBeside(const std::string& path);  // `path`, and a .prj that says its CRS
-OutputFiles layerFiles(const std::string& path);     // a file each for triangles, nodes and boundaries
+OutputFiles layerFiles(const std::string& path);     // a file each for triangles, nodes, boundaries and lines
 
 const FormatFunctions& functionsOf(const GridFormat& format);
 OutputFiles filesOf(const GridFormat& format, const std::string& path);

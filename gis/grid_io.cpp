@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include "gis/error.hpp"
+#include "gis/grid_edit.hpp"
 #include "gis/grid_formats.hpp"
 #include "gis/grid_layers.hpp"
+#include "gis/grid_lines.hpp"
 #include "gis/prj_file.hpp"
 
 namespace coastmesh {
@@ -50,6 +52,21 @@ std::string endingList(bool GridFormat::*able) {
   return list;
 }
 
+std::size_t edgesOfLines(const Grid& grid) {
+  std::size_t edges = 0;
+  for (const GridLine& line : grid.lines) edges += edgesOf(line).size();
+  return edges;
+}
+
+// Lines of other programs may run anywhere.
+void keepLinesInside(Grid& grid) {
+  const std::size_t before = edgesOfLines(grid);
+  cutLinesOffEdges(grid);
+  const std::size_t lost = before - edgesOfLines(grid);
+  if (lost > 0)
+    grid.notes.push_back(std::to_string(lost) + " edges of lines are none between two triangles and are left out");
+}
+
 }  // namespace
 
 const std::vector<GridFormat>& gridFormats() {
@@ -90,7 +107,8 @@ std::string withEnding(const std::string& path, const char* ending) {
 OutputFiles withPrjBeside(const std::string& path) { return {{path}, {}, prjBeside(path)}; }
 
 OutputFiles layerFiles(const std::string& path) {
-  return {{path, pathOfLayer(path, kNodeLayer), pathOfLayer(path, kBoundaryLayer)}, {}, {}};
+  return {
+      {path, pathOfLayer(path, kNodeLayer), pathOfLayer(path, kBoundaryLayer), pathOfLayer(path, kLineLayer)}, {}, {}};
 }
 
 OutputFiles filesOf(const GridFormat& format, const std::string& path) {
@@ -105,7 +123,9 @@ Grid readGrid(const std::string& path) {
   const GridFormat* const format = formatByEnding(path);
   if (format == nullptr || !format->readable)
     throw InputError("cannot read '" + path + "' as a mesh; known endings are " + endingList(&GridFormat::readable));
-  return functionsOf(*format).read(path);
+  Grid grid = functionsOf(*format).read(path);
+  keepLinesInside(grid);
+  return grid;
 }
 
 }  // namespace coastmesh

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gis/grid.hpp"
+#include "gis/grid_parts.hpp"
 
 namespace coastmesh {
 
@@ -15,6 +16,7 @@ struct GridFormat {
   std::string_view description;
   bool readable = false;
   bool writable = false;
+  GridParts holds;          // what its files hold of a grid, and its reader takes back
   bool says_depth = false;  // every file of it tells a depth at each node: 0 where the grid has none
 };
 const std::vector<GridFormat>& gridFormats();
@@ -54,7 +56,8 @@ class StagedOutput {
 };
 
 // Reads a mesh back, in any format of `gridFormats` that is readable. Nodes, triangles and their winding are as
-// the file has them, also unused nodes; `boundaries` is empty where the file tells none. Throws InputError.
+// the file has them, also unused nodes; `boundaries` is empty where the file tells none. Lines are those that run along
+// edges inside the mesh; `notes` say where one of the file does not. Throws InputError.
 Grid readGrid(const std::string& path);
 
 }  // namespace coastmesh

@@ -1,31 +1,16 @@
 #include "gis/grid_layers.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <utility>
 
+#include "gis/feature_names.hpp"
 #include "gis/geodesy.hpp"
+#include "gis/grid_lines.hpp"
 
 namespace coastmesh {
 namespace {
-
-std::string lowerCase(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-// The value of the attribute "name", else of the first that has "name" in its own.
-std::string_view nameOf(const GridFeature& feature) {
-  for (const bool exactly : {true, false}) {
-    for (const auto& [key, value] : feature.attributes) {
-      const std::string lower = lowerCase(key);
-      if (exactly ? lower == "name" : lower.find("name") != std::string::npos) return value;
-    }
-  }
-  return {};
-}
 
 LayerColumn idColumn() {
   return {"id", LayerColumn::Whole([](std::size_t row) { return static_cast<std::int64_t>(row) + 1; })};
@@ -60,7 +45,7 @@ GridLayer triangleLayer(const Grid& grid) {
   std::vector<std::string_view> sources, names;
   for (const GridFeature& feature : grid.features) {
     sources.push_back(feature.source);
-    names.push_back(nameOf(feature));
+    names.push_back(nameOf(feature.attributes));
   }
   addFeatureText(grid, "source", std::move(sources), layer.columns);
   addFeatureText(grid, "name", std::move(names), layer.columns);
@@ -85,37 +70,72 @@ GridLayer nodeLayer(const Grid& grid) {
   return layer;
 }
 
-std::vector<double> boundaryLengths(const Grid& grid) {
-  std::vector<std::vector<Point>> chains;
-  for (const Boundary& boundary : grid.boundaries) {
-    std::vector<Point>& chain = chains.emplace_back();
-    for (std::uint32_t node : boundary.nodes) chain.push_back(grid.nodes[node]);
-    if (boundary.closed && !chain.empty()) chain.push_back(chain.front());
+// Lengths of boundaries or lines in metres.
+template <typename Chain>
+std::vector<double> lengthsOf(const std::vector<Chain>& chains, const Grid& grid) {
+  std::vector<std::vector<Point>> places;
+  for (const Chain& chain : chains) {
+    std::vector<Point>& made = places.emplace_back();
+    for (const std::uint32_t node : chain.nodes) made.push_back(grid.nodes[node]);
+    if (chain.closed && !made.empty()) made.push_back(made.front());
   }
-  return chainLengths(chains, grid.crs);
+  return chainLengths(places, grid.crs);
+}
+
+// A layer of boundaries or lines, with the id as its column. REQUIRES: `chains` outlive it.
+template <typename Chain>
+GridLayer chainLayer(std::string_view name, const std::vector<Chain>& chains) {
+  GridLayer layer{std::string(name), GridLayer::Shape::Line, chains.size(), {idColumn()}, {}};
+  layer.shapeOf = [&chains](std::size_t row, std::vector<std::uint32_t>& nodes) {
+    nodes = chains[row].nodes;
+    if (chains[row].closed && !nodes.empty()) nodes.push_back(nodes.front());
+  };
+  return layer;
+}
+
+template <typename Chain>
+void addClosedAndLength(const std::vector<Chain>& chains, const Grid& grid, GridLayer& layer) {
+  layer.columns.push_back({"closed", LayerColumn::Flag([&chains](std::size_t row) { return chains[row].closed; })});
+  layer.columns.push_back(
+      {"length_m", LayerColumn::Real([lengths = lengthsOf(chains, grid)](std::size_t row) { return lengths[row]; })});
 }
 
 GridLayer boundaryLayer(const Grid& grid) {
-  GridLayer layer{std::string(kBoundaryLayer), GridLayer::Shape::Line, grid.boundaries.size(), {idColumn()}, {}};
-  layer.shapeOf = [&grid](std::size_t row, std::vector<std::uint32_t>& nodes) {
-    nodes = grid.boundaries[row].nodes;
-    if (grid.boundaries[row].closed && !nodes.empty()) nodes.push_back(nodes.front());
-  };
+  GridLayer layer = chainLayer(kBoundaryLayer, grid.boundaries);
   constexpr std::size_t kLongestRole = std::string_view("island").size();
   layer.columns.push_back({"role",
                            LayerColumn::Text([&grid](std::size_t row) { return toString(grid.boundaries[row].role); }),
                            kLongestRole});
+  if (std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return boundary.ibtype >= 0; }))
+    layer.columns.push_back({"ibtype", LayerColumn::Whole([&grid](std::size_t row) -> std::optional<std::int64_t> {
+                               const int type = grid.boundaries[row].ibtype;
+                               return type >= 0 ? std::optional<std::int64_t>(type) : std::nullopt;
+                             })});
+  addClosedAndLength(grid.boundaries, grid, layer);
+  return layer;
+}
+
+GridLayer lineLayer(const Grid& grid) {
+  GridLayer layer = chainLayer(kLineLayer, grid.lines);
+  constexpr std::size_t kLongestKind = std::string_view("region border").size();
   layer.columns.push_back(
-      {"closed", LayerColumn::Flag([&grid](std::size_t row) { return grid.boundaries[row].closed; })});
-  layer.columns.push_back(
-      {"length_m", LayerColumn::Real([lengths = boundaryLengths(grid)](std::size_t row) { return lengths[row]; })});
+      {"kind", LayerColumn::Text([&grid](std::size_t row) { return toString(grid.lines[row].kind); }), kLongestKind});
+  std::size_t longest = 0;
+  for (const GridLine& line : grid.lines) longest = std::max(longest, line.name.size());
+  if (longest > 0)
+    layer.columns.push_back(
+        {"name", LayerColumn::Text([&grid](std::size_t row) { return std::string_view(grid.lines[row].name); }),
+         longest});
+  addClosedAndLength(grid.lines, grid, layer);
   return layer;
 }
 
 }  // namespace
 
 std::vector<GridLayer> layersOf(const Grid& grid) {
-  return {triangleLayer(grid), nodeLayer(grid), boundaryLayer(grid)};
+  std::vector<GridLayer> layers{triangleLayer(grid), nodeLayer(grid), boundaryLayer(grid)};
+  if (!grid.lines.empty()) layers.push_back(lineLayer(grid));
+  return layers;
 }
 
 std::string pathOfLayer(const std::string& path, std::string_view layer) {

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "gis/grid.hpp"
+#include "gis/grid_parts.hpp"
 
 namespace coastmesh {
 
@@ -15,7 +17,7 @@ namespace coastmesh {
 
 struct LayerColumn {
   using Flag = std::function<bool(std::size_t row)>;
-  using Whole = std::function<std::int64_t(std::size_t row)>;
+  using Whole = std::function<std::optional<std::int64_t>(std::size_t row)>;  // none is null
   using Real = std::function<double(std::size_t row)>;
   using Text = std::function<std::string_view(std::size_t row)>;  // empty is null
 
@@ -35,14 +37,21 @@ struct GridLayer {
   std::function<void(std::size_t row, std::vector<std::uint32_t>& nodes)> shapeOf;
 };
 
-inline constexpr std::string_view kTriangleLayer = "triangles", kNodeLayer = "nodes", kBoundaryLayer = "boundaries";
+inline constexpr std::string_view kTriangleLayer = "triangles", kNodeLayer = "nodes", kBoundaryLayer = "boundaries",
+                                  kLineLayer = "lines";
 
-// The layers in this order: triangles (id, min_angle in degrees, area_m2, src_fid, source, name), nodes (id, z),
-// boundaries (id, role, closed, length_m), ids from 1. Columns that the grid has nothing for are left out; `name` is
-// the first attribute of the source feature that is called so, or like it. REQUIRES: `grid` outlives the answer.
+// The layers in this order: triangles (id, min_angle in degrees, area_m2, src_fid, source, name, region), nodes (id, z,
+// size), boundaries (id, role, ibtype, closed, length_m) and, where there are any, lines (id, kind, name, closed,
+// length_m), ids from 1. Columns that the grid has nothing for are left out; `name` is the first attribute of the source
+// feature that is called so, or like it. REQUIRES: `grid` outlives the answer.
 std::vector<GridLayer> layersOf(const Grid& grid);
 
-// Files that hold one layer each: "lake.shp" goes with "lake_nodes.shp" and "lake_boundaries.shp".
+// What layers hold of a grid.
+inline constexpr GridParts kLayerParts{GridPart::Sizes,   GridPart::Features, GridPart::FeatureNames,
+                                       GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
+                                       GridPart::Rivers,  GridPart::Ibtypes,  GridPart::BareWeirs};
+
+// Files that hold one layer each: "lake.shp" goes with "lake_nodes.shp" and "lake_boundaries.shp" and "lake_lines.shp".
 std::string pathOfLayer(const std::string& path, std::string_view layer);
 
 }  // namespace coastmesh

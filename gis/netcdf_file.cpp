@@ -51,10 +51,16 @@ void NetcdfWriter::attribute(int variable, const std::string& name, const std::v
   check(nc_put_att_schar(id_, variable, name.c_str(), NC_BYTE, values.size(), values.data()));
 }
 
+void NetcdfWriter::attribute(int variable, const std::string& name, const std::vector<int>& values) {
+  check(nc_put_att_int(id_, variable, name.c_str(), NC_INT, values.size(), values.data()));
+}
+
 void NetcdfWriter::endDefinitions() { check(nc_enddef(id_)); }
 void NetcdfWriter::put(int variable, const int* values) { check(nc_put_var_int(id_, variable, values)); }
 void NetcdfWriter::put(int variable, const double* values) { check(nc_put_var_double(id_, variable, values)); }
 void NetcdfWriter::put(int variable, const signed char* values) { check(nc_put_var_schar(id_, variable, values)); }
+
+void NetcdfWriter::put(int variable, const char* values) { check(nc_put_var_text(id_, variable, values)); }
 
 void NetcdfWriter::close() {
   const int id = id_;
@@ -185,6 +191,22 @@ std::vector<std::int64_t> NetcdfReader::integers(const std::string& variable) co
   std::vector<long long> values(sizeOf(variable));
   check(nc_get_var_longlong(id_, variableId(variable), values.data()));
   return {values.begin(), values.end()};
+}
+
+std::vector<std::string> NetcdfReader::texts(const std::string& variable) const {
+  const std::vector<std::size_t> lengths = shape(variable);
+  const int id = variableId(variable);
+  nc_type type = 0;
+  check(nc_inq_vartype(id_, id, &type));
+  if (lengths.size() != 2 || type != NC_CHAR) fail("\"" + variable + "\" holds no texts");
+  std::string all(sizeOf(variable), '\0');
+  check(nc_get_var_text(id_, id, all.data()));
+  std::vector<std::string> rows;
+  for (std::size_t row = 0; row < lengths[0]; ++row) {
+    const std::string text = all.substr(row * lengths[1], lengths[1]);
+    rows.push_back(text.substr(0, text.find('\0')));
+  }
+  return rows;
 }
 
 }  // namespace coastmesh

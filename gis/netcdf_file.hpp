@@ -23,11 +23,13 @@ class NetcdfWriter {
   void attribute(int variable, const std::string& name, int value);
   void attribute(int variable, const std::string& name, double value);
   void attribute(int variable, const std::string& name, const std::vector<signed char>& values);
+  void attribute(int variable, const std::string& name, const std::vector<int>& values);
 
   void endDefinitions();
   void put(int variable, const int* values);
   void put(int variable, const double* values);
   void put(int variable, const signed char* values);
+  void put(int variable, const char* values);
   void close();
 
  private:
@@ -54,6 +56,7 @@ class NetcdfReader {
   std::optional<double> number(const std::string& variable, const std::string& attribute) const;
   std::vector<double> doubles(const std::string& variable) const;
   std::vector<std::int64_t> integers(const std::string& variable) const;
+  std::vector<std::string> texts(const std::string& variable) const;  // rows of characters, filled up with zeros
 
   [[noreturn]] void fail(const std::string& what) const;
 

@@ -1,9 +1,14 @@
 #include "gis/read_2dm.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <variant>
 
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
+#include "gis/grid_lines.hpp"
+#include "gis/grid_names.hpp"
 #include "gis/prj_file.hpp"
 #include "gis/text_reader.hpp"
 
@@ -20,6 +25,7 @@ struct Cards {
   std::vector<std::array<std::int64_t, 3>> corners;
   std::vector<std::int64_t> materials;
   std::vector<NodeString> strings;
+  std::map<std::int64_t, std::string> material_names;
 };
 
 // A node string goes on over several lines until a node with a minus sign ends it.
@@ -35,6 +41,15 @@ void readNodeString(TextReader& file, Cards& cards, bool& unfinished) {
     if (file.hasWord()) string.id = file.integer();
     return;
   }
+}
+
+// MAT id "name"
+void readMaterialName(TextReader& file, Cards& cards) {
+  const std::int64_t id = file.integer();
+  const std::string_view line = file.line();
+  const std::size_t open = line.find('"'), close = line.rfind('"');
+  if (open != std::string_view::npos && close > open)
+    cards.material_names[id] = std::string(line.substr(open + 1, close - open - 1));
 }
 
 Cards readCards(TextReader& file, Grid& grid) {
@@ -54,6 +69,8 @@ Cards readCards(TextReader& file, Grid& grid) {
       grid.z.push_back(file.hasWord() ? file.number() : 0.0);
     } else if (card == "NS") {
       readNodeString(file, cards, unfinished);
+    } else if (card == "MAT") {
+      readMaterialName(file, cards);
     } else if (card == "E4Q" || card == "E6T" || card == "E8Q" || card == "E9Q") {
       file.fail("an element of kind " + std::string(card) + "; only meshes of triangles (E3T) can be read");
     }
@@ -67,37 +84,67 @@ void readMaterials(const Cards& cards, Grid& grid) {
   std::ranges::sort(known);
   const auto repeated = std::ranges::unique(known);
   known.erase(repeated.begin(), repeated.end());
-  if (known.size() < 2) return;
-  for (const std::int64_t material : known) grid.features.push_back({material, {}, {}});
+  const auto named = [&](std::int64_t material) { return cards.material_names.contains(material); };
+  if (known.size() < 2 && std::ranges::none_of(known, named)) return;
+  for (const std::int64_t material : known)
+    grid.features.push_back(named(material) ? featureOfLabel(cards.material_names.at(material), material)
+                                            : GridFeature{material, {}, {}});
   for (const std::int64_t material : cards.materials)
     grid.feature_of.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(known, material) - known.begin()));
 }
 
-void readBoundaries(const Cards& cards, const IdMap& node_index, const TextReader& file, Grid& grid) {
-  std::vector<std::vector<NodePair>> groups;
-  bool ours = true;
-  for (const NodeString& string : cards.strings) {
-    ours = ours && roleOfMarker(string.id, groups.size());
-    auto& edges = groups.emplace_back();
-    for (std::size_t i = 0; i < string.nodes.size(); ++i) {
-      const std::uint32_t node = node_index.indexOf(string.nodes[i]);
-      if (node == kNone)
-        throw InputError("'" + file.path() + "': a node string (NS) names node " + std::to_string(string.nodes[i]) +
-                         ", which is not there");
-      if (i > 0) edges.back()[1] = node;
-      if (i + 1 < string.nodes.size()) edges.push_back({node, node});
+// What a node string is by its number, where all of the file's are numbered as `write2dm` does it.
+using StringKind = std::variant<std::monostate, BoundaryRole, LineKind>;
+std::vector<StringKind> kindsOf(const std::vector<NodeString>& strings) {
+  std::vector<StringKind> kinds;
+  for (const NodeString& string : strings) {
+    if (const auto role = roleOfMarker(string.id, kinds.size())) {
+      kinds.emplace_back(*role);
+    } else if (const auto kind = lineKindOfMarker(string.id, kinds.size())) {
+      kinds.emplace_back(*kind);
+    } else {
+      return std::vector<StringKind>(strings.size());
     }
   }
-  keepRimEdges(grid.triangles, groups);
+  return kinds;
+}
+
+std::vector<std::uint32_t> nodesOf(const NodeString& string, const IdMap& node_index, const TextReader& file) {
+  std::vector<std::uint32_t> nodes;
+  for (const std::int64_t id : string.nodes) {
+    nodes.push_back(node_index.indexOf(id));
+    if (nodes.back() == kNone)
+      throw InputError("'" + file.path() + "': a node string (NS) names node " + std::to_string(id) +
+                       ", which is not there");
+  }
+  return nodes;
+}
+
+// Boundaries, and lines inside the mesh: those of other programs are strings, or parts of them, that do not run along the
+// rim.
+void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& file, Grid& grid) {
+  const std::vector<StringKind> kinds = kindsOf(cards.strings);
+  std::vector<std::vector<NodePair>> groups;
+  for (std::size_t s = 0; s < cards.strings.size(); ++s) {
+    std::vector<std::uint32_t> nodes = nodesOf(cards.strings[s], node_index, file);
+    auto& edges = groups.emplace_back();
+    if (const LineKind* const kind = std::get_if<LineKind>(&kinds[s])) {
+      if (nodes.size() > 1) grid.lines.push_back(lineOfNodes(*kind, {}, std::move(nodes)));
+      continue;
+    }
+    for (std::size_t i = 1; i < nodes.size(); ++i) edges.push_back({nodes[i - 1], nodes[i]});
+  }
+  const std::vector<std::vector<NodePair>> inner = keepRimEdges(grid.triangles, groups);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (Boundary& chain : chainEdges(groups[g])) {
-      if (ours) {
-        chain.role = *roleOfMarker(cards.strings[g].id, g);
+      if (const BoundaryRole* const role = std::get_if<BoundaryRole>(&kinds[g])) {
+        chain.role = *role;
       } else if (chain.closed) {
         chain.role = roleOfLoop(grid.nodes, chain.nodes);
       }
       grid.boundaries.push_back(std::move(chain));
     }
+    std::ranges::move(chainLines(inner[g], LineKind::Constraint, {}), std::back_inserter(grid.lines));
   }
 }
 
@@ -121,7 +168,7 @@ Grid read2dm(const std::string& path) {
   }
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
   readMaterials(cards, grid);
-  readBoundaries(cards, node_index, file, grid);
+  readStrings(cards, node_index, file, grid);
   grid.crs = readPrjBeside(path);
   return grid;
 }

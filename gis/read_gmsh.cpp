@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -10,6 +11,8 @@
 
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
+#include "gis/grid_lines.hpp"
+#include "gis/grid_names.hpp"
 #include "gis/prj_file.hpp"
 #include "gis/text_reader.hpp"
 
@@ -22,6 +25,7 @@ template <std::size_t Corners>
 struct Element {
   Tag tag = 0;
   Tag physical = 0;
+  Tag entity = 0;
   std::array<Tag, Corners> nodes{};
 };
 
@@ -103,13 +107,13 @@ void readNodes22(TextReader& file, Contents& contents) {
 }
 
 // The line is at the nodes of the element.
-void addElement(TextReader& file, std::int64_t type, Tag tag, Tag physical, Contents& contents) {
+void addElement(TextReader& file, std::int64_t type, Tag tag, Tag physical, Tag entity, Contents& contents) {
   if (type == 1) {
     const Tag a = file.integer(), b = file.integer();
-    contents.lines.push_back({tag, physical, {a, b}});
+    contents.lines.push_back({tag, physical, entity, {a, b}});
   } else if (type == 2) {
     const Tag a = file.integer(), b = file.integer(), c = file.integer();
-    contents.triangles.push_back({tag, physical, {a, b, c}});
+    contents.triangles.push_back({tag, physical, entity, {a, b, c}});
   } else if (type != kPointType) {
     file.fail("an element of type " + std::to_string(type) + "; only meshes of triangles with three nodes can be read");
   }
@@ -128,7 +132,7 @@ void readElements41(TextReader& file, Contents& contents) {
     for (std::uint64_t i = 0; i < count; ++i) {
       file.needLine();
       const Tag tag = file.integer();
-      addElement(file, type, tag, physical == contents.physical_of.end() ? 0 : physical->second, contents);
+      addElement(file, type, tag, physical == contents.physical_of.end() ? 0 : physical->second, entity, contents);
     }
   }
 }
@@ -141,12 +145,13 @@ void readElements22(TextReader& file, Contents& contents) {
     const Tag tag = file.integer();
     const std::int64_t type = file.integer();
     const std::uint64_t tags = file.count();
-    Tag physical = 0;
+    Tag physical = 0, entity = 0;
     for (std::uint64_t k = 0; k < tags && file.hasWord(); ++k) {
       const Tag value = file.integer();
       if (k == 0) physical = value;
+      if (k == 1) entity = value;
     }
-    addElement(file, type, tag, physical, contents);
+    addElement(file, type, tag, physical, entity, contents);
   }
 }
 
@@ -245,18 +250,6 @@ void readZ(const Contents& contents, const IdMap& node_index, const std::string&
   }
 }
 
-GridFeature featureOf(Tag physical, const std::string& name) {
-  constexpr std::string_view kOurs = "feature ";
-  if (name.starts_with(kOurs)) {
-    std::int64_t fid = 0;
-    const char* const from = name.data() + kOurs.size();
-    if (std::from_chars(from, name.data() + name.size(), fid).ec == std::errc()) return {fid, {}, {}};
-  }
-  GridFeature feature{physical, {}, {}};
-  if (!name.empty()) feature.attributes.emplace_back("name", name);
-  return feature;
-}
-
 std::string nameOf(const Contents& contents, int dimension, Tag physical) {
   const auto name = contents.names.find({dimension, physical});
   return name == contents.names.end() ? std::string() : name->second;
@@ -271,7 +264,7 @@ void readFeatures(const Contents& contents, Grid& grid) {
   }
   for (auto& [physical, index] : index_of) {
     index = static_cast<std::uint32_t>(grid.features.size());
-    grid.features.push_back(featureOf(physical, nameOf(contents, 2, physical)));
+    grid.features.push_back(featureOfLabel(nameOf(contents, 2, physical), physical));
   }
   for (const auto& triangle : contents.triangles) grid.feature_of.push_back(index_of[triangle.physical]);
 }
@@ -283,24 +276,58 @@ std::optional<BoundaryRole> roleOfName(std::string name) {
   return std::nullopt;
 }
 
-void readBoundaries(const Contents& contents, const IdMap& node_index, const std::string& path, Grid& grid) {
-  std::vector<Tag> physicals;  // in the order of their first lines
-  std::map<Tag, std::size_t> group_of;
+// ADCIRC's type at the end of a name that we gave; -1 for none.
+int ibtypeOfName(const std::string& name) {
+  const std::size_t mark = name.rfind(kIbtypeMark);
+  int type = -1;
+  if (mark != std::string::npos)
+    std::from_chars(name.data() + mark + kIbtypeMark.size(), name.data() + name.size(), type);
+  return type;
+}
+
+// "weir North" is a weir; a name of another program's stays as it is, and its line is a constraint.
+std::pair<LineKind, std::string> lineOfName(const std::string& name) {
+  for (const LineKind kind : kLineKinds) {
+    const std::string_view word = toString(kind);
+    if (name == word) return {kind, ""};
+    if (name.starts_with(std::string(word) + ' ')) return {kind, name.substr(word.size() + 1)};
+  }
+  return {LineKind::Constraint, name};
+}
+
+// Elements along the rim, by their physical groups, are boundaries, those inside lines, by their curves.
+void readCurves(const Contents& contents, const IdMap& node_index, const std::string& path, Grid& grid) {
+  std::vector<std::pair<Tag, Tag>> keys;  // physical group and curve, in the order of their first elements
+  std::map<std::pair<Tag, Tag>, std::size_t> group_of;
   std::vector<std::vector<NodePair>> groups;
   for (const auto& line : contents.lines) {
-    const auto [at, added] = group_of.emplace(line.physical, groups.size());
+    const std::pair key{line.physical, line.entity};
+    const auto [at, added] = group_of.emplace(key, groups.size());
     if (added) {
       groups.emplace_back();
-      physicals.push_back(line.physical);
+      keys.push_back(key);
     }
     groups[at->second].push_back({nodeOf(node_index, line.nodes[0], path), nodeOf(node_index, line.nodes[1], path)});
   }
-  keepRimEdges(grid.triangles, groups);
+  const std::vector<std::vector<NodePair>> inner = keepRimEdges(grid.triangles, groups);
+  std::vector<std::pair<Tag, std::vector<NodePair>>> rims;  // by physical group, in the order of their first elements
+  std::map<Tag, std::size_t> rim_of;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const auto role = roleOfName(nameOf(contents, 1, physicals[g]));
-    for (Boundary& chain : chainEdges(groups[g])) {
+    const Tag physical = keys[g].first;
+    const auto [rim, added] = rim_of.emplace(physical, rims.size());
+    if (added) rims.push_back({physical, {}});
+    std::vector<NodePair>& edges = rims[rim->second].second;
+    edges.insert(edges.end(), groups[g].begin(), groups[g].end());
+    const auto [kind, name] = lineOfName(nameOf(contents, 1, physical));
+    std::ranges::move(linesAlong(inner[g], kind, name), std::back_inserter(grid.lines));
+  }
+  for (const auto& [physical, edges] : rims) {
+    const std::string name = nameOf(contents, 1, physical);
+    const auto role = roleOfName(name);
+    for (Boundary& chain : chainEdges(edges)) {
       const BoundaryRole by_shape = chain.closed ? roleOfLoop(grid.nodes, chain.nodes) : BoundaryRole::Land;
       chain.role = role.value_or(by_shape);
+      chain.ibtype = role ? ibtypeOfName(name) : -1;
       grid.boundaries.push_back(std::move(chain));
     }
   }
@@ -321,7 +348,7 @@ Grid readGmsh(const std::string& path) {
   }
   readZ(contents, node_index, path, grid);
   readFeatures(contents, grid);
-  readBoundaries(contents, node_index, path, grid);
+  readCurves(contents, node_index, path, grid);
   grid.crs = readPrjBeside(path);
   return grid;
 }

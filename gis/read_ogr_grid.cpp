@@ -21,6 +21,7 @@
 #include "gis/error.hpp"
 #include "gis/grid_edit.hpp"
 #include "gis/grid_layers.hpp"
+#include "gis/grid_lines.hpp"
 #include "gis/ogr_support.hpp"
 
 namespace coastmesh {
@@ -168,32 +169,37 @@ void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& gr
   for (std::uint32_t i = 0; i < grid.nodes.size(); ++i) index.emplace(grid.nodes[i], i);
 }
 
+// The text of a field; empty where there is none.
+std::string textOf(const OGRFeature& feature, int field) {
+  return field >= 0 && feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsString(field) : "";
+}
+
 // Equal features of several triangles become one.
 class FeatureTable {
  public:
   FeatureTable(const LayerReader& reader)
-      : fid_(reader.field("src_fid")), source_(reader.field("source")), name_(reader.field("name")) {}
+      : fid_(reader.field("src_fid")),
+        source_(reader.field("source")),
+        name_(reader.field("name")),
+        region_(reader.field("region")) {}
 
   bool exists() const { return fid_ >= 0; }
 
   std::uint32_t indexOf(const OGRFeature& feature, std::vector<GridFeature>& features) {
-    const auto text = [&](int field) {
-      return std::string(field >= 0 && feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsString(field) : "");
-    };
-    auto key =
-        std::make_tuple(static_cast<std::int64_t>(feature.GetFieldAsInteger64(fid_)), text(source_), text(name_));
+    auto key = std::make_tuple(static_cast<std::int64_t>(feature.GetFieldAsInteger64(fid_)), textOf(feature, source_),
+                               textOf(feature, name_), textOf(feature, region_));
     const auto [at, added] = index_.emplace(std::move(key), static_cast<std::uint32_t>(features.size()));
     if (added) {
-      const auto& [fid, source, name] = at->first;
-      GridFeature& made = features.emplace_back(GridFeature{fid, source, {}});
+      const auto& [fid, source, name, region] = at->first;
+      GridFeature& made = features.emplace_back(GridFeature{fid, source, {}, region});
       if (!name.empty()) made.attributes.emplace_back("name", name);
     }
     return at->second;
   }
 
  private:
-  int fid_, source_, name_;
-  std::map<std::tuple<std::int64_t, std::string, std::string>, std::uint32_t> index_;
+  int fid_, source_, name_, region_;
+  std::map<std::tuple<std::int64_t, std::string, std::string, std::string>, std::uint32_t> index_;
 };
 
 void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
@@ -225,16 +231,27 @@ void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
   }
 }
 
+// The nodes along a line of a layer.
+std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader, const NodeIndex& index) {
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is no line");
+  const OGRLineString& line = *geometry->toLineString();
+  std::vector<std::uint32_t> nodes;
+  for (int i = 0; i < line.getNumPoints(); ++i) {
+    const auto node = index.find(placeOf(line, i));
+    if (node == index.end()) reader.fail("point " + std::to_string(i + 1) + " of the line is no corner of a triangle");
+    nodes.push_back(node->second);
+  }
+  return nodes;
+}
+
 void readBoundaries(const Companion& companion, const OgrErrors& errors, const NodeIndex& index, Grid& grid) {
   if (companion.layer == nullptr) return;
   LayerReader reader(*companion.layer, companion.path, errors);
-  const int id_field = reader.field("id"), role_field = reader.field("role");
+  const int id_field = reader.field("id"), role_field = reader.field("role"), type_field = reader.field("ibtype");
   if (id_field < 0 || role_field < 0) return;
   std::vector<std::int64_t> ids;
   while (const OGRFeature* feature = reader.next()) {
-    const OGRGeometry* geometry = feature->GetGeometryRef();
-    if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is no line");
-    const OGRLineString& line = *geometry->toLineString();
     Boundary boundary;
     const std::string role = feature->GetFieldAsString(role_field);
     std::optional<BoundaryRole> known;
@@ -242,18 +259,31 @@ void readBoundaries(const Companion& companion, const OgrErrors& errors, const N
       if (role == toString(candidate)) known = candidate;
     if (!known) reader.fail("its role is \"" + role + "\", not land, island, open or river");
     boundary.role = *known;
-    for (int i = 0; i < line.getNumPoints(); ++i) {
-      const auto node = index.find(placeOf(line, i));
-      if (node == index.end())
-        reader.fail("point " + std::to_string(i + 1) + " of the line is no corner of a triangle");
-      boundary.nodes.push_back(node->second);
-    }
+    if (type_field >= 0 && feature->IsFieldSetAndNotNull(type_field))
+      boundary.ibtype = feature->GetFieldAsInteger(type_field);
+    boundary.nodes = nodesAlong(*feature, reader, index);
     boundary.closed = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
     if (boundary.closed) boundary.nodes.pop_back();
     ids.push_back(feature->GetFieldAsInteger64(id_field));
     grid.boundaries.push_back(std::move(boundary));
   }
   reorder(grid.boundaries, orderOf(ids));
+}
+
+void readLines(const Companion& companion, const OgrErrors& errors, const NodeIndex& index, Grid& grid) {
+  if (companion.layer == nullptr) return;
+  LayerReader reader(*companion.layer, companion.path, errors);
+  const int id_field = reader.field("id"), kind_field = reader.field("kind"), name_field = reader.field("name");
+  if (id_field < 0 || kind_field < 0) return;
+  std::vector<std::int64_t> ids;
+  while (const OGRFeature* feature = reader.next()) {
+    const std::string kind = textOf(*feature, kind_field);
+    const std::optional<LineKind> known = lineKindNamed(kind);
+    if (!known) reader.fail("its kind is \"" + kind + "\", not constraint, weir or region border");
+    ids.push_back(feature->GetFieldAsInteger64(id_field));
+    grid.lines.push_back(lineOfNodes(*known, textOf(*feature, name_field), nodesAlong(*feature, reader, index)));
+  }
+  reorder(grid.lines, orderOf(ids));
 }
 
 // OGR takes a GeoJSON file that says "crs": null for WGS 84.
@@ -285,6 +315,7 @@ Grid readOgrGrid(const std::string& path) {
   LayerReader reader(layer, path, errors);
   readTriangles(reader, grid, index);
   readBoundaries(findCompanion(*dataset, path, kBoundaryLayer, errors), errors, index, grid);
+  readLines(findCompanion(*dataset, path, kLineLayer, errors), errors, index, grid);
   grid.crs = readCrs(*dataset, layer, path);
   return grid;
 }

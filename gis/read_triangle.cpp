@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <variant>
 
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
+#include "gis/grid_lines.hpp"
 #include "gis/prj_file.hpp"
 #include "gis/text_reader.hpp"
 
@@ -70,6 +73,13 @@ void readElements(const std::string& path, const IdMap& node_index, Grid& grid) 
   readFeatures(attribute, grid);
 }
 
+// Segments of one marker that follow one another.
+struct MarkedSegments {
+  std::int64_t marker = 0;
+  std::variant<BoundaryRole, LineKind> kind;
+  std::vector<NodePair> edges;
+};
+
 // Segments in the order and with the markers that `writeTriangle` gives them; others tell no roles and are left out.
 void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) {
   TextReader file(path, kComment);
@@ -78,8 +88,7 @@ void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) 
   file.needLine();
   const std::uint64_t count = file.count();
   if (!file.hasWord() || file.count() == 0) return;
-  std::vector<std::vector<NodePair>> groups;
-  std::vector<BoundaryRole> roles;
+  std::vector<MarkedSegments> marked;
   for (std::uint64_t i = 0; i < count; ++i) {
     file.needLine();
     file.integer();
@@ -90,18 +99,30 @@ void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) 
       if (end == kNone) file.fail("there is no node " + std::to_string(id));
     }
     const std::int64_t marker = file.integer();
-    if (groups.empty() || marker != boundaryMarker(groups.size() - 1, roles.back())) {
-      const auto role = roleOfMarker(marker, groups.size());
-      if (!role) return;
-      groups.emplace_back();
-      roles.push_back(*role);
+    if (marked.empty() || marker != marked.back().marker) {
+      if (const auto role = roleOfMarker(marker, marked.size())) {
+        marked.push_back({marker, *role, {}});
+      } else if (const auto kind = lineKindOfMarker(marker, marked.size())) {
+        marked.push_back({marker, *kind, {}});
+      } else {
+        return;
+      }
     }
-    groups.back().push_back(edge);
+    marked.back().edges.push_back(edge);
+  }
+  std::vector<std::vector<NodePair>> groups;
+  for (MarkedSegments& segments : marked) {
+    auto& edges = groups.emplace_back();
+    if (const LineKind* const kind = std::get_if<LineKind>(&segments.kind)) {
+      std::ranges::move(linesAlong(segments.edges, *kind, {}), std::back_inserter(grid.lines));
+    } else {
+      edges = std::move(segments.edges);
+    }
   }
   keepRimEdges(grid.triangles, groups);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (Boundary& chain : chainEdges(groups[g])) {
-      chain.role = roles[g];
+      chain.role = std::get<BoundaryRole>(marked[g].kind);
       grid.boundaries.push_back(std::move(chain));
     }
   }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
 #include "gis/boundary_chains.hpp"
-#include "gis/features_by_fid.hpp"
+#include "gis/grid_lines.hpp"
+#include "gis/grid_names.hpp"
 #include "gis/netcdf_file.hpp"
 
 namespace coastmesh {
@@ -134,14 +136,20 @@ void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& gri
   if (columns != 2 || std::ranges::find(nodes, kNone) != nodes.end() || 2 * number.size() != nodes.size() ||
       role.size() != number.size())
     file.fail("\"" + variable + "\", \"" + number_name + "\" and \"" + role_name + "\" do not go together");
+  const std::string type_name = mesh + "_boundary_ibtype";
+  const std::vector<std::int64_t> type =
+      file.hasVariable(type_name) ? file.integers(type_name) : std::vector<std::int64_t>(number.size(), -1);
+  if (type.size() != number.size()) file.fail("\"" + type_name + "\" has another length than \"" + number_name + "\"");
   std::vector<std::vector<NodePair>> groups;
   std::vector<BoundaryRole> roles;
+  std::vector<int> types;
   for (std::size_t e = 0; e < number.size(); ++e) {
     if (e == 0 || number[e] != number[e - 1]) {
       if (role[e] < 0 || role[e] >= static_cast<std::int64_t>(kBoundaryRoles.size()))
         file.fail("\"" + role_name + "\" holds " + std::to_string(role[e]));
       groups.emplace_back();
       roles.push_back(static_cast<BoundaryRole>(role[e]));
+      types.push_back(static_cast<int>(std::clamp<std::int64_t>(type[e], -1, 1000)));
     }
     groups.back().push_back({nodes[2 * e], nodes[2 * e + 1]});
   }
@@ -149,8 +157,35 @@ void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& gri
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (Boundary& chain : chainEdges(groups[g])) {
       chain.role = roles[g];
+      chain.ibtype = types[g];
       grid.boundaries.push_back(std::move(chain));
     }
+  }
+}
+
+void readLines(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
+  const std::string number_name = mesh + "_edge_line", kind_name = mesh + "_line_kind", names = mesh + "_line_name";
+  const std::string edges_name = file.text(mesh, "edge_node_connectivity");
+  for (const std::string& needed : {number_name, kind_name, names, edges_name})
+    if (!file.hasVariable(needed)) return;
+  std::size_t columns = 0;
+  const std::vector<std::uint32_t> nodes = readConnectivity(file, edges_name, false, grid.nodes.size(), columns);
+  const std::vector<std::int64_t> number = file.integers(number_name), kind = file.integers(kind_name);
+  const std::vector<std::string> name = file.texts(names);
+  if (columns != 2 || 2 * number.size() != nodes.size() || name.size() != kind.size())
+    file.fail("\"" + number_name + "\", \"" + kind_name + "\" and \"" + names + "\" do not go together");
+  std::vector<std::vector<NodePair>> edges_of(kind.size());
+  for (std::size_t e = 0; e < number.size(); ++e) {
+    if (number[e] < 1) continue;
+    if (static_cast<std::uint64_t>(number[e]) > kind.size() || nodes[2 * e] == kNone || nodes[2 * e + 1] == kNone)
+      file.fail("edge " + std::to_string(e + 1) + " names line " + std::to_string(number[e]) + ", which is not there");
+    edges_of[static_cast<std::size_t>(number[e]) - 1].push_back({nodes[2 * e], nodes[2 * e + 1]});
+  }
+  for (std::size_t i = 0; i < kind.size(); ++i) {
+    if (kind[i] < 0 || kind[i] >= static_cast<std::int64_t>(kLineKinds.size()))
+      file.fail("\"" + kind_name + "\" holds " + std::to_string(kind[i]));
+    std::ranges::move(chainLines(std::move(edges_of[i]), static_cast<LineKind>(kind[i]), name[i]),
+                      std::back_inserter(grid.lines));
   }
 }
 
@@ -170,10 +205,15 @@ Grid readUgrid(const std::string& path) {
     grid.size_m = file.doubles(name);
   grid.min_angle_deg = readFaceData(file, mesh + "_min_angle", grid.triangles.size());
   grid.area_m2 = readFaceData(file, mesh + "_area", grid.triangles.size());
-  addFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()), grid);
+  const std::string region_name = mesh + "_region_name";
+  addFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()),
+              file.hasVariable(region_name) ? readFaceData(file, mesh + "_region", grid.triangles.size())
+                                            : std::vector<double>(),
+              file.hasVariable(region_name) ? file.texts(region_name) : std::vector<std::string>(), grid);
   for (const double piece : readFaceData(file, mesh + "_piece", grid.triangles.size()))
     grid.piece_of.push_back(piece >= 1.0 ? static_cast<std::uint32_t>(std::min(piece, 4e9)) - 1 : 0);
   readBoundaries(file, mesh, grid);
+  readLines(file, mesh, grid);
   grid.crs = readCrs(file, x);
   return grid;
 }

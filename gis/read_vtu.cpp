@@ -14,9 +14,11 @@
 #include <optional>
 #include <ranges>
 #include <string_view>
+#include <utility>
 
 #include "gis/error.hpp"
-#include "gis/features_by_fid.hpp"
+#include "gis/grid_lines.hpp"
+#include "gis/grid_names.hpp"
 #include "gis/ogr_support.hpp"
 #include "gis/prj_file.hpp"
 
@@ -224,25 +226,68 @@ std::vector<double> readCellData(const VtuFile& file, const char* name, const st
   return out;
 }
 
-void readBoundaries(const VtuFile& file, Grid& grid) {
-  const auto nodes = file.array("FieldData", "boundary_nodes"), ends = file.array("FieldData", "boundary_ends"),
-             roles = file.array("FieldData", "boundary_roles"), closed = file.array("FieldData", "boundary_closed");
-  if (!nodes || !ends || !roles || !closed) return;
-  if (roles->size() != ends->size() || closed->size() != ends->size())
-    file.fail("the arrays of boundaries do not go together");
+// Boundaries or lines as `writeVtu` has them among the fields.
+struct Chain {
+  std::vector<std::uint32_t> nodes;
+  std::size_t kind = 0;
+  bool closed = false;
+};
+
+std::vector<Chain> readChains(const VtuFile& file, const std::string& of, const std::string& what, std::size_t kinds,
+                              std::size_t node_count) {
+  const auto array = [&](const std::string& name) { return file.array("FieldData", of + '_' + name); };
+  const auto nodes = array("nodes"), ends = array("ends"), kind_of = array(what), closed = array("closed");
+  std::vector<Chain> chains;
+  if (!nodes || !ends || !kind_of || !closed) return chains;
+  if (kind_of->size() != ends->size() || closed->size() != ends->size())
+    file.fail("its arrays of each " + of + " do not go together");
   std::size_t at = 0;
-  for (std::size_t b = 0; b < ends->size(); ++b) {
-    const double role = (*roles)[b];
-    if (!(role >= 0.0 && role < static_cast<double>(kBoundaryRoles.size())) ||
-        !((*ends)[b] <= static_cast<double>(nodes->size())))
-      file.fail("boundary " + std::to_string(b + 1) + " is of no kind that is known");
-    Boundary boundary{kBoundaryRoles[static_cast<std::size_t>(role)], (*closed)[b] != 0.0, {}};
-    for (; static_cast<double>(at) < (*ends)[b]; ++at) {
-      if (!((*nodes)[at] >= 0.0 && (*nodes)[at] < static_cast<double>(grid.nodes.size())))
-        file.fail("boundary " + std::to_string(b + 1) + " names a node that is not there");
-      boundary.nodes.push_back(static_cast<std::uint32_t>((*nodes)[at]));
+  for (std::size_t i = 0; i < ends->size(); ++i) {
+    const double kind = (*kind_of)[i];
+    if (!(kind >= 0.0 && kind < static_cast<double>(kinds)) || !((*ends)[i] <= static_cast<double>(nodes->size())))
+      file.fail(of + ' ' + std::to_string(i + 1) + " is of no kind that is known");
+    Chain& chain = chains.emplace_back();
+    chain.kind = static_cast<std::size_t>(kind);
+    chain.closed = (*closed)[i] != 0.0;
+    for (; static_cast<double>(at) < (*ends)[i]; ++at) {
+      if (!((*nodes)[at] >= 0.0 && (*nodes)[at] < static_cast<double>(node_count)))
+        file.fail(of + ' ' + std::to_string(i + 1) + " names a node that is not there");
+      chain.nodes.push_back(static_cast<std::uint32_t>((*nodes)[at]));
     }
-    grid.boundaries.push_back(std::move(boundary));
+  }
+  return chains;
+}
+
+// Texts as bytes, each ended by a zero.
+std::vector<std::string> readTexts(const VtuFile& file, const char* name) {
+  std::vector<std::string> texts;
+  std::string text;
+  for (const double byte : file.array("FieldData", name).value_or(std::vector<double>())) {
+    if (byte != 0.0) {
+      text.push_back(static_cast<char>(static_cast<unsigned char>(byte)));
+    } else {
+      texts.push_back(std::exchange(text, {}));
+    }
+  }
+  return texts;
+}
+
+void readBoundaries(const VtuFile& file, Grid& grid) {
+  const auto types = file.array("FieldData", "boundary_ibtypes");
+  for (Chain& chain : readChains(file, "boundary", "roles", kBoundaryRoles.size(), grid.nodes.size())) {
+    const std::size_t b = grid.boundaries.size();
+    const bool told = types && b < types->size() && (*types)[b] >= 0.0 && (*types)[b] < 1000.0;
+    grid.boundaries.push_back(
+        {kBoundaryRoles[chain.kind], chain.closed, std::move(chain.nodes), told ? static_cast<int>((*types)[b]) : -1});
+  }
+}
+
+void readLines(const VtuFile& file, Grid& grid) {
+  const std::vector<std::string> names = readTexts(file, "line_names");
+  for (Chain& chain : readChains(file, "line", "kinds", kLineKinds.size(), grid.nodes.size())) {
+    const std::size_t i = grid.lines.size();
+    grid.lines.push_back(
+        {kLineKinds[chain.kind], i < names.size() ? names[i] : "", chain.closed, std::move(chain.nodes)});
   }
 }
 
@@ -267,8 +312,10 @@ Grid readVtu(const std::string& path) {
   }
   grid.min_angle_deg = readCellData(file, "min_angle", cells);
   grid.area_m2 = readCellData(file, "area_m2", cells);
-  addFeatures(readCellData(file, "src_fid", cells), grid);
+  addFeatures(readCellData(file, "src_fid", cells), readCellData(file, "region", cells),
+              readTexts(file, "region_names"), grid);
   readBoundaries(file, grid);
+  readLines(file, grid);
   grid.crs = readPrjBeside(path);
   return grid;
 }

@@ -2,6 +2,8 @@
 
 #include "gis/boundary_chains.hpp"
 #include "gis/grid_formats.hpp"
+#include "gis/grid_lines.hpp"
+#include "gis/grid_names.hpp"
 #include "gis/prj_file.hpp"
 #include "gis/read_2dm.hpp"
 #include "gis/text_writer.hpp"
@@ -18,6 +20,22 @@ void writeNodeString(TextWriter& file, std::vector<std::uint32_t> nodes, bool cl
     file << (i + 1 == nodes.size() ? " -" : " ") << nodes[i] + 1;
   }
   file << ' ' << id << '\n';
+}
+
+// Whether the numbers of materials say all that is known of features.
+bool numbersSayAll(const Grid& grid) {
+  for (std::size_t f = 0; f < grid.features.size(); ++f)
+    if (grid.features[f].fid != static_cast<std::int64_t>(f) + 1 || !grid.features[f].region.empty()) return false;
+  return true;
+}
+
+// SMS has the names of materials among the assignments of its models.
+void writeMaterialNames(TextWriter& file, const Grid& grid) {
+  if (grid.feature_of.empty() || numbersSayAll(grid)) return;
+  const std::vector<std::string> labels = featureLabels(grid);
+  file << "BEG2DMBC\n";
+  for (std::size_t f = 0; f < labels.size(); ++f) file << "MAT " << f + 1 << " \"" << labels[f] << "\"\n";
+  file << "END2DMBC\n";
 }
 
 }  // namespace
@@ -39,12 +57,22 @@ void write2dm(const Grid& grid, const std::string& path) {
     const Boundary& boundary = grid.boundaries[b];
     writeNodeString(file, boundary.nodes, boundary.closed, boundaryMarker(b, boundary.role));
   }
+  for (std::size_t i = 0; i < grid.lines.size(); ++i) {
+    const GridLine& line = grid.lines[i];
+    writeNodeString(file, line.nodes, line.closed, lineMarker(grid.boundaries.size() + i, line.kind));
+  }
+  writeMaterialNames(file, grid);
   file.close();
   writePrjBeside(path, grid.crs);
 }
 
 FormatRecord sms2dmFormat() {
-  return {{"2dm", {".2dm"}, "SMS 2dm for QGIS and TUFLOW, z positive up", true, true},
+  return {{"2dm",
+           {".2dm"},
+           "SMS 2dm for QGIS and TUFLOW, z positive up",
+           true,
+           true,
+           {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers}},
           {write2dm, read2dm, withPrjBeside}};
 }
 

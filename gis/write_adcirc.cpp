@@ -2,6 +2,7 @@
 
 #include "gis/fort14_text.hpp"
 #include "gis/grid_formats.hpp"
+#include "gis/ibtype.hpp"
 #include "gis/prj_file.hpp"
 
 namespace coastmesh {
@@ -17,15 +18,20 @@ void writeAdcirc(const Grid& grid, const std::string& path) {
 Grid readAdcirc(const std::string& path) {
   Grid grid = readFort14(path);
   for (Boundary& boundary : grid.boundaries) {
-    const bool own = boundary.ibtype == 20 || boundary.ibtype == 21 || boundary.ibtype == 22;
-    if (own) boundary.ibtype = -1;
+    if (isRolesOwn(boundary.ibtype)) boundary.ibtype = -1;
   }
   grid.crs = readPrjBeside(path);
   return grid;
 }
 
 FormatRecord adcircFormat() {
-  return {{"adcirc", {".14", ".grd"}, "ADCIRC's fort.14, depth positive down", true, true, true},
+  return {{"adcirc",
+           {".14", ".grd"},
+           "ADCIRC's fort.14, depth positive down",
+           true,
+           true,
+           {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs},
+           true},
           {writeAdcirc, readAdcirc, withPrjBeside}};
 }
 

@@ -180,6 +180,7 @@ FormatRecord fvcomFormat() {
            "FVCOM's _grd, _dep, _obc and _cor.dat, depth positive down",
            true,
            true,
+           {},
            true},
           {writeFvcom, readFvcom, files}};
 }

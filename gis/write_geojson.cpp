@@ -47,7 +47,8 @@ void writeValue(TextWriter& file, const LayerColumn& column, std::size_t row) {
   if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
     file << ((*flag)(row) ? "true" : "false");
   } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
-    file << (*whole)(row);
+    const std::optional<std::int64_t> value = (*whole)(row);
+    value ? file << *value : file << "null";
   } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
     const double value = (*real)(row);
     std::isfinite(value) ? file << value : file << "null";
@@ -119,7 +120,7 @@ void writeGeoJson(const Grid& grid, const std::string& path) {
 }
 
 FormatRecord geoJsonFormat() {
-  return {{"geojson", {".geojson", ".json"}, "GeoJSON, three files", true, true},
+  return {{"geojson", {".geojson", ".json"}, "GeoJSON, three or four files", true, true, kLayerParts},
           {writeGeoJson, readOgrGrid, layerFiles}};
 }
 

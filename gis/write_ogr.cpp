@@ -78,7 +78,8 @@ void setField(OGRFeature& feature, int index, const LayerColumn& column, std::si
   if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
     feature.SetField(index, (*flag)(row) ? 1 : 0);
   } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
-    feature.SetField(index, static_cast<GIntBig>((*whole)(row)));
+    const std::optional<std::int64_t> value = (*whole)(row);
+    value ? feature.SetField(index, static_cast<GIntBig>(*value)) : feature.SetFieldNull(index);
   } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
     const double value = (*real)(row);
     std::isnan(value) ? feature.SetFieldNull(index) : feature.SetField(index, value);
@@ -293,17 +294,19 @@ OutputFiles shapefileFiles(const std::string& path) {
 }  // namespace
 
 FormatRecord geoPackageFormat() {
-  return {{"gpkg", {".gpkg"}, "GeoPackage with layers of triangles, nodes and boundaries", true, true},
-          {writeGeoPackage, readOgrGrid, geoPackageFiles}};
+  return {
+      {"gpkg", {".gpkg"}, "GeoPackage with layers of triangles, nodes, boundaries and lines", true, true, kLayerParts},
+      {writeGeoPackage, readOgrGrid, geoPackageFiles}};
 }
 
 FormatRecord shapefileFormat() {
-  return {{"shp", {".shp"}, "Shapefile, three sets of files", true, true},
+  return {{"shp", {".shp"}, "Shapefile, three or four sets of files", true, true, kLayerParts},
           {writeShapefile, readOgrGrid, shapefileFiles}};
 }
 
 FormatRecord flatGeobufFormat() {
-  return {{"fgb", {".fgb"}, "FlatGeobuf, three files", true, true}, {writeFlatGeobuf, readOgrGrid, layerFiles}};
+  return {{"fgb", {".fgb"}, "FlatGeobuf, three or four files", true, true, kLayerParts},
+          {writeFlatGeobuf, readOgrGrid, layerFiles}};
 }
 
 }  // namespace coastmesh

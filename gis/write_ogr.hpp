@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// The grid's layers `triangles`, `nodes` (with z in the geometry too) and `boundaries`: in one GeoPackage, or a
+// The grid's layers `triangles`, `nodes` (with z in the geometry too), `boundaries` and `lines`: in one GeoPackage, or a
 // Shapefile or FlatGeobuf each (`pathOfLayer`). Real columns of a shapefile keep 15 decimals, its coordinates all
 // bits. Throws OutputError.
 void writeGeoPackage(const Grid& grid, const std::string& path);

@@ -50,7 +50,13 @@ FormatRecord schismFormat() {
   const auto files = [](const std::string& path) -> OutputFiles {
     return {{withEnding(path, ".gr3"), withEnding(path, ".ll")}, {}, prjBeside(path)};
   };
-  return {{"schism", {".gr3", ".ll"}, "SCHISM's hgrid.gr3 and hgrid.ll, depth positive down", true, true, true},
+  return {{"schism",
+           {".gr3", ".ll"},
+           "SCHISM's hgrid.gr3 and hgrid.ll, depth positive down",
+           true,
+           true,
+           {GridPart::Title},
+           true},
           {writeSchism, readSchism, files}};
 }
 

@@ -117,7 +117,13 @@ FormatRecord telemacFormat() {
   const auto files = [](const std::string& path) -> OutputFiles {
     return {{path, withEnding(path, ".cli")}, {}, prjBeside(path)};
   };
-  return {{"telemac", {".slf"}, "TELEMAC's SELAFIN and .cli, elevation positive up", true, true, true},
+  return {{"telemac",
+           {".slf"},
+           "TELEMAC's SELAFIN and .cli, elevation positive up",
+           true,
+           true,
+           {GridPart::Title, GridPart::Rivers},
+           true},
           {writeTelemac, readTelemac, files}};
 }
 

@@ -5,6 +5,7 @@
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
 #include "gis/grid_formats.hpp"
+#include "gis/grid_lines.hpp"
 #include "gis/ogr_support.hpp"
 #include "gis/prj_file.hpp"
 #include "gis/read_triangle.hpp"
@@ -13,8 +14,14 @@
 namespace coastmesh {
 namespace {
 
+std::int64_t markerOfLine(const Grid& grid, std::size_t line) {
+  return lineMarker(grid.boundaries.size() + line, grid.lines[line].kind);
+}
+
 void writeNodes(const Grid& grid, const std::string& path) {
   std::vector<std::int64_t> markers(grid.nodes.size(), 0);
+  for (std::size_t i = grid.lines.size(); i-- > 0;)
+    for (std::uint32_t node : grid.lines[i].nodes) markers[node] = markerOfLine(grid, i);
   for (std::size_t b = grid.boundaries.size(); b-- > 0;)
     for (std::uint32_t node : grid.boundaries[b].nodes) markers[node] = boundaryMarker(b, grid.boundaries[b].role);
   TextWriter file(path);
@@ -60,12 +67,16 @@ void writeSegments(const Grid& grid, const std::string& path) {
     segments += edgesOf(boundary).size();
     islands += boundary.closed && boundary.role == BoundaryRole::Island;
   }
+  for (const GridLine& line : grid.lines) segments += edgesOf(line).size();
   TextWriter file(path);
   file << "0 2 0 1\n" << segments << " 1\n";
   std::size_t id = 0;
   for (std::size_t b = 0; b < grid.boundaries.size(); ++b)
     for (const auto& [from, to] : edgesOf(grid.boundaries[b]))
       file << ++id << ' ' << from + 1 << ' ' << to + 1 << ' ' << boundaryMarker(b, grid.boundaries[b].role) << '\n';
+  for (std::size_t i = 0; i < grid.lines.size(); ++i)
+    for (const auto& [from, to] : edgesOf(grid.lines[i]))
+      file << ++id << ' ' << from + 1 << ' ' << to + 1 << ' ' << markerOfLine(grid, i) << '\n';
   file << islands << '\n';
   id = 0;
   for (const Boundary& boundary : grid.boundaries) {
@@ -90,7 +101,12 @@ FormatRecord triangleFormat() {
   const auto files = [](const std::string& path) -> OutputFiles {
     return {{withEnding(path, ".node"), withEnding(path, ".ele"), withEnding(path, ".poly")}, {}, prjBeside(path)};
   };
-  return {{"triangle", {".node", ".ele"}, "Triangle's .node, .ele and .poly", true, true},
+  return {{"triangle",
+           {".node", ".ele"},
+           "Triangle's .node, .ele and .poly",
+           true,
+           true,
+           {GridPart::Features, GridPart::Lines, GridPart::Rivers}},
           {writeTriangle, readTriangle, files}};
 }
 

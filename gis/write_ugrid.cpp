@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include "gis/boundary_chains.hpp"
 #include "gis/cf_grid_mapping.hpp"
 #include "gis/grid_formats.hpp"
+#include "gis/grid_lines.hpp"
+#include "gis/grid_names.hpp"
 #include "gis/mesh_edges.hpp"
 #include "gis/netcdf_file.hpp"
 #include "gis/ogr_support.hpp"
@@ -21,6 +25,7 @@ namespace {
 constexpr int kStartIndex = 1;
 constexpr int kFillNode = -999;
 constexpr double kFillZ = -999.0;
+constexpr int kNoIbtype = -1;
 
 std::string crsVariableName(const Crs& crs) { return crs.geographic ? "wgs84" : "projected_coordinate_system"; }
 
@@ -55,69 +60,166 @@ std::string lengthUnit(const Crs& crs) {
   return metres == 1.0 || name == nullptr ? "m" : name;
 }
 
-int defineCoordinate(NetcdfWriter& file, const Crs& crs, int nodes, bool is_x) {
-  const int variable = file.variable(is_x ? "mesh2d_node_x" : "mesh2d_node_y", NC_DOUBLE, {nodes});
-  if (crs.geographic) {
-    file.attribute(variable, "units", is_x ? "degrees_east" : "degrees_north");
-    file.attribute(variable, "standard_name", is_x ? "longitude" : "latitude");
-    file.attribute(variable, "long_name", is_x ? "longitude of the nodes" : "latitude of the nodes");
-  } else {
-    file.attribute(variable, "units", lengthUnit(crs));
-    file.attribute(variable, "standard_name", is_x ? "projection_x_coordinate" : "projection_y_coordinate");
-    file.attribute(variable, "long_name", is_x ? "x of the nodes" : "y of the nodes");
+// The file while it is written: a variable is defined together with what will stand in it, which NetCDF takes only once
+// all are defined.
+class UgridFile {
+ public:
+  UgridFile(const Grid& grid, const std::string& path, bool large)
+      : file_(path, large), crs_name_(grid.crs.isPlane() ? "" : crsVariableName(grid.crs)) {}
+
+  NetcdfWriter& file() { return file_; }
+  int dimension(const std::string& name, std::size_t length) { return file_.dimension(name, length); }
+
+  // `values` is called when its turn comes, so that one array at a time is made.
+  template <typename Values>
+  void put(int variable, Values&& values) {
+    puts_.push_back([this, variable, values = std::forward<Values>(values)] {
+      const auto made = values();
+      file_.put(variable, made.data());
+    });
   }
-  file.attribute(variable, "mesh", "mesh2d");
-  file.attribute(variable, "location", "node");
-  if (!crs.isPlane()) file.attribute(variable, "grid_mapping", crsVariableName(crs));
-  return variable;
-}
 
-int defineConnectivity(NetcdfWriter& file, const std::string& of, const std::vector<int>& dimensions) {
-  const int variable = file.variable("mesh2d_" + of + "_nodes", NC_INT, dimensions);
-  file.attribute(variable, "cf_role", of + "_node_connectivity");
-  file.attribute(variable, "long_name", "nodes of each " + of);
-  file.attribute(variable, "start_index", kStartIndex);
-  file.attribute(variable, "_FillValue", kFillNode);
-  return variable;
-}
+  // A variable of the mesh.
+  template <typename Values>
+  int data(const std::string& name, int type, int dimension, const std::string& location, const std::string& long_name,
+           const std::string& units, Values&& values) {
+    const int variable = file_.variable("mesh2d_" + name, type, {dimension});
+    file_.attribute(variable, "mesh", "mesh2d");
+    file_.attribute(variable, "location", location);
+    file_.attribute(variable, "long_name", long_name);
+    if (!units.empty()) file_.attribute(variable, "units", units);
+    if (!crs_name_.empty() && (location == "node" || location == "face" || location == "edge"))
+      file_.attribute(variable, "grid_mapping", crs_name_);
+    put(variable, std::forward<Values>(values));
+    return variable;
+  }
 
-int defineData(NetcdfWriter& file, const Crs& crs, const std::string& name, int type, int dimension,
-               const std::string& location, const std::string& long_name, const std::string& units) {
-  const int variable = file.variable("mesh2d_" + name, type, {dimension});
-  file.attribute(variable, "mesh", "mesh2d");
-  file.attribute(variable, "location", location);
-  file.attribute(variable, "long_name", long_name);
-  if (!units.empty()) file.attribute(variable, "units", units);
-  if (!crs.isPlane()) file.attribute(variable, "grid_mapping", crsVariableName(crs));
-  return variable;
-}
+  template <typename Rows>
+  void connectivity(const std::string& of, const std::vector<int>& dimensions, const Rows& rows) {
+    const int variable = file_.variable("mesh2d_" + of + "_nodes", NC_INT, dimensions);
+    file_.attribute(variable, "cf_role", of + "_node_connectivity");
+    file_.attribute(variable, "long_name", "nodes of each " + of);
+    file_.attribute(variable, "start_index", kStartIndex);
+    file_.attribute(variable, "_FillValue", kFillNode);
+    put(variable, [&rows] {
+      std::vector<int> numbers;
+      for (const auto& row : rows)
+        for (const std::uint32_t node : row) numbers.push_back(static_cast<int>(node) + kStartIndex);
+      return numbers;
+    });
+  }
 
-template <std::size_t N>
-std::vector<int> numbered(const std::vector<std::array<std::uint32_t, N>>& rows) {
-  std::vector<int> out;
-  out.reserve(N * rows.size());
-  for (const auto& row : rows)
-    for (std::uint32_t node : row) out.push_back(static_cast<int>(node) + kStartIndex);
-  return out;
-}
+  // Names as rows of characters.
+  void names(const std::string& name, int dimension, const std::string& long_name,
+             const std::vector<std::string>& texts) {
+    std::size_t longest = 1;
+    for (const std::string& text : texts) longest = std::max(longest, text.size());
+    const int length = file_.dimension("mesh2d_" + name + "_length", longest);
+    const int variable = file_.variable("mesh2d_" + name, NC_CHAR, {dimension, length});
+    file_.attribute(variable, "long_name", long_name);
+    put(variable, [texts, longest] {
+      std::string all;
+      for (const std::string& text : texts) all += text + std::string(longest - text.size(), '\0');
+      return all;
+    });
+  }
 
-// The boundary's edges, which boundary each belongs to, and its role.
-struct BoundaryEdges {
-  std::vector<NodePair> edges;
-  std::vector<int> number;
-  std::vector<signed char> role;
+  // The numbers 1, 2, … of a variable and what they mean, which CF wants without blanks.
+  void flags(int variable, const std::vector<std::string>& meanings) {
+    std::vector<int> values;
+    std::string words;
+    for (const std::string& meaning : meanings) {
+      values.push_back(static_cast<int>(values.size()) + 1);
+      std::string word = meaning;
+      std::ranges::replace_if(
+          word, [](unsigned char c) { return c <= ' '; }, '_');
+      words += (words.empty() ? "" : " ") + word;
+    }
+    file_.attribute(variable, "flag_values", values);
+    file_.attribute(variable, "flag_meanings", words);
+  }
+
+  void close() {
+    file_.endDefinitions();
+    for (const auto& put : puts_) put();
+    file_.close();
+  }
+
+ private:
+  NetcdfWriter file_;
+  std::string crs_name_;
+  std::vector<std::function<void()>> puts_;
 };
 
-BoundaryEdges boundaryEdges(const Grid& grid) {
-  BoundaryEdges out;
-  for (std::size_t b = 0; b < grid.boundaries.size(); ++b) {
-    for (const NodePair& edge : edgesOf(grid.boundaries[b])) {
-      out.edges.push_back(edge);
-      out.number.push_back(static_cast<int>(b) + 1);
-      out.role.push_back(static_cast<signed char>(grid.boundaries[b].role));
-    }
+void defineCoordinate(UgridFile& ugrid, const Grid& grid, int nodes, bool is_x) {
+  const Crs& crs = grid.crs;
+  const int variable = ugrid.file().variable(is_x ? "mesh2d_node_x" : "mesh2d_node_y", NC_DOUBLE, {nodes});
+  const auto attribute = [&](const char* name, const std::string& text) {
+    ugrid.file().attribute(variable, name, text);
+  };
+  if (crs.geographic) {
+    attribute("units", is_x ? "degrees_east" : "degrees_north");
+    attribute("standard_name", is_x ? "longitude" : "latitude");
+    attribute("long_name", is_x ? "longitude of the nodes" : "latitude of the nodes");
+  } else {
+    attribute("units", lengthUnit(crs));
+    attribute("standard_name", is_x ? "projection_x_coordinate" : "projection_y_coordinate");
+    attribute("long_name", is_x ? "x of the nodes" : "y of the nodes");
   }
-  return out;
+  attribute("mesh", "mesh2d");
+  attribute("location", "node");
+  if (!crs.isPlane()) attribute("grid_mapping", crsVariableName(crs));
+  ugrid.put(variable, [&grid, is_x] {
+    std::vector<double> values(grid.nodes.size());
+    std::ranges::transform(grid.nodes, values.begin(), is_x ? &Point::x : &Point::y);
+    return values;
+  });
+}
+
+void defineNodes(UgridFile& ugrid, const Grid& grid, int nodes) {
+  defineCoordinate(ugrid, grid, nodes, true);
+  defineCoordinate(ugrid, grid, nodes, false);
+  if (!grid.z.empty()) {
+    const int z = ugrid.data("node_z", NC_DOUBLE, nodes, "node", "elevation of the nodes", "m", [&grid] {
+      std::vector<double> values = grid.z;
+      std::ranges::replace_if(
+          values, [](double value) { return std::isnan(value); }, kFillZ);
+      return values;
+    });
+    ugrid.file().attribute(z, "standard_name", "altitude");
+    ugrid.file().attribute(z, "positive", "up");
+    ugrid.file().attribute(z, "_FillValue", kFillZ);
+  }
+  if (!grid.size_m.empty())
+    ugrid.data("node_size", NC_DOUBLE, nodes, "node", "length that edges were to have", "m",
+               [&grid] { return std::span(grid.size_m); });
+}
+
+// One a boundary's edge, of what `value` says of the boundary.
+template <typename T, typename Value>
+std::vector<T> ofBoundaryEdges(const Grid& grid, Value&& value) {
+  std::vector<T> values;
+  for (std::size_t b = 0; b < grid.boundaries.size(); ++b)
+    values.insert(values.end(), edgesOf(grid.boundaries[b]).size(), static_cast<T>(value(b)));
+  return values;
+}
+
+void defineBoundaries(UgridFile& ugrid, const Grid& grid, int two, const std::vector<NodePair>& edges) {
+  if (edges.empty()) return;
+  const int dimension = ugrid.dimension("mesh2d_nBoundaryEdges", edges.size());
+  ugrid.connectivity("boundary", {dimension, two}, edges);
+  ugrid.data("boundary_number", NC_INT, dimension, "boundary", "boundary that the edge belongs to, from 1", {},
+             [&grid] { return ofBoundaryEdges<int>(grid, [](std::size_t b) { return b + 1; }); });
+  const int role = ugrid.data("boundary_role", NC_BYTE, dimension, "boundary", "role of the edge", {}, [&grid] {
+    return ofBoundaryEdges<signed char>(grid, [&](std::size_t b) { return grid.boundaries[b].role; });
+  });
+  ugrid.file().attribute(role, "flag_values", std::vector<signed char>{0, 1, 2, 3});
+  ugrid.file().attribute(role, "flag_meanings", "land island open river");
+  if (std::ranges::none_of(grid.boundaries, [](const Boundary& boundary) { return boundary.ibtype >= 0; })) return;
+  const int type = ugrid.data(
+      "boundary_ibtype", NC_INT, dimension, "boundary", "ADCIRC's type of the edge", {},
+      [&grid] { return ofBoundaryEdges<int>(grid, [&](std::size_t b) { return grid.boundaries[b].ibtype; }); });
+  ugrid.file().attribute(type, "_FillValue", kNoIbtype);
 }
 
 // One a triangle. As int where all fit, for programs that read no wider whole numbers, else as double.
@@ -128,32 +230,78 @@ std::vector<double> fidsOf(const Grid& grid) {
   return fids;
 }
 
-bool fitsInt(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double value) {
-    return value > std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max();
+bool fidsFitInt(const Grid& grid) {
+  return std::ranges::all_of(grid.features, [](const GridFeature& feature) {
+    return feature.fid > std::numeric_limits<int>::min() && feature.fid <= std::numeric_limits<int>::max();
   });
 }
 
-}  // namespace
+void defineRegions(UgridFile& ugrid, const Grid& grid, int faces) {
+  const std::vector<std::string> names = regionNames(grid);
+  if (names.empty() || grid.feature_of.empty()) return;
+  const int region =
+      ugrid.data("region", NC_INT, faces, "face", "region that the face lies in, 0 in none", {}, [&grid, names] {
+        const std::vector<int> numbers = regionNumbers(grid, names);
+        std::vector<int> values;
+        for (const std::uint32_t feature : grid.feature_of) values.push_back(numbers[feature]);
+        return values;
+      });
+  ugrid.flags(region, names);
+  ugrid.names("region_name", ugrid.dimension("mesh2d_nRegions", names.size()), "names of the regions", names);
+}
 
-void writeUgrid(const Grid& grid, const std::string& path) {
-  const Crs& crs = grid.crs;
-  const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles);
-  const BoundaryEdges boundary = boundaryEdges(grid);
-  const std::vector<double> fids = fidsOf(grid);
-  constexpr std::size_t kLargest = 4'000'000'000;  // bytes of an array in a 64-bit offset file, some to spare
-  const std::size_t bytes = std::max({grid.triangles.size() * 12, grid.nodes.size() * 8, edges.size() * 8});
-  NetcdfWriter file(path, bytes > kLargest);
+void defineFaces(UgridFile& ugrid, const Grid& grid, int faces) {
+  if (!grid.min_angle_deg.empty())
+    ugrid.data("min_angle", NC_DOUBLE, faces, "face", "smallest angle", "degree",
+               [&grid] { return std::span(grid.min_angle_deg); });
+  if (!grid.area_m2.empty())
+    ugrid.data("area", NC_DOUBLE, faces, "face", "area", "m2", [&grid] { return std::span(grid.area_m2); });
+  if (!grid.feature_of.empty())
+    ugrid.data("feature", fidsFitInt(grid) ? NC_INT : NC_DOUBLE, faces, "face", "fid of the source feature", {},
+               [&grid] { return fidsOf(grid); });
+  defineRegions(ugrid, grid, faces);
+  if (!grid.piece_of.empty())
+    ugrid.data("piece", NC_INT, faces, "face", "piece that the face was refined in, from 1", {}, [&grid] {
+      std::vector<int> pieces(grid.piece_of.size());
+      std::ranges::transform(grid.piece_of, pieces.begin(), [](std::uint32_t p) { return static_cast<int>(p) + 1; });
+      return pieces;
+    });
+}
 
-  file.attribute(NC_GLOBAL, "Conventions", "CF-1.8 UGRID-1.0");
-  if (!grid.title.empty()) file.attribute(NC_GLOBAL, "title", grid.title);
-  file.attribute(NC_GLOBAL, "source", "coastmesh");
-  const int node_dim = file.dimension("mesh2d_nNodes", grid.nodes.size());
-  const int edge_dim = file.dimension("mesh2d_nEdges", edges.size());
-  const int face_dim = file.dimension("mesh2d_nFaces", grid.triangles.size());
-  const int corner_dim = file.dimension("mesh2d_nMax_face_nodes", 3);
-  const int two_dim = file.dimension("Two", 2);
+void defineLines(UgridFile& ugrid, const Grid& grid, int edge_dimension, const std::vector<NodePair>& edges) {
+  if (grid.lines.empty()) return;
+  const int number =
+      ugrid.data("edge_line", NC_INT, edge_dimension, "edge", "line that the edge belongs to, 0 to none", {}, [&] {
+        std::vector<int> numbers(edges.size(), 0);
+        for (std::size_t i = grid.lines.size(); i-- > 0;) {
+          for (const auto& [a, b] : edgesOf(grid.lines[i])) {
+            const auto at = std::ranges::lower_bound(edges, NodePair{std::min(a, b), std::max(a, b)});
+            numbers[static_cast<std::size_t>(at - edges.begin())] = static_cast<int>(i) + 1;
+          }
+        }
+        return numbers;
+      });
+  std::vector<std::string> names, meanings;
+  for (const GridLine& line : grid.lines) {
+    names.push_back(line.name);
+    meanings.push_back(std::string(toString(line.kind)) + (line.name.empty() ? "" : ' ' + line.name));
+  }
+  ugrid.flags(number, meanings);
+  const int lines = ugrid.dimension("mesh2d_nLines", grid.lines.size());
+  const int kind = ugrid.file().variable("mesh2d_line_kind", NC_BYTE, {lines});
+  ugrid.file().attribute(kind, "long_name", "what the line is");
+  ugrid.file().attribute(kind, "flag_values", std::vector<signed char>{0, 1, 2});
+  ugrid.file().attribute(kind, "flag_meanings", "constraint weir region_border");
+  ugrid.put(kind, [&grid] {
+    std::vector<signed char> kinds;
+    for (const GridLine& line : grid.lines) kinds.push_back(static_cast<signed char>(line.kind));
+    return kinds;
+  });
+  ugrid.names("line_name", lines, "names of the lines", names);
+}
 
+void defineTopology(UgridFile& ugrid, bool with_boundaries) {
+  NetcdfWriter& file = ugrid.file();
   const int mesh = file.variable("mesh2d", NC_INT, {});
   file.attribute(mesh, "cf_role", "mesh_topology");
   file.attribute(mesh, "long_name", "topology of the triangle mesh");
@@ -165,81 +313,52 @@ void writeUgrid(const Grid& grid, const std::string& path) {
   file.attribute(mesh, "max_face_nodes_dimension", "mesh2d_nMax_face_nodes");
   file.attribute(mesh, "face_node_connectivity", "mesh2d_face_nodes");
   file.attribute(mesh, "edge_node_connectivity", "mesh2d_edge_nodes");
-  if (!boundary.edges.empty()) file.attribute(mesh, "boundary_node_connectivity", "mesh2d_boundary_nodes");
+  if (with_boundaries) file.attribute(mesh, "boundary_node_connectivity", "mesh2d_boundary_nodes");
+  ugrid.put(mesh, [] { return std::array{0}; });
+}
 
-  const int crs_variable = crs.isPlane() ? -1 : defineCrs(file, crs);
-  const int x = defineCoordinate(file, crs, node_dim, true);
-  const int y = defineCoordinate(file, crs, node_dim, false);
-  int z = -1;
-  if (!grid.z.empty()) {
-    z = defineData(file, crs, "node_z", NC_DOUBLE, node_dim, "node", "elevation of the nodes", "m");
-    file.attribute(z, "standard_name", "altitude");
-    file.attribute(z, "positive", "up");
-    file.attribute(z, "_FillValue", kFillZ);
-  }
-  int size = -1;
-  if (!grid.size_m.empty())
-    size = defineData(file, crs, "node_size", NC_DOUBLE, node_dim, "node", "length that edges were to have", "m");
-  const int face_nodes = defineConnectivity(file, "face", {face_dim, corner_dim});
-  const int edge_nodes = defineConnectivity(file, "edge", {edge_dim, two_dim});
-  int boundary_nodes = -1, boundary_number = -1, boundary_role = -1;
-  if (!boundary.edges.empty()) {
-    const int boundary_dim = file.dimension("mesh2d_nBoundaryEdges", boundary.edges.size());
-    boundary_nodes = defineConnectivity(file, "boundary", {boundary_dim, two_dim});
-    boundary_number = defineData(file, {}, "boundary_number", NC_INT, boundary_dim, "boundary",
-                                 "boundary that the edge belongs to, from 1", {});
-    boundary_role = defineData(file, {}, "boundary_role", NC_BYTE, boundary_dim, "boundary", "role of the edge", {});
-    file.attribute(boundary_role, "flag_values", std::vector<signed char>{0, 1, 2, 3});
-    file.attribute(boundary_role, "flag_meanings", "land island open river");
-  }
-  int angle = -1, area = -1, feature = -1;
-  if (!grid.min_angle_deg.empty())
-    angle = defineData(file, crs, "min_angle", NC_DOUBLE, face_dim, "face", "smallest angle", "degree");
-  if (!grid.area_m2.empty()) area = defineData(file, crs, "area", NC_DOUBLE, face_dim, "face", "area", "m2");
-  if (!fids.empty())
-    feature = defineData(file, crs, "feature", fitsInt(fids) ? NC_INT : NC_DOUBLE, face_dim, "face",
-                         "fid of the source feature", {});
-  int piece = -1;
-  if (!grid.piece_of.empty())
-    piece = defineData(file, crs, "piece", NC_INT, face_dim, "face", "piece that the face was refined in, from 1", {});
-  file.endDefinitions();
+}  // namespace
 
-  if (crs_variable >= 0) {
-    const int epsg = epsgOf(crs);
-    file.put(crs_variable, &epsg);
+void writeUgrid(const Grid& grid, const std::string& path) {
+  const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles);
+  std::vector<NodePair> boundary_edges;
+  for (const Boundary& boundary : grid.boundaries)
+    for (const NodePair& edge : edgesOf(boundary)) boundary_edges.push_back(edge);
+  constexpr std::size_t kLargest = 4'000'000'000;  // bytes of an array in a 64-bit offset file, some to spare
+  const std::size_t bytes = std::max({grid.triangles.size() * 12, grid.nodes.size() * 8, edges.size() * 8});
+  UgridFile ugrid(grid, path, bytes > kLargest);
+  NetcdfWriter& file = ugrid.file();
+  file.attribute(NC_GLOBAL, "Conventions", "CF-1.8 UGRID-1.0");
+  if (!grid.title.empty()) file.attribute(NC_GLOBAL, "title", grid.title);
+  file.attribute(NC_GLOBAL, "source", "coastmesh");
+  const int node_dim = ugrid.dimension("mesh2d_nNodes", grid.nodes.size());
+  const int edge_dim = ugrid.dimension("mesh2d_nEdges", edges.size());
+  const int face_dim = ugrid.dimension("mesh2d_nFaces", grid.triangles.size());
+  const int corner_dim = ugrid.dimension("mesh2d_nMax_face_nodes", 3);
+  const int two_dim = ugrid.dimension("Two", 2);
+
+  defineTopology(ugrid, !boundary_edges.empty());
+  if (!grid.crs.isPlane()) {
+    const int crs = defineCrs(file, grid.crs);
+    ugrid.put(crs, [&grid] { return std::array{epsgOf(grid.crs)}; });
   }
-  const int topology = 0;
-  file.put(mesh, &topology);
-  std::vector<double> values(grid.nodes.size());
-  std::ranges::transform(grid.nodes, values.begin(), &Point::x);
-  file.put(x, values.data());
-  std::ranges::transform(grid.nodes, values.begin(), &Point::y);
-  file.put(y, values.data());
-  if (z >= 0) {
-    std::ranges::transform(grid.z, values.begin(), [](double value) { return std::isnan(value) ? kFillZ : value; });
-    file.put(z, values.data());
-  }
-  if (size >= 0) file.put(size, grid.size_m.data());
-  file.put(face_nodes, numbered(grid.triangles).data());
-  file.put(edge_nodes, numbered(edges).data());
-  if (!boundary.edges.empty()) {
-    file.put(boundary_nodes, numbered(boundary.edges).data());
-    file.put(boundary_number, boundary.number.data());
-    file.put(boundary_role, boundary.role.data());
-  }
-  if (angle >= 0) file.put(angle, grid.min_angle_deg.data());
-  if (area >= 0) file.put(area, grid.area_m2.data());
-  if (feature >= 0) file.put(feature, fids.data());
-  if (piece >= 0) {
-    std::vector<int> pieces(grid.piece_of.size());
-    std::ranges::transform(grid.piece_of, pieces.begin(), [](std::uint32_t p) { return static_cast<int>(p) + 1; });
-    file.put(piece, pieces.data());
-  }
-  file.close();
+  defineNodes(ugrid, grid, node_dim);
+  ugrid.connectivity("face", {face_dim, corner_dim}, grid.triangles);
+  ugrid.connectivity("edge", {edge_dim, two_dim}, edges);
+  defineBoundaries(ugrid, grid, two_dim, boundary_edges);
+  defineFaces(ugrid, grid, face_dim);
+  defineLines(ugrid, grid, edge_dim, edges);
+  ugrid.close();
 }
 
 FormatRecord ugridFormat() {
-  return {{"ugrid", {".nc"}, "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)", true, true},
+  return {{"ugrid",
+           {".nc"},
+           "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
+           true,
+           true,
+           {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces, GridPart::Lines,
+            GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes, GridPart::BareWeirs}},
           {writeUgrid, readUgrid, nullptr}};
 }
 

@@ -1,9 +1,11 @@
 #include "gis/write_vtu.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
 #include "gis/grid_formats.hpp"
+#include "gis/grid_names.hpp"
 #include "gis/prj_file.hpp"
 #include "gis/read_vtu.hpp"
 #include "gis/text_writer.hpp"
@@ -42,22 +44,79 @@ class Appendix {
   std::uint64_t offset_ = 0;
 };
 
-// The boundaries' nodes one after another, where each ends among them, and its role as in BoundaryRole.
-struct BoundaryArrays {
+// The nodes of boundaries or lines one after another, where each ends among them, and its role or kind as in the enum.
+struct ChainArrays {
   std::vector<std::int64_t> nodes, ends;
-  std::vector<std::uint8_t> roles, closed;
+  std::vector<std::uint8_t> kinds, closed;
+
+  template <typename Chain, typename Kind>
+  void add(const Chain& chain, Kind kind) {
+    nodes.insert(nodes.end(), chain.nodes.begin(), chain.nodes.end());
+    ends.push_back(static_cast<std::int64_t>(nodes.size()));
+    kinds.push_back(static_cast<std::uint8_t>(kind));
+    closed.push_back(chain.closed ? 1 : 0);
+  }
+
+  void declare(Appendix& appendix, const std::string& of, const std::string& what) const {
+    const std::uint64_t count = ends.size(), length = nodes.size();
+    appendix.declare("Int64", of + "_nodes", 1, length * 8, length);
+    appendix.declare("Int64", of + "_ends", 1, count * 8, count);
+    appendix.declare("UInt8", of + '_' + what, 1, count, count);
+    appendix.declare("UInt8", of + "_closed", 1, count, count);
+  }
+
+  void write(Appendix& appendix) const {
+    appendix.write(nodes);
+    appendix.write(ends);
+    appendix.write(kinds);
+    appendix.write(closed);
+  }
 };
 
-BoundaryArrays boundaryArrays(const Grid& grid) {
-  BoundaryArrays arrays;
-  for (const Boundary& boundary : grid.boundaries) {
-    arrays.nodes.insert(arrays.nodes.end(), boundary.nodes.begin(), boundary.nodes.end());
-    arrays.ends.push_back(static_cast<std::int64_t>(arrays.nodes.size()));
-    arrays.roles.push_back(static_cast<std::uint8_t>(boundary.role));
-    arrays.closed.push_back(boundary.closed ? 1 : 0);
+// What belongs to neither nodes nor cells. Texts are bytes, each ended by a zero: readers of numbers alone, of which there
+// are many, refuse arrays of texts.
+struct FieldArrays {
+  ChainArrays boundaries, lines;
+  std::vector<std::int64_t> ibtypes;
+  std::vector<std::uint8_t> line_names, region_names;
+
+  FieldArrays(const Grid& grid, const std::vector<std::string>& regions) {
+    for (const Boundary& boundary : grid.boundaries) {
+      boundaries.add(boundary, boundary.role);
+      ibtypes.push_back(boundary.ibtype);
+    }
+    if (std::ranges::none_of(ibtypes, [](std::int64_t type) { return type >= 0; })) ibtypes.clear();
+    for (const GridLine& line : grid.lines) {
+      lines.add(line, line.kind);
+      addText(line.name, line_names);
+    }
+    for (const std::string& region : regions) addText(region, region_names);
   }
-  return arrays;
-}
+
+  bool any() const { return !boundaries.ends.empty() || !lines.ends.empty() || !region_names.empty(); }
+
+  void declare(Appendix& appendix) const {
+    if (!boundaries.ends.empty()) boundaries.declare(appendix, "boundary", "roles");
+    if (!ibtypes.empty()) appendix.declare("Int64", "boundary_ibtypes", 1, ibtypes.size() * 8, ibtypes.size());
+    if (!lines.ends.empty()) lines.declare(appendix, "line", "kinds");
+    if (!line_names.empty()) appendix.declare("UInt8", "line_names", 1, line_names.size(), line_names.size());
+    if (!region_names.empty()) appendix.declare("UInt8", "region_names", 1, region_names.size(), region_names.size());
+  }
+
+  void write(Appendix& appendix) const {
+    if (!boundaries.ends.empty()) boundaries.write(appendix);
+    if (!ibtypes.empty()) appendix.write(ibtypes);
+    if (!lines.ends.empty()) lines.write(appendix);
+    if (!line_names.empty()) appendix.write(line_names);
+    if (!region_names.empty()) appendix.write(region_names);
+  }
+
+ private:
+  static void addText(const std::string& text, std::vector<std::uint8_t>& bytes) {
+    bytes.insert(bytes.end(), text.begin(), text.end());
+    bytes.push_back(0);
+  }
+};
 
 }  // namespace
 
@@ -67,14 +126,11 @@ void writeVtu(const Grid& grid, const std::string& path) {
   Appendix appendix(file);
   file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
           "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
-  const BoundaryArrays boundaries = boundaryArrays(grid);
-  if (!boundaries.ends.empty()) {
-    const std::uint64_t count = boundaries.ends.size(), length = boundaries.nodes.size();
+  const std::vector<std::string> regions = grid.feature_of.empty() ? std::vector<std::string>() : regionNames(grid);
+  const FieldArrays fields(grid, regions);
+  if (fields.any()) {
     file << "<FieldData>\n";
-    appendix.declare("Int64", "boundary_nodes", 1, length * 8, length);
-    appendix.declare("Int64", "boundary_ends", 1, count * 8, count);
-    appendix.declare("UInt8", "boundary_roles", 1, count, count);
-    appendix.declare("UInt8", "boundary_closed", 1, count, count);
+    fields.declare(appendix);
     file << "</FieldData>\n";
   }
   file << "<Piece NumberOfPoints=\"" << nodes << "\" NumberOfCells=\"" << cells << "\">\n";
@@ -90,14 +146,10 @@ void writeVtu(const Grid& grid, const std::string& path) {
   if (!grid.min_angle_deg.empty()) appendix.declare("Float64", "min_angle", 1, cells * 8);
   if (!grid.area_m2.empty()) appendix.declare("Float64", "area_m2", 1, cells * 8);
   if (!grid.feature_of.empty()) appendix.declare("Int64", "src_fid", 1, cells * 8);
+  if (!regions.empty()) appendix.declare("Int64", "region", 1, cells * 8);
   file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 
-  if (!boundaries.ends.empty()) {
-    appendix.write(boundaries.nodes);
-    appendix.write(boundaries.ends);
-    appendix.write(boundaries.roles);
-    appendix.write(boundaries.closed);
-  }
+  fields.write(appendix);
   std::vector<double> places;
   places.reserve(3 * nodes);
   for (const Point& p : grid.nodes) places.insert(places.end(), {p.x, p.y, 0.0});
@@ -119,13 +171,26 @@ void writeVtu(const Grid& grid, const std::string& path) {
     for (const std::uint32_t feature : grid.feature_of) fids.push_back(grid.features[feature].fid);
     appendix.write(fids);
   }
+  if (!regions.empty()) {
+    const std::vector<int> numbers = regionNumbers(grid, regions);
+    std::vector<std::int64_t> region_of;
+    for (const std::uint32_t feature : grid.feature_of) region_of.push_back(numbers[feature]);
+    appendix.write(region_of);
+  }
   file << "\n</AppendedData>\n</VTKFile>\n";
   file.close();
   writePrjBeside(path, grid.crs);
 }
 
 FormatRecord vtuFormat() {
-  return {{"vtu", {".vtu"}, "VTK unstructured grid for ParaView", true, true}, {writeVtu, readVtu, withPrjBeside}};
+  return {{"vtu",
+           {".vtu"},
+           "VTK unstructured grid for ParaView",
+           true,
+           true,
+           {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::LineNames, GridPart::Rivers,
+            GridPart::Ibtypes, GridPart::BareWeirs}},
+          {writeVtu, readVtu, withPrjBeside}};
 }
 
 }  // namespace coastmesh

@@ -102,7 +102,7 @@ Grid readWw3(const std::string& path) {
 }
 
 FormatRecord ww3Format() {
-  return {{"ww3", {"_ww3.msh"}, "Gmsh 2 for WAVEWATCH III, depth positive down", true, true, true},
+  return {{"ww3", {"_ww3.msh"}, "Gmsh 2 for WAVEWATCH III, depth positive down", true, true, {}, true},
           {writeWw3, readWw3, withPrjBeside}};
 }
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+
+namespace coastmesh {
+
+// What a grid may hold besides nodes, their depths, triangles, and which of its boundaries are open.
+enum class GridPart : std::uint8_t {
+  Title,
+  Sizes,         // the length that edges were to have at each node
+  Features,      // which feature each triangle comes from
+  FeatureNames,  // names and sources of features
+  Regions,       // names of regions, by triangle
+  Pieces,        // the piece that a triangle was refined in
+  Lines,         // lines inside the mesh and what they are
+  LineNames,
+  Rivers,     // which boundaries are rivers
+  Ibtypes,    // ADCIRC's types of boundaries, where the role alone does not say them
+  Weirs,      // nodes across, heights and coefficients of boundaries that are weirs
+  BareWeirs,  // boundaries of a weir's type without these
+};
+
+// A set of them.
+struct GridParts {
+  std::uint32_t bits = 0;
+
+  constexpr GridParts() = default;
+  constexpr GridParts(std::initializer_list<GridPart> parts) {
+    for (const GridPart part : parts) bits |= bitOf(part);
+  }
+  constexpr bool has(GridPart part) const { return (bits & bitOf(part)) != 0; }
+
+ private:
+  static constexpr std::uint32_t bitOf(GridPart part) { return 1u << static_cast<unsigned>(part); }
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,150 @@
+// Lines, regions and types of boundaries that the user gives: in every output, or told of where it has no room for them.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+using Json = nlohmann::json;
+
+class NamedLines : public ProgramTest {
+ protected:
+  // Runs and expects nothing wrong; standard error.
+  std::string done(const std::vector<std::string>& arguments) const {
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.errors;
+  }
+
+  // A layer of the mesh in `path`, whatever its format.
+  Json layerOf(const std::string& path, const std::string& layer) const {
+    const std::string out = file("layer.geojson");
+    EXPECT_EQ(runProgram({"convert", path, "-o", out, "--overwrite", "--quiet"}).code, 0);
+    const std::string name = layer == "triangles" ? out : file("layer_" + layer + ".geojson");
+    return std::filesystem::exists(name) ? Json::parse(readText(name))["features"] : Json::array();
+  }
+
+  std::set<std::string> valuesOf(const Json& features, const std::string& column) const {
+    std::set<std::string> values;
+    for (const Json& feature : features) {
+      const Json& value = feature["properties"][column];
+      if (!value.is_null()) values.insert(value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    return values;
+  }
+};
+
+const std::vector<std::string> kOutputs{"nc", "14", "gpkg", "msh", "2dm", "node", "vtu", "gr3", "slf"};
+
+std::vector<std::string> outputsIn(const std::string& stem) {
+  std::vector<std::string> arguments;
+  for (const std::string& ending : kOutputs) {
+    arguments.push_back("-o");
+    arguments.push_back(stem + "." + ending);
+  }
+  return arguments;
+}
+
+// No output takes a weir for any line without a word.
+TEST_F(NamedLines, WeirsAreNoMereConstraints) {
+  const std::string lake = inputFile("lines/lake.geojson"), weirs = inputFile("lines/weirs.geojson");
+  const auto meshed = [&](const std::string& option, const std::string& stem) {
+    std::vector<std::string> arguments{"mesh", lake, option, weirs};
+    for (const std::string& argument : outputsIn(file(stem))) arguments.push_back(argument);
+    return done(arguments);
+  };
+  const std::string said = meshed("--weirs", "weir");
+  meshed("--constraints", "plain");
+  for (const std::string& ending : kOutputs) {
+    const std::string name = file("weir." + ending);
+    const bool told = said.find("'" + name + "' cannot hold 1 weir") != std::string::npos;
+    const bool differs = readText(name) != readText(file("plain." + ending)) ||
+                         (ending == "node" && readText(file("weir.poly")) != readText(file("plain.poly")));
+    EXPECT_NE(told, differs) << ending;
+  }
+  for (const std::string& ending : {"nc", "gpkg", "msh", "vtu"}) {
+    const Json lines = layerOf(file("weir." + ending), "lines");
+    ASSERT_EQ(lines.size(), 1u) << ending;
+    EXPECT_EQ(valuesOf(lines, "kind"), std::set<std::string>{"weir"}) << ending;
+    EXPECT_EQ(valuesOf(lines, "name"), std::set<std::string>{"w1"}) << ending;
+    // All of the input's line, from its first point to its last.
+    const Json& points = lines[0]["geometry"]["coordinates"];
+    EXPECT_EQ(points.front(), Json::parse("[-87.9, 47.55]")) << ending;
+    EXPECT_EQ(points.back(), Json::parse("[-87.7, 47.6]")) << ending;
+  }
+  EXPECT_EQ(valuesOf(layerOf(file("weir.2dm"), "lines"), "kind"), std::set<std::string>{"weir"});
+  EXPECT_EQ(valuesOf(layerOf(file("weir.node"), "lines"), "kind"), std::set<std::string>{"weir"});
+}
+
+TEST_F(NamedLines, TheReportCountsThemAndSaysWhatIsLost) {
+  done({"mesh", inputFile("lines/lake.geojson"), "--weirs", inputFile("lines/weirs.geojson"), "--regions",
+        inputFile("lines/regions.geojson"), "-o", file("a.14"), "-o", file("a.nc"), "--report", file("a.json")});
+  const Json report = Json::parse(readText(file("a.json")));
+  EXPECT_EQ(report["lines"], Json::parse(R"({"constraint": 0, "weir": 1, "region_border": 2})"));
+  ASSERT_EQ(report["output_warnings"].size(), 2u);  // the other: no depths
+  EXPECT_NE(report["output_warnings"][0].get<std::string>().find("a.14' cannot hold the names of 2 regions; 1 weir and "
+                                                                 "2 borders of regions"),
+            std::string::npos)
+      << report["output_warnings"][0];
+}
+
+TEST_F(NamedLines, RegionsComeThroughEveryFormatThatHoldsThem) {
+  done({"mesh", inputFile("lines/lake.geojson"), "--regions", inputFile("lines/regions.geojson"), "-o", file("a.gpkg"),
+        "--quiet"});
+  const Json wanted = layerOf(file("a.gpkg"), "triangles");
+  EXPECT_EQ(valuesOf(wanted, "region"), (std::set<std::string>{"north", "south"}));
+  EXPECT_EQ(valuesOf(wanted, "name"), std::set<std::string>{"lake"});
+  const auto columnOf = [](const Json& features, const char* column) {
+    std::vector<std::string> values;
+    for (const Json& feature : features) values.push_back(feature["properties"][column].dump());
+    return values;
+  };
+  for (const std::string& ending : {"nc", "msh", "2dm", "vtu", "gpkg", "shp", "fgb"}) {
+    const std::string path = file("through." + ending);
+    done({"convert", file("a.gpkg"), "-o", path, "--quiet"});
+    EXPECT_EQ(columnOf(layerOf(path, "triangles"), "region"), columnOf(wanted, "region")) << ending;
+  }
+  done({"convert", file("a.gpkg"), "-o", file("b.gpkg"), "--quiet"});
+  EXPECT_TRUE(readText(file("a.gpkg")) == readText(file("b.gpkg")));
+}
+
+// Two regions are of two colours, and of one where they have one name.
+TEST_F(NamedLines, PlotColoursRegionsByTheirNames) {
+  const auto coloursOf = [&](const std::string& regions) {
+    done({"mesh", inputFile("lines/lake.geojson"), "--regions", write("regions.geojson", regions), "-o", file("a.nc"),
+          "--quiet", "--overwrite"});
+    done({"plot", file("a.nc"), "-o", file("a.svg"), "--color", "region", "--overwrite"});
+    const std::string text = readText(file("a.svg"));
+    std::set<std::string> colours;
+    for (std::size_t at = text.find("fill:rgb"); at != std::string::npos; at = text.find("fill:rgb", at + 1))
+      colours.insert(text.substr(at, text.find(')', at) - at));
+    return colours.size();
+  };
+  std::string regions = readText(inputFile("lines/regions.geojson"));
+  const std::size_t apart = coloursOf(regions);
+  regions.replace(regions.find("south"), 5, "north");
+  EXPECT_EQ(coloursOf(regions) + 1, apart);
+}
+
+TEST_F(NamedLines, ConvertSaysWhatAFileCannotHold) {
+  const std::string mesh = inputFile("lines/weir.14");
+  const auto said = [&](const std::string& name) { return done({"convert", mesh, "-o", file(name), "--quiet"}); };
+  EXPECT_EQ(said("same.14"), "");
+  EXPECT_NE(readText(file("same.14")).find("\n31 12 1 1 1\n2 11 1.5 1 1\n34 10 2 1 1\n"), std::string::npos);
+  for (const std::string& name :
+       {"a.gr3", "a.nc", "a.2dm", "a.msh", "a.vtu", "a.gpkg", "a.node", "a.geojson", "a.fgb", "a.slf", "a_grd.dat"}) {
+    const std::string text = said(name);
+    EXPECT_NE(text.find("cannot hold"), std::string::npos) << name << ": " << text;
+    EXPECT_NE(text.find("heights and nodes across of 1 weir"), std::string::npos) << name << ": " << text;
+    EXPECT_EQ(std::ranges::count(text, '\n'), 1) << name << ": " << text;
+  }
+  EXPECT_EQ(valuesOf(layerOf(file("a.nc"), "boundaries"), "ibtype"), std::set<std::string>{"24"});
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test
