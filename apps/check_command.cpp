@@ -9,7 +9,7 @@
 #include "apps/input_usage.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/places.hpp"
-#include "apps/staged_file.hpp"
+#include "apps/run_outputs.hpp"
 #include "apps/target_usage.hpp"
 #include "apps/vector_output.hpp"
 #include "gis/check_target.hpp"
@@ -101,13 +101,16 @@ VectorLayer layerOf(const std::vector<DefectRow>& defects) {
   return layer;
 }
 
-int runCheck(const CheckUsage& usage, Interrupt& interrupt) {
-  std::optional<StagedFile> output;
+int runCheck(const CheckUsage& usage, Run& run) {
+  Interrupt& interrupt = run.interrupt;
+  RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
+  StagedFiles* layer = nullptr;
   if (!usage.output.empty()) {
     requireVectorFormat(usage.output, 1);
-    output.emplace(usage.output, usage.overwrite, interrupt);
+    layer = &outputs.addFile(usage.output);
   }
-  const Grid grid = readMeshFile(usage.mesh);
+  const std::vector<Target> targets = targetsNamed(usage.targets);
+  const Grid grid = readMeshFile(usage.mesh, run);
   interrupt.check();
   GridCheckOptions options = usage.check;
   std::vector<GridDefect> defects;
@@ -119,16 +122,15 @@ int runCheck(const CheckUsage& usage, Interrupt& interrupt) {
   }
   std::vector<DefectRow> rows;
   for (const GridDefect& defect : defects) rows.push_back(rowOf(defect));
-  for (const Target target : targetsNamed(usage.targets)) {
+  for (const Target target : targets) {
     interrupt.check();
     for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check))
       rows.push_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
   }
-  if (output) {
-    output->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(rows)}); });
+  if (layer != nullptr) {
+    layer->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(rows)}); });
   }
-  interrupt.close();
-  if (output) output->commit();
+  outputs.commit();
   if (!usage.quiet) printDefects(usage, grid, rows);
   return rows.empty() ? kExitDone : kExitShort;
 }
@@ -143,24 +145,26 @@ Command declareCheck(CLI::App& root) {
              "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
   declareTargets(line, usage->targets, "also look for all that makes the model refuse the mesh; repeat it for several");
   line.number("--time-step", usage->target_check.time_step_s, "S", {0.0, std::numeric_limits<double>::infinity()},
-              "time step that --target checks Courant numbers with; 0 leaves them out");
+              "time step that --target checks Courant numbers with; 0 leaves them out")
+      .needs({"--target"});
   line.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
   line.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
   line.flag("--delaunay", usage->check.delaunay,
             "also look for edges that are not Delaunay; always done with --input, without which edges inside the mesh "
             "cannot be known as constraints");
   line.flag("--pinches", usage->check.pinches, "also look for nodes in which the mesh touches itself");
-  declareInputOptions(line, usage->input);
-  line.choice("--input-pinches", usage->input.pinches, {"keep", "open"},
-              "the --pinches that the mesh was made with from the --input");
-  line.text("-o,--output", usage->output, kOutputFile,
-            "write the defects as a layer of points: .gpkg, .geojson or .fgb");
-  line.flag("--overwrite", usage->overwrite, "replace a file that exists");
+  line.needing({"--input"}, [&] {
+    declareInputOptions(line, usage->input);
+    line.choice("--input-pinches", usage->input.pinches, {"keep", "open"},
+                "the --pinches that the mesh was made with from the --input");
+  });
+  line.output("-o,--output", usage->output, {}, "write the defects as a layer of points: .gpkg, .geojson or .fgb");
+  line.flag("--overwrite", usage->overwrite, "replace a file that exists").needs({"--output"});
   line.flag("--quiet", usage->quiet, "print nothing");
   line.example("coastmesh check lake.nc --input lake.geojson --min-angle 33",
                "is the mesh sound, does it hold the angle, is all of the input in it?");
   line.example("coastmesh check grid.2dm -o defects.gpkg", "the defects as a layer of points");
-  return {std::move(line), [usage](Interrupt& interrupt) { return runCheck(*usage, interrupt); }};
+  return {std::move(line), [usage](Run& run) { return runCheck(*usage, run); }};
 }
 
 }  // namespace coastmesh

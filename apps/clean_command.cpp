@@ -15,7 +15,7 @@
 #include "apps/input_usage.hpp"
 #include "apps/job_input.hpp"
 #include "apps/report_sections.hpp"
-#include "apps/staged_file.hpp"
+#include "apps/run_outputs.hpp"
 #include "apps/stopwatch.hpp"
 #include "apps/vector_output.hpp"
 #include "gis/cleaned_layers.hpp"
@@ -231,7 +231,7 @@ Pslg joinedPslg(const CleanedInput& cleaned, const CleanUsage& usage, const Crs&
 }
 
 std::string reportOf(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned,
-                     const Seconds& seconds) {
+                     const Seconds& seconds, const std::vector<std::string>& warnings) {
   std::size_t points = 0, segments = 0;
   for (const Domain& domain : cleaned.domains) {
     points += domain.pslg.points.size();
@@ -242,6 +242,7 @@ std::string reportOf(const CleanUsage& usage, const JobInput& input, const Clean
   for (const std::string& note : cleaned.report.notes) read["notes"].push_back(note);
   return textOf(
       {{"coastmesh", COASTMESH_VERSION},
+       {"warnings", warnings},
        {"input", std::move(read)},
        {"clean", editsSection(cleaned.report.counts)},
        {"graph", {{"points", points}, {"segments", segments}, {"regions", cleaned.domains.size()}}},
@@ -267,17 +268,17 @@ void printReport(const CleanUsage& usage, const CleanedInput& cleaned) {
   if (!usage.report.empty()) std::printf("wrote %s\n", usage.report.c_str());
 }
 
-int runClean(const CleanUsage& usage, Interrupt& interrupt) {
+int runClean(const CleanUsage& usage, Run& run) {
   const bool poly = std::filesystem::path(usage.output).extension() == ".poly";
   if (!poly) requireVectorFormat(usage.output, 2);
-  StagedFile output(usage.output, usage.overwrite, interrupt);
-  std::optional<StagedFile> report;
-  if (!usage.report.empty()) report.emplace(usage.report, usage.overwrite, interrupt);
+  RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
+  StagedFiles& output = outputs.addFile(usage.output);
+  outputs.addReport(usage.report);
   const Stopwatch watch;
   Seconds seconds;
   const JobInput input(usage.input);
   seconds.read = watch.seconds();
-  const CleanedInput cleaned = cleanAll(input, interrupt);
+  const CleanedInput cleaned = cleanAll(input, run.interrupt);
   seconds.clean = watch.seconds() - seconds.read;
   if (poly) {
     const Pslg pslg = joinedPslg(cleaned, usage, input.coastline().crs);
@@ -288,14 +289,11 @@ int runClean(const CleanUsage& usage, Interrupt& interrupt) {
   }
   seconds.total = watch.seconds();
   seconds.write = seconds.total - seconds.read - seconds.clean;
-  if (report) report->write(reportOf(usage, input, cleaned, seconds));
-  interrupt.close();
-  output.commit();
-  if (report) report->commit();
-  for (const std::string& reason : cleaned.refused) {
-    std::fprintf(stderr, "coastmesh: warning: left out: %s\n", reason.c_str());
-  }
-  if (!usage.quiet) printReport(usage, cleaned);
+  for (const std::string& warning : input.report().warnings) run.warn(warning);
+  for (const std::string& reason : cleaned.refused) run.warn("left out: " + reason);
+  outputs.writeReport(reportOf(usage, input, cleaned, seconds, run.warnings));
+  outputs.commit();
+  if (!usage.quiet && usage.report != "-") printReport(usage, cleaned);
   return cleaned.refused.empty() ? kExitDone : kExitShort;
 }
 
@@ -305,15 +303,16 @@ Command declareClean(CLI::App& root) {
   auto usage = std::make_shared<CleanUsage>();
   CommandLine line(root, "clean", "Write the plane graph that would be meshed, and what was changed for it");
   line.arguments("INPUT", usage->input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
-  line.requiredText("-o,--output", usage->output, kOutputFile,
-                    "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
+  line.output("-o,--output", usage->output, {.required = true},
+              "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
   declareInputOptions(line, usage->input);
   declarePinches(line, usage->input);
-  line.text("--report", usage->report, kOutputFile, "write what was read and mended, and the time it took, as JSON");
+  line.output("--report", usage->report, {.standard_output = true},
+              "write what was read and mended, and the time it took, as JSON; - prints it in place of the summary");
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
   line.flag("--quiet", usage->quiet, "print no summary");
   line.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");
-  return {std::move(line), [usage](Interrupt& interrupt) { return runClean(*usage, interrupt); }};
+  return {std::move(line), [usage](Run& run) { return runClean(*usage, run); }};
 }
 
 }  // namespace coastmesh

@@ -53,18 +53,22 @@ void declareFinishOptions(CommandLine& line, FinishOptions& options) {
   DepthOptions& depth = options.depth;
   line.texts("--bathymetry", depth.files, kRasterFile, false,
              "raster that gives the nodes their depth; repeat it for several, the first that has a value counts");
-  declareEnum(line, "--depth-method", depth.method, kMethods,
-              "depth between the four pixels round a node, or the average over the pixels in its triangles");
-  line.choice(
-      "--depth-sign", "up", {"up", "down"},
-      [&depth](const std::string& chosen) { depth.positive_down = chosen == "down"; },
-      "whether the rasters tell elevations (positive up) or depths (positive down)");
-  line.number("--water-level", depth.water_level_m, "M", {-kInfinity, kInfinity},
-              "height of the still water above the rasters' zero, which depths are counted from");
-  line.number("--min-depth", depth.min_depth_m, "M", {-kInfinity, kInfinity}, "nodes shallower than this are lowered");
-  declareEnum(line, "--depth-fill", depth.fill, kFills,
-              "what nodes get for which no raster has a value: the mean of their neighbours, the value of the nearest "
-              "node, or none");
+  line.needing({"--bathymetry"}, [&] {
+    declareEnum(line, "--depth-method", depth.method, kMethods,
+                "depth between the four pixels round a node, or the average over the pixels in its triangles");
+    line.choice(
+        "--depth-sign", "up", {"up", "down"},
+        [&depth](const std::string& chosen) { depth.positive_down = chosen == "down"; },
+        "whether the rasters tell elevations (positive up) or depths (positive down)");
+    line.number("--water-level", depth.water_level_m, "M", {-kInfinity, kInfinity},
+                "height of the still water above the rasters' zero, which depths are counted from");
+    line.number("--min-depth", depth.min_depth_m, "M", {-kInfinity, kInfinity},
+                "nodes shallower than this are lowered");
+    declareEnum(
+        line, "--depth-fill", depth.fill, kFills,
+        "what nodes get for which no raster has a value: the mean of their neighbours, the value of the nearest "
+        "node, or none");
+  });
   BoundaryOptions& boundaries = options.boundaries;
   line.texts("--boundaries", boundaries.files, kVectorFile, false,
              "polygons, or lines along the shore, whose column says what the rim is there: land, open or river, or a "

@@ -32,10 +32,10 @@ bool mayHoldCoastline(const std::string& path) {
   return true;
 }
 
-std::optional<Grid> tryMesh(const MeshFile& file) {
-  if (!mayHoldCoastline(file.path)) return readMeshFile(file);
+std::optional<Grid> tryMesh(const MeshFile& file, Run& run) {
+  if (!mayHoldCoastline(file.path)) return readMeshFile(file, run);
   try {
-    return readMeshFile(file);
+    return readMeshFile(file, run);
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -46,10 +46,14 @@ std::string inForm(const Info& info, bool json) {
   return json ? toJson(info) : toText(info);
 }
 
-std::string describe(const InfoUsage& usage) {
+std::string describe(const InfoUsage& usage, Run& run) {
   const std::string& path = usage.file.path;
-  if (std::filesystem::path(path).extension() == ".poly") return inForm(describePoly(readPoly(path)), usage.json);
-  if (const std::optional<Grid> grid = tryMesh(usage.file)) return inForm(describeMesh(*grid), usage.json);
+  if (std::filesystem::path(path).extension() == ".poly") {
+    warnOfCrs(usage.file, "a .poly lies in a plane", run);
+    return inForm(describePoly(readPoly(path)), usage.json);
+  }
+  if (const std::optional<Grid> grid = tryMesh(usage.file, run)) return inForm(describeMesh(*grid), usage.json);
+  warnOfCrs(usage.file, "'" + path + "' holds no mesh", run);
   InputOptions options;
   options.files = {path};
   return inForm(describeCoastline(JobInput(options)), usage.json);
@@ -64,8 +68,8 @@ Command declareInfo(CLI::App& root) {
   line.flag("--json", usage->json, "print it as JSON");
   line.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");
   line.example("coastmesh info lakes.shp", "what there is to mesh");
-  return {std::move(line), [usage](Interrupt&) {
-            std::fputs(describe(*usage).c_str(), stdout);
+  return {std::move(line), [usage](Run& run) {
+            std::fputs(describe(*usage, run).c_str(), stdout);
             return static_cast<int>(kExitDone);
           }};
 }

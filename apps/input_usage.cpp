@@ -12,7 +12,9 @@ void declareInputOptions(CommandLine& line, InputOptions& options) {
   line.choice("--domain", options.domain, {"auto", "inside", "outside"},
               "what is meshed: the inside of polygons, or the water outside of land polygons, as far as --bbox or "
               "--clip; auto: "
-              "inside polygons, and beside lines within a frame on the side of the water");
+              "inside polygons, and beside lines within a frame on the side of the water")
+      .needs({"--bbox", "--clip"})
+      .ignoredWith({"--water-at"});
   line.text("--bbox", options.bbox, "W,S,E,N",
             "mesh only within this box, in the input's CRS; its sides become open boundaries; across the antimeridian "
             "where E "

@@ -28,8 +28,10 @@ sigset_t stopSignals() {
 }  // namespace
 
 Interrupt::Interrupt() {
-  // Whoever reads our output may go away first: a failed write is then told like any other.
+  // Whoever reads our output may go away first, and a file may come to its limit: such a write then fails as any other
+  // does.
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
   const sigset_t signals = stopSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   watcher_ = std::thread([this] { watch(); });

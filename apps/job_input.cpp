@@ -65,6 +65,9 @@ FrameOptions frameOptions(const InputOptions& options) {
     frame.water_at = Point{n[0], n[1]};
   }
   if (frame.box && !options.clip.empty()) throw UsageError("--bbox and --clip both bound the domain: give one of them");
+  if (frame.side == DomainSide::Outside && !frame.box && options.clip.empty() && !frame.water_at)
+    throw UsageError(
+        "--domain outside: water outside of land has to end somewhere: give --bbox W,S,E,N or --clip FILE");
   return frame;
 }
 
@@ -116,8 +119,11 @@ void JobInput::readPolyFile(const std::string& path) {
   if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
     throw UsageError("'" + path + "' has neither layers nor attributes; leave out --layer and --where");
   }
-  if (options_.pinches == "open") {
-    throw UsageError("'" + path + "' is a ready plane graph and is not cleaned; leave out --pinches open");
+  if (options_.pinches == "open" || options_.dissolve || options_.simplify_m > 0.0 ||
+      options_.min_island_area_m2 > 0.0 || options_.snap_in_plane) {
+    throw UsageError("'" + path +
+                     "' is a ready plane graph and is not cleaned; leave out --pinches open, --dissolve, --simplify, "
+                     "--min-island-area and --snap");
   }
   if (options_.crs != "auto" && options_.crs != "plane") {
     throw UsageError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");

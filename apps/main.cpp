@@ -1,4 +1,9 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -20,14 +25,36 @@ int fail(ExitCode code, const std::string& message) {
   return code;
 }
 
+// A file opened where standard output or error was closed would take what is printed.
+void holdStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    // Read only, so that a write to it fails as one to a closed stream does.
+    [[maybe_unused]] const int held = open("/dev/null", O_RDONLY);
+  }
+}
+
+// Whether all that was printed has come out.
+bool flushOutput(std::string& why) {
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  if (flushed && std::ferror(stdout) == 0) return true;
+  why = std::string("cannot write to standard output") + (errno != 0 ? std::string(": ") + std::strerror(errno) : "");
+  return false;
+}
+
 // The only place where errors become messages and exit codes.
 int guardedMain(int argc, char** argv) {
   Interrupt interrupt;
+  std::string why;
   try {
-    return runProgram(argc, argv, interrupt);
-  } catch (const UsageText& asked) {
-    std::fputs(asked.text.c_str(), stdout);
-    return kExitDone;
+    int code = kExitDone;
+    try {
+      code = runProgram(argc, argv, interrupt);
+    } catch (const UsageText& asked) {
+      std::fputs(asked.text.c_str(), stdout);
+    }
+    return flushOutput(why) ? code : fail(kExitOutput, why);
   } catch (const UsageError& error) {
     return fail(kExitUsage, error.what());
   } catch (const InputError& error) {
@@ -37,6 +64,8 @@ int guardedMain(int argc, char** argv) {
   } catch (const OutputError& error) {
     return fail(kExitOutput, error.what());
   } catch (const Cancelled&) {
+    // Whoever reads the progress is gone, or cannot store it.
+    if (!interrupt.requested() && !flushOutput(why)) return fail(kExitOutput, why);
     return fail(kExitInterrupted, "interrupted");
   } catch (const std::bad_alloc&) {
     return fail(kExitInput,
@@ -48,4 +77,7 @@ int guardedMain(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return guardedMain(argc, argv); }
+int main(int argc, char** argv) {
+  holdStandardStreams();
+  return guardedMain(argc, argv);
+}

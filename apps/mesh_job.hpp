@@ -55,7 +55,8 @@ struct ShortfallPlace {
 };
 inline constexpr std::size_t kShortfallPlaces = 1000;  // those past it are counted, not listed
 
-// Seconds; read, finish, write and total are what a clock shows, the others are summed over threads.
+// Seconds by the clock; all but read, finish, write and total are summed over groups, several of which may be meshed at
+// once.
 struct PhaseSeconds {
   double read = 0.0;
   double clean = 0.0;

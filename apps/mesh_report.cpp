@@ -155,8 +155,10 @@ std::string digestText(std::uint64_t digest) {
   return text;
 }
 
-std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads) {
+std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads,
+                       const std::vector<std::string>& warnings) {
   const Json report{{"coastmesh", COASTMESH_VERSION},
+                    {"warnings", warnings},
                     {"input", inputSection(job, result)},
                     {"clean", editsSection(result.edits)},
                     {"refine", refineSection(job, result)},

@@ -1,9 +1,12 @@
 #include "apps/mesh_usage.hpp"
 
+#include <algorithm>
 #include <limits>
 
+#include "apps/grid_usage.hpp"
 #include "apps/input_usage.hpp"
 #include "apps/mesh_report.hpp"
+#include "gis/grid_io.hpp"
 
 namespace coastmesh {
 
@@ -21,8 +24,7 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   CommandLine line(root, "mesh", "Mesh the polygons and closed lines of vector files, or a .poly");
   RefineOptions& refine = usage.job.mesh.refine;
   line.arguments("INPUT", usage.job.input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
-  line.texts("-o,--output", usage.outputs, kOutputFile, true, "mesh to write; repeat it for several");
-  line.text("--format", usage.format, "NAME", "format of the output, where its ending does not tell");
+  declareGridOutputs(line, usage.outputs, usage.format);
   line.number("--min-angle", refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");
   double& max_angle = refine.max_angle_deg;
   line.number("--max-angle", max_angle, "DEG", {60.0, 180.0}, "largest angle asked for; 180 sets no bound");
@@ -42,10 +44,18 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
       "stop refining at so many vertices, with exit code 1; where sizes ask for clearly more, nothing is made");
   line.flag("--cut,!--no-cut", usage.cut, "cut large seas into pieces, to be refined at the same time");
   line.flag("--mark-pieces", usage.job.mesh.mark_pieces,
-            "write which piece each triangle was refined in, to .nc, for plot --color piece");
+            "write which piece each triangle was refined in, to .nc, for plot --color piece")
+      .needs(
+          [&usage] {
+            return std::ranges::any_of(usage.outputs, [&usage](const std::string& path) {
+              return gridFormatFor(path, usage.format).name == "ugrid";
+            });
+          },
+          "without an output that is UGRID (.nc)");
   line.integer("--threads", usage.threads, "N", 0, 1024,
                "threads to work on, 0 for all cores; never changes the result");
-  line.text("--report", usage.report, kOutputFile, "write a report as JSON");
+  line.output("--report", usage.report, {.standard_output = true},
+              "write a report as JSON; - prints it in place of the summary");
   line.choice(
       "--progress", usage.progress, {"auto", "bar", "log", "json", "none"},
       "how to show progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, else lines); "

@@ -6,7 +6,7 @@
 #include "apps/exit_codes.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/plot_mesh.hpp"
-#include "apps/staged_file.hpp"
+#include "apps/run_outputs.hpp"
 
 namespace coastmesh {
 
@@ -34,21 +34,21 @@ std::array<double, 4> parseBox(const std::string& text) {
   return box;
 }
 
-int runPlot(PlotUsage& usage, Interrupt& interrupt) {
+int runPlot(PlotUsage& usage, Run& run) {
   if (!usage.bbox.empty()) usage.plot.bbox = parseBox(usage.bbox);
   usage.plot.color = plotColorNamed(usage.color);
   requirePlotFormat(usage.output);
-  StagedFile output(usage.output, usage.overwrite, interrupt);
-  Grid grid = readMeshFile(usage.mesh);
+  RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
+  StagedFiles& picture = outputs.addFile(usage.output);
+  Grid grid = readMeshFile(usage.mesh, run);
   if (usage.plot.color == PlotColor::Piece) {
     if (grid.piece_of.empty())
       throw UsageError("--color piece: the mesh does not say its pieces; make it with --mark-pieces, as .nc");
     grid.feature_of = grid.piece_of;
   }
-  interrupt.check();
-  output.make([&](const std::string& path) { plotMesh(grid, usage.plot, path); });
-  interrupt.close();
-  output.commit();
+  run.interrupt.check();
+  picture.make([&](const std::string& path) { plotMesh(grid, usage.plot, path); });
+  outputs.commit();
   return kExitDone;
 }
 
@@ -58,7 +58,7 @@ Command declarePlot(CLI::App& root) {
   auto usage = std::make_shared<PlotUsage>();
   CommandLine line(root, "plot", "Draw a mesh");
   declareMeshFile(line, "MESH", "mesh to draw", usage->mesh);
-  line.requiredText("-o,--output", usage->output, kOutputFile, "picture to write: .svg or .png");
+  line.output("-o,--output", usage->output, {.required = true}, "picture to write: .svg or .png");
   line.integer("--size", usage->plot.size_px, "PX", PlotOptions::kLeastSize, PlotOptions::kMostSize,
                "longer side of the map");
   line.text("--bbox", usage->bbox, "W,S,E,N", "what to show, in the mesh's CRS; all of it by default");
@@ -69,7 +69,7 @@ Command declarePlot(CLI::App& root) {
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");
   line.example("coastmesh plot lake.nc -o lake.png --color angle", "a picture coloured by the smallest angle");
   line.example("coastmesh plot lake.nc -o bay.svg --bbox=-90.5,46.5,-90,47", "a part of it, as a vector drawing");
-  return {std::move(line), [usage](Interrupt& interrupt) { return runPlot(*usage, interrupt); }};
+  return {std::move(line), [usage](Run& run) { return runPlot(*usage, run); }};
 }
 
 }  // namespace coastmesh

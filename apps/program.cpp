@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "apps/commands.hpp"
 #include "apps/config_file.hpp"
+#include "apps/run_outputs.hpp"
 #include "apps/usage_pages.hpp"
 #include "gis/grid_io.hpp"
 
@@ -61,6 +64,11 @@ std::string welcome(const std::vector<Command>& commands) {
 
 }  // namespace
 
+void Run::warn(const std::string& text) {
+  std::fprintf(stderr, "coastmesh: warning: %s\n", text.c_str());
+  warnings.push_back(text);
+}
+
 int runProgram(int argc, char** argv, Interrupt& interrupt) {
   CLI::App app("Turns coastlines and lakes into triangle meshes for ocean and lake models", "coastmesh");
   app.set_version_flag("--version", std::string("coastmesh ") + COASTMESH_VERSION);
@@ -92,18 +100,27 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const auto command = std::ranges::find_if(commands, isNamed);
     if (command != commands.end()) {
-      arguments = expandConfig({arguments.begin() + 1, arguments.end()}, command->line.jsonUsage());
+      std::set<std::string> names;
+      for (const Command& other : commands) names.insert(other.line.name());
+      arguments = expandConfig({arguments.begin() + 1, arguments.end()}, command->line.jsonUsage(), names);
       arguments.insert(arguments.begin(), argv[1]);
     }
     std::ranges::reverse(arguments);  // as CLI11 wants them
     app.parse(std::move(arguments));
   } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
+    std::ostringstream text, errors;
+    app.exit(asked, text, errors);
+    throw UsageText{text.str()};
   } catch (const CLI::ParseError& error) {
-    throw UsageError(oneLine(error.what()) + "; coastmesh VERB --help shows what there is");
+    throw UsageError(oneLine(error.what()) + "; coastmesh COMMAND --help shows what there is");
   }
   for (Command& command : commands) {
-    if (command.line.chosen()) return command.run(interrupt);
+    if (!command.line.chosen()) continue;
+    requireOutputsApart(command.line);
+    Run run{interrupt, {}, {}};
+    for (const auto& [option, path] : command.line.inputs()) run.inputs.push_back(path);
+    for (const std::string& sentence : command.line.withoutEffect()) run.warn(sentence);
+    return command.run(run);
   }
   throw std::logic_error("a command was parsed that was never declared");
 }

@@ -29,6 +29,11 @@ DepthBand parseBand(const std::string& text) {
   return band;
 }
 
+// Options that ask for sizes.
+const std::vector<std::string> kSizes = {"--size",           "--size-shore",       "--size-features",
+                                         "--size-raster",    "--channel-elements", "--wave-elements",
+                                         "--slope-elements", "--depth-band"};
+
 }  // namespace
 
 void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
@@ -36,14 +41,16 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
   constexpr NumberRange kNotNegative{0.0, kInfinity};
   line.number("--size", sizes.size_m, "M", kAboveZero,
               "length that edges should have everywhere, where nothing else asks for less");
-  line.number("--size-min", sizes.least_m, "M", kNotNegative, "no size is less");
+  line.number("--size-min", sizes.least_m, "M", kNotNegative, "no size is less").needs(kSizes);
   line.number("--size-max", sizes.most_m, "M", kAboveZero,
               "no size is more; given without any other size, no edge is longer");
   line.number("--grade", sizes.grade, "G", {0.0, 1.0, true},
-              "sizes at two places differ by at most this times their distance");
+              "sizes at two places differ by at most this times their distance")
+      .needs(kSizes);
   line.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
   line.number("--shore-rate", sizes.shore_rate, "R", kNotNegative,
-              "how fast that grows with the distance from the shore");
+              "how fast that grows with the distance from the shore")
+      .needs({"--size-shore"});
   line.number("--channel-elements", sizes.channel_elements, "N", kNotNegative,
               "elements across channels and straits; 0 asks for none");
   line.texts("--size-features", sizes.features, kVectorFile, false,
@@ -55,11 +62,13 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
   line.number("--wave-elements", sizes.depth.wave_elements, "N", kNotNegative,
               "elements a wavelength; 0 asks for none");
   line.number("--wave-period", sizes.depth.period_s, "S", {0.1, 1e8},
-              "period of that wave; the default is that of the M2 tide");
+              "period of that wave; the default is that of the M2 tide")
+      .needs({"--wave-elements"});
   line.number("--slope-elements", sizes.depth.slope_elements, "N", kNotNegative,
               "elements on 2 pi times the depth over its slope; 0 asks for none");
   line.number("--slope-filter", sizes.depth.slope_filter_m, "M", kNotNegative,
-              "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given);
+              "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given)
+      .needs({"--slope-elements"});
   line.texts("--depth-band", usage.bands, "FROM,TO,SIZE", false,
              "size where the depth is FROM or more and less than TO, all in metres, depths positive");
   line.choice(
@@ -72,7 +81,7 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
   line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
               "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
               "asks for none");
-  line.number("--courant", sizes.courant, "C", {1e-3, 1e3}, "largest Courant number");
+  line.number("--courant", sizes.courant, "C", {1e-3, 1e3}, "largest Courant number").needs({"--time-step"});
 }
 
 void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeOptions& sizes) {

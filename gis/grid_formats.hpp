@@ -4,15 +4,9 @@
 #include <vector>
 
 #include "gis/grid_io.hpp"
+#include "gis/output_files.hpp"
 
 namespace coastmesh {
-
-// The files of one output.
-struct OutputFiles {
-  std::vector<std::string> targets;  // what the format writes; an existing one is not replaced without leave
-  std::vector<std::string> stale;    // what other programs leave beside a target and take for up to date
-  std::string prj;                   // where the CRS stands that a format has no room for; empty where it has
-};
 
 // How a format is written and read. Private to gis.
 struct FormatFunctions {
@@ -54,6 +48,5 @@ OutputFiles withPrjBeside(const std::string& path);  // `path`, and a .prj that 
 OutputFiles layerFiles(const std::string& path);     // a file each for triangles, nodes, boundaries and lines
 
 const FormatFunctions& functionsOf(const GridFormat& format);
-OutputFiles filesOf(const GridFormat& format, const std::string& path);
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 
 #include "gis/grid.hpp"
 #include "gis/grid_parts.hpp"
+#include "gis/staged_files.hpp"
 
 namespace coastmesh {
 
@@ -25,34 +26,29 @@ const std::vector<GridFormat>& gridFormats();
 // the list of those known.
 const GridFormat& gridFormatFor(const std::string& path, const std::string& name = {});
 
-// Files written aside under temporary names in the target's folder; `commit` renames them all, the destructor removes
-// what was not committed. A format that makes several files (`.shp`, `.node`) stages all of them. A .prj beside the
-// target that says the grid's CRS already is left as it is; one that says another counts as an existing target.
+// A mesh written aside, to be moved into place whole or not at all: see StagedFiles. A .prj beside the target that says the
+// grid's CRS already is left as it is; one that says another counts as an existing target.
 class StagedOutput {
  public:
-  // Refuses existing targets unless `overwrite`, and folders that do not exist. Throws OutputError.
-  StagedOutput(std::string path, const GridFormat& format, bool overwrite);
-  ~StagedOutput();
-  StagedOutput(StagedOutput&&) noexcept;
-  StagedOutput& operator=(StagedOutput&&) = delete;
+  // Refuses what StagedFiles refuses, and a format that can only be read. Throws OutputError.
+  StagedOutput(const std::string& path, const GridFormat& format, bool overwrite);
 
+  // Files that the run reads; a .prj that belongs to one of them is never replaced.
+  void protect(const std::vector<std::string>& inputs) { inputs_ = inputs; }
   // Throws OutputError, also for a grid without triangles.
   void write(const Grid& grid);
-  // All files come into place or, where one cannot, none: then those that were there before are put back.
-  void commit();
+  void commit() { files_.commit(); }
 
-  // Holds everything that is not committed yet; for whoever has to end at once.
-  const std::string& stagingFolder() const { return staging_folder_; }
+  const std::string& path() const { return files_.path(); }
+  StagedFiles& files() { return files_; }
+  const std::string& stagingFolder() const { return files_.stagingFolder(); }
 
  private:
-  void refuseExisting() const;  // and folders, whatever `overwrite_`
   bool keepsPrj(const Grid& grid) const;
 
-  std::string path_;
   const GridFormat* format_;
-  bool overwrite_;
-  std::string staging_folder_;  // empty once moved from or committed
-  bool keep_prj_ = false;
+  StagedFiles files_;
+  std::vector<std::string> inputs_;
 };
 
 // Reads a mesh back, in any format of `gridFormats` that is readable. Nodes, triangles and their winding are as

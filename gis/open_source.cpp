@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 #include "gis/error.hpp"
@@ -57,31 +60,49 @@ std::string insideOf(const std::string& archive) {
   return found.empty() ? archive : archive + "/" + found.front();
 }
 
-// All of standard input, as a file in memory: what comes through a pipe can be read but once, and formats look twice.
-std::string standardInput() {
+bool isStandardInput(const std::string& path) { return path == "-" || path == "/dev/stdin"; }
+
+// Whether it can be read but once, from its beginning to its end.
+bool isStream(const std::string& path) {
+  std::error_code error;
+  return isStandardInput(path) || std::filesystem::is_fifo(path, error);
+}
+
+// All of a stream, as a file in memory: what comes through a pipe can be read but once, and formats look twice.
+std::string inMemory(const std::string& given) {
+  const std::string name = isStandardInput(given) ? "standard input" : given;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(
+      isStandardInput(given) ? nullptr : std::fopen(given.c_str(), "rb"),
+      [](std::FILE* file) { return std::fclose(file); });
+  std::FILE* const stream = isStandardInput(given) ? stdin : opened.get();
+  if (stream == nullptr) throw InputError(name + ": cannot be opened: " + std::strerror(errno));
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   std::vector<GByte> bytes;
   for (std::size_t got = kPiece; got == kPiece;) {
     const std::size_t before = bytes.size();
     bytes.resize(before + kPiece);
-    got = std::fread(bytes.data() + before, 1, kPiece, stdin);
+    got = std::fread(bytes.data() + before, 1, kPiece, stream);
     bytes.resize(before + got);
   }
-  if (bytes.empty()) throw InputError("standard input: it is empty");
+  if (bytes.empty()) throw InputError(name + ": it is empty");
   const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 64));
   std::string path = "/vsimem/coastmesh_standard_input";
+  if (opened) {
+    path = "/vsimem/coastmesh_stream" + given;
+    std::replace(path.begin() + 8, path.end(), '/', '_');
+  }
   if (head.starts_with("SQLite format 3")) path += ".gpkg";
   if (head.starts_with("PK\x03\x04")) path += ".zip";
   VSILFILE* file = VSIFOpenL(path.c_str(), "wb");
   const bool written = file != nullptr && VSIFWriteL(bytes.data(), 1, bytes.size(), file) == bytes.size();
   if (file != nullptr) VSIFCloseL(file);
-  if (!written) throw InputError("standard input: too large to be held in memory");
+  if (!written) throw InputError(name + ": too large to be held in memory");
   return path;
 }
 
 // The path as OGR wants it.
 std::string pathForOgr(const std::string& path) {
-  const std::string real = path == "-" ? standardInput() : path;
+  const std::string real = isStream(path) ? inMemory(path) : path;
   if (real.starts_with("/vsi") && !real.starts_with("/vsimem/")) return real;
   if (endsWith(real, ".shp.zip")) return real;
   if (!exists(real)) {  // a file in an archive
@@ -125,7 +146,7 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   GDALAllRegister();
   const auto [file, layer_of_file] = splitLayer(given);
   OpenSource source;
-  source.name = file == "-" ? "standard input" : file;
+  source.name = isStandardInput(file) ? "standard input" : file;
   const std::string path = pathForOgr(file);
   source.dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (!source.dataset) refuse(source.name, path, errors);

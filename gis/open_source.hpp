@@ -19,9 +19,10 @@ struct OpenSource {
   std::vector<OGRLayer*> layers;
 };
 
-// Opens what OGR knows: files, folders, URLs and its own "/vsi…" paths; besides them "-" for standard input, archives
-// (.zip, .tar, .tgz, .gz) by their plain names, and "file|layer" or "file|layername=layer" for one layer of a file.
-// `layers` names those wanted; empty: all. Throws InputError: no such file, empty, no vector file, no such layer.
+// Opens what OGR knows: files, folders, URLs and its own "/vsi…" paths; besides them "-" for standard input, other
+// pipes, archives (.zip, .tar, .tgz, .gz) by their plain names, and "file|layer" or "file|layername=layer" for one
+// layer of a file. `layers` names those wanted; empty: all. Throws InputError: no such file, empty, no vector file, no
+// such layer.
 OpenSource openSource(const std::string& path, const std::vector<std::string>& layers, const OgrErrors& errors);
 
 // Leaves in each layer what `where` holds for, and gives how many features that leaves out. Layers that lack one of its

@@ -18,7 +18,7 @@ struct MeshOptions {
   bool mark_pieces = false;  // fill `MeshedRegion::piece_of`
 };
 
-// Seconds of work, summed over threads.
+// Seconds by the clock of each stage, one after another; several threads may share in a stage.
 struct MeshSeconds {
   double triangulate = 0.0;
   double refine = 0.0;

@@ -121,6 +121,73 @@ TEST_F(CommandLineTest, HelpShowsUnitDefaultAndRange) {
   }
 }
 
+// Two options, one of which counts only with the other.
+class NeedsTest : public testing::Test {
+ protected:
+  NeedsTest() : line_(app_, "knit", "Knit a sock") {
+    line_.arguments("INPUT", inputs_, "wool");
+    line_.text("--pattern", pattern_, kVectorFile, "pattern");
+    line_.number("--heel", heel_, "CM", {0.0, 9.0}, "heel");
+    line_.number("--heel-stitches", stitches_, "N", {0.0, 9.0}, "stitches of the heel").needs({"--heel", "--pattern"});
+    line_.flag("--plain", plain_, "no pattern").ignoredWith({"--pattern"});
+    line_.outputs("-o,--output", outputs_, {.required = true, .files = twoFiles}, "socks");
+    line_.output("--bill", bill_, {.standard_output = true}, "bill");
+  }
+
+  static OutputFiles twoFiles(const std::string& path) { return {{path + ".left", path + ".right"}, {}, {}}; }
+
+  void parse(std::vector<std::string> words) {
+    words.insert(words.begin(), {"knit", "wool", "-o", "sock"});
+    std::reverse(words.begin(), words.end());
+    app_.parse(words);
+  }
+
+  CLI::App app_;
+  std::vector<std::string> inputs_, outputs_;
+  std::string pattern_, bill_;
+  double heel_ = 0.0, stitches_ = 3.0;
+  bool plain_ = false;
+  CommandLine line_;
+};
+
+using Sentences = std::vector<std::string>;
+
+TEST_F(NeedsTest, WhatHasNoEffectIsSaid) {
+  parse({"--heel-stitches", "3", "--plain"});
+  EXPECT_EQ(line_.withoutEffect(), Sentences{"--heel-stitches has no effect without one of --heel, --pattern"});
+}
+
+TEST_F(NeedsTest, AnOptionAtItsDefaultIsAsGoodAsNotGiven) {
+  parse({"--heel-stitches", "3", "--heel", "0.0"});
+  EXPECT_EQ(line_.withoutEffect().size(), 1u);
+}
+
+TEST_F(NeedsTest, WithWhatItNeedsNothingIsSaid) {
+  parse({"--heel-stitches", "4", "--pattern", "stars"});
+  EXPECT_TRUE(line_.withoutEffect().empty());
+}
+
+TEST_F(NeedsTest, WhatAnotherOptionOverridesIsSaid) {
+  parse({"--plain", "--pattern", "stars"});
+  EXPECT_EQ(line_.withoutEffect(), Sentences{"--plain has no effect with --pattern"});
+}
+
+TEST_F(NeedsTest, FilesOfTheRunAreKnownByTheirOptions) {
+  parse({"yarn", "-", "--pattern", "stars", "--config", "job.toml", "--bill", "-"});
+  std::vector<std::string> read, written;
+  for (const auto& [option, path] : line_.inputs()) read.push_back(option + " " + path);
+  for (const auto& output : line_.outputs()) {
+    for (const std::string& file : output.files.targets) written.push_back(output.option + " " + file);
+  }
+  EXPECT_EQ(read, (Sentences{"--config job.toml", "INPUT wool", "INPUT yarn", "--pattern stars"}));
+  EXPECT_EQ(written, (Sentences{"--output sock.left", "--output sock.right"}));
+}
+
+TEST_F(NeedsTest, StandardOutputIsForThoseThatAllowIt) {
+  parse({"-o", "-"});
+  EXPECT_THROW(line_.outputs(), UsageError);
+}
+
 }  // namespace
 
 }  // namespace coastmesh

@@ -25,12 +25,10 @@ namespace {
 // A child process whose output goes to files.
 class Child {
  public:
-  explicit Child(const std::vector<std::string>& arguments) {
+  explicit Child(std::vector<std::string> words) {
     std::string name = (fs::temp_directory_path() / "coastmesh-run-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder for a run");
     folder_ = name;
-    std::vector<std::string> words{COASTMESH_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
@@ -41,9 +39,9 @@ class Child {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out().c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err().c_str(), flags, 0600);
-    const int failed = posix_spawn(&pid_, COASTMESH_PROGRAM, &actions, nullptr, pointers.data(), environ);
+    const int failed = posix_spawn(&pid_, words.front().c_str(), &actions, nullptr, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) throw std::runtime_error("cannot start " COASTMESH_PROGRAM);
+    if (failed != 0) throw std::runtime_error("cannot start " + words.front());
   }
   ~Child() { fs::remove_all(folder_); }
   Child(const Child&) = delete;
@@ -71,12 +69,20 @@ class Child {
   pid_t pid_ = -1;
 };
 
+std::vector<std::string> withProgram(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{COASTMESH_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
 }  // namespace
 
-ProgramRun runProgram(const std::vector<std::string>& arguments) { return Child(arguments).wait(); }
+ProgramRun runProgram(const std::vector<std::string>& arguments) { return Child(withProgram(arguments)).wait(); }
+
+ProgramRun runShell(const std::string& script) { return Child({"/bin/sh", "-c", script, COASTMESH_PROGRAM}).wait(); }
 
 ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::string& awaited, int signal_number) {
-  Child child(arguments);
+  Child child(withProgram(arguments));
   while (!child.ended() && child.output().find(awaited) == std::string::npos) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }

@@ -19,6 +19,9 @@ struct ProgramRun {
 // Runs the coastmesh program to its end.
 ProgramRun runProgram(const std::vector<std::string>& arguments);
 
+// Runs a script of the shell in which "$0" is the program.
+ProgramRun runShell(const std::string& script);
+
 // Starts the program, sends `signal_number` once its standard output holds `awaited`, and waits for its end.
 ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::string& awaited, int signal_number);
 
