@@ -80,7 +80,8 @@ Json meshSection(const MeshJobResult& result) {
           {"min_angle_deg", any ? Json(quality.min_angle_deg) : Json(nullptr)},
           {"max_angle_deg", any ? Json(quality.max_angle_deg) : Json(nullptr)},
           {"below_bound", quality.below_bound},
-          {"below_bound_explained", quality.below_bound_explained},
+          {"below_bound_explained", quality.excused()},
+          {"excused", {{"corner", quality.excused_corner}, {"near", quality.excused_near}}},
           {"angle_histogram", quality.angle_histogram},
           {"digest", digestText(result.digest)}};
 }
@@ -185,8 +186,10 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
   if (job.sizes.any())
     text += "about " + grouped(static_cast<std::uint64_t>(std::min(result.estimated_vertices, 1e18))) +
             " vertices were to be expected of these sizes\n";
-  if (quality.below_bound_explained > 0) {
-    text += grouped(quality.below_bound_explained) + " triangles at input angles too small for the bound\n";
+  if (quality.excused() > 0) {
+    text += grouped(quality.excused()) +
+            " triangles at input angles too small for the bound: " + grouped(quality.excused_corner) + " in them, " +
+            grouped(quality.excused_near) + " near to them\n";
   }
   if (result.unresolved > 0) {
     char bound[40];

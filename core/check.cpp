@@ -134,7 +134,7 @@ void checkUnused(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
 }
 
 void checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
-  // The refinement aims a hair above the bound; here the bound itself counts. What an input angle explains is the same
+  // The refinement aims a hair above the bound; here the bound itself counts. Corners are the same
   // in both: one of exactly the bound cannot be divided at a hair above it.
   constexpr double kHair = 2.0 * TriangleBound::kMarginDeg;
   constexpr double kAnySize = std::numeric_limits<double>::infinity();

@@ -17,7 +17,7 @@ enum class DefectKind {
   MissingVertex,    // an input vertex that bounds the domain is not in the mesh, bit for bit
   MissingSegment,   // an input segment is not a chain of edges
   NotDelaunay,      // an unconstrained edge that is not locally Delaunay
-  AngleBelowBound,  // a triangle short of the bound that no input angle explains
+  AngleBelowBound,  // a triangle short of the bound that no corner of the input excuses
   WrongArea,        // the triangles do not cover the domain just once
   UnusedVertex,     // a Steiner point without triangles
 };

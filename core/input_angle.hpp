@@ -1,8 +1,5 @@
 #pragma once
 
-#include <vector>
-
-#include "core/item_loop.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
 
@@ -58,30 +55,9 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
   return sector;
 }
 
-// Whether the sector that begins at corner `i` of triangle `t`, with a constrained edge to its right, can be too small for the
-// bounds or have to be split on shells. Without a largest angle only sectors below a right angle can: no trigonometry for the
-// many others.
+// Whether the sector that begins at corner `i` of triangle `t`, with a constrained edge to its right, can be too small
+// for the bounds or have to be split on shells. Without a largest angle only sectors below a right angle can: no
+// trigonometry for the many others.
 bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& bound);
-
-// Visits the triangles beyond a constrained side of a sector that touch the side's far end: up to the next constraint there. They
-// lead from the side, which is long, to the sector's width, which is short: often more than good triangles can bridge.
-template <typename Mesh, typename Visit>
-void forEachBeyond(const Mesh& mesh, EdgeRef side, VertexId far_end, const Visit& visit) {
-  EdgeRef e = mesh.triangle(triOf(side)).adj[indexOf(side)];
-  while (e != kNone) {
-    const TriId t = triOf(e);
-    visit(t);
-    const Triangle& tri = mesh.triangle(t);
-    // The other edge at the far end.
-    const unsigned on = indexOf(e), next = tri.v[next3(on)] == far_end ? prev3(on) : next3(on);
-    if (tri.seg[next] != kNone) return;
-    e = tri.adj[next];
-  }
-}
-
-// The triangles whose shortfall an input angle explains: those in a sector too small for the bounds; those that share an edge with
-// them, be it a constraint: the corner's sides are long beside its width, and what lies behind them has to bear that; and those
-// beyond a side that touch its far end.
-std::vector<bool> explainedTriangles(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

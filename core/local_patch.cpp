@@ -56,6 +56,7 @@ LocalPatch extractPatch(const EditMesh& parent, const VertexNotes& notes, std::s
   for (const TriId t : patch.triangles)
     for (const VertexId v : parent.triangle(t).v) number(v);
 
+  patch.notes.corners = notes.corners;
   for (const VertexId v : patch.parent) {
     patch.mesh.points.push_back(parent.point(v));
     patch.notes.spacing.push_back(notes.spacing[v]);

@@ -85,7 +85,7 @@ struct TriangleBound {
   // Whether an input angle (radians) can be cut into angles within the bounds.
   bool canDivide(double angle) const {
     const double largest = std::min(max_angle, std::numbers::pi - 2.0 * min_angle);
-    const double pieces = std::ceil(angle / largest - 1e-9);
+    const double pieces = std::max(1.0, std::ceil(angle / largest - 1e-9));
     return angle >= pieces * min_angle - 1e-9;
   }
 };

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/input_angle.hpp"
+#include "core/input_corners.hpp"
 #include "core/metric.hpp"
 
 namespace coastmesh {
@@ -25,15 +25,19 @@ void MeshQuality::add(const MeshQuality& other) {
   shortest_edge = std::min(shortest_edge, other.shortest_edge);
   longest_edge = std::max(longest_edge, other.longest_edge);
   below_bound += other.below_bound;
-  below_bound_explained += other.below_bound_explained;
+  excused_corner += other.excused_corner;
+  excused_near += other.excused_near;
   for (std::size_t i = 0; i < angle_histogram.size(); ++i) angle_histogram[i] += other.angle_histogram[i];
 }
 
 MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, const ItemLoop& loop) {
-  const TriangleBound asked(min_angle_deg, max_angle_deg, std::numeric_limits<double>::infinity());
-  const std::vector<bool> explained = explainedTriangles(mesh, asked, loop);
-  const auto measure = [&](std::size_t first, std::size_t last) {
+  struct Part {
     MeshQuality quality;
+    std::vector<TriId> below;
+  };
+  const auto measure = [&](std::size_t first, std::size_t last) {
+    Part part;
+    MeshQuality& quality = part.quality;
     quality.triangles = last - first;
     for (std::size_t t = first; t < last; ++t) {
       const auto& v = mesh.triangles[t].v;
@@ -54,13 +58,26 @@ MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max
       quality.max_angle_deg = std::max(quality.max_angle_deg, most);
       if (least < min_angle_deg || most > max_angle_deg) {
         ++quality.below_bound;
-        if (explained[t]) ++quality.below_bound_explained;
+        part.below.push_back(static_cast<TriId>(t));
       }
     }
-    return quality;
+    return part;
   };
+  const std::vector<Part> parts = overStretches(loop, mesh.triangles.size(), measure);
   MeshQuality whole;
-  for (const MeshQuality& part : overStretches(loop, mesh.triangles.size(), measure)) whole.add(part);
+  for (const Part& part : parts) whole.add(part.quality);
+  if (whole.below_bound > 0) {
+    const TriangleBound asked(min_angle_deg, max_angle_deg, std::numeric_limits<double>::infinity());
+    const InputCorners corners(mesh, asked, loop);
+    for (const Part& part : parts) {
+      for (const TriId t : part.below) {
+        const auto& v = mesh.triangles[t].v;
+        const Excuse excuse = corners.excuseOf(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
+        whole.excused_corner += excuse == Excuse::Corner;
+        whole.excused_near += excuse == Excuse::Near;
+      }
+    }
+  }
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
   whole.vertices = static_cast<std::uint64_t>(std::ranges::count(used, std::uint8_t{1}));
   return whole;

@@ -22,15 +22,16 @@ struct MeshQuality {
   double max_angle_deg = 0.0;
   double shortest_edge = std::numeric_limits<double>::infinity();  // plane units
   double longest_edge = 0.0;
-  std::uint64_t below_bound = 0;            // triangles with an angle below `min_angle_deg` or above `max_angle_deg`
-  std::uint64_t below_bound_explained = 0;  // of them, those that lie at an input angle too small for the bound
+  std::uint64_t below_bound = 0;     // triangles with an angle below `min_angle_deg` or above `max_angle_deg`
+  std::uint64_t excused_corner = 0;  // of them, those that fill an input angle too small for the bound
+  std::uint64_t excused_near = 0;    // and those near to one (Excuse::Near)
   std::array<std::uint64_t, 36> angle_histogram{};  // all angles of all triangles, in classes of five degrees
 
+  std::uint64_t excused() const { return excused_corner + excused_near; }
   void add(const MeshQuality& other);
 };
 
-// What an input angle explains is told from the mesh itself: its rim, its constraints, and which vertices are input
-// (`TriMesh::input_vertices`; where that is 0, every vertex of the rim may be).
+// Input angles are found in the mesh itself: see InputCorners.
 MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg = 180.0,
                            const ItemLoop& loop = inOrder);
 

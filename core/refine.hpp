@@ -39,7 +39,7 @@ inline constexpr double kLongestShare = 1.45;
 TriangleBound boundOf(const RefineOptions& options);
 TriangleBound strictBoundOf(const RefineOptions& options);
 
-// A triangle that falls short of what was asked, with no input angle to explain it.
+// A triangle that falls short of what was asked, with no corner of the input to excuse it.
 struct Shortfall {
   Point place;           // the triangle's centroid
   double min_angle_deg;  // its smallest angle
@@ -59,7 +59,7 @@ struct RefineStats {
   void add(const RefineStats& other);
 };
 
-// Refines a mesh made by `constrainedDelaunay(pslg)` until every triangle that no input angle explains holds the
+// Refines a mesh made by `constrainedDelaunay(pslg)` until every triangle that no corner of the input excuses holds the
 // bounds, or until no further point helps. The result is valid, constrained Delaunay and compact in every case; what
 // falls short is in `unresolved`. Ends by itself: every vertex inserted keeps a distance that the input's own spacing
 // bounds from below. Throws Cancelled.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/input_angle.hpp"
 #include "core/predicates.hpp"
 
 namespace coastmesh {
@@ -285,43 +284,9 @@ void Refiner::stripFreeVertices() {
   touched_.clear();
 }
 
-bool Refiner::isExplained(TriId t) const {
-  // Calls `use` with each sector too small for the bounds that s lies in.
-  const auto forSmallSectors = [this](TriId s, const auto& use) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const VertexId v = mesh_.triangle(s).v[i];
-      if (v >= mesh_.inputVertices() || !notes_.small_angle[v]) continue;
-      const Sector sector = sectorAt(mesh_, s, i);
-      if (sector.right == kNone || mesh_.segment(sector.right) == kFrozen || mesh_.segment(sector.left) == kFrozen)
-        continue;
-      if (!bound_.canDivide(sector.angle)) use(sector);
-    }
-  };
-  bool explained = false;
-  const auto lieInOne = [&](const Sector&) { explained = true; };
-  forSmallSectors(t, lieInOne);
-  for (unsigned i = 0; i < 3 && !explained; ++i)
-    if (mesh_.twin(edgeRef(t, i)) != kNone) forSmallSectors(triOf(mesh_.twin(edgeRef(t, i))), lieInOne);
-  if (explained) return true;
-  // Beyond the side of one, at the far end.
-  const auto note = [&](TriId beyond) { explained |= beyond == t; };
-  for (unsigned i = 0; i < 3 && !explained; ++i) {
-    const VertexId far_end = mesh_.triangle(t).v[i];
-    if (mesh_.kind(far_end) == VertexKind::Free) continue;
-    const Sector here = sectorAt(mesh_, t, i);
-    for (const EdgeRef side : {here.right, here.left}) {
-      if (side == kNone || mesh_.twin(side) == kNone) continue;
-      forSmallSectors(triOf(mesh_.twin(side)), [&](const Sector& sector) {
-        if (mesh_.target(sector.right) == far_end) forEachBeyond(mesh_, sector.right, far_end, note);
-        if (mesh_.origin(sector.left) == far_end) forEachBeyond(mesh_, sector.left, far_end, note);
-      });
-    }
-  }
-  return explained;
-}
-
 bool Refiner::isShort(TriId t) const {
-  return isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), strict_) && !isExplained(t);
+  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
+  return isBad(a, b, c, strict_) && (notes_.corners == nullptr || notes_.corners->excuseOf(a, b, c) == Excuse::None);
 }
 
 bool Refiner::isDeferred(TriId t) const {

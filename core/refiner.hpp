@@ -49,7 +49,7 @@ class Refiner {
   EditMesh& mesh() { return mesh_; }
   const EditMesh& mesh() const { return mesh_; }
   const VertexNotes& notes() const { return notes_; }
-  // Whether a triangle breaks the bounds and no input angle explains it.
+  // Whether a triangle breaks the bounds and no corner of the input excuses it.
   bool isShort(TriId t) const;
   void noteVertex(VertexId v, double spacing);
   // Keeps a triangle for later.
@@ -89,7 +89,6 @@ class Refiner {
   bool splitFor(EdgeRef edge, TriId t, unsigned apex);
   double spacingAt(const Point& x, const Patch& cavity) const;
   double spacingOnSegment(const Point& x, EdgeRef edge, const Patch& cavity) const;
-  bool isExplained(TriId t) const;
   bool removeFreeVertex(VertexId v);
   void drainQueue(const RunControl& control);
   Point splitPlace(VertexId a, VertexId b, SegmentId seg) const;

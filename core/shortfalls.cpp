@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/input_angle.hpp"
+#include "core/input_corners.hpp"
 #include "core/quality.hpp"
 
 namespace coastmesh {
@@ -27,11 +27,11 @@ std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& 
         return some;
       }));
   if (bad.empty()) return {};
-  const std::vector<bool> explained = explainedTriangles(mesh, in_reach, loop);
+  const InputCorners corners(mesh, in_reach, loop);
   std::vector<Shortfall> shortfalls;
   for (const TriId t : bad) {
-    if (explained[t]) continue;
     const auto [a, b, c] = cornersOf(t);
+    if (corners.excuseOf(a, b, c) != Excuse::None) continue;
     const auto [low, high] = std::ranges::minmax(anglesDeg(a, b, c));
     shortfalls.push_back({(1.0 / 3.0) * (a + b + c), low, high});
   }

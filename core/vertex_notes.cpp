@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/input_angle.hpp"
 
@@ -60,6 +61,8 @@ VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound) {
   VertexNotes notes;
   noteAngles(mesh, bound, notes);
   noteSpacing(mesh, notes);
+  InputCorners corners(mesh, bound);
+  if (!corners.all().empty()) notes.corners = std::make_shared<const InputCorners>(std::move(corners));
   return notes;
 }
 

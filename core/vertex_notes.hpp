@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "core/input_corners.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
 
@@ -12,6 +14,8 @@ struct VertexNotes {
   std::vector<double> spacing;     // one a vertex: the local feature size of the input there, from above
   std::vector<double> shell_unit;  // one an input vertex: radius of a shell round it; 0 where no small angle is there
   std::vector<bool> small_angle;   // one an input vertex: some sector of it is too small for the bounds
+  std::shared_ptr<const InputCorners>
+      corners;  // of the whole input, on a part of the mesh too; null where there are none
 };
 
 // Notes on a mesh as `constrainedDelaunay` made it.

@@ -43,6 +43,7 @@ CutPiece cutOut(const Sheet& sheet, const Partition& partition, PieceId piece, V
   mesh.input_vertices = static_cast<VertexId>(cut.fixed.size());
   mesh.points.reserve(own.size());
   for (const VertexId v : own) mesh.points.push_back(sheet.mesh.point(v));
+  notes.corners = sheet.notes.corners;
   if (!sheet.notes.spacing.empty()) {
     notes.spacing.reserve(own.size());
     for (const VertexId v : own) notes.spacing.push_back(sheet.notes.spacing[v]);
@@ -175,6 +176,7 @@ Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& reco
   resizeAnew(loop, sheet.mesh.triangles, layout.triangle.back());
   sheet.notes.shell_unit = before.notes.shell_unit;
   sheet.notes.small_angle = before.notes.small_angle;
+  sheet.notes.corners = before.notes.corners;
   resizeAnew(loop, sheet.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back());
   resizeAnew(loop, sheet.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back());
   resizeAnew(loop, sheet.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back());

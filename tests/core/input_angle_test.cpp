@@ -6,12 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 
 #include "core/delaunay.hpp"
 #include "core/edit_mesh.hpp"
-#include "core/quality.hpp"
-#include "core/refine.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
@@ -105,6 +102,11 @@ TEST(SectorAt, SectorsAreTheGapsBetweenSegments) {
   }
 }
 
+TEST(CanDivide, AnAngleOfNextToNothingIsOnePiece) {
+  for (const double angle : {1e-20, 1e-12, 1e-10, 1e-9})
+    EXPECT_FALSE(TriangleBound(1.5, 180.0, kNoSize).canDivide(angle));
+}
+
 TEST(CanDivide, AgreesWithTryingAllNumbersOfPieces) {
   for (const double min_angle : {0.0, 10.0, 20.0, 30.0, 33.0, 38.0, 40.0, 42.0, 45.0}) {
     for (const double max_angle : {180.0, 120.0, 100.0, 95.0, 90.0}) {
@@ -125,81 +127,6 @@ TEST(CanDivide, AgreesWithTryingAllNumbersOfPieces) {
       }
     }
   }
-}
-
-TEST(ExplainedTriangles, NoneWhereInputAnglesAreLarge) {
-  for (const Pslg& pslg : {squarePslg(), squareWithHole(), randomPointsInBox(2, 30), collinearRuns()}) {
-    const TriMesh mesh = constrainedDelaunay(pslg);
-    for (const double angle : {20.0, 33.0, 44.0})
-      for (const bool explained : explainedTriangles(mesh, TriangleBound(angle, 180.0, kNoSize)))
-        EXPECT_FALSE(explained);
-  }
-}
-
-// The far ends of the constrained edges that leave corner i of a triangle, where there is mesh on their other side.
-std::set<VertexId> farEnds(const TriMesh& mesh, TriId t, unsigned i) {
-  std::set<VertexId> ends;
-  for (const unsigned e : {next3(i), prev3(i)})
-    if (mesh.triangles[t].seg[e] != kNone && mesh.triangles[t].adj[e] != kNone)
-      ends.insert(mesh.triangles[t].v[e == next3(i) ? prev3(i) : next3(i)]);
-  return ends;
-}
-
-// What is explained lies at an input angle that is too small: in its sector, beside a triangle that does, or beyond a side of the
-// sector, at its far end.
-TEST(ExplainedTriangles, LieAtSmallInputAngles) {
-  for (const NamedPslg& named : assortedPslgs()) {
-    SCOPED_TRACE(named.name);
-    for (const double angle : {20.0, 33.0}) {
-      const TriangleBound bound(angle, 180.0, kNoSize);
-      TriMesh mesh = constrainedDelaunay(named.pslg);
-      refine(mesh, named.pslg, {.min_angle_deg = angle});
-      const std::vector<bool> explained = explainedTriangles(mesh, bound);
-      ASSERT_EQ(explained.size(), mesh.triangles.size());
-      std::set<TriId> first;
-      std::set<VertexId> far_ends;
-      for (TriId t = 0; t < mesh.triangles.size(); ++t)
-        for (unsigned i = 0; i < 3; ++i)
-          if (mesh.triangles[t].v[i] < mesh.input_vertices) {
-            const Sector sector = sectorAt(mesh, t, i);
-            if (sector.right == kNone || sector.angle >= toRadians(angle)) continue;
-            first.insert(t);
-            far_ends.merge(farEnds(mesh, t, i));
-          }
-      for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-        if (first.contains(t)) {
-          EXPECT_TRUE(explained[t]) << "triangle " << t;
-          continue;
-        }
-        if (!explained[t]) continue;
-        bool beside = false;
-        for (unsigned i = 0; i < 3; ++i) {
-          const EdgeRef twin = mesh.triangles[t].adj[i];
-          beside = beside || (twin != kNone && first.contains(triOf(twin)));
-        }
-        const bool at_far_end =
-            std::ranges::any_of(mesh.triangles[t].v, [&](VertexId v) { return far_ends.contains(v); });
-        EXPECT_TRUE(beside || at_far_end) << "triangle " << t;
-      }
-    }
-  }
-}
-
-TEST(ExplainedTriangles, LargestAngleAloneMayExplain) {
-  // A corner of 85 degrees cannot be cut into angles of 43 to 81.
-  const double at = toRadians(85.0);
-  Pslg pslg;
-  pslg.points = {{0, 0}, {1, 0}, {1 + std::cos(at), std::sin(at)}, {std::cos(at), std::sin(at)}};
-  for (VertexId i = 0; i < 4; ++i) pslg.segments.push_back({i, (i + 1) % 4});
-  const TriMesh mesh = constrainedDelaunay(pslg);
-  const auto any = [&](double low, double high) {
-    const auto explained = explainedTriangles(mesh, TriangleBound(low, high, kNoSize));
-    return explained[0] || explained[1];
-  };
-  EXPECT_TRUE(any(43.0, 81.0));
-  EXPECT_FALSE(any(42.0, 84.5));
-  EXPECT_FALSE(any(43.0, 94.0));
-  EXPECT_FALSE(any(40.0, 180.0));
 }
 
 }  // namespace

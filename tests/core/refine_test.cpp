@@ -12,9 +12,9 @@
 #include <string>
 
 #include "core/delaunay.hpp"
-#include "core/input_angle.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
+#include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
@@ -27,18 +27,6 @@ constexpr Algorithm kAlgorithms[] = {Algorithm::Circumcenter, Algorithm::Offcent
 
 using Places = std::set<std::pair<double, double>>;
 
-// By how much a triangle falls short of what is asked: degrees below or above, or hundredths of the size. Negative
-// where it holds.
-double shortBy(const TriMesh& mesh, const Triangle& t, const RefineOptions& options) {
-  const Point &a = mesh.points[t.v[0]], &b = mesh.points[t.v[1]], &c = mesh.points[t.v[2]];
-  const auto angles = anglesDeg(a, b, c);
-  double by = std::max(options.min_angle_deg - std::ranges::min(angles),
-                       options.max_angle_deg < 180.0 ? std::ranges::max(angles) - options.max_angle_deg : -180.0);
-  if (!std::isinf(options.size_max))
-    by = std::max(by, 100.0 * (std::max({distance(a, b), distance(b, c), distance(c, a)}) / options.size_max - 1.0));
-  return by;
-}
-
 // All that holds of every refined mesh, whatever was asked.
 void expectRefined(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RefineStats& stats) {
   // A valid mesh of the input, with the regions that it had.
@@ -48,26 +36,14 @@ void expectRefined(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& o
   ASSERT_EQ(after.size(), before.size());
   for (const auto& [region, area] : before) EXPECT_NEAR(after.at(region), area, 1e-9 * area) << "region " << region;
 
-  // Every triangle that falls short is explained or listed; what is listed falls short.
-  const auto explained =
-      explainedTriangles(mesh, TriangleBound(options.min_angle_deg, options.max_angle_deg, options.size_max));
-  Places listed, fall_short;
-  for (const Shortfall& s : stats.unresolved) listed.insert({s.place.x, s.place.y});
-  EXPECT_EQ(listed.size(), stats.unresolved.size());
-  constexpr double kHair = 1e-5;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t].v;
-    const Point centre = (1.0 / 3.0) * (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]);
-    const double by = shortBy(mesh, mesh.triangles[t], options);
-    if (by > -kHair) fall_short.insert({centre.x, centre.y});
-    if (by > kHair && !explained[t]) {
-      EXPECT_TRUE(listed.contains({centre.x, centre.y})) << "triangle " << t << " at " << centre.x << ", " << centre.y;
-    }
-  }
-  for (const auto& [x, y] : listed) EXPECT_TRUE(fall_short.contains({x, y})) << x << ", " << y;
+  // Every triangle that falls short is excused or listed; what is listed falls short.
+  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
 
   // The checker finds the same, but for those within rounding of the bound.
   if (!std::isinf(options.size_max)) return;
+  constexpr double kHair = 1e-5;
+  Places listed;
+  for (const Shortfall& s : stats.unresolved) listed.insert({s.place.x, s.place.y});
   const auto defects =
       checkMesh(mesh, &pslg, {.min_angle_deg = options.min_angle_deg, .max_angle_deg = options.max_angle_deg});
   std::size_t clear = 0;
@@ -103,8 +79,9 @@ class RefineOf : public ::testing::TestWithParam<NamedPslg> {
  protected:
   // Points alone have a rim that is no segment, and that no point may split.
   bool hasSegments() const { return !GetParam().pslg.segments.empty(); }
-  // Many small angles at one vertex leave little room between their segments.
-  bool isEasy() const { return hasSegments() && GetParam().name != "FanOfAngles"; }
+  // Rays 2 degrees apart and of uneven lengths: at small bounds one triangle goes from the tip of one to that of the
+  // next, further than an angle excuses, and no point mends it.
+  std::size_t mostUnresolved(double angle) const { return GetParam().name == "FanOfAngles" && angle <= 20.0 ? 1 : 0; }
 
   RefineStats expectRefinedWith(RefineOptions options) {
     SCOPED_TRACE(describe(options));
@@ -126,9 +103,9 @@ TEST_P(RefineOf, AnyAlgorithmAndAngle) {
     for (const double angle : {0.0, 10.0, 20.0, 30.0, 33.0}) {
       const RefineStats stats = expectRefinedWith({.min_angle_deg = angle, .algorithm = algorithm});
       const bool in_reach = angle <= 20.0 || (angle <= 33.0 && algorithm >= Algorithm::Optimal);
-      if (in_reach && (isEasy() || (hasSegments() && angle <= 20.0))) {
-        EXPECT_TRUE(stats.unresolved.empty()) << stats.unresolved.size() << " short of " << angle
-                                              << " degrees, algorithm " << static_cast<unsigned>(algorithm);
+      if (in_reach && hasSegments()) {
+        EXPECT_LE(stats.unresolved.size(), mostUnresolved(angle))
+            << angle << " degrees, algorithm " << static_cast<unsigned>(algorithm);
       }
       EXPECT_TRUE(angle > 0.0 || stats.steiner_points == 0);
       if (algorithm == Algorithm::Relocate) continue;
@@ -150,7 +127,7 @@ TEST_P(RefineOf, AnyAlgorithmAndAngle) {
 TEST_P(RefineOf, AnglesUpToWhereNoneHasReached) {
   for (const double angle : {38.0, 40.0, 42.0, 45.0}) {
     const RefineStats stats = expectRefinedWith({.min_angle_deg = angle});
-    if (angle > 42.0 || !isEasy()) continue;
+    if (angle > 42.0 || !hasSegments()) continue;
     EXPECT_EQ(stats.unresolved.size(), 0u) << angle << " degrees";
   }
 }
@@ -193,12 +170,17 @@ TEST_P(RefineOf, BudgetGivesAValidMesh) {
   for (const std::uint64_t most :
        {std::uint64_t{1}, std::uint64_t{pslg.points.size()}, (pslg.points.size() + needed) / 2}) {
     for (const Algorithm algorithm : kAlgorithms) {
-      const RefineOptions options{.min_angle_deg = 30.0, .algorithm = algorithm, .max_vertices = most};
+      const RefineOptions without_budget{.min_angle_deg = 30.0, .algorithm = algorithm};
+      RefineOptions options = without_budget;
+      options.max_vertices = most;
       SCOPED_TRACE(describe(options));
       const Refined result = refined(pslg, options);
       expectRefined(result.mesh, pslg, options, result.stats);
       EXPECT_LE(result.mesh.points.size(), std::max<std::uint64_t>(most, pslg.points.size()));
-      EXPECT_TRUE(result.stats.budget_reached || result.stats.unresolved.empty() || !hasSegments());
+      // Nothing but the budget makes another mesh.
+      if (!result.stats.budget_reached) {
+        EXPECT_EQ(digestOf(result.mesh), digestOf(refined(pslg, without_budget).mesh));
+      }
     }
   }
 }
@@ -266,9 +248,9 @@ TEST(Refine, ChannelsOfAnyWidth) {
 }
 
 // Neither huge nor tiny coordinates matter, nor how the input lies. A mesh depends on every rounding, so one count says
-// little; several together hardly change.
-// A sea with an inlet that narrows to an angle, or as much water between two features: the rays are of uneven lengths, and end near
-// others. Only what fills the angle is excused, so all the rest has to be good.
+// little; several together hardly change. A sea with an inlet that narrows to an angle, or as much water between two
+// features: the rays are of uneven lengths, and end near others. Only what fills the angle is excused, so all the rest
+// has to be good.
 Pslg narrowInlet(double angle_deg, bool water_beside) {
   const double along = std::cos(toRadians(angle_deg)), across = std::sin(toRadians(angle_deg));
   Pslg pslg;
@@ -293,9 +275,12 @@ TEST(Refine, InletsOfAnyAngle) {
                      std::to_string(min_angle));
         const auto [mesh, stats] = refined(pslg, options);
         expectRefined(mesh, pslg, options, stats);
-        // Where water lies on both sides of a ray, no good triangle leads from its length to the width of a tiny angle.
-        const bool has_limits = water_beside && angle < 2.0;
-        EXPECT_LE(stats.unresolved.size(), has_limits ? mesh.triangles.size() / 10 : 0);
+        // Where water lies on both sides of a ray no good triangles lead from its length to the width of a tiny angle:
+        // of those round a point of the ray each can be a little wider than the one before, and half a turn has room
+        // for five. Wherever the ray's pieces change from long to short some fall short, and here that is beyond what
+        // the angle excuses.
+        const bool has_limits = water_beside && angle < 1.0;
+        EXPECT_LE(stats.unresolved.size(), has_limits ? mesh.triangles.size() / 12 : 0);
         EXPECT_LT(mesh.triangles.size(), 2500u);
       }
     }

@@ -1,0 +1,243 @@
+#include "core/input_corners.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/input_angle.hpp"
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Edges of a file's mesh that bend less go straight on: what rounding, and the projection into another plane, make of
+// it.
+constexpr double kStraight = toRadians(0.1);
+
+// No corner is wider: a straight line is not to blame, nor what rounding makes of one.
+constexpr double kLargest = std::numbers::pi - 1e-6;
+
+// A constrained edge, each once.
+struct Link {
+  VertexId a = kNone, b = kNone;
+  SegmentId segment = kNone;  // kNone on a rim without
+};
+
+// The constraints of a mesh, and how they hang together.
+class Constraints {
+ public:
+  Constraints(const TriMesh& mesh, const ItemLoop& loop) : mesh_(mesh) {
+    links_ = joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+      std::vector<Link> some;
+      for (auto t = static_cast<TriId>(first); t < last; ++t)
+        for (unsigned i = 0; i < 3; ++i) {
+          const EdgeRef e = edgeRef(t, i), twin = mesh.twin(e);
+          if (twin == kNone || (e < twin && mesh.segment(e) != kNone))
+            some.push_back({mesh.origin(e), mesh.target(e), mesh.segment(e)});
+        }
+      return some;
+    }));
+    first_.assign(mesh.points.size() + 1, 0);
+    for (const Link& l : links_) {
+      ++first_[l.a + 1];
+      ++first_[l.b + 1];
+    }
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) first_[v + 1] += first_[v];
+    at_.resize(2 * links_.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t l = 0; l < links_.size(); ++l) at_[next[links_[l].a]++] = at_[next[links_[l].b]++] = l;
+    nameChains();
+  }
+
+  const std::vector<Link>& links() const { return links_; }
+  std::uint32_t chainOf(std::uint32_t link) const { return chain_[link]; }
+  std::span<const std::uint32_t> at(VertexId v) const { return {at_.data() + first_[v], at_.data() + first_[v + 1]}; }
+  VertexId across(std::uint32_t link, VertexId v) const {
+    return links_[link].a == v ? links_[link].b : links_[link].a;
+  }
+  bool isInput(VertexId v) const {
+    if (mesh_.input_vertices != 0) return v < mesh_.input_vertices;
+    const std::span<const std::uint32_t> here = at(v);
+    if (here.size() != 2 || links_[here[0]].segment != links_[here[1]].segment) return !here.empty();
+    return angleAt(mesh_.point(v), mesh_.point(across(here[0], v)), mesh_.point(across(here[1], v))) <
+           std::numbers::pi - kStraight;
+  }
+  // The other end of the constraint that leaves input vertex v by a link.
+  VertexId farEnd(std::uint32_t link, VertexId v) const {
+    const VertexId from = v;
+    follow(link, v, [](std::uint32_t) {});
+    return v == from ? across(link, v) : v;
+  }
+
+ private:
+  // Goes on from v along a link up to an input vertex, or round to where it began.
+  template <typename Visit>
+  void follow(std::uint32_t link, VertexId& v, const Visit& visit) const {
+    const std::uint32_t begin = link;
+    do {
+      visit(link);
+      v = across(link, v);
+      if (isInput(v)) return;
+      link = at(v)[0] == link ? at(v)[1] : at(v)[0];
+    } while (link != begin);
+  }
+  void nameChains() {
+    chain_.assign(links_.size(), kNone);
+    std::uint32_t chains = 0;
+    const auto name = [&](std::uint32_t l, VertexId v) {
+      if (chain_[l] != kNone) return;
+      follow(l, v, [&](std::uint32_t link) { chain_[link] = chains; });
+      ++chains;
+    };
+    for (std::uint32_t l = 0; l < links_.size(); ++l)
+      for (const VertexId v : {links_[l].a, links_[l].b})
+        if (isInput(v)) name(l, v);
+    // Rings without a bend.
+    for (std::uint32_t l = 0; l < links_.size(); ++l) name(l, links_[l].a);
+  }
+
+  const TriMesh& mesh_;
+  std::vector<Link> links_;
+  std::vector<std::uint32_t> first_, at_;  // the links at vertex v: at_[first_[v]] up to at_[first_[v + 1]]
+  std::vector<std::uint32_t> chain_;       // one a link: the constraint that it is a piece of
+};
+
+// What a local feature size is measured to.
+struct Feature {
+  VertexId a = kNone, b = kNone;  // the same where it is a vertex
+  std::uint32_t chain = kNone;
+};
+
+std::vector<Feature> featuresOf(const TriMesh& mesh, const Constraints& constraints, const ItemLoop& loop) {
+  std::vector<Feature> features;
+  for (std::uint32_t l = 0; l < constraints.links().size(); ++l) {
+    const Link& link = constraints.links()[l];
+    if (mesh.input_vertices == 0) {
+      features.push_back({link.a, link.b, constraints.chainOf(l)});
+      continue;
+    }
+    // As the input has it, not as its pieces were rounded; once, from its lesser end.
+    for (const VertexId v : {link.a, link.b}) {
+      if (!constraints.isInput(v)) continue;
+      const VertexId end = constraints.farEnd(l, v);
+      if (v < end) features.push_back({v, end, constraints.chainOf(l)});
+    }
+  }
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  for (VertexId v = 0; v < mesh.input_vertices; ++v)
+    if (used[v] && constraints.at(v).empty()) features.push_back({v, v, kNone});
+  return features;
+}
+
+struct Apex {
+  VertexId vertex, right, left;  // and the next vertices on both sides
+};
+
+// The sectors that may be corners: which are is for the whole constraints to say, whose pieces are rounded.
+std::vector<Apex> smallSectors(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop) {
+  constexpr double kRounding = 0.01;
+  const double largest = std::min(bound.max_angle, std::numbers::pi - 2.0 * bound.min_angle);
+  // Too large for so many pieces, too small for one more.
+  const auto mayBeCorner = [&](double angle) {
+    for (int pieces = 0; pieces * largest < angle + kRounding; ++pieces)
+      if (angle - kRounding < (pieces + 1) * bound.min_angle) return angle < std::numbers::pi + kRounding;
+    return false;
+  };
+  const VertexId vertices = mesh.input_vertices != 0 ? mesh.input_vertices : static_cast<VertexId>(mesh.points.size());
+  return joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<Apex> some;
+    for (auto t = static_cast<TriId>(first); t < last; ++t)
+      for (unsigned i = 0; i < 3; ++i) {
+        const VertexId v = mesh.triangle(t).v[i];
+        const EdgeRef right = edgeRef(t, prev3(i));
+        if (v >= vertices || (mesh.segment(right) == kNone && mesh.twin(right) != kNone)) continue;
+        if (!mayBeSmall(mesh, t, i, bound)) continue;
+        const Sector sector = sectorAt(mesh, t, i);
+        if (mayBeCorner(sector.angle)) some.push_back({v, mesh.target(sector.right), mesh.origin(sector.left)});
+      }
+    return some;
+  }));
+}
+
+}  // namespace
+
+InputCorners::InputCorners(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop) {
+  const std::vector<Apex> candidates = smallSectors(mesh, bound, loop);
+  if (candidates.empty()) return;
+  const Constraints constraints(mesh, loop);
+  // In a file's mesh a chain may be a little bent: there the way out counts.
+  const auto endOf = [&](VertexId v, VertexId next) {
+    if (mesh.input_vertices == 0) return next;
+    const auto links = constraints.at(v);
+    return constraints.farEnd(
+        *std::ranges::find_if(links, [&](std::uint32_t l) { return constraints.across(l, v) == next; }), v);
+  };
+  std::vector<VertexId> apexes;
+  for (const Apex& apex : candidates) {
+    if (!constraints.isInput(apex.vertex)) continue;
+    const Point& at = mesh.point(apex.vertex);
+    const Point& right = mesh.point(endOf(apex.vertex, apex.right));
+    const Point& left = mesh.point(endOf(apex.vertex, apex.left));
+    const double angle = angleAt(at, right, left);
+    if (orient2d(at, right, left) <= 0 || angle > kLargest || bound.canDivide(angle)) continue;
+    corners_.push_back({at, right, left, 0.0});
+    apexes.push_back(apex.vertex);
+  }
+  if (corners_.empty()) return;
+
+  const std::vector<Feature> features = featuresOf(mesh, constraints, loop);
+  std::vector<Bounds> boxes(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    boxes[f].add(mesh.point(features[f].a));
+    boxes[f].add(mesh.point(features[f].b));
+  }
+  const BoxHalves nearby(boxes);
+  boxes.assign(corners_.size(), {});
+  forEachByStretches(loop, corners_.size(), [&](std::size_t k) {
+    const Point& at = corners_[k].apex;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::vector<std::uint32_t> own;
+    for (const std::uint32_t l : constraints.at(apexes[k])) {
+      own.push_back(constraints.chainOf(l));
+      nearest = std::min(nearest, squaredDistance(at, mesh.point(constraints.farEnd(l, apexes[k]))));
+    }
+    nearby.visit([&](const Bounds& node) { return node.squaredDistanceTo(at) < nearest; },
+                 [&](std::uint32_t f) {
+                   if (std::ranges::find(own, features[f].chain) != own.end()) return;
+                   nearest = std::min(
+                       nearest, squaredDistanceToSegment(at, mesh.point(features[f].a), mesh.point(features[f].b)));
+                 });
+    corners_[k].radius = kNearShare * std::sqrt(nearest);
+    const Point reach{corners_[k].radius, corners_[k].radius};
+    boxes[k].add(at - reach);
+    boxes[k].add(at + reach);
+  });
+  disks_ = BoxHalves(boxes);
+}
+
+Excuse InputCorners::excuseOf(const Point& a, const Point& b, const Point& c) const {
+  const std::array<Point, 3> vertices{a, b, c};
+  const Point centroid = (1.0 / 3.0) * (a + b + c);
+  const auto fills = [&](const InputCorner& corner) {
+    return std::ranges::find(vertices, corner.apex) != vertices.end() &&
+           orient2d(corner.apex, corner.right, centroid) > 0 && orient2d(corner.apex, centroid, corner.left) > 0;
+  };
+  const auto isNear = [&](const InputCorner& corner) {
+    return std::ranges::all_of(
+        vertices, [&](const Point& v) { return squaredDistance(v, corner.apex) <= corner.radius * corner.radius; });
+  };
+  Excuse excuse = Excuse::None;
+  for (const Point& v : vertices) {
+    disks_.visit([&](const Bounds& node) { return node.holds(v); },
+                 [&](std::uint32_t k) {
+                   if (fills(corners_[k])) excuse = Excuse::Corner;
+                   if (excuse == Excuse::None && isNear(corners_[k])) excuse = Excuse::Near;
+                 });
+  }
+  return excuse;
+}
+
+}  // namespace coastmesh
