@@ -11,6 +11,8 @@
 #include "apps/grid_pieces.hpp"
 #include "core/quality.hpp"
 #include "gis/error.hpp"
+#include "gis/geodesy.hpp"
+#include "gis/ground_orientation.hpp"
 
 namespace coastmesh {
 
@@ -72,9 +74,16 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
   check.pinches = options.pinches;
   for (const MeshDefect& defect : checkMesh(piece.mesh, pslg, check)) {
     if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, defect)) continue;
+    if (defect.kind == DefectKind::NotCounterClockwise) continue;  // what counts is the ground, not this plane
     const std::int64_t triangle = defect.triangle == kNone ? -1 : std::int64_t{piece.triangles[defect.triangle]};
     defects.push_back({defect.kind, inverse(defect.place), triangle, defect.value});
   }
+}
+
+// As `mesh` judges what it made: the plane that a piece is put into may be another than that.
+void checkOrientation(const Grid& grid, std::vector<GridDefect>& defects) {
+  for (const std::uint32_t t : turnedTriangles(grid, triangleAreas(grid.nodes, grid.triangles, grid.crs)))
+    defects.push_back({DefectKind::NotCounterClockwise, middleOf(grid, t), std::int64_t{t}});
 }
 
 void sortByKind(std::vector<GridDefect>& defects) {
@@ -100,6 +109,7 @@ std::optional<std::size_t> groupOf(const Grid& grid, const std::vector<std::uint
 std::vector<GridDefect> checkGrid(const Grid& grid, const GridCheckOptions& options) {
   std::vector<GridDefect> defects;
   for (const GridPiece& piece : splitGrid(grid)) checkPiece(piece, nullptr, options, defects);
+  checkOrientation(grid, defects);
   sortByKind(defects);
   return defects;
 }
@@ -144,6 +154,7 @@ std::vector<GridDefect> checkGridAgainst(const Grid& grid, const JobInput& input
     }
     checkPiece(piece, &domains[g]->pslg, options, defects);
   }
+  checkOrientation(grid, defects);
   sortByKind(defects);
   return defects;
 }

@@ -13,6 +13,7 @@
 #include "apps/mesh_group.hpp"
 #include "apps/stopwatch.hpp"
 #include "gis/grid_edit.hpp"
+#include "gis/ground_orientation.hpp"
 #include "parallel/recorder.hpp"
 
 namespace coastmesh {
@@ -179,6 +180,14 @@ void measureAgain(const MeshJob& job, MeshJobResult& result) {
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
 }
 
+// In the coordinates that are written: what is right in the working plane need not be so there.
+void findTurned(MeshJobResult& result) {
+  for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2)) {
+    ++result.turned;
+    if (result.turned_places.size() < kShortfallPlaces) result.turned_places.push_back(middleOf(result.grid, t));
+  }
+}
+
 MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const Stopwatch whole;
   MeshJobResult result;
@@ -217,6 +226,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     result.seconds.finish = finishing.seconds();
     result.log.addAlone("finish", result.seconds.finish);
   }
+  findTurned(result);
   result.seconds.total = whole.seconds();
   return result;
 }

@@ -88,6 +88,8 @@ struct MeshJobResult {
   RefineStats refine;               // `unresolved` is empty: see below
   std::uint64_t unresolved = 0;
   std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them
+  std::uint64_t turned = 0;          // triangles that are not counter-clockwise on the ground: see `turnedTriangles`
+  std::vector<Point> turned_places;  // the first kShortfallPlaces of them, in the input's CRS
   std::vector<Refusal> refusals;
   std::string last_unwanted;  // why a group was passed over that lies outside of what was asked for
   MeshQuality quality;
@@ -99,7 +101,7 @@ struct MeshJobResult {
   std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
 
   bool complete() const {
-    return unresolved == 0 && !refine.budget_reached && refusals.empty() && finish.repairs.left.empty();
+    return unresolved == 0 && turned == 0 && !refine.budget_reached && refusals.empty() && finish.repairs.left.empty();
   }
 };
 

@@ -34,13 +34,14 @@ Json inputSection(const MeshJob& job, const MeshJobResult& result) {
   return section;
 }
 
+const char* xName(const Crs& crs) { return crs.geographic ? "lon" : "x"; }
+const char* yName(const Crs& crs) { return crs.geographic ? "lat" : "y"; }
+
 Json unresolvedSection(const MeshJobResult& result) {
-  const char* x = result.crs.geographic ? "lon" : "x";
-  const char* y = result.crs.geographic ? "lat" : "y";
   Json places = Json::array();
   for (const ShortfallPlace& shortfall : result.unresolved_places) {
-    places.push_back({{x, shortfall.place.x},
-                      {y, shortfall.place.y},
+    places.push_back({{xName(result.crs), shortfall.place.x},
+                      {yName(result.crs), shortfall.place.y},
                       {"min_angle_deg", shortfall.min_angle_deg},
                       {"max_angle_deg", shortfall.max_angle_deg}});
   }
@@ -71,6 +72,13 @@ Json refineSection(const MeshJob& job, const MeshJobResult& result) {
           {"unresolved", unresolvedSection(result)}};
 }
 
+Json turnedSection(const MeshJobResult& result) {
+  Json places = Json::array();
+  for (const Point& place : result.turned_places)
+    places.push_back({{xName(result.crs), place.x}, {yName(result.crs), place.y}});
+  return {{"count", result.turned}, {"places", std::move(places)}};
+}
+
 Json meshSection(const MeshJobResult& result) {
   const MeshQuality& quality = result.quality;
   const bool any = quality.triangles > 0;
@@ -83,6 +91,7 @@ Json meshSection(const MeshJobResult& result) {
           {"below_bound_explained", quality.excused()},
           {"excused", {{"corner", quality.excused_corner}, {"near", quality.excused_near}}},
           {"angle_histogram", quality.angle_histogram},
+          {"turned", turnedSection(result)},
           {"digest", digestText(result.digest)}};
 }
 

@@ -121,7 +121,6 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
     for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.lonlat[n].y, geodetic.lonlat[n].x);
     double perimeter = 0.0;
     polygon.Compute(false, true, perimeter, areas[t]);
-    areas[t] = std::abs(areas[t]);
   });
   return areas;
 }

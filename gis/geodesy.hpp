@@ -11,10 +11,9 @@
 
 namespace coastmesh {
 
-// Areas of triangles on the ellipsoid of `crs`, edges geodesic, in square metres; counter-clockwise ones are positive
-// where no edge is longer than 20 km, larger ones always are. In a plane: the plane's area in its own units. The sum
-// over a mesh is its geodesic area to better than one part in ten million. Throws InputError where a node has no place
-// on the ellipsoid.
+// Areas of triangles on the ellipsoid of `crs`, edges geodesic, in square metres; positive for counter-clockwise ones. In
+// a plane: the plane's area in its own units. The sum over a mesh is its geodesic area to better than one part in ten
+// million. Throws InputError where a node has no place on the ellipsoid.
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const Crs& crs, const ItemLoop& loop = inOrder);
 

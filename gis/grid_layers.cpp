@@ -34,6 +34,10 @@ GridLayer triangleLayer(const Grid& grid) {
     const auto& [a, b, c] = grid.triangles[row];
     nodes.assign({a, b, c, a});
   };
+  for (std::size_t i = 0; i < 3; ++i)
+    layer.columns.push_back({std::string(kCornerColumns[i]), LayerColumn::Whole([&grid, i](std::size_t row) {
+                               return std::int64_t{grid.triangles[row][i]} + 1;
+                             })});
   if (!grid.min_angle_deg.empty())
     layer.columns.push_back(
         {"min_angle", LayerColumn::Real([&grid](std::size_t row) { return grid.min_angle_deg[row]; })});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -40,8 +41,12 @@ struct GridLayer {
 inline constexpr std::string_view kTriangleLayer = "triangles", kNodeLayer = "nodes", kBoundaryLayer = "boundaries",
                                   kLineLayer = "lines";
 
-// The layers in this order: triangles (id, min_angle in degrees, area_m2, src_fid, source, name, region), nodes (id, z,
-// size), boundaries (id, role, ibtype, closed, length_m) and, where there are any, lines (id, kind, name, closed,
+// Of the triangles' layer: the ids of a triangle's nodes, counter-clockwise. Polygons tell neither which of several
+// nodes at a place is meant nor, after a Shapefile has turned them, the winding.
+inline constexpr std::array<std::string_view, 3> kCornerColumns = {"node1", "node2", "node3"};
+
+// The layers in this order: triangles (id, node1, node2, node3, min_angle in degrees, area_m2, src_fid, source, name,
+// region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, where there are any, lines (id, kind, name, closed,
 // length_m), ids from 1. Columns that the grid has nothing for are left out; `name` is the first attribute of the source
 // feature that is called so, or like it. REQUIRES: `grid` outlives the answer.
 std::vector<GridLayer> layersOf(const Grid& grid);

@@ -4,7 +4,6 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -14,15 +13,16 @@
 #include <optional>
 #include <regex>
 #include <tuple>
-#include <unordered_map>
 
-#include "core/predicates.hpp"
+#include "core/ids.hpp"
 #include "gis/boundary_chains.hpp"
 #include "gis/error.hpp"
 #include "gis/grid_edit.hpp"
 #include "gis/grid_layers.hpp"
 #include "gis/grid_lines.hpp"
+#include "gis/nodes_by_place.hpp"
 #include "gis/ogr_support.hpp"
+#include "gis/wind_triangles.hpp"
 
 namespace coastmesh {
 namespace {
@@ -31,17 +31,6 @@ struct CloseDataset {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
-
-struct PointHash {
-  std::size_t operator()(const Point& p) const {
-    // 0.0 and -0.0 are equal and so need the same hash.
-    const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
-    const std::uint64_t mixed = (x ^ std::rotl(y, 32)) * 0x9E3779B97F4A7C15ull;
-    return static_cast<std::size_t>(mixed ^ mixed >> 29);
-  }
-};
-
-using NodeIndex = std::unordered_map<Point, std::uint32_t, PointHash>;
 
 class LayerReader {
  public:
@@ -112,6 +101,7 @@ Companion findCompanion(GDALDataset& dataset, const std::string& path, std::stri
 
 Point placeOf(const OGRSimpleCurve& chain, int i) { return {chain.getX(i), chain.getY(i)}; }
 
+// In the file's order, which says nothing of the winding: formats and programs have ways of their own.
 std::array<Point, 3> cornersOf(const OGRFeature& feature, const LayerReader& reader) {
   const OGRGeometry* geometry = feature.GetGeometryRef();
   if (geometry == nullptr || geometry->IsEmpty()) reader.fail("it has no geometry");
@@ -130,7 +120,6 @@ std::array<Point, 3> cornersOf(const OGRFeature& feature, const LayerReader& rea
   std::array<Point, 3> corners{placeOf(ring, 0), placeOf(ring, 1), placeOf(ring, 2)};
   for (const Point& p : corners)
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) reader.fail("a coordinate is not finite");
-  if (orient2d(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
   return corners;
 }
 
@@ -143,12 +132,14 @@ std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
   return order;
 }
 
-void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid, NodeIndex& index) {
-  if (companion.layer == nullptr) return;
+// The answer is the ids of the nodes, ascending.
+std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid,
+                                        NodesByPlace& index) {
+  std::vector<std::int64_t> ids;
+  if (companion.layer == nullptr) return ids;
   LayerReader reader(*companion.layer, companion.path, errors);
   const int id_field = reader.field("id"), z_field = reader.field("z"), size_field = reader.field("size");
-  if (id_field < 0) return;
-  std::vector<std::int64_t> ids;
+  if (id_field < 0) return ids;
   bool has_z = false;
   while (const OGRFeature* feature = reader.next()) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
@@ -165,8 +156,11 @@ void readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& gr
                                   : std::numeric_limits<double>::quiet_NaN());
   }
   if (!has_z) grid.z.clear();
-  orderNodes(grid, orderOf(ids));
-  for (std::uint32_t i = 0; i < grid.nodes.size(); ++i) index.emplace(grid.nodes[i], i);
+  const std::vector<std::uint32_t> order = orderOf(ids);
+  orderNodes(grid, order);
+  for (std::uint32_t i = 0; i < grid.nodes.size(); ++i) index.add(grid.nodes[i], i);
+  reorder(ids, order);
+  return ids;
 }
 
 // The text of a field; empty where there is none.
@@ -202,14 +196,65 @@ class FeatureTable {
   std::map<std::tuple<std::int64_t, std::string, std::string, std::string>, std::uint32_t> index_;
 };
 
-void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
+struct LayerTriangle {
+  std::array<Point, 3> corners;
+  std::optional<std::array<std::int64_t, 3>> node_ids;  // counter-clockwise
+};
+
+// The nodes that a triangle names, where they have its corners: somebody may have edited the layers.
+std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& triangle, const std::vector<Point>& nodes,
+                                                       const std::vector<std::int64_t>& ids) {
+  if (!triangle.node_ids) return std::nullopt;
+  std::array<std::uint32_t, 3> named;
+  for (unsigned i = 0; i < 3; ++i) {
+    const auto [at, end] = std::ranges::equal_range(ids, (*triangle.node_ids)[i]);
+    if (end - at != 1) return std::nullopt;
+    named[i] = static_cast<std::uint32_t>(at - ids.begin());
+  }
+  const auto placesFrom = [&](unsigned first, unsigned step) {
+    return std::array{nodes[named[first]], nodes[named[(first + step) % 3]], nodes[named[(first + 2 * step) % 3]]};
+  };
+  for (unsigned first = 0; first < 3; ++first)
+    if (placesFrom(first, 1) == triangle.corners || placesFrom(first, 2) == triangle.corners) return named;
+  return std::nullopt;
+}
+
+void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<std::int64_t>& ids, Grid& grid,
+                   NodesByPlace& index) {
+  std::vector<bool> wound;
+  for (const LayerTriangle& from : given) {
+    const auto named = nodesNamed(from, grid.nodes, ids);
+    wound.push_back(named.has_value());
+    if (named) {
+      grid.triangles.push_back(*named);
+      continue;
+    }
+    auto& triangle = grid.triangles.emplace_back();
+    for (unsigned i = 0; i < 3; ++i) {
+      triangle[i] = index.firstAt(from.corners[i]);
+      if (triangle[i] != kNone) continue;
+      triangle[i] = addNode(grid, from.corners[i]);
+      index.add(from.corners[i], triangle[i]);
+    }
+  }
+  windTriangles(grid.nodes, grid.crs, wound, grid.triangles);
+}
+
+void readTriangles(LayerReader& reader, const std::vector<std::int64_t>& node_ids, Grid& grid, NodesByPlace& index) {
   const int id_field = reader.field("id"), angle_field = reader.field("min_angle"),
             area_field = reader.field("area_m2");
+  std::array<int, 3> node_fields;
+  for (std::size_t i = 0; i < 3; ++i) node_fields[i] = reader.field(kCornerColumns[i]);
   FeatureTable features(reader);
   std::vector<std::int64_t> ids;
-  std::vector<std::array<Point, 3>> corners;
+  std::vector<LayerTriangle> triangles;
   while (const OGRFeature* feature = reader.next()) {
-    corners.push_back(cornersOf(*feature, reader));
+    LayerTriangle& triangle = triangles.emplace_back(LayerTriangle{cornersOf(*feature, reader), {}});
+    const auto says = [&](int field) { return field >= 0 && feature->IsFieldSetAndNotNull(field); };
+    if (std::ranges::all_of(node_fields, says)) {
+      triangle.node_ids.emplace();
+      for (std::size_t i = 0; i < 3; ++i) (*triangle.node_ids)[i] = feature->GetFieldAsInteger64(node_fields[i]);
+    }
     if (id_field >= 0) ids.push_back(feature->GetFieldAsInteger64(id_field));
     if (angle_field >= 0) grid.min_angle_deg.push_back(feature->GetFieldAsDouble(angle_field));
     if (area_field >= 0) grid.area_m2.push_back(feature->GetFieldAsDouble(area_field));
@@ -217,39 +262,34 @@ void readTriangles(LayerReader& reader, Grid& grid, NodeIndex& index) {
   }
   if (!ids.empty()) {
     const std::vector<std::uint32_t> order = orderOf(ids);
-    reorder(corners, order);
+    reorder(triangles, order);
     orderTriangles(grid, order);
     sortFeatures(grid);
   }
-  for (const auto& places : corners) {
-    auto& triangle = grid.triangles.emplace_back();
-    for (unsigned i = 0; i < 3; ++i) {
-      const auto [at, added] = index.emplace(places[i], static_cast<std::uint32_t>(grid.nodes.size()));
-      if (added) addNode(grid, places[i]);
-      triangle[i] = at->second;
-    }
-  }
+  makeTriangles(triangles, node_ids, grid, index);
 }
 
 // The nodes along a line of a layer.
-std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader, const NodeIndex& index) {
+std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader, const NodesByPlace& index,
+                                      const LineNodes& lines) {
   const OGRGeometry* geometry = feature.GetGeometryRef();
   if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is no line");
   const OGRLineString& line = *geometry->toLineString();
-  std::vector<std::uint32_t> nodes;
+  std::vector<Point> places;
   for (int i = 0; i < line.getNumPoints(); ++i) {
-    const auto node = index.find(placeOf(line, i));
-    if (node == index.end()) reader.fail("point " + std::to_string(i + 1) + " of the line is no corner of a triangle");
-    nodes.push_back(node->second);
+    places.push_back(placeOf(line, i));
+    if (index.firstAt(places.back()) == kNone)
+      reader.fail("point " + std::to_string(i + 1) + " of the line is no corner of a triangle");
   }
-  return nodes;
+  return lines.of(places);
 }
 
-void readBoundaries(const Companion& companion, const OgrErrors& errors, const NodeIndex& index, Grid& grid) {
+void readBoundaries(const Companion& companion, const OgrErrors& errors, const NodesByPlace& index, Grid& grid) {
   if (companion.layer == nullptr) return;
   LayerReader reader(*companion.layer, companion.path, errors);
   const int id_field = reader.field("id"), role_field = reader.field("role"), type_field = reader.field("ibtype");
   if (id_field < 0 || role_field < 0) return;
+  const LineNodes nodes(grid, index, LineNodes::Along::Boundary);
   std::vector<std::int64_t> ids;
   while (const OGRFeature* feature = reader.next()) {
     Boundary boundary;
@@ -261,7 +301,7 @@ void readBoundaries(const Companion& companion, const OgrErrors& errors, const N
     boundary.role = *known;
     if (type_field >= 0 && feature->IsFieldSetAndNotNull(type_field))
       boundary.ibtype = feature->GetFieldAsInteger(type_field);
-    boundary.nodes = nodesAlong(*feature, reader, index);
+    boundary.nodes = nodesAlong(*feature, reader, index, nodes);
     boundary.closed = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
     if (boundary.closed) boundary.nodes.pop_back();
     ids.push_back(feature->GetFieldAsInteger64(id_field));
@@ -270,18 +310,19 @@ void readBoundaries(const Companion& companion, const OgrErrors& errors, const N
   reorder(grid.boundaries, orderOf(ids));
 }
 
-void readLines(const Companion& companion, const OgrErrors& errors, const NodeIndex& index, Grid& grid) {
+void readLines(const Companion& companion, const OgrErrors& errors, const NodesByPlace& index, Grid& grid) {
   if (companion.layer == nullptr) return;
   LayerReader reader(*companion.layer, companion.path, errors);
   const int id_field = reader.field("id"), kind_field = reader.field("kind"), name_field = reader.field("name");
   if (id_field < 0 || kind_field < 0) return;
+  const LineNodes nodes(grid, index, LineNodes::Along::Inside);
   std::vector<std::int64_t> ids;
   while (const OGRFeature* feature = reader.next()) {
     const std::string kind = textOf(*feature, kind_field);
     const std::optional<LineKind> known = lineKindNamed(kind);
     if (!known) reader.fail("its kind is \"" + kind + "\", not constraint, weir or region border");
     ids.push_back(feature->GetFieldAsInteger64(id_field));
-    grid.lines.push_back(lineOfNodes(*known, textOf(*feature, name_field), nodesAlong(*feature, reader, index)));
+    grid.lines.push_back(lineOfNodes(*known, textOf(*feature, name_field), nodesAlong(*feature, reader, index, nodes)));
   }
   reorder(grid.lines, orderOf(ids));
 }
@@ -310,13 +351,14 @@ Grid readOgrGrid(const std::string& path) {
   const DatasetPtr dataset = open(path, errors);
   OGRLayer& layer = triangleLayer(*dataset, path);
   Grid grid;
-  NodeIndex index;
-  readNodeLayer(findCompanion(*dataset, path, kNodeLayer, errors), errors, grid, index);
+  NodesByPlace index;
+  grid.crs = readCrs(*dataset, layer, path);
+  const std::vector<std::int64_t> node_ids =
+      readNodeLayer(findCompanion(*dataset, path, kNodeLayer, errors), errors, grid, index);
   LayerReader reader(layer, path, errors);
-  readTriangles(reader, grid, index);
+  readTriangles(reader, node_ids, grid, index);
   readBoundaries(findCompanion(*dataset, path, kBoundaryLayer, errors), errors, index, grid);
   readLines(findCompanion(*dataset, path, kLineLayer, errors), errors, index, grid);
-  grid.crs = readCrs(*dataset, layer, path);
   return grid;
 }
 
