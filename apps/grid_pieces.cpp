@@ -86,7 +86,7 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
   const TriMesh linked = linkTriangles(part.nodes, part.triangles, conflicts);
   Coastline rim;
   rim.crs = grid.crs;
-  rim.features.emplace_back();
+  rim.features.emplace_back().source = "the mesh";
   for (const auto& loop : rimLoops(linked)) {
     Polygon& polygon = rim.features[0].polygons.emplace_back();
     for (VertexId v : loop) polygon.outer.push_back(part.nodes[v]);

@@ -7,7 +7,9 @@
 #include <sstream>
 
 #include "apps/command_line.hpp"
+#include "apps/places.hpp"
 #include "gis/error.hpp"
+#include "gis/geodesy.hpp"
 #include "gis/poly_io.hpp"
 
 namespace coastmesh {
@@ -84,6 +86,28 @@ std::vector<Source> sourcesOf(const InputOptions& options) {
   return sources;
 }
 
+// GeoJSON says longitudes and latitudes whatever it holds: where what is to be taken as a plane is none of these, it has
+// no place on Earth, and nor has the mesh.
+void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
+  if (!coastline.crs.geographic) return;
+  const Feature* odd = nullptr;
+  const auto look = [&](const Feature& feature, const std::vector<Point>& chain) {
+    const auto isOdd = [](const Point& p) { return !isLonLat(p); };
+    if (odd == nullptr && std::ranges::any_of(chain, isOdd)) odd = &feature;
+  };
+  for (const Feature& feature : coastline.features) {
+    for (const Polygon& polygon : feature.polygons) {
+      look(feature, polygon.outer);
+      for (const Ring& hole : polygon.holes) look(feature, hole);
+    }
+    for (const auto& line : feature.lines) look(feature, line);
+  }
+  if (odd == nullptr) return;
+  report.warnings.push_back(featureText(*odd) + ": has coordinates that are no longitudes and latitudes of " +
+                            nameOf(coastline.crs) + ": all are taken as metres in a plane");
+  coastline.crs = {};
+}
+
 }  // namespace
 
 JobInput::JobInput(const InputOptions& options) : options_(options) {
@@ -104,6 +128,7 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
   if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
   const FrameOptions frame = frameOptions(options_);
   coastline_ = readCoastline(sourcesOf(options_), options_.filter, report_);
+  if (options_.crs == "plane") forgetImpossibleCrs(coastline_, report_);
   frameCoastline(coastline_, frame, report_);
   if (working) chosen_ = Projection::to(coastline_.crs, *working);
   groups_ = groupFeatures(coastline_);

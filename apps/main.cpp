@@ -21,7 +21,7 @@ namespace {
 using namespace coastmesh;
 
 int fail(ExitCode code, const std::string& message) {
-  std::fprintf(stderr, "coastmesh: error: %s\n", message.c_str());
+  std::fprintf(stderr, "coastmesh: error: %s\n", oneLine(message).c_str());
   return code;
 }
 

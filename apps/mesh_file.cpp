@@ -1,6 +1,7 @@
 #include "apps/mesh_file.hpp"
 
 #include "gis/error.hpp"
+#include "gis/geodesy.hpp"
 #include "gis/grid_io.hpp"
 
 namespace coastmesh {
@@ -30,6 +31,7 @@ Grid readMeshFile(const MeshFile& file, Run& run) {
   Crs assumed = parseAssumed(file.crs);
   if (grid.crs.isPlane()) {
     grid.crs = std::move(assumed);
+    requirePlaces(grid.nodes, grid.crs, file.path);
   } else {
     warnOfCrs(file, "'" + file.path + "' says its CRS", run);
   }

@@ -14,6 +14,7 @@
 #include "apps/config_file.hpp"
 #include "apps/run_outputs.hpp"
 #include "apps/usage_pages.hpp"
+#include "gis/error.hpp"
 #include "gis/grid_io.hpp"
 
 namespace coastmesh {
@@ -32,15 +33,6 @@ std::string wholeUsage(const std::vector<Command>& commands) {
   }
   for (const Command& command : commands) usage["commands"].push_back(Json::parse(command.line.jsonUsage()));
   return usage.dump(2) + "\n";
-}
-
-// CLI11's messages may take several lines; ours are one sentence.
-std::string oneLine(std::string text) {
-  while (text.ends_with('\n')) text.pop_back();
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
 }
 
 // For somebody who typed the program's name to see what it is.

@@ -1,19 +1,26 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace coastmesh {
 
-// The input cannot be read or used (exit code 3). The text is one sentence: the file, the feature, the place, what to
-// do.
+// `text` as one line: runs of white space and control characters become one blank. What is longer than `longest` bytes
+// ends at a word, with "…".
+std::string oneLine(std::string_view text, std::size_t longest = std::numeric_limits<std::size_t>::max());
+
+// The input cannot be read or used (exit code 3). The text is one sentence on one line, whatever goes into it: the file,
+// the feature, the place, what to do.
 struct InputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string& text) : std::runtime_error(oneLine(text)) {}
 };
 
-// An output cannot be written (exit code 4).
+// An output cannot be written (exit code 4). One line as well.
 struct OutputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit OutputError(const std::string& text) : std::runtime_error(oneLine(text)) {}
 };
 
 }  // namespace coastmesh

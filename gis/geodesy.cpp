@@ -24,7 +24,15 @@ struct Geodetic {
   double f = 0.0;  // flattening
 };
 
-Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoop& loop = inOrder) {
+[[noreturn]] void refuseNode(std::span<const Point> nodes, std::size_t node, const Crs& crs, const std::string& path) {
+  throw InputError((path.empty() ? "" : "'" + path + "': ") + "node " + std::to_string(node + 1) + " at " +
+                   std::to_string(nodes[node].x) + ", " + std::to_string(nodes[node].y) +
+                   " has no longitude and latitude in " + nameOf(crs) + "; check that the CRS is the right one");
+}
+
+// `path` is for errors; it may be empty.
+Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoop& loop = inOrder,
+                    const std::string& path = {}) {
   const OgrErrors errors;
   const OGRSpatialReference srs = toOgr(crs);
   Geodetic out;
@@ -47,9 +55,7 @@ Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoo
     std::vector<int> ok(points.size());
     to_base->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, nullptr, ok.data());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!ok[i] || !std::isfinite(x[i]) || !std::isfinite(y[i]))
-        throw InputError("the node at " + std::to_string(points[i].x) + ", " + std::to_string(points[i].y) +
-                         " has no longitude and latitude in " + nameOf(crs) + "; check that the CRS is the right one");
+      if (!ok[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) refuseNode(points, i, crs, path);
       out.lonlat[i] = {x[i], y[i]};
     }
   }
@@ -89,6 +95,18 @@ double smallTriangleArea(const Vector& u, const Vector& v, const Vector& w, doub
 }
 
 }  // namespace
+
+bool isLonLat(const Point& p) { return std::abs(p.x) <= 540.0 && std::abs(p.y) <= 90.0; }
+
+void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::string& path) {
+  if (crs.isPlane()) return;
+  if (!crs.geographic) {
+    toGeodetic(nodes, crs, inOrder, path);
+    return;
+  }
+  const auto odd = std::ranges::find_if_not(nodes, isLonLat);
+  if (odd != nodes.end()) refuseNode(nodes, static_cast<std::size_t>(odd - nodes.begin()), crs, path);
+}
 
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const Crs& crs, const ItemLoop& loop) {

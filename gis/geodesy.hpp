@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/item_loop.hpp"
@@ -10,6 +11,14 @@
 #include "gis/crs.hpp"
 
 namespace coastmesh {
+
+// Whether a point can be degrees of longitude and latitude: within ±540, which is -180 to 180, 0 to 360, and some
+// overlap, and within ±90.
+bool isLonLat(const Point& p);
+
+// Throws InputError with `path`, the number of the node, and its place, where one has none on the ellipsoid of the grid's
+// CRS. What passes can be measured, projected, and read again from whatever it is written to.
+void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::string& path);
 
 // Areas of triangles on the ellipsoid of `crs`, edges geodesic, in square metres; positive for counter-clockwise ones. In
 // a plane: the plane's area in its own units. The sum over a mesh is its geodesic area to better than one part in ten

@@ -38,8 +38,10 @@ std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic
   const Domain& domain = *part.domain;
   const TriMesh& mesh = *part.mesh;
   assert(domain.input_points.size() == mesh.input_vertices);
+  // Coordinates that were meshed as they are stay as they are.
+  const bool shifts = geographic && !domain.projection.isIdentity();
   const LongitudeRange range =
-      geographic && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
+      shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
   std::vector<std::uint32_t> index_of(mesh.points.size(), kNone);
   auto count = static_cast<std::uint32_t>(nodes.size());
@@ -53,7 +55,7 @@ std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic
       node = domain.input_points[v];
     } else {
       node = domain.projection.inverse(mesh.points[v]);
-      if (geographic) node.x = range.bring(node.x);
+      if (shifts) node.x = range.bring(node.x);
     }
   });
   return index_of;

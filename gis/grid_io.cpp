@@ -7,6 +7,7 @@
 
 #include "gis/error.hpp"
 #include "gis/grid_edit.hpp"
+#include "gis/geodesy.hpp"
 #include "gis/grid_formats.hpp"
 #include "gis/grid_layers.hpp"
 #include "gis/grid_lines.hpp"
@@ -125,6 +126,7 @@ Grid readGrid(const std::string& path) {
     throw InputError("cannot read '" + path + "' as a mesh; known endings are " + endingList(&GridFormat::readable));
   Grid grid = functionsOf(*format).read(path);
   keepLinesInside(grid);
+  requirePlaces(grid.nodes, grid.crs, path);
   return grid;
 }
 

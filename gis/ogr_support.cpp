@@ -7,6 +7,8 @@
 #include <memory>
 #include <string_view>
 
+#include "gis/error.hpp"
+
 namespace coastmesh {
 
 OgrErrors::OgrErrors() {
@@ -19,8 +21,10 @@ OgrErrors::~OgrErrors() { CPLPopErrorHandler(); }
 void OgrErrors::collect(int severity, int, const char* message) {
   auto* self = static_cast<OgrErrors*>(CPLGetErrorHandlerUserData());
   if (severity < CE_Warning) return;
+  // GDAL may quote all of a file or of a statement.
+  constexpr std::size_t kLongest = 300;
   const bool error = severity >= CE_Failure;
-  if (self->text_.empty() || (error && !self->failed_)) self->text_ = message;
+  if (self->text_.empty() || (error && !self->failed_)) self->text_ = oneLine(message, kLongest);
   self->failed_ = self->failed_ || error;
 }
 

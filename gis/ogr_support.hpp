@@ -17,7 +17,7 @@ class OgrErrors {
   OgrErrors& operator=(const OgrErrors&) = delete;
 
   bool failed() const { return failed_; }            // an error, not only warnings, since the start or `clear`
-  const std::string& text() const { return text_; }  // the first error, else the first warning
+  const std::string& text() const { return text_; }  // the first error, else the first warning: one line, not long
   void clear();
 
  private:

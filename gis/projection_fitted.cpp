@@ -8,6 +8,7 @@
 #include "gis/crs_map.hpp"
 #include "gis/error.hpp"
 #include "gis/fit_map.hpp"
+#include "gis/geodesy.hpp"
 #include "gis/ogr_support.hpp"
 #include "gis/projection_impl.hpp"
 #include "gis/turned_rings.hpp"
@@ -90,7 +91,6 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
 
 std::shared_ptr<const Projection::Impl> fitTo(const Coastline& coastline, const std::vector<std::size_t>& members,
                                               const ToGeographic& to_geographic) {
-  constexpr double kMostLongitude = 540;  // degrees: -180 to 180, 0 to 360, and some overlap
   std::vector<Point> lonlat;
   std::deque<Ring> projected_rings;
   std::vector<RingGroup> groups(1);  // the frame and lines of the coast; then one a feature
@@ -103,7 +103,7 @@ std::shared_ptr<const Projection::Impl> fitTo(const Coastline& coastline, const 
   forEachChain(coastline, members, [&](const Feature& feature, const std::vector<Point>& chain, bool is_ring) {
     for (const Point& input : chain) {
       const Point p = to_geographic.forward(input);
-      if (!(std::abs(p.y) <= 90 && std::abs(p.x) <= kMostLongitude)) refuse(feature, input, coastline.crs);
+      if (!isLonLat(p)) refuse(feature, input, coastline.crs);
       west = std::min(west, p.x), east = std::max(east, p.x);
       lonlat.push_back(p);
     }

@@ -1,0 +1,211 @@
+// Meshes where coordinates are odd: across ±180, at a pole, of triangles a quarter of the globe wide, and no longitudes
+// at all.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+using Json = nlohmann::json;
+
+class Coordinates : public ProgramTest {
+ protected:
+  std::string ring(const std::string& name, const LonLatRing& ring) const {
+    return write(name, geoJsonPolygons({{ring}}));
+  }
+  // A lake of two halves, cut at the antimeridian, with an island.
+  std::string lakeAt180() const {
+    return write("lake.geojson",
+                 geoJsonPolygons({{{{-180.0, 65.30}, {-179.85, 65.31}, {-179.9, 65.36}, {-180.0, 65.34}},
+                                   {{-179.95, 65.32}, {-179.93, 65.32}, {-179.94, 65.33}}},
+                                  {{{180.0, 65.30}, {180.0, 65.34}, {179.91, 65.35}, {179.9, 65.31}}}}));
+  }
+  std::string polarCap() const {
+    LonLatRing cap;
+    for (int lon = -180; lon < 180; lon += 10) cap.emplace_back(lon, 75.0);
+    return ring("lake.geojson", cap);
+  }
+  // Two spikes, 87 degrees long and a fifth of a degree at their tips.
+  std::string spikes() const {
+    return ring(
+        "lake.geojson",
+        {{0, 47.5}, {-87.07, 47.25}, {-87.25, 0}, {-88, 47.5}, {0, 47.75}, {-87.5, 48}, {0, 47.93}, {-87, 47.5}});
+  }
+  // A concave shore in metres.
+  LonLatRing inMetres(double x, double y) const {
+    return {{x, y}, {x + 4000, y}, {x + 4000, y + 5000}, {x + 2000, y + 1000}, {x + 300, y + 5000}, {x, y + 5000}};
+  }
+
+  // Of the mesh, by way of a format of text that has every digit: nodes and triangles in their order.
+  std::string textOf(const std::string& mesh) const {
+    const ProgramRun run = runProgram({"convert", mesh, "-o", file("text.2dm"), "--overwrite", "--quiet"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return readText(file("text.2dm"));
+  }
+  Json infoOf(const std::string& mesh) const {
+    const ProgramRun run = runProgram({"info", mesh, "--json"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return Json::parse(run.output);
+  }
+
+  // Every layer format has to say what the .nc says; `code` is that of `mesh` and of `check`.
+  void expectAlikeInLayers(const std::string& input, int code) const {
+    std::vector<std::string> arguments{"mesh", input, "--dissolve", "-o", file("m.nc"), "--quiet"};
+    for (const char* ending : {"gpkg", "shp", "geojson", "fgb"}) {
+      arguments.insert(arguments.end(), {"-o", file(std::string("m_") + ending + "." + ending)});
+    }
+    const ProgramRun run = runProgram(arguments);
+    ASSERT_EQ(run.code, code) << run.errors;
+    const Json told = infoOf(file("m.nc"));
+    for (const char* ending : {"gpkg", "shp", "geojson", "fgb"}) {
+      SCOPED_TRACE(ending);
+      const std::string mesh = file(std::string("m_") + ending + "." + ending);
+      EXPECT_EQ(runProgram({"check", mesh}).code, code);
+      EXPECT_EQ(textOf(mesh), textOf(file("m.nc")));
+      const Json info = infoOf(mesh);
+      EXPECT_EQ(info["area_m2"], told["area_m2"]);
+      EXPECT_EQ(info["boundaries"], told["boundaries"]);
+    }
+    EXPECT_EQ(runProgram({"check", file("m.nc")}).code, code);
+  }
+};
+
+TEST_F(Coordinates, LayersAcross180) { expectAlikeInLayers(lakeAt180(), 0); }
+
+TEST_F(Coordinates, LayersAroundAPole) { expectAlikeInLayers(polarCap(), 0); }
+
+// Between the spikes' sides a triangle comes out turned over on the ground: told, by `mesh` as by `check`.
+TEST_F(Coordinates, TrianglesTurnedOverOnTheGroundAreTold) {
+  expectAlikeInLayers(spikes(), 1);
+  const ProgramRun run =
+      runProgram({"mesh", file("lake.geojson"), "-o", file("s.nc"), "--report", file("s.json"), "--quiet"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.errors.find("not counter-clockwise on the ground"), std::string::npos) << run.errors;
+  const Json turned = Json::parse(readText(file("s.json")))["mesh"]["turned"];
+  ASSERT_GE(turned["count"], 1);
+  EXPECT_EQ(turned["places"].size(), turned["count"]);
+  const Json place = turned["places"][0];
+  EXPECT_TRUE(place["lon"] > -87 && place["lon"] < 0 && place["lat"] > 47 && place["lat"] < 60) << place;
+}
+
+// What GeoJSON calls longitudes, in metres: taken as a plane where that is asked for.
+TEST_F(Coordinates, MetresInAPlane) {
+  for (const double at : {0.0, 1000.0, 448123.0, -5e6}) {
+    SCOPED_TRACE(at);
+    const std::string input = ring("metres.geojson", inMetres(at, 2 * at));
+    const ProgramRun run = runProgram({"mesh", input, "--crs", "plane", "--size-max", "500", "-o", file("m.nc"), "-o",
+                                       file("m.gpkg"), "-o", file("m.2dm"), "--overwrite", "--quiet"});
+    ASSERT_EQ(run.code, 0) << run.errors;
+    EXPECT_NE(run.errors.find("metres in a plane"), std::string::npos) << run.errors;
+    for (const char* name : {"m.nc", "m.gpkg", "m.2dm"}) {
+      const ProgramRun check = runProgram({"check", file(name), "--input", input, "--crs", "plane"});
+      EXPECT_EQ(check.code, 0) << name << check.output << check.errors;
+      const Json info = infoOf(file(name));
+      EXPECT_EQ(info["crs"], "plane");
+      EXPECT_NEAR(info["area_m2"].get<double>(), 12.6e6, 1.0) << name;
+      EXPECT_GT(info["nodes"], 50);
+    }
+  }
+}
+
+TEST_F(Coordinates, MetresThatAreSaidToBeDegreesAreRefused) {
+  const std::string input = ring("metres.geojson", inMetres(1000, 2000));
+  const ProgramRun run = runProgram({"mesh", input, "-o", file("m.nc"), "--quiet"});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(isOneErrorLine(run.errors));
+  EXPECT_NE(run.errors.find("metres.geojson"), std::string::npos) << run.errors;
+  const ProgramRun other = runProgram({"mesh", input, "--crs", "EPSG:3857", "-o", file("m.nc"), "--quiet"});
+  EXPECT_EQ(other.code, 3) << other.errors;
+  EXPECT_NE(other.errors.find("metres.geojson"), std::string::npos) << other.errors;
+}
+
+// Degrees taken as a plane keep their longitudes and their CRS, whichever revolution they are in.
+TEST_F(Coordinates, DegreesInAPlane) {
+  const std::string input = ring("wide.geojson", {{-10, 0}, {400, 0}, {400, 50}, {200, 20}, {-10, 50}});
+  const ProgramRun run =
+      runProgram({"mesh", input, "--crs", "plane", "--size-max", "20", "-o", file("m.2dm"), "--quiet"});
+  ASSERT_LE(run.code, 1) << run.errors;
+  std::istringstream text(readText(file("m.2dm")));
+  double least = 0, greatest = 0;
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with("ND ")) continue;
+    std::istringstream words(line.substr(3));
+    double number = 0, x = 0;
+    words >> number >> x;
+    least = std::min(least, x), greatest = std::max(greatest, x);
+  }
+  EXPECT_EQ(least, -10);
+  EXPECT_EQ(greatest, 400);
+  EXPECT_EQ(infoOf(file("m.2dm"))["crs"], "EPSG:4326");
+}
+
+// What has no place on Earth is refused where it is read, whatever the format, so that nothing unreadable is written.
+TEST_F(Coordinates, NodesOffTheEarthAreRefused) {
+  const std::string two_dm = "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 0\nND 2 1e9 0 0\nND 3 0 1 0\n";
+  const std::string gmsh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1e9 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n"
+      "1 2 2 0 1 1 2 3\n$EndElements\n";
+  const std::string adcirc = "title\n1 3\n1 0 0 1\n2 1 95 1\n3 0 1 1\n1 3 1 2 3\n0\n0\n0\n0\n";
+  const auto feature = R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":)"
+                       R"({"type":"Polygon","coordinates":[[[0,0],[1e9,0],[0,1],[0,0]]]}}]})";
+  for (const auto& [name, text] : std::map<std::string, std::string>{
+           {"m.2dm", two_dm}, {"m.msh", gmsh}, {"m.14", adcirc}, {"m.geojson", feature}}) {
+    SCOPED_TRACE(name);
+    const std::string mesh = write(name, text);
+    const std::vector<std::string> crs =
+        name == "m.geojson" ? std::vector<std::string>{} : std::vector<std::string>{"--assume-crs", "EPSG:4326"};
+    for (std::vector<std::string> arguments : std::vector<std::vector<std::string>>{
+             {"convert", mesh, "-o", file("o.gpkg")}, {"check", mesh}, {"plot", mesh, "-o", file("o.svg")}}) {
+      arguments.insert(arguments.end(), crs.begin(), crs.end());
+      const ProgramRun run = runProgram(arguments);
+      EXPECT_EQ(run.code, 3) << arguments[0] << run.output;
+      EXPECT_TRUE(isOneErrorLine(run.errors));
+      EXPECT_NE(run.errors.find(name), std::string::npos) << run.errors;
+      EXPECT_NE(run.errors.find("node 2"), std::string::npos) << run.errors;
+    }
+  }
+  EXPECT_EQ(names().count("o.gpkg"), 0u);
+}
+
+// A projected CRS has places too that are none.
+TEST_F(Coordinates, NodesOffAProjectionAreRefused) {
+  const std::string mesh = write("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 5e5 5e6 0\nND 2 6e5 5e6 0\nND 3 1e30 5e6 0\n");
+  const ProgramRun run = runProgram({"convert", mesh, "-o", file("o.gpkg"), "--assume-crs", "EPSG:32616"});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.errors.find("m.2dm"), std::string::npos) << run.errors;
+  EXPECT_NE(run.errors.find("node 3"), std::string::npos) << run.errors;
+}
+
+// GDAL's own words may have line ends; an error has none.
+TEST_F(Coordinates, ErrorsAreOneLine) {
+  const std::string geojson = lake();
+  ASSERT_EQ(runProgram({"mesh", geojson, "-o", file("m.fgb"), "-o", file("m.shp"), "--quiet"}).code, 0);
+  std::string fgb = readText(file("m.fgb"));
+  fgb[3] = 0;  // its version
+  const std::string old = write("old.fgb", fgb);
+  const std::string vtu = write("no.vtu", "this is no XML\n<at all\n");
+  std::string index = readText(file("m.shx"));
+  index.resize(40);
+  write("m.shx", index);
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"check", old},
+                                             {"info", vtu},
+                                             {"check", file("m.shp")},
+                                             {"mesh", geojson, "--where", "name =\n= 3", "-o", file("o.nc")},
+                                             {"mesh", geojson, "--where", "name = 'x", "-o", file("o.nc")}}) {
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 3) << arguments[1];
+    EXPECT_TRUE(isOneErrorLine(run.errors));
+    EXPECT_LT(run.errors.size(), 800u);
+  }
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test
