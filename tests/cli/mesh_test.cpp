@@ -75,7 +75,7 @@ TEST_F(MeshRun, ReportHasItsKeys) {
   EXPECT_EQ(keysOf(json["refine"]["unresolved"]), (std::set<std::string>{"count", "places"}));
   EXPECT_EQ(keysOf(json["mesh"]),
             (std::set<std::string>{"vertices", "triangles", "area_m2", "min_angle_deg", "max_angle_deg", "below_bound",
-                                   "below_bound_explained", "excused", "angle_histogram", "digest"}));
+                                   "below_bound_explained", "excused", "angle_histogram", "turned", "digest"}));
   EXPECT_EQ(keysOf(json["time_s"]), (std::set<std::string>{"read", "clean", "size", "triangulate", "refine", "shrink",
                                                            "fit", "stitch", "check", "finish", "write", "total"}));
 }
