@@ -102,7 +102,9 @@ MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t b
 // Where `--size-max` is only a bound there is no map of sizes, but no mesh has fewer vertices than equilateral triangles of that size.
 void requireMemory(const MeshJob& job, const Domain& domain, const GroupRoom& room, std::optional<double> area_m2) {
   if (job.sizes.any() || !area_m2 || !std::isfinite(job.sizes.most_m)) return;
-  const double least = 2.0 / std::sqrt(3.0) * *area_m2 / job.sizes.most_m / job.sizes.most_m;
+  // In a plane lengths are in its units, whatever area a CRS would give its coordinates.
+  const double area = domain.projection.isIdentity() ? geodesicArea(domain, Crs{}) : *area_m2;
+  const double least = 2.0 / std::sqrt(3.0) * area / job.sizes.most_m / job.sizes.most_m;
   if (std::min(least, static_cast<double>(room.vertices)) * kBytesPerVertex <= room.memory) return;
   throw TooManyVertices({least, domain.projection.inverse(centreOf(domain.pslg)), job.sizes.most_m, "--size-max"});
 }

@@ -40,8 +40,7 @@ std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic
   assert(domain.input_points.size() == mesh.input_vertices);
   // Coordinates that were meshed as they are stay as they are.
   const bool shifts = geographic && !domain.projection.isIdentity();
-  const LongitudeRange range =
-      shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
+  const LongitudeRange range = shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
   std::vector<std::uint32_t> index_of(mesh.points.size(), kNone);
   auto count = static_cast<std::uint32_t>(nodes.size());
