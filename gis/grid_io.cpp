@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "gis/error.hpp"
-#include "gis/grid_edit.hpp"
 #include "gis/geodesy.hpp"
+#include "gis/grid_edit.hpp"
 #include "gis/grid_formats.hpp"
 #include "gis/grid_layers.hpp"
 #include "gis/grid_lines.hpp"
