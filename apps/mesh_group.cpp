@@ -276,12 +276,21 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   result.log.append(recorder.finish());
 }
 
+// Of a plane graph, whose segments the user knows by their order.
+std::string segmentsOf(const PslgDefect& defect) {
+  if (defect.segment == kNone) return "";
+  const std::string first = std::to_string(std::uint64_t{defect.segment} + 1);
+  if (defect.other == kNone) return " (segment " + first + ", counted from 1)";
+  return " (segments " + first + " and " + std::to_string(std::uint64_t{defect.other} + 1) + ", counted from 1)";
+}
+
 void refuse(const BadPslg& error, const JobInput& input, std::size_t group, GroupResult& result) {
   const Feature& first = input.coastline().features[input.members(group).front()];
   CleanReport ignored;
   const Projection projection = input.domain(group, ignored).projection;
   result.refusal_place = projection.inverse(error.defect.place);
   result.refusal = featureText(first) + ": " + error.what() + " at " + pointText(*result.refusal_place);
+  if (input.isPoly()) result.refusal += segmentsOf(error.defect);
 }
 
 void refuse(const TooManyVertices& error, const GroupRoom& room, std::uint64_t whole_budget, const Feature& first,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,17 +16,20 @@ namespace coastmesh {
 
 namespace {
 
-[[noreturn]] void refuse(PslgDefect::Kind kind, const Point& place, SegmentId segment, std::string message) {
-  throw BadPslg({kind, place, segment, std::move(message)});
+[[noreturn]] void refuse(PslgDefect::Kind kind, const Point& place, SegmentId segment, std::string message,
+                         SegmentId other = kNone) {
+  throw BadPslg({kind, place, segment, other, std::move(message)});
+}
+
+void checkPlace(const Point& p, const std::string& what) {
+  if (!std::isfinite(p.x) || !std::isfinite(p.y))
+    refuse(PslgDefect::Kind::NotFinite, p, kNone, what + " is not a finite number");
+  if (!isInRange(p)) refuse(PslgDefect::Kind::OutOfRange, p, kNone, what + " lies beyond -1e70 to 1e70");
 }
 
 void checkReferences(const Pslg& pslg) {
-  for (const Point& p : pslg.points)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))
-      refuse(PslgDefect::Kind::NotFinite, p, kNone, "a coordinate is not a finite number");
-  for (const Point& p : pslg.holes)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))
-      refuse(PslgDefect::Kind::NotFinite, p, kNone, "a coordinate of a hole is not a finite number");
+  for (const Point& p : pslg.points) checkPlace(p, "a coordinate");
+  for (const Point& hole : pslg.holes) checkPlace(hole, "a coordinate of a hole");
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
     const auto& [a, b, tag, left, right] = pslg.segments[s];
     if (a >= pslg.points.size() || b >= pslg.points.size())
@@ -50,13 +53,27 @@ void insertSegments(const Pslg& pslg, DelaunayBuilder& builder) {
     } catch (const DelaunayBuilder::Clash& clash) {
       switch (clash.kind) {
         case DelaunayBuilder::Clash::Kind::SegmentsCross:
-          refuse(PslgDefect::Kind::SegmentsCross, crossingOf(pslg, s, clash.other), s, "two segments cross");
+          refuse(PslgDefect::Kind::SegmentsCross, crossingOf(pslg, s, clash.other), s, "two segments cross",
+                 clash.other);
         case DelaunayBuilder::Clash::Kind::SegmentsCoincide:
           refuse(PslgDefect::Kind::SegmentsCoincide, midpoint(pslg.points[a], pslg.points[b]), s,
-                 "two segments have the same ends");
+                 "two segments have the same ends", clash.other);
         default:
           refuse(PslgDefect::Kind::PointOnSegment, pslg.points[clash.at], s, "a vertex lies inside a segment");
       }
+    }
+  }
+}
+
+// Nearest neighbours are joined in a Delaunay triangulation.
+void checkDistances(const Pslg& pslg, const DelaunayBuilder& builder) {
+  for (TriId t = 0; t < builder.triangles().size(); ++t) {
+    if (builder.isGhost(t)) continue;
+    const auto& v = builder.triangles()[t].v;
+    for (unsigned i = 0; i < 3; ++i) {
+      const Point &a = pslg.points[v[i]], &b = pslg.points[v[next3(i)]];
+      if (std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) >= kLeastDistance) continue;
+      refuse(PslgDefect::Kind::OutOfRange, a, kNone, "two vertices are nearer to one another than 1e-70");
     }
   }
 }
@@ -98,13 +115,43 @@ class Carver {
     for (TriId t = 0; t < triangles_.size(); ++t) {
       for (unsigned i = 0; i < 3; ++i) {
         if (triangles_[t].seg[i] == kNone) continue;
-        const Segment& segment = pslg_.segments[triangles_[t].seg[i]];
-        const RegionId label = triangles_[t].v[next3(i)] == segment.a ? segment.left : segment.right;
+        const RegionId label = labelOn(t, i);
         if (label == kUnlabelled) continue;
         flood(t, label);
-        if (region_[t] != label) throw std::logic_error("the labels of a PSLG's segments contradict one another");
+        if (region_[t] != label) refuseLabel(t, i);
       }
     }
+  }
+
+  // The label that edge i gives to triangle t is not the one that it has: looks for a segment that gave it this one.
+  [[noreturn]] void refuseLabel(TriId t, unsigned i) {
+    const SegmentId here = triangles_[t].seg[i];
+    const RegionId given = region_[t];
+    SegmentId other = kNone;
+    std::vector<bool> seen(triangles_.size(), false);
+    seen[t] = true;
+    stack_.assign(1, t);
+    while (!stack_.empty() && other == kNone) {
+      const TriId at = stack_.back();
+      stack_.pop_back();
+      for (unsigned j = 0; j < 3; ++j) {
+        const SegmentId s = triangles_[at].seg[j];
+        const TriId next = triOf(triangles_[at].adj[j]);
+        if (s != kNone && labelOn(at, j) == given) other = s;
+        if (s != kNone || seen[next]) continue;
+        seen[next] = true;
+        stack_.push_back(next);
+      }
+    }
+    const Segment& segment = pslg_.segments[here];
+    refuse(PslgDefect::Kind::LabelsContradict, midpoint(pslg_.points[segment.a], pslg_.points[segment.b]), here,
+           "two segments label the same place differently", other);
+  }
+
+  // What the segment on edge i says of triangle t.
+  RegionId labelOn(TriId t, unsigned i) const {
+    const Segment& segment = pslg_.segments[triangles_[t].seg[i]];
+    return triangles_[t].v[next3(i)] == segment.a ? segment.left : segment.right;
   }
 
   void flood(TriId start, RegionId label) {
@@ -166,6 +213,7 @@ TriMesh constrainedDelaunay(const Pslg& pslg) {
   if (!builder.hasTriangles())
     refuse(PslgDefect::Kind::NoArea, pslg.points.empty() ? Point{} : pslg.points.front(), kNone,
            "the vertices lie on one line and enclose no area");
+  checkDistances(pslg, builder);
   insertSegments(pslg, builder);
 
   const std::vector<RegionId> region = Carver(pslg, builder).run();

@@ -11,18 +11,21 @@ namespace coastmesh {
 // What makes a PSLG unusable, and where.
 struct PslgDefect {
   enum class Kind {
-    NotFinite,
+    NotFinite,   // of a point or a hole
+    OutOfRange,  // a point or a hole beyond kLargestCoordinate, or two points nearer than kLeastDistance
     PointsCoincide,
     SegmentOfNoLength,
     UnknownVertex,
-    SegmentsCross,
-    SegmentsCoincide,
+    SegmentsCross,     // `segment` and `other`
+    SegmentsCoincide,  // `segment` and `other`
     PointOnSegment,
+    LabelsContradict,  // `segment` and `other` label the same place differently
     NoArea
   };
   Kind kind;
   Point place;
-  SegmentId segment = kNone;  // one of those involved, where there is one
+  SegmentId segment = kNone;  // the one involved, where there is one
+  SegmentId other = kNone;    // and the other one, where there are two
   std::string message;        // a sentence, without the place
 };
 
@@ -32,7 +35,7 @@ struct BadPslg : std::runtime_error {
 };
 
 // The constrained Delaunay triangulation of the PSLG's domain: holes and outside are carved, regions labelled.
-// Throws BadPslg where the input is no PSLG or encloses no area. Cost O(n log n) time, O(n) memory.
+// Throws BadPslg, and nothing else, where the input is no PSLG or encloses no area. Cost O(n log n) time, O(n) memory.
 TriMesh constrainedDelaunay(const Pslg& pslg);
 
 }  // namespace coastmesh

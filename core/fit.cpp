@@ -158,6 +158,7 @@ RefineStats fitPiece(Piece& piece, const Pslg& pslg, const RefineOptions& option
 }
 
 RefineStats fit(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps, const RunControl& control) {
+  requireInRange(options);
   Fitter fitter(std::move(mesh), pslg, options);
   fitter.run(sweeps, control);
   mesh = fitter.release();

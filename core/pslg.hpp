@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -17,9 +18,20 @@ struct Segment {
   RegionId right = kUnlabelled;
 };
 
+// The range of coordinates: products of four lengths, which circumcentres and bounds on angles take, neither overflow nor
+// lose their digits in it.
+inline constexpr double kLargestCoordinate = 1e70;  // in absolute value
+inline constexpr double kLeastDistance = 1e-70;     // between two points, along x or y
+
+// False for NaN as well.
+inline bool isInRange(const Point& p) {
+  return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate;
+}
+
 // A planar straight-line graph: the only input of the core.
-// REQUIRES (`constrainedDelaunay` tells what is broken, and where): finite coordinates, no two equal points, no segment of zero length, no two segments
-// that meet anywhere but in a common end point, no point inside a segment.
+// REQUIRES (`constrainedDelaunay` reports what is broken, and where): coordinates in the range above, no two points equal
+// or nearer than it allows, no segment of zero length, no two segments that meet anywhere but in a common end point, no
+// point inside a segment, labels that agree with one another.
 struct Pslg {
   std::vector<Point> points;
   std::vector<Segment> segments;

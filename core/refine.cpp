@@ -1,5 +1,8 @@
 #include "core/refine.hpp"
 
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -20,6 +23,23 @@ void RefineStats::add(const RefineStats& other) {
   merges += other.merges;
   budget_reached |= other.budget_reached;
   unresolved.insert(unresolved.end(), other.unresolved.begin(), other.unresolved.end());
+}
+
+void requireInRange(const RefineOptions& options) {
+  const auto require = [](bool holds, const char* name, double value, const char* range) {
+    if (holds) return;
+    std::ostringstream text;
+    text << "RefineOptions::" << name << " is " << value << ", not " << range;
+    throw std::invalid_argument(text.str());
+  };
+  // Comparisons with NaN are false.
+  require(options.min_angle_deg >= 0.0 && options.min_angle_deg <= 45.0, "min_angle_deg", options.min_angle_deg,
+          "0 to 45 degrees");
+  require(options.max_angle_deg >= 60.0 && options.max_angle_deg <= 180.0, "max_angle_deg", options.max_angle_deg,
+          "60 to 180 degrees");
+  require(options.size_max > 0.0, "size_max", options.size_max, "above 0");
+  require(options.size_scale > 0.0 && std::isfinite(options.size_scale), "size_scale", options.size_scale,
+          "a finite number above 0");
 }
 
 TriangleBound boundOf(const RefineOptions& options) {
@@ -74,6 +94,7 @@ std::size_t shrunkSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& opti
 }  // namespace
 
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  requireInRange(options);
   const bool few =
       mesh.input_vertices <= kFewPoints && options.algorithm == Algorithm::Relocate && options.size == nullptr;
   const TriMesh unrefined = few ? mesh : TriMesh();

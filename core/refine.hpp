@@ -22,6 +22,7 @@ enum class Algorithm {
   Relocate,      // Erten & Üngör 2007, Algorithm 2: move a vertex where that is enough, else as Optimal
 };
 
+// Ranges hold in every function that takes these options; what lies beyond them throws std::invalid_argument.
 struct RefineOptions {
   double min_angle_deg = 33.0;                                // degrees, 0 to 45
   double max_angle_deg = 180.0;                               // degrees, 60 to 180; 180 sets no bound
@@ -29,8 +30,11 @@ struct RefineOptions {
   Algorithm algorithm = Algorithm::Relocate;
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  // vertices in all, input included
   const SizeFunction* size = nullptr;  // lengths that edges should have; outlives the run; null where none are wanted
-  double size_scale = 1.0;             // wanted are these times so much: a step on the way
+  double size_scale = 1.0;             // above 0; wanted are these times so much: a step on the way
 };
+
+// Throws std::invalid_argument, which names the option, where one is beyond its range or no number.
+void requireInRange(const RefineOptions& options);
 
 // A triangle with an edge longer than this share of the length wanted there is refined: edges then come out about as wanted.
 inline constexpr double kLongestShare = 1.45;
@@ -62,7 +66,8 @@ struct RefineStats {
 // Refines a mesh made by `constrainedDelaunay(pslg)` until every triangle that no corner of the input excuses holds the
 // bounds, or until no further point helps. The result is valid, constrained Delaunay and compact in every case; what
 // falls short is in `unresolved`. Ends by itself: every vertex inserted keeps a distance that the input's own spacing
-// bounds from below. Throws Cancelled.
+// bounds from below. Throws Cancelled, and
+// std::invalid_argument for options beyond their ranges.
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
 
 // Takes out and merges vertices that the bounds do not need. REQUIRES: `mesh` as `refine` left it, with the same

@@ -151,6 +151,7 @@ RefineStats shrinkPiece(Piece& piece, const Pslg& pslg, const RefineOptions& opt
 }
 
 RefineStats shrink(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  requireInRange(options);
   const std::size_t vertices = mesh.points.size();
   Shrinker shrinker(std::move(mesh), pslg, options);
   shrinker.run(sweepsFor(options.min_angle_deg, vertices), control);

@@ -1,11 +1,14 @@
 #include "gis/bare_geojson.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "core/pslg.hpp"
 
 namespace coastmesh {
 
@@ -142,6 +145,7 @@ class GeometryHandler : public nlohmann::json_sax<nlohmann::json> {
   bool scalar() const { return !in_coordinates_ && !frames_.empty(); }
   bool number(double value) {
     if (skipped_ > 0 || !in_coordinates_) return scalar();
+    if (std::abs(value) > kLargestCoordinate) return false;
     frames_.back().coordinates.add(value);
     return true;
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/pslg.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -22,7 +23,7 @@ std::vector<Point> takeChain(const OGRSimpleCurve& curve, GeometryParts& parts, 
   std::vector<Point> chain(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Point p{curve.getX(static_cast<int>(i)), curve.getY(static_cast<int>(i))};
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+    if (!isInRange(p)) {
       throw InputError(where() + ", vertex " + std::to_string(i + 1) + " of " + std::to_string(n) + ", is no place (" +
                        inWords(p.x) + ", " + inWords(p.y) + "): mend or remove this feature");
     }
@@ -33,11 +34,12 @@ std::vector<Point> takeChain(const OGRSimpleCurve& curve, GeometryParts& parts, 
 }
 
 void takePoint(const OGRPoint& point, const std::string& what, GeometryParts& parts) {
-  if (!std::isfinite(point.getX()) || !std::isfinite(point.getY())) {
-    throw InputError(what + " is a point that is no place (" + inWords(point.getX()) + ", " + inWords(point.getY()) +
+  const Point p{point.getX(), point.getY()};
+  if (!isInRange(p)) {
+    throw InputError(what + " is a point that is no place (" + inWords(p.x) + ", " + inWords(p.y) +
                      "): mend or remove this feature");
   }
-  parts.points.push_back({point.getX(), point.getY()});
+  parts.points.push_back(p);
 }
 
 void takePolygon(const OGRPolygon& polygon, const std::string& what, GeometryParts& parts) {

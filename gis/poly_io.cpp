@@ -30,13 +30,19 @@ VertexHeader readVertexHeader(TextReader& file) {
   return header;
 }
 
+Point readPlace(TextReader& file) {
+  const double x = file.number(), y = file.number();
+  const Point place{x, y};
+  if (!isInRange(place)) file.fail("the coordinates lie beyond -1e70 to 1e70, where lengths can be computed");
+  return place;
+}
+
 IdMap readVertices(TextReader& file, const VertexHeader& header, Pslg& pslg) {
   std::vector<std::int64_t> ids;
   for (std::uint64_t i = 0; i < header.count; ++i) {
     file.needLine();
     ids.push_back(file.integer());
-    const double x = file.number(), y = file.number();
-    pslg.points.push_back({x, y});
+    pslg.points.push_back(readPlace(file));
   }
   return IdMap(std::move(ids), file, "vertex");
 }
@@ -84,8 +90,7 @@ void readHoles(TextReader& file, Pslg& pslg) {
   for (std::uint64_t i = 0; i < count; ++i) {
     file.needLine();
     file.integer();
-    const double x = file.number(), y = file.number();
-    pslg.holes.push_back({x, y});
+    pslg.holes.push_back(readPlace(file));
   }
 }
 

@@ -87,6 +87,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
 }  // namespace
 
 MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
+  requireInRange(options.refine);
   MeshedRegion region;
   Stopwatch watch;
   Recorder recorder;

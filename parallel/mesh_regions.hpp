@@ -37,7 +37,8 @@ struct MeshedRegion {
   WorkLog log;
 };
 
-// Triangulates, refines and shrinks one region; a large one is cut into pieces for that. Throws BadPslg, Cancelled.
+// Triangulates, refines and shrinks one region; a large one is cut into pieces for that. Throws BadPslg, Cancelled,
+// and std::invalid_argument for options beyond their ranges.
 MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunControl& control = {});
 
 }  // namespace coastmesh

@@ -171,16 +171,6 @@ TEST(Delaunay, UnlabelledRingInsideALabelledOneIsNoBorder) {
   EXPECT_EQ(areasByRegion(constrainedDelaunay(pslg)).size(), before.size());
 }
 
-TEST(Delaunay, LabelsThatContradictAreOurBug) {
-  Pslg pslg = squarePslg();
-  for (Segment& s : pslg.segments) {
-    s.left = 0;
-    s.right = kOutside;
-  }
-  pslg.segments[2].left = 1;
-  EXPECT_THROW(constrainedDelaunay(pslg), std::logic_error);
-}
-
 // What is refused, and where.
 std::optional<PslgDefect> defectIn(const Pslg& pslg) {
   try {
@@ -214,6 +204,47 @@ TEST(PslgDefects, NotFinite) {
     pslg.points.back() = {0.25, bad};
     EXPECT_EQ(defectIn(pslg)->kind, Kind::NotFinite);
   }
+}
+
+TEST(PslgDefects, HoleThatIsNoPlace) {
+  Pslg pslg = squarePslg();
+  pslg.holes = {{5.0, std::numeric_limits<double>::quiet_NaN()}};
+  ASSERT_TRUE(defectIn(pslg));
+  EXPECT_EQ(defectIn(pslg)->kind, Kind::NotFinite);
+  pslg.holes = {{5.0, 1e200}};
+  EXPECT_EQ(defectIn(pslg)->kind, Kind::OutOfRange);
+}
+
+TEST(PslgDefects, OutOfRange) {
+  for (const double factor : {1e71, 1e160, 1e308, 1e-71, 1e-160, 5e-324}) {
+    SCOPED_TRACE(factor);
+    const auto defect = defectIn(scaled(squareWithHole(), factor));
+    ASSERT_TRUE(defect);
+    EXPECT_TRUE(defect->kind == Kind::OutOfRange || defect->kind == Kind::PointsCoincide);
+  }
+  Pslg pslg = squarePslg();
+  pslg.points.push_back({1e-100, 1e-100});
+  const auto defect = defectIn(pslg);
+  ASSERT_TRUE(defect);
+  EXPECT_EQ(defect->kind, Kind::OutOfRange);
+  EXPECT_LE(std::max(defect->place.x, defect->place.y), 1e-100);
+}
+
+TEST(PslgDefects, LabelsContradict) {
+  Pslg pslg = squarePslg();
+  for (Segment& s : pslg.segments) {
+    s.left = 0;
+    s.right = kOutside;
+  }
+  pslg.segments[2].left = 1;
+  const auto defect = defectIn(pslg);
+  ASSERT_TRUE(defect);
+  EXPECT_EQ(defect->kind, Kind::LabelsContradict);
+  ASSERT_NE(defect->other, kNone);
+  EXPECT_NE(pslg.segments[defect->segment].left, pslg.segments[defect->other].left);
+  EXPECT_EQ(defect->place.x + defect->place.y,
+            0.5 * (pslg.points[pslg.segments[defect->segment].a].x + pslg.points[pslg.segments[defect->segment].b].x +
+                   pslg.points[pslg.segments[defect->segment].a].y + pslg.points[pslg.segments[defect->segment].b].y));
 }
 
 TEST(PslgDefects, PointsCoincide) {
@@ -262,7 +293,7 @@ TEST(PslgDefects, SegmentsCross) {
   const auto defect = defectIn(pslg);
   ASSERT_TRUE(defect);
   EXPECT_EQ(defect->kind, Kind::SegmentsCross);
-  EXPECT_TRUE(defect->segment == 4 || defect->segment == 5);
+  EXPECT_EQ((std::set{defect->segment, defect->other}), (std::set<SegmentId>{4, 5}));
   EXPECT_NEAR(defect->place.x, 0.4, 1e-12);
   EXPECT_NEAR(defect->place.y, 0.5, 1e-12);
 }
@@ -293,7 +324,10 @@ TEST(PslgDefects, SegmentTwice) {
     Pslg pslg = squarePslg();
     pslg.segments.push_back(pslg.segments[1]);
     if (backwards) std::swap(pslg.segments.back().a, pslg.segments.back().b);
-    EXPECT_TRUE(defectIn(pslg)) << "two segments between the same vertices meet in more than their ends";
+    const auto defect = defectIn(pslg);
+    ASSERT_TRUE(defect) << "two segments between the same vertices meet in more than their ends";
+    EXPECT_EQ(defect->kind, Kind::SegmentsCoincide);
+    EXPECT_EQ((std::set{defect->segment, defect->other}), (std::set<SegmentId>{1, 4}));
   }
 }
 

@@ -377,5 +377,34 @@ TEST(RefineStats, AddUp) {
   EXPECT_EQ(a.unresolved[2].place, (Point{9, 10}));
 }
 
+// The ends of the range of coordinates: a mesh of the same shape, as good.
+TEST(Refine, AtTheEndsOfTheRangeOfCoordinates) {
+  for (const double factor : {1e-68, 1e-40, 1e40, 0.9e70}) {
+    SCOPED_TRACE(factor);
+    const Pslg pslg = scaled(squareWithHole(), factor);
+    const RefineOptions options{.min_angle_deg = 33.0, .max_angle_deg = 110.0};
+    TriMesh mesh = constrainedDelaunay(pslg);
+    const RefineStats stats = refine(mesh, pslg, options);
+    EXPECT_TRUE(stats.unresolved.empty());
+    expectRefined(mesh, pslg, options, stats);
+  }
+}
+
+TEST(Refine, OptionsBeyondTheirRangesAreMisuse) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<RefineOptions> wrong;
+  for (const double angle : {-1.0, 45.5, 50.0, kNan, kInfinity}) wrong.push_back({.min_angle_deg = angle});
+  for (const double angle : {59.0, 181.0, kNan}) wrong.push_back({.max_angle_deg = angle});
+  for (const double size : {0.0, -1.0, kNan, -kInfinity}) wrong.push_back({.size_max = size});
+  for (const double scale : {0.0, -1.0, kNan, kInfinity}) wrong.push_back({.size_scale = scale});
+  const Pslg pslg = squarePslg();
+  for (const RefineOptions& options : wrong) {
+    TriMesh mesh = constrainedDelaunay(pslg);
+    EXPECT_THROW(refine(mesh, pslg, options), std::invalid_argument);
+    EXPECT_THROW(shrink(mesh, pslg, options), std::invalid_argument);
+    EXPECT_EQ(mesh.points, pslg.points) << "the mesh stays as it was";
+  }
+}
+
 }  // namespace
 }  // namespace coastmesh

@@ -29,6 +29,8 @@ std::string_view toString(PslgDefect::Kind kind) {
   switch (kind) {
     case PslgDefect::Kind::NotFinite:
       return "not finite";
+    case PslgDefect::Kind::OutOfRange:
+      return "out of range";
     case PslgDefect::Kind::PointsCoincide:
       return "points coincide";
     case PslgDefect::Kind::SegmentOfNoLength:
@@ -41,6 +43,8 @@ std::string_view toString(PslgDefect::Kind kind) {
       return "segments coincide";
     case PslgDefect::Kind::PointOnSegment:
       return "point on segment";
+    case PslgDefect::Kind::LabelsContradict:
+      return "labels contradict";
     case PslgDefect::Kind::NoArea:
       return "no area";
   }
@@ -179,11 +183,6 @@ CaseResult runCase(const RefineCase& refine_case, const CaseLimits& limits) {
     } catch (const BadPslg& e) {
       result.verdict = Verdict::Refused;
       result.failure = toString(e.defect.kind);
-      return result;
-    } catch (const std::logic_error& e) {
-      // Labels that contradict one another: a mistake of whoever made the PSLG.
-      result.verdict = Verdict::Refused;
-      result.failure = e.what();
       return result;
     }
     result = judgeCase(refine_case, coarse, limits);

@@ -151,5 +151,11 @@ TEST_F(PolyIo, RefusesWhereItCannotWrite) {
   EXPECT_THROW(readPoly(path("missing.poly")), InputError);
 }
 
+TEST_F(PolyIo, CoordinatesBeyondTheRangeAreRefusedWithTheirLine) {
+  expectRefused("3 2 0 0\n1 0 0\n2 1e160 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n", "line 3");
+  expectRefused("3 2 0 0\n1 0 0\n2 1 -1e71\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n", "beyond");
+  expectRefused("3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n1\n1 0 1e300\n", "line 10");
+}
+
 }  // namespace
 }  // namespace coastmesh

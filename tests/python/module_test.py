@@ -101,6 +101,9 @@ class ArraysTest(unittest.TestCase):
         crossing = refused(coastmesh.InputError, "cross", SQUARE, [[0, 2], [1, 3]])
         self.assertEqual(crossing.refusals[0]["place"], (2.0, 2.0))
         refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.nan, SQUARE), RIM)
+        refused(coastmesh.InputError, "finite", SQUARE, RIM, [[np.nan, 1]])
+        refused(coastmesh.InputError, "beyond -1e70 to 1e70", SQUARE * 1e307, RIM)
+        refused(coastmesh.InputError, "nearer to one another than 1e-70", SQUARE * 1e-200, RIM)
         refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.inf, SQUARE), RIM)
         for wrong in (np.nan, np.inf):
             refused(coastmesh.InputError, "finite", SQUARE, RIM, holes=[[wrong, 1]])
