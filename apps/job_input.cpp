@@ -43,7 +43,7 @@ std::vector<double> parseNumbers(const std::string& option, const std::string& t
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   for (double number; stream >> number;) {
-    if (!std::isfinite(number)) break;
+    if (!(std::abs(number) <= kLargestCoordinate)) break;
     numbers.push_back(number);
     char comma = 0;
     if (numbers.size() < count && !(stream >> comma && comma == ',')) break;
@@ -181,7 +181,7 @@ Projection JobInput::projectionOf(std::size_t group) const {
 }
 
 Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& loop) const {
-  if (poly_) return Domain{*poly_, poly_->points, Projection::plane()};
+  if (poly_) return {.pslg = *poly_, .input_points = poly_->points, .resolution = resolutionOf(poly_->points)};
   const bool in_plane = options_.crs == "plane" || coastline_.crs.isPlane();
   CleanOptions clean;
   clean.snap_m = in_plane && !options_.snap_in_plane ? 0.0 : options_.snap_m;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/delaunay.hpp"
+
 namespace coastmesh {
 
 namespace {
@@ -54,6 +56,22 @@ void labelRegions(TriMesh& mesh, const Pslg& pslg) {
     }
   }
   std::ranges::replace(mesh.regions, kUnlabelled, 0);
+}
+
+void labelSegments(Pslg& pslg) {
+  const auto isLabelled = [](const Segment& s) { return s.left != kUnlabelled || s.right != kUnlabelled; };
+  if (pslg.segments.empty() || std::ranges::any_of(pslg.segments, isLabelled)) return;
+  const TriMesh mesh = constrainedDelaunay(pslg);
+  for (Segment& s : pslg.segments) s.left = s.right = kOutside;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (mesh.segment(e) == kNone) continue;
+      Segment& s = pslg.segments[mesh.segment(e)];
+      (mesh.origin(e) == s.a ? s.left : s.right) = mesh.regions[t];
+    }
+  }
+  pslg.holes.clear();
 }
 
 }  // namespace coastmesh

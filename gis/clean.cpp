@@ -114,15 +114,19 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
   if (options.pinches == Pinches::Keep) tellPinches(chains.vertices, labelled.segments, coastline, report);
   refuseEmpty(coastline, members, labelled.segments);
   keepFramedEdits(coastline, members, edits_before, report);
-  if (options.dissolve) labelled.segments = dropTraces(chains.vertices, labelled, coastline, projection, report);
+  const Resolution& resolution = chains.resolution;
+  if (options.dissolve) {
+    labelled.segments = dropTraces(chains.vertices, labelled, coastline, projection, resolution, report);
+  }
   if (options.simplify_m > 0) {
-    labelled.segments = simplifyEdges(chains.vertices, labelled, coastline, projection, options.simplify_m, report);
+    labelled.segments =
+        simplifyEdges(chains.vertices, labelled, coastline, projection, resolution, options.simplify_m, report);
   }
   if (options.pinches == Pinches::Open) {
     labelled.segments =
-        openPinches(chains.vertices, std::move(labelled.segments), coastline, projection, chains.snap, report);
+        openPinches(chains.vertices, std::move(labelled.segments), coastline, projection, resolution, report);
   }
-  return domainOf(chains.vertices, std::move(labelled), projection);
+  return domainOf(chains.vertices, std::move(labelled), projection, resolution);
 }
 
 }  // namespace coastmesh

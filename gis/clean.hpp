@@ -13,6 +13,7 @@
 #include "gis/coastline.hpp"
 #include "gis/error.hpp"
 #include "gis/projection.hpp"
+#include "gis/resolution.hpp"
 
 namespace coastmesh {
 
@@ -87,6 +88,7 @@ struct Domain {
   std::vector<Point> input_points;  // one a point of the PSLG: where it lies in the input's CRS, the input's own bits
   Projection projection = Projection::plane();
   std::vector<DomainLine> lines{};  // what tags of segments refer to: see segment_tags.hpp
+  Resolution resolution;            // what changes the domain further has to keep
 };
 
 // The group lies outside of the frame, or apart from the water asked for: there is nothing to mesh, and nothing wrong.

@@ -164,17 +164,21 @@ std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& s
   return {kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-// The snap distance in plane units, by the least scale (of a sample), so that nowhere more is snapped than asked; 0 where
-// it drowns in the coordinates' own grain.
-double snapInPlane(const std::vector<InputChain>& chains, const Coastline& coastline, const Projection& projection,
-                   double snap_m) {
+// Of a sample of the points: least and greatest scale, and the coordinates' own grain, in which a snap distance drowns.
+struct Scales {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  double grain = std::numeric_limits<double>::infinity();
+};
+
+Scales scalesOf(const std::vector<InputChain>& chains, const Coastline& coastline, const Projection& projection) {
   constexpr std::size_t kLeastSample = 8, kMostSample = 256, kPointsForOne = 64;
-  if (snap_m <= 0 || chains.empty()) return 0;
-  double scale = std::numeric_limits<double>::infinity(), grain = scale;
+  Scales scales;
   const auto take = [&](const InputChain& chain, const Point& point) {
     const Point plane = requirePlace(projection.forward(point), point, coastline.features[chain.feature], projection);
-    scale = std::min(scale, projection.scaleAt(plane));
-    grain = std::min(grain, std::ldexp(std::max(std::abs(plane.x), std::abs(plane.y)), -46));
+    const double scale = projection.scaleAt(plane);
+    scales.least = std::min(scales.least, scale);
+    scales.greatest = std::max(scales.greatest, scale);
+    scales.grain = std::min(scales.grain, std::ldexp(std::max(std::abs(plane.x), std::abs(plane.y)), -46));
   };
   std::size_t count = 0, passed = 0;
   for (const InputChain& chain : chains) count += chain.points.size();
@@ -185,7 +189,7 @@ double snapInPlane(const std::vector<InputChain>& chains, const Coastline& coast
       take(chain, chain.points[i]);
     passed += chain.points.size();
   }
-  return snap_m * scale > grain ? snap_m * scale : 0;
+  return scales;
 }
 
 // Features whose rings hold the place that lies beyond all of the plane.
@@ -245,7 +249,10 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
     result.coast = result.coast || use == FeatureUse::Coast;
   }
   result.seam = seam;
-  result.snap = snapInPlane(input, coastline, projection, options.snap_m);
+  const Scales scales = scalesOf(input, coastline, projection);
+  // By the least scale, so that nowhere more is snapped than asked.
+  const double snap = input.empty() || options.snap_m <= 0 ? 0 : options.snap_m * scales.least;
+  result.snap = snap > scales.grain ? snap : 0;
   if (const std::optional<Point> beyond = projection.infinity()) {
     result.beyond = holdersOf(*beyond, coastline, members);
   }
@@ -285,6 +292,8 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
     result.chains.push_back(std::move(made));
   }
   result.vertices.is_new.assign(result.vertices.plane.size(), 0);
+  result.resolution =
+      resolutionOf(result.vertices.plane, result.vertices.input, coastline.crs, scales.greatest, result.snap);
   return result;
 }
 

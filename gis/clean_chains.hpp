@@ -33,6 +33,7 @@ struct CleanChains {
   CleanVertices vertices;
   std::vector<CleanChain> chains;
   double snap = 0;  // the snap distance in the plane; 0 where it is too small to matter
+  Resolution resolution;
   std::optional<Seam> seam;
   // Whether features of these uses are there; a frame round the whole globe leaves no chain.
   bool framed = false, land = false, coast = false;

@@ -16,9 +16,10 @@ namespace coastmesh {
 
 namespace {
 
-// The snap distance counts in the first rounds; after them rounding is all that is left to fight, at the grain of the
-// coordinates. From kPatience on, vertices nearer than that grain become one, and each round doubles it.
-constexpr int kSnapRounds = 3, kPatience = 8, kMostRounds = 24;
+// The snap distance counts in the first rounds, since edges that are led through vertices come nearer to others; after
+// them rounding is all that is left to fight, at the grain of the coordinates. In these later rounds vertices nearer than
+// that grain become one, and each round doubles it.
+constexpr int kSnapRounds = 8, kMostRounds = 24;
 
 // An edge and its uses, [first_use, last_use).
 struct Edge {
@@ -64,9 +65,7 @@ class Noder {
         const ItemLoop& loop)
       : chains_(chains), coastline_(coastline), projection_(projection), report_(report), loop_(loop) {
     crossed_.assign(chains.chains.size(), 0);
-    double largest = 0;
-    for (const Point& p : chains.vertices.plane) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-    grain_ = std::ldexp(largest, -44);
+    grain_ = chains.resolution.grain;
   }
 
   NodedEdges run() {
@@ -159,9 +158,9 @@ class Noder {
 
   // False where nothing is left to do.
   bool splitOnce(int round) {
-    const double grain = grain_ * std::ldexp(1.0, std::max(0, round - kPatience));
+    const double grain = grain_ * std::ldexp(1.0, std::max(0, round - kSnapRounds));
     const double tolerance = round < kSnapRounds ? std::max(chains_.snap, grain) : grain;
-    if (round >= kPatience) mergeVertices(grain);
+    if (round >= kSnapRounds) mergeVertices(grain);
     // The first round takes the input exactly, but for the snap distance asked for; what rounding made comes after.
     find(round == 0 ? chains_.snap : tolerance);
     if (splits_.empty() && crossings_.empty()) return false;

@@ -25,8 +25,9 @@ struct NodedEdges {
 
 // Puts a vertex where edges cross, and lets edges pass through the vertices that lie on them (nearer than the snap
 // distance), until no two edges meet but in a common end point, exactly. New vertices are appended to
-// `chains.vertices`. Points that rounding brings within 2^-44 of the largest coordinate of one another become one.
-// Throws InputError where that comes to no end.
+// `chains.vertices`. What a new vertex or edge comes nearer to than the snap distance it passes through too, as long as
+// that ends (where three vertices stand little more than it apart, an edge between two may stay a seventh nearer to the
+// third); after that the grain of `chains.resolution` takes its place. Throws InputError where that comes to no end.
 NodedEdges nodeChains(CleanChains& chains, const Coastline& coastline, const Projection& projection,
                       CleanReport& report, const ItemLoop& loop = inOrder);
 

@@ -73,12 +73,12 @@ struct Notch {
 class PinchOpener {
  public:
   PinchOpener(CleanVertices& vertices, std::vector<Segment>& segments, const Coastline& coastline,
-              const Projection& projection, double snap, CleanReport& report)
+              const Projection& projection, const Resolution& resolution, CleanReport& report)
       : vertices_(vertices),
         segments_(segments),
         coastline_(coastline),
         projection_(projection),
-        snap_(snap),
+        gap_(resolution.gap),
         report_(report),
         originals_(static_cast<std::uint32_t>(segments.size())) {}
 
@@ -188,8 +188,8 @@ class PinchOpener {
     return cornersOf(v, spokesOf(v)).size() < 2;
   }
 
-  // What there is of shore in the snap distance's reach is none to be kept.
-  double leastScale() const { return kLeastScale * snap_; }
+  // What there is of shore in the reach of that gap is none to be kept.
+  double leastScale() const { return kLeastScale * gap_; }
 
   // How far the nearest vertices are, along each of the spokes.
   double scaleAround(VertexId v, const std::vector<Spoke>& spokes) const {
@@ -247,7 +247,7 @@ class PinchOpener {
       if (dropLobe(follow(v, spoke, leastScale()), v)) return true;
     }
     const double grain = std::ldexp(std::max(std::abs(centre.x), std::abs(centre.y)), -40);
-    const double least = std::max(kSnapMargin * snap_, grain);
+    const double least = std::max(kGapMargin * gap_, grain);
     double gap = std::clamp(kPinchGap * scale, std::min(least, kReach * scale), kReach * scale);
     constexpr int kMostHalvings = 40;
     for (int halving = 0; halving < kMostHalvings && gap >= least; ++halving, gap /= 2) {
@@ -262,7 +262,7 @@ class PinchOpener {
     return false;
   }
 
-  // A ring that leads back to v within the snap distance's reach, with nothing in it, goes: island or lake.
+  // A ring that leads back to v within that reach, with nothing in it, goes: island or lake.
   bool dropLobe(const Way& way, VertexId v) {
     if (way.end != Way::End::Back) return false;
     Ring ring{at(v)};
@@ -339,10 +339,21 @@ class PinchOpener {
     return segmentsMeet(a, b, c, d);
   }
 
+  // Whether two edges that do not meet but in a common end come nearer to one another than the gap beyond that end.
+  bool tooNear(const Point& a, const Point& b, const Point& c, const Point& d) const {
+    const auto near = [&](const Point& p, const Point& from, const Point& to) {
+      return !(p == from) && !(p == to) && squaredDistanceToSegment(p, from, to) < gap_ * gap_;
+    };
+    return near(a, c, d) || near(b, c, d) || near(c, a, b) || near(d, a, b);
+  }
+
   // Whether the corner from v to the notch holds nothing, and the notch's edges meet nothing.
   bool fits(VertexId v, const Way& along_first, const Way& along_last, const Notch& notch, double gap) const {
     const Point& centre = at(v);
     if (orient2d(centre, notch.first, notch.tip) <= 0 || orient2d(centre, notch.tip, notch.last) <= 0) return false;
+    if (tooNear(notch.first, notch.tip, notch.tip, notch.last) ||
+        tooNear(notch.first, at(along_first.to), notch.last, at(along_last.to)))
+      return false;
     Ring corner{centre};
     for (const VertexId u : along_first.passed) corner.push_back(at(u));
     corner.insert(corner.end(), {notch.first, notch.tip, notch.last});
@@ -377,6 +388,7 @@ class PinchOpener {
       const Segment& s = segments_[number];
       const Point &a = at(s.a), &b = at(s.b);
       if (holds(a) || holds(b) || clashes(a, b)) return false;
+      if (tooNear(notch.first, notch.tip, a, b) || tooNear(notch.tip, notch.last, a, b)) return false;
       if (s.a != v && s.b != v && squaredDistanceToSegment(notch.tip, a, b) < gap * gap / 4) return false;
     }
     return true;
@@ -440,16 +452,16 @@ class PinchOpener {
     }
   }
 
-  // More than the snap distance, so that what was parted is not brought together again.
-  static constexpr double kSnapMargin = 1.5;
-  // In snap distances: where the least gap is as wide as it may be.
-  static constexpr double kLeastScale = kSnapMargin / kReach;
+  // More than the gap, so that what was parted is not brought together again.
+  static constexpr double kGapMargin = 1.5;
+  // In gaps: where the least opening is as wide as it may be.
+  static constexpr double kLeastScale = kGapMargin / kReach;
 
   CleanVertices& vertices_;
   std::vector<Segment>& segments_;
   const Coastline& coastline_;
   const Projection& projection_;
-  double snap_;
+  double gap_;  // that new edges keep from others
   CleanReport& report_;
   std::uint32_t originals_;
   std::vector<Box> boxes_;  // of the first `originals_` segments, with their surroundings
@@ -475,8 +487,8 @@ void tellPinches(const CleanVertices& vertices, const std::vector<Segment>& segm
 }
 
 std::vector<Segment> openPinches(CleanVertices& vertices, std::vector<Segment> segments, const Coastline& coastline,
-                                 const Projection& projection, double snap, CleanReport& report) {
-  PinchOpener(vertices, segments, coastline, projection, snap, report).run();
+                                 const Projection& projection, const Resolution& resolution, CleanReport& report) {
+  PinchOpener(vertices, segments, coastline, projection, resolution, report).run();
   return segments;
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <queue>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "core/metric.hpp"
@@ -31,9 +33,13 @@ struct Piece {
 
 class Simplifier {
  public:
-  Simplifier(const CleanVertices& vertices, const LabelledEdges& edges,
+  Simplifier(const CleanVertices& vertices, const LabelledEdges& edges, const Resolution& resolution,
              const std::function<double(VertexId)>& tolerance)
-      : vertices_(vertices), lines_(edges.lines), tolerance_(tolerance), links_(vertices.plane.size()) {
+      : vertices_(vertices),
+        lines_(edges.lines),
+        resolution_(resolution),
+        tolerance_(tolerance),
+        links_(vertices.plane.size()) {
     pieces_.reserve(edges.segments.size());
     for (const VertexId v : edges.points) links_[v].degree = 3;  // not to be taken, but in the way
     for (const Segment& s : edges.segments) {
@@ -44,6 +50,11 @@ class Simplifier {
       }
       pieces_.push_back({s, {}, true});
       ends_.insert(keyOf(s.a, s.b));
+    }
+    for (const Segment& s : edges.segments) {
+      for (const auto& [v, w] : {std::pair(s.a, s.b), std::pair(s.b, s.a)}) {
+        if (links_[v].degree > 2) junctions_[v].push_back(w);
+      }
     }
     std::vector<Box> boxes(links_.size());
     for (VertexId v = 0; v < links_.size(); ++v) {
@@ -68,7 +79,7 @@ class Simplifier {
       const Entry entry = queue_.top();
       queue_.pop();
       if (entry.version != links_[entry.vertex].version || !removable(entry.vertex)) continue;
-      if (blocked(entry.vertex)) continue;
+      if (blocked(entry.vertex) || pointed(entry.vertex)) continue;
       dropped(entry.vertex, pieces_[links_[entry.vertex].segment[0]].segment);
       drop(entry.vertex);
     }
@@ -136,15 +147,19 @@ class Simplifier {
     if (tolerance >= 0.0 && cost <= tolerance * tolerance) queue_.push({cost, v, links_[v].version});
   }
 
-  // Whether the triangle of v and its neighbours holds another living vertex, on its rim included.
+  // Whether the triangle of v and its neighbours holds another living vertex, on its boundary included, or the segment that
+  // would replace v comes too near to one.
   bool blocked(VertexId v) const {
     const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
     const int turn = orient2d(at(p), at(v), at(q));
     Box box = Box::of(at(p), at(q));
     box.add(at(v));
     bool found = false;
-    tree_.visit(box, [&](std::uint32_t w) {
+    const double gap = resolution_.gap;
+    tree_.visit(box.grownBy(gap), [&](std::uint32_t w) {
       if (found || w == v || w == p || w == q || links_[w].degree == 0) return;
+      found = squaredDistanceToSegment(at(w), at(p), at(q)) < gap * gap;
+      if (found) return;
       if (turn == 0) {  // v lies on pq, or the chain turns back: nothing may lie on the way
         found = orient2d(at(p), at(q), at(w)) == 0;
         return;
@@ -153,6 +168,32 @@ class Simplifier {
               orient2d(at(q), at(p), at(w)) * turn >= 0;
     });
     return found;
+  }
+
+  // Whether the segment that would replace v makes too small an angle with another at one of its ends.
+  bool pointed(VertexId v) const {
+    const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
+    return pointedAt(p, v, q) || pointedAt(q, v, p);
+  }
+
+  // The same at p, where the segment to v would go to q instead.
+  bool pointedAt(VertexId p, VertexId v, VertexId q) const {
+    const Point out = at(q) - at(p);
+    const double length = std::sqrt(squaredLength(out));
+    double shortest = length, least_apart = std::numeric_limits<double>::infinity();
+    const auto take = [&](VertexId r) {
+      if (r == v) return;
+      const Point beside = at(r) - at(p);
+      const double beside_length = std::sqrt(squaredLength(beside));
+      shortest = std::min(shortest, beside_length);
+      if (dot(out, beside) > 0) least_apart = std::min(least_apart, std::abs(cross(out, beside)) / beside_length);
+    };
+    if (links_[p].degree <= 2) {
+      for (std::uint32_t i = 0; i < links_[p].degree; ++i) take(other(links_[p].segment[i], p));
+    } else if (const auto junction = junctions_.find(p); junction != junctions_.end()) {
+      for (const VertexId r : junction->second) take(r);
+    }
+    return least_apart / length * shortest < resolution_.grain;
   }
 
   void drop(VertexId v) {
@@ -179,6 +220,7 @@ class Simplifier {
       for (std::uint32_t& s : link.segment) {
         if (s == first || s == second) s = number;
       }
+      if (link.degree > 2) std::ranges::replace(junctions_[end], v, end == p ? q : p);
       ++link.version;
     }
     enqueue(p);
@@ -187,11 +229,13 @@ class Simplifier {
 
   const CleanVertices& vertices_;
   const std::vector<DomainLine>& lines_;
+  const Resolution& resolution_;
   const std::function<double(VertexId)>& tolerance_;  // in the plane
   std::vector<Link> links_;
   std::vector<Piece> pieces_;
-  std::unordered_set<std::uint64_t> ends_;  // of living pieces
-  std::unordered_set<VertexId> kept_;       // not to be dropped whatever their place
+  std::unordered_map<VertexId, std::vector<VertexId>> junctions_;  // their neighbours, where there are more than two
+  std::unordered_set<std::uint64_t> ends_;                         // of living pieces
+  std::unordered_set<VertexId> kept_;                              // not to be dropped whatever their place
   BoxTree tree_;
   std::priority_queue<Entry> queue_;
 };
@@ -199,17 +243,17 @@ class Simplifier {
 }  // namespace
 
 std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
-                                   const Coastline& coastline, const Projection& projection, double tolerance_m,
-                                   CleanReport& report) {
+                                   const Coastline& coastline, const Projection& projection,
+                                   const Resolution& resolution, double tolerance_m, CleanReport& report) {
   return simplifyEdges(
-      vertices, edges, coastline, [&](VertexId v) { return tolerance_m * projection.scaleAt(vertices.plane[v]); },
-      report);
+      vertices, edges, coastline, resolution,
+      [&](VertexId v) { return tolerance_m * projection.scaleAt(vertices.plane[v]); }, report);
 }
 
 std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
-                                   const Coastline& coastline, const std::function<double(VertexId)>& tolerance,
-                                   CleanReport& report) {
-  Simplifier simplifier(vertices, edges, tolerance);
+                                   const Coastline& coastline, const Resolution& resolution,
+                                   const std::function<double(VertexId)>& tolerance, CleanReport& report) {
+  Simplifier simplifier(vertices, edges, resolution, tolerance);
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
     report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline.features[feature].fid);
@@ -217,13 +261,13 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
 }
 
 std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
-                                const Projection& projection, CleanReport& report) {
+                                const Projection& projection, const Resolution& resolution, CleanReport& report) {
   constexpr double kFarthest = 1000;                            // metres; the input's coordinates decide
   const double grain = coastline.crs.geographic ? 1e-7 : 0.01;  // degrees, metres
   const std::function<double(VertexId)> farthest = [&](VertexId v) {
     return kFarthest * projection.scaleAt(vertices.plane[v]);
   };
-  Simplifier simplifier(vertices, edges, farthest);
+  Simplifier simplifier(vertices, edges, resolution, farthest);
   simplifier.restrictTo([&](VertexId v, VertexId p, VertexId q) {
     if (!std::ranges::binary_search(edges.traces, v)) return false;
     const Point &a = vertices.input[p], &b = vertices.input[q];

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/label_regions.hpp"
 #include "core/metric.hpp"
 #include "gis/box_tree.hpp"
 #include "gis/clean_chains.hpp"
@@ -141,6 +142,7 @@ std::vector<double> sharesMoved(const Pslg& pslg) {
 }  // namespace
 
 Domain followSizes(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
+  labelSegments(domain.pslg);
   std::vector<bool> goes = IslandSearch(domain, size).run(coastline, domain, report);
   LabelledEdges edges;
   edges.lines = std::move(domain.lines);
@@ -157,11 +159,9 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const Coastline& c
 
   const CleanVertices vertices{std::move(domain.pslg.points), std::move(domain.input_points), {}};
   const auto tolerance = [&](VertexId v) { return share[v] < 0.0 ? -1.0 : share[v] * size.at(vertices.plane[v]); };
-  edges.segments = simplifyEdges(vertices, edges, coastline, tolerance, report);
+  edges.segments = simplifyEdges(vertices, edges, coastline, domain.resolution, tolerance, report);
 
-  Domain coarse = domainOf(vertices, std::move(edges), domain.projection);
-  coarse.pslg.holes = std::move(domain.pslg.holes);
-  return coarse;
+  return domainOf(vertices, std::move(edges), domain.projection, domain.resolution);
 }
 
 }  // namespace coastmesh

@@ -77,6 +77,11 @@ bool sameCrs(const Crs& a, const Crs& b) {
   return left.IsSame(&right, options);
 }
 
+double metresPerUnit(const Crs& crs) {
+  if (crs.isPlane()) return 1.0;
+  return crs.geographic ? crs.semi_major_m * std::numbers::pi / 180.0 : toOgr(crs).GetLinearUnits();
+}
+
 std::string nameOf(const Crs& crs) {
   if (crs.isPlane()) return "plane";
   if (!crs.authority.empty()) return crs.authority;

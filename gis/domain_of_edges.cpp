@@ -5,10 +5,12 @@
 
 namespace coastmesh {
 
-Domain domainOf(const CleanVertices& vertices, LabelledEdges&& edges, const Projection& projection) {
+Domain domainOf(const CleanVertices& vertices, LabelledEdges&& edges, const Projection& projection,
+                const Resolution& resolution) {
   std::vector<Segment>& segments = edges.segments;
   Domain domain;
   domain.projection = projection;
+  domain.resolution = resolution;
   std::vector<VertexId> renumbered(vertices.plane.size(), kNone);
   for (const Segment& s : segments) renumbered[s.a] = renumbered[s.b] = 0;
   for (const VertexId v : edges.points) renumbered[v] = 0;

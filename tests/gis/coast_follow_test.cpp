@@ -115,6 +115,25 @@ TEST(FollowSizes, AnIslandWithALakeOnItStays) {
   EXPECT_EQ(rimLoops(constrainedDelaunay(coarse.pslg)).size(), 3u);
 }
 
+// A .poly says with a point in each hole what the labels of a cleaned domain say.
+TEST(FollowSizes, AGraphWithoutLabelsIsFollowedAsWell) {
+  Domain labelled;
+  addRing(labelled, {0.0, 0.0}, 10.0, 400, false, 0.003);
+  addRing(labelled, {-5.0, 0.0}, 0.2, 20, true);
+  addRing(labelled, {0.0, 5.0}, 2.0, 60, true);
+  Domain bare = labelled;
+  for (Segment& s : bare.pslg.segments) s.left = s.right = kUnlabelled;
+  bare.pslg.holes = {{-5.0, 0.0}, {0.0, 5.0}};
+  const SizeOf size(1.0, 1.0, [](const Point&) { return 1.0; });
+  CleanReport report, bare_report;
+  const Domain coarse = followSizes(std::move(labelled), size, oneFeature(), report);
+  const Domain bare_coarse = followSizes(std::move(bare), size, oneFeature(), bare_report);
+  EXPECT_EQ(bare_coarse.pslg.points, coarse.pslg.points);
+  EXPECT_EQ(bare_report.counts, report.counts);
+  EXPECT_GT(report.counts[static_cast<std::size_t>(EditKind::SimplifiedPoint)], 300u);
+  EXPECT_EQ(rimLoops(constrainedDelaunay(bare_coarse.pslg)).size(), 2u);
+}
+
 TEST(NodeSizes, NoTwoNeighboursDifferMore) {
   const Pslg pslg = squarePslg();
   const SizeOf size(0.01, 1.0, [](const Point& p) { return 0.02 + 0.4 * std::hypot(p.x - 0.3, p.y - 0.3); });
