@@ -1,0 +1,149 @@
+"""Says what is wrong with a mesh, from its coordinates alone; standard library only."""
+import math
+from fractions import Fraction
+
+
+class Failure(Exception):
+    pass
+
+
+def require(condition, text):
+    if not condition:
+        raise Failure(text)
+
+
+def turn_in_plane(a, b, c):
+    """Above 0 where a, b, c run counter-clockwise; exact."""
+    left, right = (b[0] - a[0]) * (c[1] - a[1]), (c[0] - a[0]) * (b[1] - a[1])
+    if abs(left - right) > 1e-14 * (abs(left) + abs(right)) and abs(left) + abs(right) > 1e-280:
+        return left - right
+    (ax, ay), (bx, by), (cx, cy) = (map(Fraction, p) for p in (a, b, c))
+    exact = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
+    return (exact > 0) - (exact < 0)
+
+
+def sine_at(a, b, c):
+    """The sine of the angle at a from b to c, along great circles. Free of cancellation: on the plane that touches at a."""
+    def place(p):
+        away = math.radians((p[0] - a[0] + 540) % 360 - 180)
+        lat, here = math.radians(p[1]), math.radians(a[1])
+        x = math.cos(lat) * math.sin(away)
+        y = math.sin(lat - here) + 2 * math.sin(here) * math.cos(lat) * math.sin(away / 2) ** 2
+        return x, y
+
+    (bx, by), (cx, cy) = place(b), place(c)
+    lengths = math.hypot(bx, by) * math.hypot(cx, cy)
+    return (bx * cy - cx * by) / lengths if lengths else 0.0
+
+
+def turn_on_globe(a, b, c):
+    """The largest of the three sines, with its sign: above 0 where a, b, c run counter-clockwise, seen from above."""
+    return max((sine_at(a, b, c), sine_at(b, c, a), sine_at(c, a, b)), key=abs)
+
+
+def check_mesh(nodes, triangles, geographic):
+    """Counter-clockwise triangles, each edge once in each direction, each node used."""
+    turn = turn_on_globe if geographic else turn_in_plane
+    edges, used = set(), set()
+    for number, t in enumerate(triangles):
+        require(len(set(t)) == 3 and all(0 <= n < len(nodes) for n in t), f"triangle {number}: corners {t}")
+        corners = [nodes[n] for n in t]
+        require(all(math.isfinite(v) for p in corners for v in p), f"triangle {number}: {corners}")
+        turned = turn(*corners)
+        require(turned > 0, f"triangle {number} is not counter-clockwise ({turned:.2g}): {corners}")
+        used.update(t)
+        for edge in zip(t, t[1:] + t[:1]):
+            require(edge not in edges, f"edge {edge} runs the same way twice")
+            edges.add(edge)
+    require(len(used) == len(nodes), f"{len(nodes) - len(used)} nodes without a triangle")
+
+
+def as_places(nodes, triangles):
+    """Triangles by their corners' places, each from its least on; sorted."""
+    result = []
+    for t in triangles:
+        corners = [tuple(nodes[n]) for n in t]
+        first = corners.index(min(corners))
+        result.append(tuple(corners[first:] + corners[:first]))
+    return sorted(result)
+
+
+def area_in_plane(nodes, triangles):
+    """Summed with the origin amid the mesh."""
+    x0, y0 = nodes[0]
+    return math.fsum(((nodes[b][0] - nodes[a][0]) * (nodes[c][1] - nodes[a][1]) -
+                      (nodes[c][0] - nodes[a][0]) * (nodes[b][1] - nodes[a][1])) / 2 for a, b, c in triangles)
+
+
+def area_of_ring(ring, geographic):
+    """Signed; of a ring in degrees on the globe, of radius 1 and with lines of constant direction in degrees as edges."""
+    total, (x0, y0) = [], ring[0]
+    for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1]):
+        if not geographic:
+            total.append(((ax - x0) * (by - y0) - (bx - x0) * (ay - y0)) / 2)
+            continue
+        width, low, high = math.radians(bx - ax), math.radians(ay), math.radians(by)
+        mean, half = (low + high) / 2, (high - low) / 2
+        # The mean of the sine of the latitude along the edge.
+        total.append(-width * math.sin(mean) * (math.sin(half) / half if half else 1.0))
+    return math.fsum(total)
+
+
+def check_layer(layer, nodes, triangles, geographic, what):
+    """The layer's polygons are the triangles; one cut at the antimeridian or round a pole by its area."""
+    require(len(layer) == len(triangles), f"{what}: {len(layer)} polygons, {len(triangles)} triangles")
+    for number, (rings, t) in enumerate(zip(layer, triangles)):
+        corners = [tuple(nodes[n]) for n in t]
+        if len(rings) == 1 and len(rings[0]) == 3:
+            ring = [tuple(p) for p in rings[0]]
+            # In a shapefile the direction says outer or inner, and is GDAL's; it rounds.
+            ways = [ring, ring[::-1]] if what.endswith(".shp") else [ring]
+            same = any(way[i:] + way[:i] == corners for way in ways for i in range(3))
+            require(same, f"{what}: polygon {number} is {ring}, not {corners}")
+            continue
+        require(geographic, f"{what}: polygon {number} has {len(rings)} rings")
+        require(all(-180 <= x <= 180 and -90 <= y <= 90 for ring in rings for x, y in ring),
+                f"{what}: polygon {number} leaves the map: {rings}")
+        area = math.fsum(area_of_ring(ring, True) for ring in rings)
+        polar = round(sum(((b[0] - a[0] + 540) % 360 - 180) for a, b in zip(corners, corners[1:] + corners[:1])) / 360)
+        around = [corners[0]]
+        for p in corners[1:]:
+            around.append((around[-1][0] + (p[0] - around[-1][0] + 540) % 360 - 180, p[1]))
+        if polar:  # round a pole: on to where it began, and along the pole
+            pole = math.copysign(90, sum(p[1] for p in corners))
+            around += [(around[0][0] + 360 * polar, around[0][1]), (around[0][0] + 360 * polar, pole), (around[0][0], pole)]
+        expected = area_of_ring(around, True)
+        require(abs(area - expected) <= 1e-6 * abs(expected) + 1e-15,
+                f"{what}: polygon {number} has the area {area:.12g}, not {expected:.12g}: {rings}, {corners}")
+
+
+def even_odd_union(features):
+    """Area of the places that lie in some feature by the even-odd rule over its rings: exact crossings, slab by slab."""
+    edges = []
+    for number, rings in enumerate(features):
+        for ring in rings:
+            for a, b in zip(ring, ring[1:] + ring[:1]):
+                if a[1] != b[1]:
+                    edges.append((min(a, b, key=lambda p: p[1]), max(a, b, key=lambda p: p[1]), number))
+    levels = {y for low, high, _ in edges for y in (low[1], high[1])}
+    for i, (a, b, _) in enumerate(edges):
+        for c, d, _ in edges[:i]:
+            if max(a[1], c[1]) >= min(b[1], d[1]):
+                continue
+            slope, other = (b[0] - a[0]) / (b[1] - a[1]), (d[0] - c[0]) / (d[1] - c[1])
+            if slope == other:
+                continue
+            y = ((c[0] - other * c[1]) - (a[0] - slope * a[1])) / (slope - other)
+            if max(a[1], c[1]) < y < min(b[1], d[1]):
+                levels.add(y)
+    levels, total = sorted(levels), []
+    for low, high in zip(levels, levels[1:]):
+        middle = low + (high - low) / 2
+        met = sorted((a[0] + (middle - a[1]) / (b[1] - a[1]) * (b[0] - a[0]), number) for a, b, number in edges
+                     if a[1] <= low and b[1] >= high)
+        inside = set()
+        for (x, number), (beyond, _) in zip(met, met[1:]):
+            inside ^= {number}
+            if inside:
+                total.append((high - low) * (beyond - x))
+    return math.fsum(total)
