@@ -220,10 +220,11 @@ InputCorners::InputCorners(const TriMesh& mesh, const TriangleBound& bound, cons
 
 Excuse InputCorners::excuseOf(const Point& a, const Point& b, const Point& c) const {
   const std::array<Point, 3> vertices{a, b, c};
-  const Point centroid = (1.0 / 3.0) * (a + b + c);
   const auto fills = [&](const InputCorner& corner) {
-    return std::ranges::find(vertices, corner.apex) != vertices.end() &&
-           orient2d(corner.apex, corner.right, centroid) > 0 && orient2d(corner.apex, centroid, corner.left) > 0;
+    if (std::ranges::find(vertices, corner.apex) == vertices.end()) return false;
+    // The way to the middle of the triangle, by differences: far from the origin a centroid is rounded too much.
+    const Point way = (a - corner.apex) + (b - corner.apex) + (c - corner.apex);
+    return cross(corner.right - corner.apex, way) > 0.0 && cross(way, corner.left - corner.apex) > 0.0;
   };
   const auto isNear = [&](const InputCorner& corner) {
     return std::ranges::all_of(

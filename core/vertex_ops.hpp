@@ -24,7 +24,7 @@ class VertexOps {
   // From now on leaves alone what a frozen edge is next to: it is another's to change too.
   void keepClearOfFrozen() { clear_of_frozen_ = true; }
 
-  // From now on flips nothing of a bad triangle into its surroundings: where an input angle explains it there, it may not do so a
+  // From now on flips nothing of a bad triangle into its surroundings: where an input angle excuses it there, it may not do so a
   // triangle further.
   void keepBadInPlace() { bad_stays_ = true; }
 

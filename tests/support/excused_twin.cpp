@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/metric.hpp"
+#include "core/predicates.hpp"
 
 namespace coastmesh {
 
@@ -64,7 +65,9 @@ Point centreOf(const TriMesh& mesh, TriId t) {
 
 bool ExcusedTwin::fills(TriId t, VertexId apex, double from, double gap) const {
   const auto& v = mesh_.triangles[t].v;
-  return std::ranges::find(v, apex) != v.end() && turn(from, direction(mesh_.points[apex], centreOf(mesh_, t))) < gap;
+  Point way;  // to the triangle's middle
+  for (const VertexId w : v) way = way + (mesh_.points[w] - mesh_.points[apex]);
+  return std::ranges::find(v, apex) != v.end() && turn(from, direction({}, way)) < gap;
 }
 
 ExcusedTwin::ExcusedTwin(const TriMesh& mesh, const Pslg& pslg, double min_angle_deg, double max_angle_deg)
@@ -97,8 +100,15 @@ ExcusedTwin::ExcusedTwin(const TriMesh& mesh, const Pslg& pslg, double min_angle
   }
   for (auto& [apex, out] : directions) {
     std::ranges::sort(out);
+    // Directions that doubles do not tell apart.
+    constexpr double kSame = 1e-12;
+    for (std::size_t k = 0; k + 1 < out.size(); ++k)
+      if (out[k + 1].first - out[k].first < kSame &&
+          orient2d(mesh.points[apex], mesh.points[out[k].second], mesh.points[out[k + 1].second]) < 0)
+        std::swap(out[k], out[k + 1]);
     for (std::size_t k = 0; k < out.size(); ++k) {
-      const double gap = turn(out[k].first, out[(k + 1) % out.size()].first);
+      double gap = turn(out[k].first, out[(k + 1) % out.size()].first);
+      if (gap > kTurn - kSame && out.size() > 1) gap = 0.0;
       if (out.size() == 1 || gap > std::numbers::pi - 1e-6 || canBeCut(gap, min_angle_deg, max_angle_deg)) continue;
       if (!ways.contains({apex, out[k].second})) continue;
       double size = std::numeric_limits<double>::infinity();
