@@ -66,7 +66,7 @@ TEST_F(NamedLines, WeirsAreNoMereConstraints) {
                          (ending == "node" && readText(file("weir.poly")) != readText(file("plain.poly")));
     EXPECT_NE(told, differs) << ending;
   }
-  for (const std::string& ending : {"nc", "gpkg", "msh", "vtu"}) {
+  for (const std::string ending : {"nc", "gpkg", "msh", "vtu"}) {
     const Json lines = layerOf(file("weir." + ending), "lines");
     ASSERT_EQ(lines.size(), 1u) << ending;
     EXPECT_EQ(valuesOf(lines, "kind"), std::set<std::string>{"weir"}) << ending;
@@ -103,7 +103,7 @@ TEST_F(NamedLines, RegionsComeThroughEveryFormatThatHoldsThem) {
     for (const Json& feature : features) values.push_back(feature["properties"][column].dump());
     return values;
   };
-  for (const std::string& ending : {"nc", "msh", "2dm", "vtu", "gpkg", "shp", "fgb"}) {
+  for (const std::string ending : {"nc", "msh", "2dm", "vtu", "gpkg", "shp", "fgb"}) {
     const std::string path = file("through." + ending);
     done({"convert", file("a.gpkg"), "-o", path, "--quiet"});
     EXPECT_EQ(columnOf(layerOf(path, "triangles"), "region"), columnOf(wanted, "region")) << ending;
@@ -135,7 +135,7 @@ TEST_F(NamedLines, ConvertSaysWhatAFileCannotHold) {
   const auto said = [&](const std::string& name) { return done({"convert", mesh, "-o", file(name), "--quiet"}); };
   EXPECT_EQ(said("same.14"), "");
   EXPECT_NE(readText(file("same.14")).find("\n31 12 1 1 1\n2 11 1.5 1 1\n34 10 2 1 1\n"), std::string::npos);
-  for (const std::string& name :
+  for (const std::string name :
        {"a.gr3", "a.nc", "a.2dm", "a.msh", "a.vtu", "a.gpkg", "a.node", "a.geojson", "a.fgb", "a.slf", "a_grd.dat"}) {
     const std::string text = said(name);
     EXPECT_NE(text.find("cannot hold"), std::string::npos) << name << ": " << text;

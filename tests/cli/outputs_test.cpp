@@ -29,7 +29,9 @@ class Outputs : public ProgramTest {
     EXPECT_THAT(run.errors, HasSubstr(named));
     EXPECT_EQ(names(), before);
     for (const auto& [name, text] : texts)
-      if (!text.empty()) EXPECT_EQ(readText(file(name)), text) << name;
+      if (!text.empty()) {
+        EXPECT_EQ(readText(file(name)), text) << name;
+      }
   }
 };
 

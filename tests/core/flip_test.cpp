@@ -23,7 +23,9 @@ TEST(FlipToDelaunay, TakesTheOtherDiagonal) {
     EXPECT_NE(std::ranges::find(t.v, 3u), t.v.end());
   }
   for (unsigned i = 0; i < 3; ++i)
-    if (mesh.triangles[0].adj[i] != kNone) EXPECT_FALSE(flipToDelaunay(mesh.points, mesh.triangles, edgeRef(0, i)));
+    if (mesh.triangles[0].adj[i] != kNone) {
+      EXPECT_FALSE(flipToDelaunay(mesh.points, mesh.triangles, edgeRef(0, i)));
+    }
 }
 
 TEST(FlipToDelaunay, ConstraintsStayOnTheirEdges) {
