@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 # The interface of each room; its other headers are its own affair.
 set(core_headers check delaunay ids item_loop metric point pslg quality refine run_control size_function tri_mesh)
-set(gis_headers clean coastline crs error grid grid_io output_files poly_io projection read_coastline resolution staged_files)
+set(gis_headers clean coastline crs error grid grid_io grid_parts output_files poly_io projection read_coastline resolution staged_files)
 set(parallel_headers mesh_regions work_log workers)
 
 set(coastmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/coastmesh)

@@ -4,8 +4,10 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -195,6 +197,24 @@ std::vector<IndexEntry> boxesOf(const Grid& grid, const GridLayer& layer) {
   return boxes;
 }
 
+[[noreturn]] void failIncomplete(const std::string& path) {
+  throw OutputError("cannot write '" + path + "': the file came out incomplete; is the disk full?");
+}
+
+// Whether a .dbf is as long as its header says, up to the mark of its end, whose loss GDAL does not report.
+bool isWholeTable(const std::string& path) {
+  std::array<unsigned char, 12> head{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
+  const auto number = [&head](std::size_t at, std::size_t bytes) {
+    std::uintmax_t value = 0;
+    for (std::size_t i = bytes; i-- > 0;) value = value << 8 | head[at + i];
+    return value;
+  };
+  const std::uintmax_t rows = number(4, 4), header = number(8, 2), row = number(10, 2);
+  return std::filesystem::file_size(path) >= header + rows * row + 1;
+}
+
 // Reads the file through.
 void requireComplete(const std::string& path, std::size_t rows, const OgrErrors& errors) {
   const DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
@@ -202,8 +222,7 @@ void requireComplete(const std::string& path, std::size_t rows, const OgrErrors&
   std::size_t found = 0;
   if (layer != nullptr)
     while (OGRFeatureUniquePtr(layer->GetNextFeature())) ++found;
-  if (found != rows || errors.failed())
-    throw OutputError("cannot write '" + path + "': the file came out incomplete; is the disk full?");
+  if (found != rows || errors.failed()) failIncomplete(path);
 }
 
 void writeLayerFiles(const Writer& writer, const Grid& grid, const std::vector<GridLayer>& layers,
@@ -217,6 +236,7 @@ void writeLayerFiles(const Writer& writer, const Grid& grid, const std::vector<G
                   errors);
     close(std::move(dataset), layer_path, errors);
     if (writer.hides_failures) requireComplete(layer_path, layer.rows, errors);
+    if (writer.table_types && !isWholeTable(withEnding(layer_path, ".dbf"))) failIncomplete(layer_path);
   }
 }
 

@@ -4,6 +4,7 @@ Each gives a dict: nodes [(x, y)], triangles [(a, b, c)] from 0, depth [positive
 the format tells them. What the model would refuse raises Refused.
 """
 
+import re
 import struct
 
 
@@ -103,7 +104,7 @@ def read_fort14(path, schism=False, allow_pinches=False):
 
 
 def read_2dm(path):
-    nodes, triangles, depth, strings, part = [], [], [], [], []
+    nodes, triangles, depth, strings, part, materials, in_block = [], [], [], [], [], [], False
     with open(path) as file:
         require(file.readline().strip() == "MESH2D", "it does not start with MESH2D")
         for line in file:
@@ -123,9 +124,19 @@ def read_2dm(path):
                 if ends:
                     strings.append(part)
                     part = []
+            elif words[0] == "BEG2DMBC":
+                require(not materials, "a second block of materials")
+                in_block = True
+            elif words[0] == "MAT" and in_block:
+                number, name = line.split(maxsplit=1)[1].split(maxsplit=1)
+                require(int(number) == len(materials) + 1 and re.fullmatch(r'"[^"]*"\s*', name), line)
+                materials.append(name.strip()[1:-1])
+            elif words[0] == "END2DMBC" and in_block:
+                in_block = False
             else:
                 raise Refused(line)
     require(not part, "a node string without an end")
+    require(not in_block, "a block of materials without an end")
     check_mesh(nodes, triangles)
     return {"nodes": nodes, "triangles": triangles, "depth": depth, "strings": strings}
 
