@@ -201,8 +201,8 @@ std::vector<IndexEntry> boxesOf(const Grid& grid, const GridLayer& layer) {
   throw OutputError("cannot write '" + path + "': the file came out incomplete; is the disk full?");
 }
 
-// Whether a .dbf is as long as its header says, up to the mark of its end, whose loss GDAL does not report.
-bool isWholeTable(const std::string& path) {
+// Whether a .dbf holds so many rows: GDAL does not report when its header or the mark of its end cannot be written.
+bool isWholeTable(const std::string& path, std::size_t rows) {
   std::array<unsigned char, 12> head{};
   std::ifstream file(path, std::ios::binary);
   if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
@@ -211,8 +211,10 @@ bool isWholeTable(const std::string& path) {
     for (std::size_t i = bytes; i-- > 0;) value = value << 8 | head[at + i];
     return value;
   };
-  const std::uintmax_t rows = number(4, 4), header = number(8, 2), row = number(10, 2);
-  return std::filesystem::file_size(path) >= header + rows * row + 1;
+  constexpr std::uintmax_t kLeastHeader = 33, kLeastRow = 1;
+  const std::uintmax_t header = number(8, 2), row = number(10, 2);
+  return number(4, 4) == rows && header >= kLeastHeader && row >= kLeastRow &&
+         std::filesystem::file_size(path) >= header + rows * row + 1;
 }
 
 // Reads the file through.
@@ -236,7 +238,7 @@ void writeLayerFiles(const Writer& writer, const Grid& grid, const std::vector<G
                   errors);
     close(std::move(dataset), layer_path, errors);
     if (writer.hides_failures) requireComplete(layer_path, layer.rows, errors);
-    if (writer.table_types && !isWholeTable(withEnding(layer_path, ".dbf"))) failIncomplete(layer_path);
+    if (writer.table_types && !isWholeTable(withEnding(layer_path, ".dbf"), layer.rows)) failIncomplete(layer_path);
   }
 }
 
