@@ -2,14 +2,12 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
-#include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "apps/cleaned_output.hpp"
 #include "apps/commands.hpp"
 #include "apps/exit_codes.hpp"
 #include "apps/input_usage.hpp"
@@ -18,10 +16,8 @@
 #include "apps/run_outputs.hpp"
 #include "apps/stopwatch.hpp"
 #include "apps/vector_output.hpp"
-#include "gis/cleaned_layers.hpp"
 #include "gis/error.hpp"
 #include "gis/poly_io.hpp"
-#include "gis/segment_tags.hpp"
 #include "parallel/workers.hpp"
 
 namespace coastmesh {
@@ -100,114 +96,6 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
   return cleaned;
 }
 
-// The fid of the feature on one side of a segment, -1 outside and where nothing is said.
-std::int64_t fidOf(RegionId region, const Coastline& coastline) {
-  return region < 0 ? -1 : coastline.features[static_cast<std::size_t>(region)].fid;
-}
-
-const char* kindOf(const Segment& segment, const Domain& domain) {
-  if (segment.tag == kOpenTag) return "open";
-  if (isLineTag(segment.tag) && lineOfTag(segment.tag) < domain.lines.size()) {
-    switch (domain.lines[lineOfTag(segment.tag)].use) {
-      case FeatureUse::Weir:
-        return "weir";
-      case FeatureUse::Region:
-        return "region";
-      default:
-        return "constraint";
-    }
-  }
-  return segment.left < 0 || segment.right < 0 ? "shore" : "border";
-}
-
-bool lexLessPair(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return a == c ? lexLess(b, d) : lexLess(a, c);
-}
-
-// An edge of the graph from its lesser end on.
-struct PslgEdge {
-  Point a, b;
-  const char* kind;
-  std::size_t domain;
-  std::int64_t left_fid, right_fid;
-};
-
-// The edges by their places, whatever order they were found in, so that a cleaned file that is cleaned again comes out the
-// same.
-std::vector<PslgEdge> sortedEdges(const CleanedInput& cleaned, const Coastline& coastline) {
-  std::vector<PslgEdge> edges;
-  for (std::size_t d = 0; d < cleaned.domains.size(); ++d) {
-    const Domain& domain = cleaned.domains[d];
-    for (const Segment& s : domain.pslg.segments) {
-      PslgEdge edge{domain.input_points[s.a], domain.input_points[s.b], kindOf(s, domain), d,
-                    fidOf(s.left, coastline), fidOf(s.right, coastline)};
-      if (lexLess(edge.b, edge.a)) std::swap(edge.a, edge.b), std::swap(edge.left_fid, edge.right_fid);
-      edges.push_back(edge);
-    }
-  }
-  std::ranges::sort(edges, [](const PslgEdge& e, const PslgEdge& f) { return lexLessPair(e.a, e.b, f.a, f.b); });
-  return edges;
-}
-
-VectorLayer pslgLayer(const CleanedInput& cleaned, const Coastline& coastline) {
-  VectorLayer layer;
-  layer.name = kPslgLayer;
-  layer.kind = VectorLayer::Kind::Lines;
-  layer.fields = {
-      {"kind", std::string()}, {"region", std::int64_t{}}, {"left_fid", std::int64_t{}}, {"right_fid", std::int64_t{}}};
-  std::map<std::size_t, std::int64_t> number_of;  // domains in the order of their first edges
-  for (const PslgEdge& edge : sortedEdges(cleaned, coastline)) {
-    const auto [number, made] = number_of.try_emplace(edge.domain, static_cast<std::int64_t>(number_of.size()));
-    layer.shapes.push_back({{edge.a, edge.b}, {std::string(edge.kind), number->second, edge.left_fid, edge.right_fid}});
-  }
-  return layer;
-}
-
-// What was changed, now or when the file was cleaned before: the same edit found again counts once.
-VectorLayer editLayer(const CleanReport& report, const ReadReport& read) {
-  const auto less = [](const EarlierEdit& a, const EarlierEdit& b) {
-    return std::tie(a.kind, a.place.x, a.place.y, a.fid) < std::tie(b.kind, b.place.x, b.place.y, b.fid);
-  };
-  std::vector<EarlierEdit> before = read.edits, now, all;
-  for (const Edit& edit : report.edits) {
-    // These change nothing: what there is of them in a cleaned file was told when it was cleaned.
-    if (read.cleaned && (edit.kind == EditKind::TouchingRing || edit.kind == EditKind::MisplacedRing)) continue;
-    now.push_back({std::string(toString(edit.kind)), edit.place, edit.fid});
-  }
-  std::ranges::sort(before, less);
-  std::ranges::sort(now, less);
-  std::ranges::set_union(before, now, std::back_inserter(all), less);
-  VectorLayer layer;
-  layer.name = kEditLayer;
-  layer.fields = {{"kind", std::string()}, {"fid_of_feature", std::int64_t{}}};
-  for (const EarlierEdit& edit : all) layer.shapes.push_back({{edit.place}, {edit.kind, edit.fid}});
-  return layer;
-}
-
-// Vertices asked for that no edge has.
-VectorLayer vertexLayer(const CleanedInput& cleaned) {
-  VectorLayer layer;
-  layer.name = kVertexLayer;
-  for (const Domain& domain : cleaned.domains) {
-    std::vector<char> used(domain.pslg.points.size(), 0);
-    for (const Segment& s : domain.pslg.segments) used[s.a] = used[s.b] = 1;
-    for (std::size_t v = 0; v < used.size(); ++v) {
-      if (!used[v]) layer.shapes.push_back({{domain.input_points[v]}, {}});
-    }
-  }
-  std::ranges::sort(layer.shapes, [](const VectorShape& a, const VectorShape& b) {
-    return lexLess(a.points.front(), b.points.front());
-  });
-  return layer;
-}
-
-std::vector<VectorLayer> layersOf(const CleanedInput& cleaned, const JobInput& input) {
-  std::vector<VectorLayer> layers{pslgLayer(cleaned, input.coastline()), editLayer(cleaned.report, input.report())};
-  VectorLayer vertices = vertexLayer(cleaned);
-  if (!vertices.shapes.empty()) layers.push_back(std::move(vertices));
-  return layers;
-}
-
 // All groups in one graph. A .poly knows no projection, so they have to share a plane.
 Pslg joinedPslg(const CleanedInput& cleaned, const CleanUsage& usage, const Crs& crs) {
   const bool one_plane = cleaned.domains.size() == 1 || usage.input.crs != "auto" || crs.isPlane();
@@ -284,8 +172,10 @@ int runClean(const CleanUsage& usage, Run& run) {
     const Pslg pslg = joinedPslg(cleaned, usage, input.coastline().crs);
     output.make([&pslg](const std::string& path) { writePoly(pslg, path); });
   } else {
-    output.make(
-        [&](const std::string& path) { writeVectorLayers(path, input.coastline().crs, layersOf(cleaned, input)); });
+    output.make([&](const std::string& path) {
+      writeVectorLayers(path, input.coastline().crs,
+                        cleanedLayers(cleaned.domains, cleaned.report, input.coastline(), input.report()));
+    });
   }
   seconds.total = watch.seconds();
   seconds.write = seconds.total - seconds.read - seconds.clean;

@@ -57,20 +57,58 @@ void setField(OGRFeature& feature, int index, const VectorValue& value) {
   }
 }
 
+template <typename Curve>
+void setPoints(Curve& curve, const std::vector<Point>& points) {
+  curve.setNumPoints(static_cast<int>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) curve.setPoint(static_cast<int>(i), points[i].x, points[i].y);
+}
+
+void addRing(OGRPolygon& polygon, const std::vector<Point>& points) {
+  OGRLinearRing ring;
+  setPoints(ring, points);
+  ring.closeRings();
+  polygon.addRing(&ring);
+}
+
 std::unique_ptr<OGRGeometry> geometryOf(const VectorShape& shape, VectorLayer::Kind kind) {
-  if (kind == VectorLayer::Kind::Points) return std::make_unique<OGRPoint>(shape.points[0].x, shape.points[0].y);
-  auto line = std::make_unique<OGRLineString>();
-  line->setNumPoints(static_cast<int>(shape.points.size()));
-  for (std::size_t i = 0; i < shape.points.size(); ++i) {
-    line->setPoint(static_cast<int>(i), shape.points[i].x, shape.points[i].y);
+  switch (kind) {
+    case VectorLayer::Kind::Points:
+      return std::make_unique<OGRPoint>(shape.points[0].x, shape.points[0].y);
+    case VectorLayer::Kind::Lines: {
+      auto line = std::make_unique<OGRLineString>();
+      setPoints(*line, shape.points);
+      return line;
+    }
+    case VectorLayer::Kind::Polygons: {
+      auto polygon = std::make_unique<OGRPolygon>();
+      addRing(*polygon, shape.points);
+      for (const std::vector<Point>& hole : shape.holes) addRing(*polygon, hole);
+      return polygon;
+    }
+    case VectorLayer::Kind::Table:
+      break;
   }
-  return line;
+  return nullptr;
+}
+
+OGRwkbGeometryType typeOf(VectorLayer::Kind kind) {
+  switch (kind) {
+    case VectorLayer::Kind::Points:
+      return wkbPoint;
+    case VectorLayer::Kind::Lines:
+      return wkbLineString;
+    case VectorLayer::Kind::Polygons:
+      return wkbPolygon;
+    case VectorLayer::Kind::Table:
+      break;
+  }
+  return wkbNone;
 }
 
 void writeLayer(GDALDataset& dataset, const std::string& path, const VectorLayer& layer, OGRSpatialReference* srs,
                 const OgrErrors& errors) {
-  const OGRwkbGeometryType type = layer.kind == VectorLayer::Kind::Points ? wkbPoint : wkbLineString;
-  OGRLayer* target = dataset.CreateLayer(layer.name.c_str(), srs, type, nullptr);
+  const OGRwkbGeometryType type = typeOf(layer.kind);
+  OGRLayer* target = dataset.CreateLayer(layer.name.c_str(), type == wkbNone ? nullptr : srs, type, nullptr);
   if (target == nullptr) fail(path, errors);
   for (const auto& [name, sample] : layer.fields) {
     OGRFieldDefn field(name.c_str(), fieldType(sample));
@@ -82,7 +120,7 @@ void writeLayer(GDALDataset& dataset, const std::string& path, const VectorLayer
     if (transactions && pending == 0 && dataset.StartTransaction() != OGRERR_NONE) fail(path, errors);
     OGRFeature feature(target->GetLayerDefn());
     for (std::size_t i = 0; i < shape.values.size(); ++i) setField(feature, static_cast<int>(i), shape.values[i]);
-    feature.SetGeometryDirectly(geometryOf(shape, layer.kind).release());
+    if (auto geometry = geometryOf(shape, layer.kind)) feature.SetGeometryDirectly(geometry.release());
     if (target->CreateFeature(&feature) != OGRERR_NONE) fail(path, errors);
     if (++pending == kShapesPerTransaction) {
       if (transactions && dataset.CommitTransaction() != OGRERR_NONE) fail(path, errors);

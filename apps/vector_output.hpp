@@ -13,12 +13,13 @@ namespace coastmesh {
 using VectorValue = std::variant<std::int64_t, double, std::string>;
 
 struct VectorShape {
-  std::vector<Point> points;        // one for a layer of points, two or more for one of lines
-  std::vector<VectorValue> values;  // one a field of the layer, of the field's type
+  std::vector<Point> points;  // one for a layer of points, two or more for one of lines, a ring not closed for polygons
+  std::vector<VectorValue> values;          // one a field of the layer, of the field's type
+  std::vector<std::vector<Point>> holes{};  // of a polygon
 };
 
 struct VectorLayer {
-  enum class Kind { Points, Lines };
+  enum class Kind { Points, Lines, Polygons, Table };  // a table has no shapes
   std::string name;
   Kind kind = Kind::Points;
   std::vector<std::pair<std::string, VectorValue>> fields;  // name, and a value that tells the type

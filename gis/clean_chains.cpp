@@ -35,7 +35,10 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
     const auto index = static_cast<std::uint32_t>(member);
     // On land an island is a polygon of its own; of what the frame cuts off nobody knows the size.
     const bool land = feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
+    // Where a region has lines, they are its border, cleaned before.
+    const bool by_lines = feature.use == FeatureUse::Region && !feature.lines.empty();
     for (const Polygon& polygon : feature.polygons) {
+      if (by_lines) break;
       if (land && area && !feature.clipped && !polygon.outer.empty() &&
           area->of(polygon.outer) < options.min_island_area_m2) {
         report.add(EditKind::SmallIsland, polygon.outer.front(), feature.fid);
@@ -260,6 +263,12 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   constexpr std::size_t kAhead = 16;
   std::size_t at = 0;
   VertexMaker maker(result.vertices, result.snap, count);
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    bool snapped = false;
+    for (const Point& point : feature.vertex_order)
+      maker.make(requirePlace(projection.forward(point), point, feature, projection), point, snapped);
+  }
   for (InputChain& chain : input) {
     const Feature& feature = coastline.features[chain.feature];
     const bool closed = chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole;

@@ -243,9 +243,8 @@ class Labeller {
     for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
       const std::uint32_t feature = featureOf(noded_.uses[u]);
       const FeatureUse use = useOf(feature);
-      const bool border = !isLine(noded_.uses[u]);
-      if (border ? use != FeatureUse::Region : use == FeatureUse::Open) continue;
-      of_region = of_region || border;
+      if (isLine(noded_.uses[u]) ? use == FeatureUse::Open : use != FeatureUse::Region) continue;
+      of_region = of_region || use == FeatureUse::Region;
       if (first == kNone || std::pair(rankOf(use), feature) < std::pair(rankOf(useOf(first)), first)) first = feature;
     }
     return first == kNone ? std::nullopt : std::optional(LineKey(first, of_region));

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
+#include <set>
+#include <string>
 #include <string_view>
 
+#include "gis/error.hpp"
 #include "gis/join_lines.hpp"
 #include "gis/nest_rings.hpp"
 
@@ -19,13 +23,10 @@ OGRLayer* layerNamed(const OpenSource& source, std::string_view name) {
   return nullptr;
 }
 
-bool isPslg(OGRLayer& layer) {
-  return std::ranges::all_of(std::vector<const char*>{"kind", "region", "left_fid", "right_fid"},
-                             [&](const char* field) { return layer.GetLayerDefn()->GetFieldIndex(field) >= 0; });
+bool hasFields(OGRLayer& layer, std::initializer_list<const char*> names) {
+  return std::ranges::all_of(names, [&](const char* field) { return layer.GetLayerDefn()->GetFieldIndex(field) >= 0; });
 }
 
-// A part of the plane graph with the number of a feature.
-using AreaKey = std::pair<std::int64_t, std::int64_t>;
 using Lines = std::vector<std::vector<Point>>;
 
 bool jumps(const Ring& ring) {
@@ -48,11 +49,8 @@ void putOnOneSide(Ring& ring) {
   }
 }
 
-// The feature whose rim the lines are.
-Feature areaOf(std::int64_t fid, const Lines& rim, const std::string& source, bool geographic) {
-  Feature feature;
-  feature.fid = fid;
-  feature.source = source;
+// Gives the feature the areas whose rim the lines are.
+void addAreas(const Lines& rim, bool geographic, Feature& feature) {
   JoinedLines joined = joinLines(rim);
   std::vector<Ring> rings;
   for (JoinedLines::Part& part : joined.rings) rings.push_back(std::move(part.points));
@@ -65,48 +63,111 @@ Feature areaOf(std::int64_t fid, const Lines& rim, const std::string& source, bo
     polygon.outer = std::move(rings[nested.outer]);
     for (const std::size_t hole : nested.holes) polygon.holes.push_back(std::move(rings[hole]));
   }
-  return feature;
 }
 
+using FeatureId = std::int64_t;  // of the layer of features
+
 struct Cleaned {
-  std::map<AreaKey, Lines> rims;
-  std::map<FeatureUse, Lines> lines;
-  std::vector<Point> vertices;
+  std::map<FeatureId, Feature> features;  // their numbers, sources and attributes
+  std::map<FeatureId, Lines> rims;
+  std::map<FeatureId, std::int64_t> part_of;  // of areas: the part of the graph
+  std::map<std::pair<FeatureUse, FeatureId>, Lines> lines;
+  std::map<FeatureId, std::vector<Polygon>> regions;
+  std::map<std::int64_t, std::map<std::int64_t, Point>> vertices;  // by part and number
+  std::vector<Point> alone;                                        // vertices that no edge has
   Box bounds;
 };
 
-void takeEdges(OGRLayer& layer, Cleaned& cleaned, ReadReport& report) {
-  const OGRFeatureDefn& fields = *layer.GetLayerDefn();
-  const int kind = fields.GetFieldIndex("kind"), region = fields.GetFieldIndex("region");
-  const int left = fields.GetFieldIndex("left_fid"), right = fields.GetFieldIndex("right_fid");
-  for (const auto& row : layer) {
-    const OGRGeometry* geometry = row->GetGeometryRef();
-    if (!geometry || wkbFlatten(geometry->getGeometryType()) != wkbLineString) continue;
-    const OGRLineString& line = *geometry->toLineString();
-    std::vector<Point> points;
-    for (int i = 0; i < line.getNumPoints(); ++i) points.push_back({line.getX(i), line.getY(i)});
-    for (const Point& p : points) cleaned.bounds.add(p);
-    report.points += points.size();
-    const std::int64_t part = row->GetFieldAsInteger64(region);
-    const std::int64_t on_left = row->GetFieldAsInteger64(left), on_right = row->GetFieldAsInteger64(right);
-    if (on_left != on_right) {
-      if (on_left >= 0) cleaned.rims[{part, on_left}].push_back(points);
-      if (on_right >= 0) cleaned.rims[{part, on_right}].push_back(points);
-    }
-    const std::string_view name = row->GetFieldAsString(kind);
-    if (name == "open") cleaned.lines[FeatureUse::Open].push_back(std::move(points));
-    if (name == "weir") cleaned.lines[FeatureUse::Weir].push_back(std::move(points));
-    if (name == "constraint") cleaned.lines[FeatureUse::Constraint].push_back(std::move(points));
-  }
+// Calls `take(row)` for each row of a layer that is there.
+template <typename Take>
+void forEachRow(OGRLayer* layer, Take&& take) {
+  if (layer == nullptr) return;
+  for (const auto& row : *layer) take(*row);
 }
 
-void takePoints(OGRLayer& layer, Cleaned& cleaned) {
-  for (const auto& row : layer) {
-    const OGRGeometry* geometry = row->GetGeometryRef();
-    if (!geometry || wkbFlatten(geometry->getGeometryType()) != wkbPoint) continue;
-    cleaned.vertices.push_back({geometry->toPoint()->getX(), geometry->toPoint()->getY()});
-    cleaned.bounds.add(cleaned.vertices.back());
-  }
+std::int64_t wholeOf(const OGRFeature& row, const char* field) {
+  return row.GetFieldAsInteger64(row.GetFieldIndex(field));
+}
+std::string textOf(const OGRFeature& row, const char* field) { return row.GetFieldAsString(row.GetFieldIndex(field)); }
+
+std::vector<Point> pointsOf(const OGRSimpleCurve& chain) {
+  std::vector<Point> points;
+  for (int i = 0; i < chain.getNumPoints(); ++i) points.push_back({chain.getX(i), chain.getY(i)});
+  return points;
+}
+
+// The row's shape, null where it is of another type.
+const OGRGeometry* shapeOf(const OGRFeature& row, OGRwkbGeometryType type) {
+  const OGRGeometry* geometry = row.GetGeometryRef();
+  return geometry && wkbFlatten(geometry->getGeometryType()) == type ? geometry : nullptr;
+}
+
+void takeFeatures(OGRLayer* features, OGRLayer* attributes, Cleaned& cleaned) {
+  forEachRow(features, [&](const OGRFeature& row) {
+    Feature& feature = cleaned.features[wholeOf(row, "id")];
+    feature.fid = wholeOf(row, "fid_of_feature");
+    feature.source = textOf(row, "source");
+  });
+  forEachRow(attributes, [&](const OGRFeature& row) {
+    const auto feature = cleaned.features.find(wholeOf(row, "feature_id"));
+    if (feature != cleaned.features.end())
+      feature->second.attributes.emplace_back(textOf(row, "name"), textOf(row, "value"));
+  });
+}
+
+std::optional<FeatureUse> useOfKind(std::string_view kind) {
+  if (kind == "open") return FeatureUse::Open;
+  if (kind == "weir") return FeatureUse::Weir;
+  if (kind == "constraint") return FeatureUse::Constraint;
+  return kind == "region" ? std::optional(FeatureUse::Region) : std::nullopt;
+}
+
+void takeEdges(OGRLayer* layer, Cleaned& cleaned, ReadReport& report) {
+  forEachRow(layer, [&](const OGRFeature& row) {
+    const OGRGeometry* const geometry = shapeOf(row, wkbLineString);
+    if (!geometry) return;
+    std::vector<Point> points = pointsOf(*geometry->toLineString());
+    if (points.size() < 2) return;
+    for (const Point& p : points) cleaned.bounds.add(p);
+    report.points += points.size();
+    const std::int64_t part = wholeOf(row, "region");
+    cleaned.vertices[part].emplace(wholeOf(row, "first"), points.front());
+    cleaned.vertices[part].emplace(wholeOf(row, "last"), points.back());
+    const FeatureId left = wholeOf(row, "left_id"), right = wholeOf(row, "right_id");
+    for (const FeatureId side : {left, right}) {
+      if (side <= 0 || left == right) continue;
+      cleaned.rims[side].push_back(points);
+      cleaned.part_of[side] = part;
+    }
+    if (const auto use = useOfKind(textOf(row, "kind")))
+      cleaned.lines[{*use, wholeOf(row, "line_id")}].push_back(std::move(points));
+  });
+}
+
+void takeVertices(OGRLayer* layer, Cleaned& cleaned) {
+  forEachRow(layer, [&](const OGRFeature& row) {
+    const OGRGeometry* const geometry = shapeOf(row, wkbPoint);
+    if (!geometry) return;
+    cleaned.alone.push_back({geometry->toPoint()->getX(), geometry->toPoint()->getY()});
+    cleaned.bounds.add(cleaned.alone.back());
+    cleaned.vertices[wholeOf(row, "region")].emplace(wholeOf(row, "number"), cleaned.alone.back());
+  });
+}
+
+void takeRegions(OGRLayer* layer, Cleaned& cleaned) {
+  const auto ringOf = [](const OGRLinearRing& ring) {
+    Ring points = pointsOf(ring);
+    if (points.size() > 1 && points.front() == points.back()) points.pop_back();
+    return points;
+  };
+  forEachRow(layer, [&](const OGRFeature& row) {
+    const OGRGeometry* const geometry = shapeOf(row, wkbPolygon);
+    if (!geometry) return;
+    const OGRPolygon& shape = *geometry->toPolygon();
+    Polygon& polygon = cleaned.regions[wholeOf(row, "feature_id")].emplace_back();
+    polygon.outer = ringOf(*shape.getExteriorRing());
+    for (int i = 0; i < shape.getNumInteriorRings(); ++i) polygon.holes.push_back(ringOf(*shape.getInteriorRing(i)));
+  });
 }
 
 void takeEdits(OGRLayer& layer, ReadReport& report) {
@@ -126,11 +187,19 @@ void takeEdits(OGRLayer& layer, ReadReport& report) {
 
 std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, ReadReport& report) {
   OGRLayer* const pslg = layerNamed(source, kPslgLayer);
-  if (!pslg || !isPslg(*pslg)) return std::nullopt;
+  if (!pslg || !hasFields(*pslg, {"kind", "region", "left_fid", "right_fid"})) return std::nullopt;
+  OGRLayer* const features = layerNamed(source, kFeatureLayer);
+  OGRLayer* const attributes = layerNamed(source, kAttributeLayer);
+  if (!features || !attributes || !hasFields(*pslg, {"left_id", "right_id", "line_id", "first", "last"}))
+    throw InputError(source.name +
+                     ": an older coastmesh cleaned it, and it does not say all that is needed; clean the "
+                     "input again");
   report.cleaned = true;
   Cleaned cleaned;
-  takeEdges(*pslg, cleaned, report);
-  if (OGRLayer* const vertices = layerNamed(source, kVertexLayer)) takePoints(*vertices, cleaned);
+  takeFeatures(features, attributes, cleaned);
+  takeEdges(pslg, cleaned, report);
+  takeVertices(layerNamed(source, kVertexLayer), cleaned);
+  takeRegions(layerNamed(source, kRegionLayer), cleaned);
   if (OGRLayer* const edits = layerNamed(source, kEditLayer)) takeEdits(*edits, report);
 
   std::vector<RawLayer> layers;
@@ -143,24 +212,48 @@ std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, ReadR
     if (srs && !srs->IsEmpty()) layer.crs = fromOgr(srs);
     return layer;
   };
-  RawLayer& areas = add(FeatureUse::Area);
-  for (const auto& [key, rim] : cleaned.rims) {
-    areas.features.push_back(areaOf(key.second, rim, source.name, areas.crs && areas.crs->geographic));
-    for (const Polygon& polygon : areas.features.back().polygons) report.rings += 1 + polygon.holes.size();
-  }
-  for (auto& [use, lines] : cleaned.lines) {
-    RawLayer& layer = add(use);
-    Feature& feature = layer.line_features.emplace_back();
-    feature.source = source.name;
+  const auto featureOf = [&](FeatureId id, FeatureUse use) {
+    const auto known = cleaned.features.find(id);
+    Feature feature = known == cleaned.features.end() ? Feature{} : known->second;
+    if (feature.source.empty()) feature.source = source.name;
     feature.use = use;
-    for (auto& line : lines) layer.lines.push_back({std::move(line), 0});
+    return feature;
+  };
+  RawLayer& areas = add(FeatureUse::Area);
+  std::set<std::int64_t> parts;
+  for (const auto& [id, rim] : cleaned.rims) {
+    Feature& feature = areas.features.emplace_back(featureOf(id, FeatureUse::Area));
+    addAreas(rim, areas.crs && areas.crs->geographic, feature);
+    for (const Polygon& polygon : feature.polygons) report.rings += 1 + polygon.holes.size();
+    const std::int64_t part = cleaned.part_of.at(id);
+    if (!parts.insert(part).second) continue;
+    for (const auto& [number, place] : cleaned.vertices[part]) feature.vertex_order.push_back(place);
   }
-  if (!cleaned.vertices.empty()) {
+  for (const FeatureUse use : {FeatureUse::Constraint, FeatureUse::Weir, FeatureUse::Open}) {
+    RawLayer layer = add(use);
+    layers.pop_back();
+    for (auto& [key, lines] : cleaned.lines) {
+      if (key.first != use) continue;
+      for (auto& line : lines) layer.lines.push_back({std::move(line), layer.line_features.size()});
+      layer.line_features.push_back(featureOf(key.second, use));
+    }
+    if (!layer.lines.empty()) layers.push_back(std::move(layer));
+  }
+  if (!cleaned.regions.empty()) {
+    RawLayer& layer = add(FeatureUse::Region);
+    for (auto& [id, polygons] : cleaned.regions) {
+      Feature& feature = layer.features.emplace_back(featureOf(id, FeatureUse::Region));
+      feature.polygons = std::move(polygons);
+      const auto border = cleaned.lines.find({FeatureUse::Region, id});
+      if (border != cleaned.lines.end()) feature.lines = std::move(border->second);
+    }
+  }
+  if (!cleaned.alone.empty()) {
     RawLayer& layer = add(FeatureUse::Constraint);
     Feature& feature = layer.line_features.emplace_back();
     feature.source = source.name;
     feature.use = FeatureUse::Constraint;
-    feature.points = std::move(cleaned.vertices);
+    feature.points = std::move(cleaned.alone);
   }
   return layers;
 }

@@ -43,6 +43,7 @@ struct Feature {
   bool clipped = false;       // far-off parts of it were cut off, or longitudes jump: its rings' sides tell nothing
   std::string region;         // of a meshed part: the region it lies in
   std::vector<Point> points;  // of a constraint: vertices to be
+  std::vector<Point> vertex_order;  // of a cleaned part: vertices as they were numbered, those of other features too
 };
 
 // What was read, in the input's own CRS and with its own coordinates, nothing mended yet.

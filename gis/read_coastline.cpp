@@ -98,6 +98,8 @@ void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport&
       reprojection.apply(polygon.outer, feature.fid);
       for (Ring& hole : polygon.holes) reprojection.apply(hole, feature.fid);
     }
+    for (auto& line : feature.lines) reprojection.apply(line, feature.fid);
+    reprojection.apply(feature.vertex_order, feature.fid);
   }
   for (Feature& feature : layer.line_features) reprojection.apply(feature.points, feature.fid);
   for (RawLayer::Line& line : layer.lines) {

@@ -145,6 +145,38 @@ TEST_F(NamedLines, ConvertSaysWhatAFileCannotHold) {
   EXPECT_EQ(valuesOf(layerOf(file("a.nc"), "boundaries"), "ibtype"), std::set<std::string>{"24"});
 }
 
+// What was cleaned first is meshed as the inputs themselves are, with all that is known of them.
+TEST_F(NamedLines, CleanedFilesHoldAllOfTheInput) {
+  const std::vector<std::string> given{inputFile("lines/lake.geojson"), "--weirs", inputFile("lines/weirs.geojson"),
+                                       "--regions", inputFile("lines/regions.geojson")};
+  const auto run = [&](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    done(arguments);
+  };
+  run({"clean", "-o", file("cleaned.gpkg"), "--quiet"}, given);
+  run({"mesh", "-o", file("direct.gpkg"), "--report", file("direct.json"), "--quiet"}, given);
+  done({"mesh", file("cleaned.gpkg"), "-o", file("then.gpkg"), "--report", file("then.json"), "--quiet"});
+  EXPECT_EQ(Json::parse(readText(file("direct.json")))["mesh"]["digest"],
+            Json::parse(readText(file("then.json")))["mesh"]["digest"]);
+  EXPECT_TRUE(readText(file("direct.gpkg")) == readText(file("then.gpkg")));
+  EXPECT_EQ(valuesOf(layerOf(file("then.gpkg"), "triangles"), "region"), (std::set<std::string>{"north", "south"}));
+  EXPECT_EQ(valuesOf(layerOf(file("then.gpkg"), "lines"), "name"), (std::set<std::string>{"w1", "north", "south"}));
+  done({"clean", file("cleaned.gpkg"), "-o", file("again.gpkg"), "--quiet"});
+  EXPECT_TRUE(readText(file("cleaned.gpkg")) == readText(file("again.gpkg")));
+}
+
+// A column with types of boundaries comes along with the other attributes.
+TEST_F(NamedLines, CleanedFilesHoldTypesOfBoundaries) {
+  std::string lake = readText(inputFile("lines/lake.geojson"));
+  lake.replace(lake.find("\"id\": 1"), 7, "\"type\": \"river\"");
+  const std::string input = write("rivers.geojson", lake);
+  done({"clean", input, "-o", file("cleaned.gpkg"), "--quiet"});
+  done({"mesh", file("cleaned.gpkg"), "--boundary-column", "type", "-o", file("then.nc"), "--quiet"});
+  done({"mesh", input, "--boundary-column", "type", "-o", file("direct.nc"), "--quiet"});
+  EXPECT_TRUE(readText(file("direct.nc")) == readText(file("then.nc")));
+  EXPECT_EQ(valuesOf(layerOf(file("then.nc"), "boundaries"), "role"), std::set<std::string>{"river"});
+}
+
 }  // namespace
 
 }  // namespace coastmesh::test

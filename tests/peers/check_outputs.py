@@ -25,6 +25,9 @@ MSH22 = "_22.msh"
 
 SHORE = [(-87.50, 43.10), (-87.30, 43.08), (-87.20, 43.20), (-87.25, 43.33), (-87.45, 43.30), (-87.52, 43.20)]
 ISLAND = [(-87.40, 43.18), (-87.42, 43.22), (-87.36, 43.24), (-87.33, 43.20)]
+WEIR, WEIR_NAME = [(-87.48, 43.20), (-87.46, 43.17), (-87.45, 43.13)], "Old dam"
+REGION, REGION_NAME = [(-87.31, 43.25), (-87.25, 43.25), (-87.25, 43.29), (-87.31, 43.29)], "deep water"
+LINE_NAMES = [f"region border {REGION_NAME}", f"weir {WEIR_NAME}"]
 
 skipped, failed = set(), []
 
@@ -58,7 +61,9 @@ class Mesh:
         self.nodes = [(float(row[1]), float(row[2])) for row in rows(".node")]
         self.triangles = [tuple(int(n) - 1 for n in row[1:4]) for row in rows(".ele")]
         segments = [line.split() for line in open(folder / (stem + ".poly"))][2:]
-        self.rim = sorted((int(row[1]) - 1, int(row[2]) - 1) for row in segments if len(row) == 4)
+        edges = [(int(row[1]) - 1, int(row[2]) - 1, int(row[3]) % 10) for row in segments if len(row) == 4]
+        self.rim = sorted((a, b) for a, b, kind in edges if kind <= 4)
+        self.lines = sorted(tuple(sorted((a, b))) for a, b, kind in edges if kind > 4)
 
     def corners(self):
         return sorted(sorted(self.nodes[n] for n in triangle) for triangle in self.triangles)
@@ -79,6 +84,16 @@ def check_netcdf4(path, mesh, crs):
     expect("netCDF4: edges", [tuple(row - edges.start_index) for row in edges[:]], sorted(want))
     rim = data[topology.boundary_node_connectivity]
     expect("netCDF4: boundary", sorted(tuple(row - rim.start_index) for row in rim[:]), mesh.rim)
+    if mesh.lines:
+        number = data["mesh2d_edge_line"]
+        inside = [tuple(row - edges.start_index) for row, line in zip(edges[:], number[:]) if line > 0]
+        expect("netCDF4: lines", sorted(tuple(map(int, edge)) for edge in inside), mesh.lines)
+        names = [bytes(row).rstrip(b"\0").decode() for row in data["mesh2d_line_name"][:]]
+        expect("netCDF4: names of lines", sorted(names), sorted([WEIR_NAME, REGION_NAME]))
+        expect("netCDF4: meanings", len(number.flag_meanings.split()), len(number.flag_values))
+        regions = [bytes(row).rstrip(b"\0").decode() for row in data["mesh2d_region_name"][:]]
+        expect("netCDF4: regions", regions, [REGION_NAME])
+        expect("netCDF4: triangles of regions", sorted(set(data["mesh2d_region"][:].tolist())), [0, 1])
     mapping = getattr(data["mesh2d_node_x"], "grid_mapping", None)
     expect("netCDF4: CRS", data[mapping].EPSG_code if mapping else "", crs)
 
@@ -105,10 +120,14 @@ def check_meshio(path, mesh, _):
     expect(f"meshio {path.name}: corners", corners, mesh.corners())
     if path.suffix == ".msh":
         names = sorted(name for name, (_, dimension) in read.field_data.items() if dimension == 1)
-        expect(f"meshio {path.name}: boundaries", names, ["island 2", "land 1"])
+        expect(f"meshio {path.name}: curves", names, ["island 2", "land 1"] + (LINE_NAMES if mesh.lines else []))
+        surfaces = [name for name, (_, dimension) in read.field_data.items() if dimension == 2]
+        named = any(name.endswith(f" in {REGION_NAME}") for name in surfaces)
+        expect(f"meshio {path.name}: a surface named by its region", named, bool(mesh.lines))
         lines = [tuple(row) for block in read.cells if block.type == "line" for row in block.data.tolist()]
-        ends = sorted((points[a], points[b]) for a, b in lines)
-        expect(f"meshio {path.name}: lines", ends, sorted((mesh.nodes[a], mesh.nodes[b]) for a, b in mesh.rim))
+        ends = sorted(tuple(sorted((points[a], points[b]))) for a, b in lines)
+        wanted = sorted(tuple(sorted((mesh.nodes[a], mesh.nodes[b]))) for a, b in mesh.rim + mesh.lines)
+        expect(f"meshio {path.name}: lines", ends, wanted)
         groups = [row for block in read.cell_data["gmsh:physical"] for row in block.tolist()]
         expect(f"meshio {path.name}: every element in a group", min(groups) > 0, True)
 
@@ -159,6 +178,8 @@ def check_gdal(path, mesh, crs):
 
     ogr.UseExceptions()
     counts = {"triangles": len(mesh.triangles), "nodes": len(mesh.nodes), "boundaries": 2}
+    if mesh.lines:
+        counts["lines"] = 2
     for name, count in counts.items():
         dataset, layer = open_layer(ogr, path, name)
         if layer is None:
@@ -172,7 +193,12 @@ def check_gdal(path, mesh, crs):
                 code = code.replace("4979", "4326")
             expect(f"GDAL {path.name} {name}: CRS", code, crs)
         fields = [field.GetName() for field in layer.schema]
-        wanted = {"triangles": ["min_angle", "area_m2"], "nodes": [], "boundaries": ["role", "closed", "length_m"]}[name]
+        wanted = {
+            "triangles": ["min_angle", "area_m2"] + (["region"] if mesh.lines else []),
+            "nodes": [],
+            "boundaries": ["role", "closed", "length_m"],
+            "lines": ["kind", "name", "closed", "length_m"],
+        }[name]
         expect(f"GDAL {path.name} {name}: fields", [field for field in wanted if field not in fields], [])
         if name == "triangles":
             rings = [feature.GetGeometryRef().GetGeometryRef(0) for feature in layer_features(layer)]
@@ -181,6 +207,9 @@ def check_gdal(path, mesh, crs):
         if name == "nodes":
             places = sorted((f.GetGeometryRef().GetX(), f.GetGeometryRef().GetY()) for f in layer_features(layer))
             expect(f"GDAL {path.name}: nodes", places, sorted(mesh.nodes))
+        if name == "lines":
+            found = sorted(f"{feature.GetField('kind')} {feature.GetField('name')}" for feature in layer_features(layer))
+            expect(f"GDAL {path.name}: lines", found, LINE_NAMES)
         if name == "boundaries":
             roles = sorted(feature.GetField("role") for feature in layer_features(layer))
             expect(f"GDAL {path.name}: roles", roles, ["island", "land"])
@@ -260,6 +289,17 @@ def write_geojson(path, place, crs):
     path.write_text(json.dumps(collection))
 
 
+def write_named(path, kind, coordinates, name, place, crs):
+    """A layer with one line or polygon and its name."""
+    points = [place(*p) for p in coordinates]
+    geometry = {"type": kind, "coordinates": points if kind == "LineString" else [points + points[:1]]}
+    collection = {"type": "FeatureCollection", "features": []}
+    collection["features"].append({"type": "Feature", "properties": {"name": name}, "geometry": geometry})
+    if crs:
+        collection["crs"] = {"type": "name", "properties": {"name": crs}}
+    path.write_text(json.dumps(collection))
+
+
 def write_poly(path):
     points = SHORE + ISLAND
     segments = [(i, (i + 1) % 6) for i in range(6)] + [(6 + i, 6 + (i + 1) % 4) for i in range(4)]
@@ -273,13 +313,19 @@ def mesh_and_check(program, folder):
     for name, crs in inputs.items():
         out = folder / name
         out.mkdir()
+        lines = []
         source = folder / f"{name}.{'geojson' if crs else 'poly'}"
         if name == "plane":
             write_poly(source)
         else:
-            write_geojson(source, utm16 if name == "projected" else lambda *p: p, crs if name == "projected" else None)
+            place, given = (utm16, crs) if name == "projected" else (lambda *p: p, None)
+            write_geojson(source, place, given)
+            write_named(folder / f"{name}_weir.geojson", "LineString", WEIR, WEIR_NAME, place, given)
+            write_named(folder / f"{name}_region.geojson", "Polygon", REGION, REGION_NAME, place, given)
+            lines = ["--weirs", str(folder / f"{name}_weir.geojson")]
+            lines += ["--regions", str(folder / f"{name}_region.geojson")]
         outputs = [arg for ending in FORMATS for arg in ("-o", str(out / f"lake.{ending}"))]
-        subprocess.run([program, "mesh", str(source), "--quiet", *outputs], check=True)
+        subprocess.run([program, "mesh", str(source), *lines, "--quiet", *outputs], check=True)
         convert = [program, "convert", str(out / "lake.msh"), "--format", "gmsh22", "-o", str(out / ("lake" + MSH22))]
         subprocess.run(convert, check=True)
         check_folder(out, "lake", crs)
