@@ -16,6 +16,7 @@
 #include "apps/run_outputs.hpp"
 #include "apps/stopwatch.hpp"
 #include "apps/vector_output.hpp"
+#include "gis/assign_boundaries.hpp"
 #include "gis/error.hpp"
 #include "gis/poly_io.hpp"
 #include "parallel/workers.hpp"
@@ -26,6 +27,7 @@ namespace {
 
 struct CleanUsage {
   InputOptions input;
+  std::string boundary_column;
   std::string output;
   std::string report;
   bool overwrite = false;
@@ -96,6 +98,27 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
   return cleaned;
 }
 
+// What the input's column says of the segments of the rim, by domain; empty where nothing is said.
+RimTypes rimTypes(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned) {
+  RimTypes types;
+  if (usage.boundary_column.empty() && !input.report().boundary_types) return types;
+  for (const Domain& domain : cleaned.domains) {
+    std::vector<NodePair> edges;
+    std::vector<std::size_t> segments;
+    for (std::size_t s = 0; s < domain.pslg.segments.size(); ++s) {
+      const Segment& segment = domain.pslg.segments[s];
+      if ((segment.left < 0) == (segment.right < 0)) continue;
+      edges.push_back({segment.a, segment.b});
+      segments.push_back(s);
+    }
+    const std::vector<std::string> texts =
+        boundaryTexts(input.coastline().crs, domain.input_points, edges, usage.input.files, usage.boundary_column);
+    std::vector<std::string>& of_domain = types.emplace_back(domain.pslg.segments.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) of_domain[segments[i]] = texts[i];
+  }
+  return types;
+}
+
 // All groups in one graph. A .poly knows no projection, so they have to share a plane.
 Pslg joinedPslg(const CleanedInput& cleaned, const CleanUsage& usage, const Crs& crs) {
   const bool one_plane = cleaned.domains.size() == 1 || usage.input.crs != "auto" || crs.isPlane();
@@ -158,6 +181,8 @@ void printReport(const CleanUsage& usage, const CleanedInput& cleaned) {
 
 int runClean(const CleanUsage& usage, Run& run) {
   const bool poly = std::filesystem::path(usage.output).extension() == ".poly";
+  if (poly && !usage.boundary_column.empty())
+    throw UsageError("--boundary-column: '" + usage.output + "' cannot hold types of boundaries; write a .gpkg");
   if (!poly) requireVectorFormat(usage.output, 2);
   RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
   StagedFiles& output = outputs.addFile(usage.output);
@@ -174,7 +199,8 @@ int runClean(const CleanUsage& usage, Run& run) {
   } else {
     output.make([&](const std::string& path) {
       writeVectorLayers(path, input.coastline().crs,
-                        cleanedLayers(cleaned.domains, cleaned.report, input.coastline(), input.report()));
+                        cleanedLayers(cleaned.domains, cleaned.report, input.coastline(), input.report(),
+                                      rimTypes(usage, input, cleaned)));
     });
   }
   seconds.total = watch.seconds();
@@ -197,6 +223,9 @@ Command declareClean(CLI::App& root) {
               "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
   declareInputOptions(line, usage->input);
   declarePinches(line, usage->input);
+  line.text(
+      "--boundary-column", usage->boundary_column, "NAME",
+      "the column of INPUT with the types of boundaries, which go into the layer pslg and from there into a mesh");
   line.output("--report", usage->report, {.standard_output = true},
               "write what was read and mended, and the time it took, as JSON; - prints it in place of the summary");
   line.flag("--overwrite", usage->overwrite, "replace a file that exists");

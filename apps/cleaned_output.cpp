@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gis/cleaned_layers.hpp"
+#include "gis/feature_names.hpp"
 #include "gis/segment_tags.hpp"
 
 namespace coastmesh {
@@ -49,15 +50,18 @@ struct PslgEdge {
   std::size_t domain;
   RegionId left, right;
   std::size_t line;  // feature, or none
+  std::string boundary{};
 };
 
-std::vector<PslgEdge> sortedEdges(const std::vector<Domain>& domains) {
+std::vector<PslgEdge> sortedEdges(const std::vector<Domain>& domains, const RimTypes& types) {
   std::vector<PslgEdge> edges;
   for (std::size_t d = 0; d < domains.size(); ++d) {
     const Domain& domain = domains[d];
-    for (const Segment& s : domain.pslg.segments) {
+    for (std::size_t i = 0; i < domain.pslg.segments.size(); ++i) {
+      const Segment& s = domain.pslg.segments[i];
       PslgEdge edge{domain.input_points[s.a], domain.input_points[s.b], s.a, s.b, kindOf(s, domain), d, s.left, s.right,
                     lineFeatureOf(s, domain)};
+      if (!types.empty()) edge.boundary = types[d][i];
       if (lexLess(edge.b, edge.a)) {
         std::swap(edge.a, edge.b);
         std::swap(edge.first, edge.last);
@@ -109,16 +113,19 @@ std::int64_t fidOf(RegionId region, const Coastline& coastline) {
   return region < 0 ? -1 : coastline.features[static_cast<std::size_t>(region)].fid;
 }
 
-VectorLayer pslgLayer(const std::vector<PslgEdge>& edges, const Numbers& numbers, const Coastline& coastline) {
+VectorLayer pslgLayer(const std::vector<PslgEdge>& edges, const Numbers& numbers, const Coastline& coastline,
+                      bool with_types) {
   VectorLayer layer{kPslgLayer, VectorLayer::Kind::Lines, {{"kind", std::string()}}, {}};
   for (const char* name : {"region", "left_fid", "right_fid", "left_id", "right_id", "line_id", "first", "last"})
     layer.fields.emplace_back(name, std::int64_t{});
+  if (with_types) layer.fields.emplace_back(kBoundaryField, std::string());
   for (const PslgEdge& edge : edges) {
     layer.shapes.push_back(
         {{edge.a, edge.b},
          {std::string(edge.kind), static_cast<std::int64_t>(edge.domain), fidOf(edge.left, coastline),
           fidOf(edge.right, coastline), numbers.area(edge.domain, edge.left), numbers.area(edge.domain, edge.right),
           numbers.line(edge.line), std::int64_t{edge.first}, std::int64_t{edge.last}}});
+    if (with_types) layer.shapes.back().values.emplace_back(edge.boundary);
   }
   return layer;
 }
@@ -144,7 +151,12 @@ VectorLayer attributeLayer(const Numbers& numbers, const Coastline& coastline) {
   std::int64_t id = 0;
   for (const std::size_t f : numbers.features()) {
     ++id;
-    for (const auto& [name, value] : coastline.features[f].attributes) layer.shapes.push_back({{}, {id, name, value}});
+    const Feature& feature = coastline.features[f];
+    for (const auto& [name, value] : feature.attributes) {
+      // Of a ring made of several lines, no more than its name is that of the first.
+      if (feature.from_lines && !isNameAttribute(name)) continue;
+      layer.shapes.push_back({{}, {id, name, value}});
+    }
   }
   return layer;
 }
@@ -204,10 +216,10 @@ VectorLayer vertexLayer(const std::vector<Domain>& domains) {
 }  // namespace
 
 std::vector<VectorLayer> cleanedLayers(const std::vector<Domain>& domains, const CleanReport& report,
-                                       const Coastline& coastline, const ReadReport& read) {
-  const std::vector<PslgEdge> edges = sortedEdges(domains);
+                                       const Coastline& coastline, const ReadReport& read, const RimTypes& types) {
+  const std::vector<PslgEdge> edges = sortedEdges(domains, types);
   const Numbers numbers(edges, coastline);
-  std::vector<VectorLayer> layers{pslgLayer(edges, numbers, coastline), editLayer(report, read),
+  std::vector<VectorLayer> layers{pslgLayer(edges, numbers, coastline, !types.empty()), editLayer(report, read),
                                   featureLayer(numbers, coastline), attributeLayer(numbers, coastline)};
   for (VectorLayer& layer : std::vector{vertexLayer(domains), regionLayer(numbers, coastline)})
     if (!layer.shapes.empty()) layers.push_back(std::move(layer));

@@ -217,11 +217,13 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   });
   merge.finish();
   result.grid.crs = result.crs;
-  if (job.finish.any()) {
+  FinishOptions finish = job.finish;
+  if (result.read.boundary_types) finish.boundaries.inputs = job.input.files;
+  if (finish.any()) {
     const Stopwatch finishing;
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
-    result.finish = finishGrid(result.grid, job.finish, inner);
+    result.finish = finishGrid(result.grid, finish, inner);
     if (!result.finish.repairs.repairs.empty()) measureAgain(job, result);
     result.seconds.finish = finishing.seconds();
     result.log.addAlone("finish", result.seconds.finish);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "gis/box_tree.hpp"
+#include "gis/cleaned_layers.hpp"
 #include "gis/crs_map.hpp"
 #include "gis/error.hpp"
 #include "gis/geodesy.hpp"
@@ -146,11 +147,13 @@ class RuleSet {
   RuleSet(const std::string& path, const std::string& column, bool all_have_it) {
     ReadReport ignored;
     layers_ = readLayers({path, FeatureUse::Area}, {}, ignored);
+    // What a cleaned file says of its rim edge by edge counts alone.
+    if (ignored.boundary_types) std::erase_if(layers_, [](const RawLayer& l) { return l.use != FeatureUse::Boundary; });
     for (const RawLayer& layer : layers_) {
       Layer& made = made_.emplace_back();
       made.raw = &layer;
       const auto addKind = [&](const Feature& feature) -> std::optional<RimKind> {
-        const auto text = typeOf(feature, column);
+        const auto text = typeOf(feature, feature.use == FeatureUse::Boundary ? kBoundaryField : column);
         const std::string what = feature.source + ", feature " + std::to_string(feature.fid);
         if (text) return kindOfText(*text, what);
         if (all_have_it)
@@ -368,6 +371,22 @@ std::size_t mergeShort(const Grid& grid, double least_m, Rim& rim) {
 }
 
 }  // namespace
+
+std::vector<std::string> boundaryTexts(const Crs& crs, const std::vector<Point>& places,
+                                       const std::vector<NodePair>& edges, const std::vector<std::string>& inputs,
+                                       const std::string& column) {
+  Grid grid;
+  grid.crs = crs;
+  grid.nodes = places;
+  std::vector<std::string> texts(edges.size());
+  for (const std::string& input : inputs) {
+    RuleSet(input, column, false)
+        .apply(grid, edges, std::vector<bool>(edges.size(), true), [&](std::size_t e, const RimKind& kind) {
+          texts[e] = kind.ibtype >= 0 ? std::to_string(kind.ibtype) : std::string(toString(kind.role));
+        });
+  }
+  return texts;
+}
 
 BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options) {
   BoundaryReport report;

@@ -16,7 +16,8 @@ struct BoundaryOptions {
   // says. Where several do, the last counts. Polygons open no islands; lines do.
   std::vector<std::string> files;
   std::string column;  // the column of types; empty: the first called type, role, boundary, ibtype or kind
-  // The same for files whose features may lack the column: the input itself.
+  // The same for files whose features may lack the column: the input itself. One that `coastmesh clean` wrote with types of
+  // its rim tells these, whatever the column.
   std::vector<std::string> inputs;
   double open_deeper_m = std::numeric_limits<double>::infinity();  // metres: edges of outer loops are open where both
                                                                    // ends are deeper, unless a file says otherwise
@@ -35,6 +36,12 @@ struct BoundaryReport {
 // level) and river (inflow, discharge, flow), in capitals or not, or a number: ADCIRC's IBTYPE, -1 being open. Throws
 // InputError with `what` at its start.
 RimKind kindOfText(const std::string& text, const std::string& what);
+
+// What the columns of `inputs` say of edges of the rim, as `kindOfText` takes it; empty where they say nothing. `edges`
+// are pairs of `places`, which are in `crs`. Throws InputError.
+std::vector<std::string> boundaryTexts(const Crs& crs, const std::vector<Point>& places,
+                                       const std::vector<NodePair>& edges, const std::vector<std::string>& inputs,
+                                       const std::string& column);
 
 // Sets the grid's boundaries anew by the options, on top of what they were. Throws InputError.
 BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options);

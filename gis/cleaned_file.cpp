@@ -72,6 +72,7 @@ struct Cleaned {
   std::map<FeatureId, Lines> rims;
   std::map<FeatureId, std::int64_t> part_of;  // of areas: the part of the graph
   std::map<std::pair<FeatureUse, FeatureId>, Lines> lines;
+  std::map<std::string, Lines> boundaries;  // by what they are
   std::map<FeatureId, std::vector<Polygon>> regions;
   std::map<std::int64_t, std::map<std::int64_t, Point>> vertices;  // by part and number
   std::vector<Point> alone;                                        // vertices that no edge has
@@ -138,6 +139,10 @@ void takeEdges(OGRLayer* layer, Cleaned& cleaned, ReadReport& report) {
       if (side <= 0 || left == right) continue;
       cleaned.rims[side].push_back(points);
       cleaned.part_of[side] = part;
+    }
+    if (const int type = row.GetFieldIndex(kBoundaryField); type >= 0 && row.IsFieldSetAndNotNull(type)) {
+      if (const std::string text = row.GetFieldAsString(type); !text.empty())
+        cleaned.boundaries[text].push_back(points);
     }
     if (const auto use = useOfKind(textOf(row, "kind")))
       cleaned.lines[{*use, wholeOf(row, "line_id")}].push_back(std::move(points));
@@ -247,6 +252,20 @@ std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, ReadR
       const auto border = cleaned.lines.find({FeatureUse::Region, id});
       if (border != cleaned.lines.end()) feature.lines = std::move(border->second);
     }
+  }
+  for (const auto& [text, lines] : cleaned.boundaries) {
+    RawLayer& layer = add(FeatureUse::Boundary);
+    Feature& feature = layer.line_features.emplace_back();
+    feature.source = source.name;
+    feature.use = FeatureUse::Boundary;
+    feature.attributes = {{kBoundaryField, text}};
+    JoinedLines joined = joinLines(lines);
+    for (JoinedLines::Part& ring : joined.rings) {
+      ring.points.push_back(ring.points.front());
+      layer.lines.push_back({std::move(ring.points), 0});
+    }
+    for (JoinedLines::Part& part : joined.open) layer.lines.push_back({std::move(part.points), 0});
+    report.boundary_types = true;
   }
   if (!cleaned.alone.empty()) {
     RawLayer& layer = add(FeatureUse::Constraint);

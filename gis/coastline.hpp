@@ -29,6 +29,7 @@ enum class FeatureUse {
   Weir,        // the same for lines that are weirs
   Region,      // polygons that give the triangles in them a region
   Open,        // lines: where they run along the rim, open water goes on beyond
+  Boundary,    // lines along the rim that tell types of boundaries, and nothing else
 };
 
 // One feature of a vector layer.

@@ -16,11 +16,14 @@ std::string lowerCase(std::string text) {
 std::string_view nameOf(const std::vector<std::pair<std::string, std::string>>& attributes) {
   for (const bool exactly : {true, false}) {
     for (const auto& [key, value] : attributes) {
-      const std::string lower = lowerCase(key);
-      if (exactly ? lower == "name" : lower.find("name") != std::string::npos) return value;
+      if (exactly ? lowerCase(key) == "name" : isNameAttribute(key)) return value;
     }
   }
   return {};
+}
+
+bool isNameAttribute(std::string_view attribute) {
+  return lowerCase(std::string(attribute)).find("name") != std::string::npos;
 }
 
 std::string regionNameOf(const Feature& feature) {

@@ -12,6 +12,9 @@ namespace coastmesh {
 // The value of the attribute "name", else of the first that has "name" in its own; in capitals or not. Empty: none.
 std::string_view nameOf(const std::vector<std::pair<std::string, std::string>>& attributes);
 
+// Whether an attribute may be meant: "name" is in its own.
+bool isNameAttribute(std::string_view attribute);
+
 // What a region is called: its attribute "tag", "region" or "name", else the number of its feature.
 std::string regionNameOf(const Feature& feature);
 

@@ -169,7 +169,8 @@ Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& fi
   std::vector<RawLayer> layers;
   for (const Source& source : sources) {
     const ReadFilter& own_filter = source.use == FeatureUse::Area ? filter : ReadFilter{};
-    for (RawLayer& layer : readLayers(source, own_filter, report)) layers.push_back(std::move(layer));
+    for (RawLayer& layer : readLayers(source, own_filter, report))
+      if (layer.use != FeatureUse::Boundary) layers.push_back(std::move(layer));
   }
   Coastline coastline;
   coastline.crs = crsOfFirst(layers.front(), report);

@@ -177,6 +177,27 @@ TEST_F(NamedLines, CleanedFilesHoldTypesOfBoundaries) {
   EXPECT_EQ(valuesOf(layerOf(file("then.nc"), "boundaries"), "role"), std::set<std::string>{"river"});
 }
 
+// Types of single lines, which are joined into one shore, need no option once they are in the cleaned file.
+TEST_F(NamedLines, CleanedFilesHoldTypesOfLines) {
+  const auto line = [](const std::string& type, const std::string& points) {
+    return R"({"type": "Feature", "properties": {"type": ")" + type +
+           R"("}, "geometry": {"type": "LineString", "coordinates": )" + points + "}}";
+  };
+  const std::string input =
+      write("lines.geojson", R"({"type": "FeatureCollection", "features": [)" + line("river", "[[0, 0], [0, 0.1]]") +
+                                 "," + line("10", "[[0, 0.1], [0.1, 0.1]]") + "," +
+                                 line("land", "[[0.1, 0.1], [0.1, 0], [0, 0]]") + "]}");
+  done({"mesh", input, "--boundary-column", "type", "-o", file("direct.gpkg"), "--quiet"});
+  done({"clean", input, "--boundary-column", "type", "-o", file("cleaned.gpkg"), "--quiet"});
+  done({"mesh", file("cleaned.gpkg"), "-o", file("then.gpkg"), "--quiet"});
+  const Json rim = layerOf(file("then.gpkg"), "boundaries");
+  EXPECT_EQ(valuesOf(rim, "role"), (std::set<std::string>{"land", "river"}));
+  EXPECT_EQ(valuesOf(rim, "ibtype"), std::set<std::string>{"10"});
+  EXPECT_EQ(rim, layerOf(file("direct.gpkg"), "boundaries"));
+  done({"clean", file("cleaned.gpkg"), "-o", file("again.gpkg"), "--quiet"});
+  EXPECT_TRUE(readText(file("cleaned.gpkg")) == readText(file("again.gpkg")));
+}
+
 }  // namespace
 
 }  // namespace coastmesh::test
