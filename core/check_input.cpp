@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "core/delaunay.hpp"
+#include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 
@@ -23,7 +24,7 @@ struct Expected {
   double area = 0.0;
 };
 
-// Labels on segments tell what the domain is; whether a point without segments lies in it they do not.
+// Labels on segments say what the domain is, but not whether a point without segments lies in it.
 bool labelsTellAll(const Pslg& pslg) {
   bool labelled = false;
   std::vector<bool> on_segment(pslg.points.size(), false);
@@ -183,7 +184,7 @@ struct PointHash {
   }
 };
 
-// Marks the edges on the way from one vertex straight to another. Answers false where the edges leave the straight way.
+// Marks the edges on the way from one vertex straight to another. Returns false where the edges leave the straight way.
 bool markChain(TriMesh& mesh, const std::vector<std::vector<EdgeRef>>& around, VertexId from, VertexId to,
                SegmentId seg) {
   constexpr double kDirectionRounding = 1e-6;
@@ -205,8 +206,7 @@ bool markChain(TriMesh& mesh, const std::vector<std::vector<EdgeRef>>& around, V
       best = e;
     }
     if (best == kNone) return false;
-    mesh.triangles[triOf(best)].seg[indexOf(best)] = seg;
-    if (const EdgeRef twin = mesh.twin(best); twin != kNone) mesh.triangles[triOf(twin)].seg[indexOf(twin)] = seg;
+    setSegment(mesh.triangles, best, seg);
     at = mesh.origin(best) == at ? mesh.target(best) : mesh.origin(best);
   }
   return true;

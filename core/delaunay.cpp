@@ -1,8 +1,10 @@
 #include "core/delaunay.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -10,6 +12,7 @@
 
 #include "core/delaunay_builder.hpp"
 #include "core/hilbert.hpp"
+#include "core/links.hpp"
 #include "core/metric.hpp"
 
 namespace coastmesh {
@@ -228,10 +231,11 @@ TriMesh constrainedDelaunay(const Pslg& pslg) {
   mesh.regions.resize(count);
   for (TriId from = 0; from < numbers.size(); ++from) {
     if (numbers[from] == kNone) continue;
-    Triangle& t = mesh.triangles[numbers[from]] = builder.triangles()[from];
+    mesh.triangles[numbers[from]] = renumbered(
+        builder.triangles()[from], [&](TriId t) { return numbers[t]; }, std::identity());
     mesh.regions[numbers[from]] = region[from];
-    for (EdgeRef& adj : t.adj) adj = numbers[triOf(adj)] == kNone ? kNone : edgeRef(numbers[triOf(adj)], indexOf(adj));
   }
+  assert(findBrokenLink(mesh.triangles) == kNone);
   return mesh;
 }
 

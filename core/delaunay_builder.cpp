@@ -9,6 +9,7 @@
 
 #include "core/flip.hpp"
 #include "core/hilbert.hpp"
+#include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 
@@ -60,34 +61,27 @@ bool DelaunayBuilder::startWith(std::vector<VertexId>& order) {
   VertexId a = order[0], b = order[1];
   const VertexId c = order[2];
   if (orient2d(p, q, points_[c]) < 0) std::swap(a, b);
-  triangles_.reserve(2 * points_.size());
+  mesh_.triangles.reserve(2 * points_.size());
   const TriId inner = makeTriangle(a, b, c);
   const TriId outer[3] = {makeTriangle(ghost_, c, b), makeTriangle(ghost_, a, c), makeTriangle(ghost_, b, a)};
-  for (unsigned i = 0; i < 3; ++i) link(edgeRef(inner, i), edgeRef(outer[i], 0));
-  for (unsigned i = 0; i < 3; ++i) link(edgeRef(outer[i], 1), edgeRef(outer[prev3(i)], 2));
+  for (unsigned i = 0; i < 3; ++i) setTwins(mesh_.triangles, edgeRef(inner, i), edgeRef(outer[i], 0));
+  for (unsigned i = 0; i < 3; ++i) setTwins(mesh_.triangles, edgeRef(outer[i], 1), edgeRef(outer[prev3(i)], 2));
   return true;
 }
 
 TriId DelaunayBuilder::makeTriangle(VertexId a, VertexId b, VertexId c) {
-  const auto t = static_cast<TriId>(triangles_.size());
-  triangles_.push_back({});
-  triangles_[t].v = {a, b, c};
+  const auto t = static_cast<TriId>(mesh_.triangles.size());
+  mesh_.triangles.push_back(unlinked({a, b, c}));
   triangle_of_[a] = triangle_of_[b] = triangle_of_[c] = t;
   return t;
-}
-
-void DelaunayBuilder::link(EdgeRef e, EdgeRef f) {
-  assert(origin(e) == target(f) && target(e) == origin(f));
-  triangles_[triOf(e)].adj[indexOf(e)] = f;
-  triangles_[triOf(f)].adj[indexOf(f)] = e;
 }
 
 // A triangle that is to go where x comes in: its circle holds x; of a ghost, the half-plane beyond its edge, or the edge
 // itself.
 bool DelaunayBuilder::isInConflict(TriId t, const Point& x) const {
-  const auto& v = triangles_[t].v;
+  const auto& v = mesh_.triangles[t].v;
   if (!isGhost(t)) return inCircle(points_[v[0]], points_[v[1]], points_[v[2]], x) > 0;
-  const unsigned i = cornerOf(t, ghost_);
+  const unsigned i = mesh_.cornerOf(t, ghost_);
   const Point &a = points_[v[next3(i)]], &b = points_[v[prev3(i)]];
   const int side = orient2d(a, b, x);
   return side > 0 || (side == 0 && dot(a - x, b - x) < 0.0);
@@ -96,16 +90,16 @@ bool DelaunayBuilder::isInConflict(TriId t, const Point& x) const {
 // Without segments in the way the walk ends; with them it might go round in circles.
 TriId DelaunayBuilder::walkTo(const Point& x, TriId from) const {
   TriId t = from;
-  if (isGhost(t)) t = triOf(triangles_[t].adj[cornerOf(t, ghost_)]);
+  if (isGhost(t)) t = triOf(mesh_.triangles[t].adj[mesh_.cornerOf(t, ghost_)]);
   EdgeRef came = kNone;
-  for (std::size_t steps = 0; steps <= triangles_.size(); ++steps) {
+  for (std::size_t steps = 0; steps <= mesh_.triangles.size(); ++steps) {
     EdgeRef onward = kNone;
     for (unsigned i = 0; i < 3 && onward == kNone; ++i) {
       const EdgeRef e = edgeRef(t, i);
-      if (e != came && orient2d(points_[origin(e)], points_[target(e)], x) < 0) onward = e;
+      if (e != came && orient2d(points_[mesh_.origin(e)], points_[mesh_.target(e)], x) < 0) onward = e;
     }
     if (onward == kNone) return t;
-    came = twin(onward);
+    came = mesh_.twin(onward);
     t = triOf(came);
     if (isGhost(t)) return t;
   }
@@ -116,8 +110,8 @@ TriId DelaunayBuilder::locate(const Point& x, TriId near) const {
   const TriId walked = walkTo(x, near);
   if (walked != kNone) return walked;
   TriId ghost = kNone;
-  for (TriId t = 0; t < triangles_.size(); ++t) {
-    const auto& v = triangles_[t].v;
+  for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+    const auto& v = mesh_.triangles[t].v;
     if (isGhost(t)) {
       ghost = t;
     } else if (orient2d(points_[v[0]], points_[v[1]], x) >= 0 && orient2d(points_[v[1]], points_[v[2]], x) >= 0 &&
@@ -131,8 +125,8 @@ TriId DelaunayBuilder::locate(const Point& x, TriId near) const {
 // Bowyer and Watson: the triangles in conflict make room for a fan.
 void DelaunayBuilder::insertPoint(VertexId v) {
   const Point x = points_[v];
-  const TriId start = walkTo(x, static_cast<TriId>(triangles_.size() - 1));
-  for (const VertexId corner : triangles_[start].v)
+  const TriId start = walkTo(x, static_cast<TriId>(mesh_.triangles.size() - 1));
+  for (const VertexId corner : mesh_.triangles[start].v)
     if (corner != ghost_ && points_[corner] == x) throw Clash(Clash::Kind::PointsCoincide, v, kNone);
   cavity_.assign(1, start);
   rim_.clear();
@@ -140,13 +134,13 @@ void DelaunayBuilder::insertPoint(VertexId v) {
   while (!stack_.empty()) {
     const EdgeRef e = stack_.back();
     stack_.pop_back();
-    const EdgeRef beyond = twin(e);
+    const EdgeRef beyond = mesh_.twin(e);
     if (isInConflict(triOf(beyond), x)) {
       cavity_.push_back(triOf(beyond));
       stack_.push_back(edgeRef(triOf(beyond), prev3(indexOf(beyond))));
       stack_.push_back(edgeRef(triOf(beyond), next3(indexOf(beyond))));
     } else {
-      rim_.push_back({origin(e), target(e), beyond});
+      rim_.push_back({mesh_.origin(e), mesh_.target(e), beyond});
     }
   }
   // Two more triangles than before. The last one made is where the next point starts to look.
@@ -156,20 +150,20 @@ void DelaunayBuilder::insertPoint(VertexId v) {
     TriId t;
     if (i < cavity_.size()) {
       t = cavity_[i];
-      triangles_[t].v = {v, r.a, r.b};
+      mesh_.triangles[t].v = {v, r.a, r.b};
       triangle_of_[r.a] = triangle_of_[r.b] = t;
     } else {
       t = makeTriangle(v, r.a, r.b);
     }
-    link(edgeRef(t, 0), r.beyond);
+    setTwins(mesh_.triangles, edgeRef(t, 0), r.beyond);
     if (last == kNone) {
       first = t;
     } else {
-      link(edgeRef(t, 2), edgeRef(last, 1));
+      setTwins(mesh_.triangles, edgeRef(t, 2), edgeRef(last, 1));
     }
     last = t;
   }
-  link(edgeRef(first, 2), edgeRef(last, 1));
+  setTwins(mesh_.triangles, edgeRef(first, 2), edgeRef(last, 1));
   triangle_of_[v] = last;
 }
 
@@ -178,9 +172,9 @@ EdgeRef DelaunayBuilder::findEdge(VertexId a, VertexId b) const {
   const TriId home = triangle_of_[a];
   TriId t = home;
   do {
-    const unsigned i = cornerOf(t, a);
-    if (triangles_[t].v[next3(i)] == b) return edgeRef(t, prev3(i));
-    t = triOf(triangles_[t].adj[next3(i)]);
+    const unsigned i = mesh_.cornerOf(t, a);
+    if (mesh_.triangles[t].v[next3(i)] == b) return edgeRef(t, prev3(i));
+    t = triOf(mesh_.triangles[t].adj[next3(i)]);
   } while (t != home);
   return kNone;
 }
@@ -196,34 +190,34 @@ void DelaunayBuilder::openChannel(VertexId a, VertexId b) {
   }
   const auto extend = [&](unsigned side, VertexId v, EdgeRef inside) {
     sides_[side].corners.push_back(v);
-    sides_[side].edges.push_back({inside, twin(inside), segment(inside), kNoPartner});
+    sides_[side].edges.push_back({inside, mesh_.twin(inside), mesh_.segment(inside), kNoPartner});
   };
   // The triangle at a that the way leaves through the edge from right to left.
   EdgeRef e = kNone;
   const TriId home = triangle_of_[a];
   TriId t = home;
   do {
-    const unsigned i = cornerOf(t, a);
-    const VertexId right = triangles_[t].v[next3(i)], left = triangles_[t].v[prev3(i)];
+    const unsigned i = mesh_.cornerOf(t, a);
+    const VertexId right = mesh_.triangles[t].v[next3(i)], left = mesh_.triangles[t].v[prev3(i)];
     if (right != ghost_) {
       const int side = orient2d(from, to, points_[right]);
       if (side == 0 && dot(points_[right] - from, to - from) > 0.0)
         throw Clash(Clash::Kind::PointOnSegment, right, kNone);
       if (left != ghost_ && side < 0 && orient2d(from, to, points_[left]) > 0) e = edgeRef(t, i);
     }
-    t = triOf(triangles_[t].adj[next3(i)]);
+    t = triOf(mesh_.triangles[t].adj[next3(i)]);
   } while (t != home);
   assert(e != kNone);
   cavity_.push_back(triOf(e));
-  extend(0, target(e), edgeRef(triOf(e), next3(indexOf(e))));
-  extend(1, origin(e), edgeRef(triOf(e), prev3(indexOf(e))));
+  extend(0, mesh_.target(e), edgeRef(triOf(e), next3(indexOf(e))));
+  extend(1, mesh_.origin(e), edgeRef(triOf(e), prev3(indexOf(e))));
   for (VertexId v = kNone; v != b;) {
-    if (segment(e) != kNone) throw Clash(Clash::Kind::SegmentsCross, kNone, segment(e));
-    const EdgeRef beyond = twin(e);
+    if (mesh_.segment(e) != kNone) throw Clash(Clash::Kind::SegmentsCross, kNone, mesh_.segment(e));
+    const EdgeRef beyond = mesh_.twin(e);
     const EdgeRef on_left = edgeRef(triOf(beyond), prev3(indexOf(beyond)));
     const EdgeRef on_right = edgeRef(triOf(beyond), next3(indexOf(beyond)));
     cavity_.push_back(triOf(beyond));
-    v = apex(beyond);
+    v = mesh_.apex(beyond);
     const int side = v == b ? 0 : orient2d(from, to, points_[v]);
     if (v != b && side == 0) throw Clash(Clash::Kind::PointOnSegment, v, kNone);
     if (side >= 0) extend(0, v, on_left);
@@ -248,9 +242,8 @@ void DelaunayBuilder::openChannel(VertexId a, VertexId b) {
 void DelaunayBuilder::attach(EdgeRef inside, unsigned side, std::size_t edge) {
   std::vector<SideEdge>& edges = sides_[side].edges;
   const SideEdge& beyond = edges[edge];
-  triangles_[triOf(inside)].seg[indexOf(inside)] = beyond.seg;
   if (beyond.partner == kNoPartner) {
-    link(inside, beyond.beyond);
+    link(mesh_.triangles, inside, beyond.beyond, beyond.seg);
   } else {
     edges[beyond.partner].beyond = inside;
     edges[beyond.partner].partner = kNoPartner;
@@ -259,7 +252,7 @@ void DelaunayBuilder::attach(EdgeRef inside, unsigned side, std::size_t edge) {
 
 // Triangulates what is between a side and the new segment: every corner sees the segment, so Graham's scan does it
 // (Toussaint, Avis, "On a convex hull algorithm for polygons and its application to triangulation problems", 1982).
-// Answers the edge along the segment.
+// Returns the edge along the segment.
 EdgeRef DelaunayBuilder::fillSide(unsigned side) {
   const std::vector<VertexId>& corners = sides_[side].corners;
   scan_.assign(1, {corners[0], 0});
@@ -271,9 +264,8 @@ EdgeRef DelaunayBuilder::fillSide(unsigned side) {
       const int turn = orient2d(points_[p], points_[middle.v], points_[next.v]);
       if (side == 0 ? turn >= 0 : turn <= 0) break;
       const TriId t = cavity_[filled_++];
-      triangles_[t].v = {p, side == 0 ? next.v : middle.v, side == 0 ? middle.v : next.v};
-      triangles_[t].seg = {kNone, kNone, kNone};
-      for (const VertexId v : triangles_[t].v) triangle_of_[v] = t;
+      mesh_.triangles[t] = unlinked({p, side == 0 ? next.v : middle.v, side == 0 ? middle.v : next.v});
+      for (const VertexId v : mesh_.triangles[t].v) triangle_of_[v] = t;
       attach(edgeRef(t, 0), side, next.edge);
       attach(edgeRef(t, side == 0 ? 1 : 2), side, middle.edge);
       const EdgeRef inner = edgeRef(t, side == 0 ? 2 : 1);
@@ -287,24 +279,17 @@ EdgeRef DelaunayBuilder::fillSide(unsigned side) {
   return sides_[side].edges[scan_.back().edge].beyond;
 }
 
-void DelaunayBuilder::setSegment(EdgeRef e, SegmentId seg) {
-  triangles_[triOf(e)].seg[indexOf(e)] = seg;
-  const EdgeRef f = twin(e);
-  triangles_[triOf(f)].seg[indexOf(f)] = seg;
-}
-
 void DelaunayBuilder::insertSegment(VertexId a, VertexId b, SegmentId seg) {
   const EdgeRef there = findEdge(a, b);
   if (there != kNone) {
-    if (segment(there) != kNone) throw Clash(Clash::Kind::SegmentsCoincide, kNone, segment(there));
-    setSegment(there, seg);
+    if (mesh_.segment(there) != kNone) throw Clash(Clash::Kind::SegmentsCoincide, kNone, mesh_.segment(there));
+    setSegment(mesh_.triangles, there, seg);
     return;
   }
   openChannel(a, b);
   const EdgeRef left = fillSide(0), right = fillSide(1);
   assert(filled_ == cavity_.size());
-  link(left, right);
-  setSegment(left, seg);
+  link(mesh_.triangles, left, right, seg);
   stack_.clear();
   for (const TriId t : cavity_)
     for (unsigned i = 0; i < 3; ++i) stack_.push_back(edgeRef(t, i));
@@ -313,16 +298,13 @@ void DelaunayBuilder::insertSegment(VertexId a, VertexId b, SegmentId seg) {
 
 // Lawson's flips, from the edges on the stack on.
 void DelaunayBuilder::restoreDelaunay() {
-  while (!stack_.empty()) {
-    const EdgeRef e = stack_.back();
-    stack_.pop_back();
-    const TriId t = triOf(e), n = triOf(twin(e));
-    if (segment(e) != kNone || isGhost(t) || isGhost(n)) continue;
-    if (!flipToDelaunay(points_, triangles_, e)) continue;
-    for (const TriId changed : {t, n})
-      for (const VertexId v : triangles_[changed].v) triangle_of_[v] = changed;
-    for (const EdgeRef f : {edgeRef(t, 0), edgeRef(t, 2), edgeRef(n, 0), edgeRef(n, 1)}) stack_.push_back(f);
-  }
+  flipWaiting(
+      points_, mesh_.triangles, stack_,
+      [this](EdgeRef e) { return mesh_.segment(e) == kNone && !isGhost(triOf(e)) && !isGhost(triOf(mesh_.twin(e))); },
+      [this](TriId t, TriId n) {
+        for (const TriId changed : {t, n})
+          for (const VertexId v : mesh_.triangles[changed].v) triangle_of_[v] = changed;
+      });
 }
 
 }  // namespace coastmesh

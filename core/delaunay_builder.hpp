@@ -29,15 +29,15 @@ class DelaunayBuilder {
   // of them makes many triangles for nothing. Throws Clash for points at the same place.
   explicit DelaunayBuilder(std::span<const Point> points);
 
-  bool hasTriangles() const { return !triangles_.empty(); }
+  bool hasTriangles() const { return !mesh_.triangles.empty(); }
 
   // Makes the edge from a to b, if it is not there, and a segment of it. Throws Clash.
   void insertSegment(VertexId a, VertexId b, SegmentId seg);
 
   // Ghosts included; all linked.
-  std::span<const Triangle> triangles() const { return triangles_; }
+  std::span<const Triangle> triangles() const { return mesh_.triangles; }
   bool isGhost(TriId t) const {
-    const auto& v = triangles_[t].v;
+    const auto& v = mesh_.triangles[t].v;
     return v[0] == ghost_ || v[1] == ghost_ || v[2] == ghost_;
   }
   // A triangle that holds x, a ghost where x is outside the convex hull. Looks from `near` on.
@@ -49,27 +49,15 @@ class DelaunayBuilder {
   TriId walkTo(const Point& x, TriId from) const;
   bool isInConflict(TriId t, const Point& x) const;
   TriId makeTriangle(VertexId a, VertexId b, VertexId c);
-  void link(EdgeRef e, EdgeRef f);
   EdgeRef findEdge(VertexId a, VertexId b) const;
   void openChannel(VertexId a, VertexId b);
   EdgeRef fillSide(unsigned side);
   void attach(EdgeRef inside, unsigned side, std::size_t edge);
-  void setSegment(EdgeRef e, SegmentId seg);
   void restoreDelaunay();
-
-  VertexId origin(EdgeRef e) const { return triangles_[triOf(e)].v[next3(indexOf(e))]; }
-  VertexId target(EdgeRef e) const { return triangles_[triOf(e)].v[prev3(indexOf(e))]; }
-  VertexId apex(EdgeRef e) const { return triangles_[triOf(e)].v[indexOf(e)]; }
-  EdgeRef twin(EdgeRef e) const { return triangles_[triOf(e)].adj[indexOf(e)]; }
-  SegmentId segment(EdgeRef e) const { return triangles_[triOf(e)].seg[indexOf(e)]; }
-  unsigned cornerOf(TriId t, VertexId v) const {
-    const auto& c = triangles_[t].v;
-    return (c[1] == v ? 1u : 0u) | (c[2] == v ? 2u : 0u);  // no branch: there is nothing to predict
-  }
 
   std::span<const Point> points_;
   VertexId ghost_;
-  std::vector<Triangle> triangles_;
+  LinkedTriangles mesh_;
   std::vector<TriId> triangle_of_;  // one of the triangles round a vertex
 
   // Scratch.

@@ -2,26 +2,29 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <numeric>
 #include <utility>
 
 #include "core/flip.hpp"
 #include "core/hilbert.hpp"
+#include "core/links.hpp"
 #include "core/predicates.hpp"
 
 namespace coastmesh {
 
 EditMesh::EditMesh(TriMesh&& mesh)
-    : points_(std::move(mesh.points)),
-      triangles_(std::move(mesh.triangles)),
+    : LinkedTriangles{std::move(mesh.triangles)},
+      points_(std::move(mesh.points)),
       kinds_(points_.size(), VertexKind::Free),
       triangle_of_(points_.size(), kNone),
       input_vertices_(mesh.input_vertices) {
+  assert(findBrokenLink(triangles) == kNone);
   std::fill_n(kinds_.begin(), input_vertices_, VertexKind::Input);
-  for (TriId t = 0; t < triangles_.size(); ++t) {
+  for (TriId t = 0; t < triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
-      triangle_of_[triangles_[t].v[i]] = t;
-      if (triangles_[t].seg[i] == kNone) continue;
+      triangle_of_[triangles[t].v[i]] = t;
+      if (triangles[t].seg[i] == kNone) continue;
       for (const VertexId v : {origin(edgeRef(t, i)), target(edgeRef(t, i))})
         if (v >= input_vertices_) kinds_[v] = VertexKind::Segment;
     }
@@ -52,7 +55,7 @@ TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
 
   // Triangles follow their last vertex.
   std::vector<TriId> first(points_.size() + 1, 0);
-  for (Triangle& t : triangles_) {
+  for (Triangle& t : triangles) {
     if (t.v[0] == kNone) continue;
     for (VertexId& v : t.v) v = number[v];
     ++first[std::max({t.v[0], t.v[1], t.v[2]}) + 1];
@@ -60,67 +63,67 @@ TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
   std::partial_sum(first.begin(), first.end(), first.begin());
   const std::size_t count = first.back();
   std::vector<TriId>& slot = by.triangle;
-  slot.assign(triangles_.size(), kNone);
-  for (TriId t = 0; t < triangles_.size(); ++t) {
-    const auto& v = triangles_[t].v;
+  slot.assign(triangles.size(), kNone);
+  for (TriId t = 0; t < triangles.size(); ++t) {
+    const auto& v = triangles[t].v;
     if (v[0] != kNone) slot[t] = first[std::max({v[0], v[1], v[2]})]++;
   }
-  for (Triangle& t : triangles_) {
-    if (t.v[0] == kNone) continue;
-    for (EdgeRef& e : t.adj)
-      if (e != kNone) e = edgeRef(slot[triOf(e)], indexOf(e));
-  }
+  for (Triangle& t : triangles)
+    if (t.v[0] != kNone)
+      t = renumbered(
+          t, [&](TriId n) { return slot[n]; }, std::identity());
   moveTriangles(slot);
-  triangles_.resize(count);
+  triangles.resize(count);
+  assert(findBrokenLink(triangles) == kNone);
 
   TriMesh mesh;
   mesh.input_vertices = input_vertices_;
   mesh.points = std::move(points_);
-  mesh.triangles = std::move(triangles_);
+  mesh.triangles = std::move(triangles);
   return mesh;
 }
 
 // Puts every live triangle into its slot, in place: what it drives out goes next.
 void EditMesh::moveTriangles(const std::vector<TriId>& slot) {
-  std::vector<bool> moved(triangles_.size(), false);
-  for (TriId start = 0; start < triangles_.size(); ++start) {
+  std::vector<bool> moved(triangles.size(), false);
+  for (TriId start = 0; start < triangles.size(); ++start) {
     if (slot[start] == kNone || moved[start]) continue;
-    Triangle carried = triangles_[start];
+    Triangle carried = triangles[start];
     for (TriId from = start; from != kNone && !moved[from];) {
       moved[from] = true;
       const TriId to = slot[from];
-      if (to != kNone) std::swap(carried, triangles_[to]);
+      if (to != kNone) std::swap(carried, triangles[to]);
       from = to;
     }
   }
 }
 
-bool EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite, std::size_t most) const {
+StarKind EditMesh::ring(VertexId v, TriId home, std::size_t most, Ring& ring) const {
+  ring.corners.clear();
+  ring.triangles.clear();
+  return walkRound(v, home, most, [&](EdgeRef e) {
+    ring.corners.push_back(origin(e));
+    ring.triangles.push_back(triOf(e));
+  });
+}
+
+StarKind EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite, std::size_t most) const {
   opposite.clear();
   const TriId home = triangle_of_[v];
-  TriId t = home;
-  while (true) {
+  const StarKind kind = walkRound(v, home, most, [&](EdgeRef e) { opposite.push_back(e); });
+  if (kind != StarKind::Open) return kind;
+  // The boundary is met: what lies clockwise of the first triangle comes before it.
+  const auto counter_clockwise = static_cast<std::ptrdiff_t>(opposite.size());
+  for (EdgeRef before = triangles[home].adj[prev3(cornerOf(home, v))]; before != kNone;) {
+    if (opposite.size() == most) return StarKind::TooMany;
+    const TriId t = triOf(before);
     const unsigned i = cornerOf(t, v);
     opposite.push_back(edgeRef(t, i));
-    const EdgeRef after = triangles_[t].adj[next3(i)];
-    if (after == kNone) break;
-    t = triOf(after);
-    if (t == home) return true;
-    if (opposite.size() > most) return false;
+    before = triangles[t].adj[prev3(i)];
   }
-  // The rim is met: what lies clockwise of the first triangle comes before it.
-  const std::size_t counter_clockwise = opposite.size();
-  t = home;
-  while (true) {
-    const EdgeRef before = triangles_[t].adj[prev3(cornerOf(t, v))];
-    if (before == kNone) break;
-    t = triOf(before);
-    opposite.push_back(edgeRef(t, cornerOf(t, v)));
-    if (opposite.size() > most) return false;
-  }
-  std::reverse(opposite.begin() + static_cast<std::ptrdiff_t>(counter_clockwise), opposite.end());
-  std::rotate(opposite.begin(), opposite.begin() + static_cast<std::ptrdiff_t>(counter_clockwise), opposite.end());
-  return false;
+  std::reverse(opposite.begin() + counter_clockwise, opposite.end());
+  std::rotate(opposite.begin(), opposite.begin() + counter_clockwise, opposite.end());
+  return StarKind::Open;
 }
 
 bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) const {
@@ -128,19 +131,14 @@ bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) con
   patch.rim.clear();
   const auto isGone = [&](VertexId v) { return std::ranges::find(vertices, v) != vertices.end(); };
   for (const VertexId v : vertices) {
-    const TriId home = triangle_of_[v];
-    TriId t = home;
-    do {
-      const unsigned i = cornerOf(t, v);
-      const EdgeRef opposite = edgeRef(t, i);
+    const auto gather = [&](EdgeRef opposite) {
+      const TriId t = triOf(opposite);
       const bool known = vertices.size() > 1 && std::ranges::find(patch.triangles, t) != patch.triangles.end();
       if (!known) patch.triangles.push_back(t);
       if (!isGone(origin(opposite)) && !isGone(target(opposite)))
         patch.rim.push_back({origin(opposite), target(opposite), twin(opposite), segment(opposite)});
-      const EdgeRef after = triangles_[t].adj[next3(i)];
-      if (after == kNone) return false;
-      t = triOf(after);
-    } while (t != home);
+    };
+    if (walkRound(v, triangle_of_[v], kNone, gather) != StarKind::Closed) return false;
   }
   if (vertices.size() == 1) return true;
   // An edge between two triangles of the patch is no rim (three vertices in a ring can have that); chain the rest.
@@ -200,7 +198,7 @@ void EditMesh::collectConflicts(const Point& x, std::span<const EdgeRef> across,
     const EdgeRef beyond = twin(e);
     if (!isConstrained(e)) {
       const TriId n = triOf(beyond);
-      const Triangle& other = triangles_[n];
+      const Triangle& other = triangles[n];
       if (inCircle(points_[other.v[0]], points_[other.v[1]], points_[other.v[2]], x) > 0) {
         cavity.triangles.push_back(n);
         stack_.push_back(edgeRef(n, prev3(indexOf(beyond))));
@@ -220,13 +218,13 @@ bool EditMesh::findCavity(const Point& x, TriId start, Patch& cavity) const {
   return std::ranges::all_of(cavity.rim, [&](const RimEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
 }
 
-// What a point on a subsegment changes on one side of it. Answers false where rounding has put the point so far off a flat triangle
+// What a point on a subsegment changes on one side of it. Returns false where rounding has put the point so far off a flat triangle
 // that it lies outside its circumcircle: then that triangle alone, and the fan needs flips.
 bool EditMesh::appendSide(EdgeRef side, const Point& x, Patch& cavity) const {
   const TriId t = triOf(side);
   const EdgeRef others[2] = {edgeRef(t, next3(indexOf(side))), edgeRef(t, prev3(indexOf(side)))};
   cavity.triangles.push_back(t);
-  const Corners& c = triangles_[t].v;
+  const Corners& c = triangles[t].v;
   const bool in_circle = inCircle(points_[c[0]], points_[c[1]], points_[c[2]], x) > 0;
   if (in_circle) {
     collectConflicts(x, others, cavity);
@@ -246,8 +244,8 @@ bool EditMesh::findSplitCavity(EdgeRef edge, const Point& x, Patch& cavity) cons
 
 TriId EditMesh::newTriangle() {
   if (free_triangles_.empty()) {
-    triangles_.emplace_back();
-    return static_cast<TriId>(triangles_.size() - 1);
+    triangles.emplace_back();
+    return static_cast<TriId>(triangles.size() - 1);
   }
   const TriId t = free_triangles_.back();
   free_triangles_.pop_back();
@@ -271,24 +269,14 @@ VertexId EditMesh::addVertex(const Point& x, VertexKind kind) {
 }
 
 void EditMesh::kill(TriId t) {
-  triangles_[t].v[0] = kNone;
+  triangles[t].v[0] = kNone;
   free_triangles_.push_back(t);
 }
 
-void EditMesh::write(TriId t, const Corners& corners) {
+void EditMesh::noteCorners(TriId t) {
+  const Corners& corners = triangles[t].v;
   assert(corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]);
-  triangles_[t].v = corners;
   for (const VertexId v : corners) triangle_of_[v] = t;
-}
-
-void EditMesh::link(EdgeRef e, EdgeRef f, SegmentId seg) {
-  assert(e != kNone);
-  triangles_[triOf(e)].adj[indexOf(e)] = f;
-  triangles_[triOf(e)].seg[indexOf(e)] = seg;
-  if (f == kNone) return;
-  assert(origin(e) == target(f) && target(e) == origin(f));
-  triangles_[triOf(f)].adj[indexOf(f)] = e;
-  triangles_[triOf(f)].seg[indexOf(f)] = seg;
 }
 
 // Triangles (x, a, b) over the rim edges a -> b, linked to what lies beyond and to one another, but not first to last.
@@ -298,16 +286,17 @@ void EditMesh::fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan)
     fan.push_back(i < cavity.triangles.size() ? cavity.triangles[i] : newTriangle());
   for (std::size_t i = 0; i < fan.size(); ++i) {
     const RimEdge& r = cavity.rim[i];
-    write(fan[i], {x, r.a, r.b});
-    link(edgeRef(fan[i], 0), r.beyond, r.seg);
-    if (i > 0) link(edgeRef(fan[i], 2), edgeRef(fan[i - 1], 1), kNone);
+    triangles[fan[i]].v = {x, r.a, r.b};
+    noteCorners(fan[i]);
+    link(triangles, edgeRef(fan[i], 0), r.beyond, r.seg);
+    if (i > 0) link(triangles, edgeRef(fan[i], 2), edgeRef(fan[i - 1], 1), kNone);
   }
 }
 
 VertexId EditMesh::insertInCavity(const Point& x, const Patch& cavity, std::vector<TriId>& touched) {
   const VertexId v = addVertex(x, VertexKind::Free);
   fillFan(v, cavity, fan_[0]);
-  link(edgeRef(fan_[0].front(), 2), edgeRef(fan_[0].back(), 1), kNone);
+  link(triangles, edgeRef(fan_[0].front(), 2), edgeRef(fan_[0].back(), 1), kNone);
   touched.insert(touched.end(), fan_[0].begin(), fan_[0].end());
   return v;
 }
@@ -331,8 +320,8 @@ VertexId EditMesh::splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>
     touched.insert(touched.end(), fan_[s].begin(), fan_[s].end());
   }
   const bool two_sided = sides[1] != kNone;
-  link(edgeRef(fan_[0].front(), 2), two_sided ? edgeRef(fan_[1].back(), 1) : kNone, seg);
-  link(edgeRef(fan_[0].back(), 1), two_sided ? edgeRef(fan_[1].front(), 2) : kNone, seg);
+  link(triangles, edgeRef(fan_[0].front(), 2), two_sided ? edgeRef(fan_[1].back(), 1) : kNone, seg);
+  link(triangles, edgeRef(fan_[0].back(), 1), two_sided ? edgeRef(fan_[1].front(), 2) : kNone, seg);
   if (!in_circles) restoreDelaunay(touched);
   return v;
 }
@@ -343,9 +332,8 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
   slots.clear();
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     slots.push_back(i < patch.triangles.size() ? patch.triangles[i] : newTriangle());
-    write(slots[i], fresh[i]);
-    triangles_[slots[i]].adj = {kNone, kNone, kNone};
-    triangles_[slots[i]].seg = {kNone, kNone, kNone};
+    triangles[slots[i]] = unlinked(fresh[i]);
+    noteCorners(slots[i]);
   }
   for (std::size_t i = fresh.size(); i < patch.triangles.size(); ++i) kill(patch.triangles[i]);
   // An edge finds its other side either on the rim or among the fresh edges that still wait for theirs.
@@ -357,7 +345,7 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
       const VertexId a = origin(e), b = target(e);
       const auto rim = std::ranges::find_if(patch.rim, [&](const RimEdge& r) { return r.a == a && r.b == b; });
       if (rim != patch.rim.end()) {
-        link(e, rim->beyond, rim->seg);
+        link(triangles, e, rim->beyond, rim->seg);
         continue;
       }
       const auto other = std::ranges::find_if(waiting, [&](EdgeRef f) { return origin(f) == b && target(f) == a; });
@@ -367,7 +355,7 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
       }
       const auto constraint = std::ranges::find_if(
           inner, [&](const RimEdge& r) { return (r.a == a && r.b == b) || (r.a == b && r.b == a); });
-      link(e, *other, constraint == inner.end() ? kNone : constraint->seg);
+      link(triangles, e, *other, constraint == inner.end() ? kNone : constraint->seg);
       *other = waiting.back();
       waiting.pop_back();
     }
@@ -380,21 +368,13 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
   touched.insert(touched.end(), slots.begin(), slots.end());
 }
 
-bool EditMesh::flip(EdgeRef e) {
-  const TriId t = triOf(e), n = triOf(twin(e));
-  if (!flipToDelaunay(points_, triangles_, e)) return false;
-  for (const TriId changed : {t, n})
-    for (const VertexId v : triangles_[changed].v) triangle_of_[v] = changed;
-  return true;
-}
-
 void EditMesh::restoreDelaunay(std::vector<TriId>& touched) {
   stack_.clear();
   for (const TriId t : touched) {
     if (!isLive(t)) continue;
     for (unsigned i = 0; i < 3; ++i) stack_.push_back(edgeRef(t, i));
   }
-  flipWaiting(touched);
+  flipStack(touched);
 }
 
 void EditMesh::restoreDelaunayRound(VertexId v, std::vector<TriId>& touched) {
@@ -404,20 +384,18 @@ void EditMesh::restoreDelaunayRound(VertexId v, std::vector<TriId>& touched) {
     stack_.push_back(edgeRef(t, i));
     stack_.push_back(edgeRef(t, next3(i)));
   }
-  flipWaiting(touched);
+  flipStack(touched);
 }
 
-void EditMesh::flipWaiting(std::vector<TriId>& touched) {
-  while (!stack_.empty()) {
-    const EdgeRef e = stack_.back();
-    stack_.pop_back();
-    if (isConstrained(e)) continue;
-    const TriId t = triOf(e), n = triOf(twin(e));
-    if (!flip(e)) continue;
-    touched.push_back(t);
-    touched.push_back(n);
-    for (const EdgeRef f : {edgeRef(t, 0), edgeRef(t, 2), edgeRef(n, 0), edgeRef(n, 1)}) stack_.push_back(f);
-  }
+void EditMesh::flipStack(std::vector<TriId>& touched) {
+  flipWaiting(
+      points_, triangles, stack_, [this](EdgeRef e) { return !isConstrained(e); },
+      [&](TriId t, TriId n) {
+        noteCorners(t);
+        noteCorners(n);
+        touched.push_back(t);
+        touched.push_back(n);
+      });
 }
 
 std::size_t detail::delaunayApex(const EditMesh& mesh, std::span<const VertexId> chain) {

@@ -39,9 +39,18 @@ struct Renumbering {
   std::vector<TriId> triangle;
 };
 
-// A triangulation under change: compact arrays with free lists. All writes of topology go through this class.
+// What lies round a vertex: a full turn of triangles, those from boundary to boundary, or more than were asked for.
+enum class StarKind { Closed, Open, TooMany };
+
+// What is round a vertex, counter-clockwise: where each edge of its link starts, and the triangle there.
+struct Ring {
+  std::vector<VertexId> corners;
+  std::vector<TriId> triangles;
+};
+
+// A triangulation under change: compact arrays with free lists.
 // Operations that change it append the triangles they made or changed to `touched`.
-class EditMesh {
+class EditMesh : private LinkedTriangles {
  public:
   explicit EditMesh(TriMesh&& mesh);
 
@@ -55,49 +64,64 @@ class EditMesh {
   TriMesh release(Renumbering& by, bool along_curve);  // the mesh is empty after it
 
   const Point& point(VertexId v) const { return points_[v]; }
-  const Triangle& triangle(TriId t) const { return triangles_[t]; }
-  const Point& corner(TriId t, unsigned i) const { return points_[triangles_[t].v[i]]; }
-  bool isLive(TriId t) const { return triangles_[t].v[0] != kNone; }
+  const Point& corner(TriId t, unsigned i) const { return points_[triangles[t].v[i]]; }
+  bool isLive(TriId t) const { return triangles[t].v[0] != kNone; }
   bool isLiveVertex(VertexId v) const { return triangle_of_[v] != kNone; }
   VertexKind kind(VertexId v) const { return kinds_[v]; }
   TriId triangleOf(VertexId v) const { return triangle_of_[v]; }
-  TriId triangleSlots() const { return static_cast<TriId>(triangles_.size()); }
+  TriId triangleSlots() const { return static_cast<TriId>(triangles.size()); }
   VertexId vertexSlots() const { return static_cast<VertexId>(points_.size()); }
   std::size_t vertexCount() const { return points_.size() - free_vertices_.size(); }
   VertexId inputVertices() const { return input_vertices_; }
 
-  VertexId origin(EdgeRef e) const { return triangles_[triOf(e)].v[next3(indexOf(e))]; }
-  VertexId target(EdgeRef e) const { return triangles_[triOf(e)].v[prev3(indexOf(e))]; }
-  VertexId apex(EdgeRef e) const { return triangles_[triOf(e)].v[indexOf(e)]; }
-  EdgeRef twin(EdgeRef e) const { return triangles_[triOf(e)].adj[indexOf(e)]; }
-  SegmentId segment(EdgeRef e) const { return triangles_[triOf(e)].seg[indexOf(e)]; }
+  using LinkedTriangles::apex;
+  using LinkedTriangles::cornerOf;
+  using LinkedTriangles::origin;
+  using LinkedTriangles::segment;
+  using LinkedTriangles::target;
+  using LinkedTriangles::triangle;
+  using LinkedTriangles::twin;
   bool isConstrained(EdgeRef e) const { return segment(e) != kNone || twin(e) == kNone; }
 
-  // The index of v in t. REQUIRES: v is a corner of t.
-  unsigned cornerOf(TriId t, VertexId v) const {
-    const auto& c = triangles_[t].v;
-    return (c[1] == v ? 1u : 0u) | (c[2] == v ? 2u : 0u);  // no branch: there is nothing to predict
+  // Calls `visit` with the edge opposite v in each triangle round it, counter-clockwise from the triangle `home` on: once round, or
+  // up to the boundary. Visits no more than `most`.
+  template <typename Visit>
+  StarKind walkRound(VertexId v, TriId home, std::size_t most, const Visit& visit) const {
+    TriId t = home;
+    std::size_t left = most;
+    do {
+      if (left == 0) return StarKind::TooMany;
+      --left;
+      const unsigned i = cornerOf(t, v);
+      visit(edgeRef(t, i));
+      const EdgeRef after = triangles[t].adj[next3(i)];
+      if (after == kNone) return StarKind::Open;
+      t = triOf(after);
+    } while (t != home);
+    return StarKind::Closed;
   }
 
-  // The edges opposite v in the triangles round it, counter-clockwise; from rim to rim where v is on the rim (then
-  // answers false), else full circle. At a pinched vertex: the fan that holds triangleOf(v). Stops where there are more
-  // than `most`.
-  bool star(VertexId v, std::vector<EdgeRef>& opposite,
-            std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+  // The edges opposite v in the triangles round it, counter-clockwise; of an open star from boundary to boundary. At a pinched vertex:
+  // the star that holds triangleOf(v). Where there are more than `most` the edges are some of them.
+  StarKind star(VertexId v, std::vector<EdgeRef>& opposite,
+                std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+
+  // The same as a ring, from the triangle `home` on. REQUIRES: v is not on the boundary.
+  StarKind ring(VertexId v, TriId home, std::size_t most, Ring& ring) const;
 
   // The triangles round the given vertices and their rim. REQUIRES: the vertices are connected by edges, none is on the
-  // rim of the mesh. Answers false where the patch is not a disk.
+  // rim of the mesh. Returns false where the patch is not a disk.
   bool gatherPatch(std::span<const VertexId> vertices, Patch& patch) const;
 
   struct Place {
     TriId triangle = kNone;   // holds the point, where nothing is in the way
     EdgeRef blocked = kNone;  // else the subsegment that is
   };
-  // Walks towards x, not across segments or the rim. Both answers are kNone where the walk does not end.
+  // Walks towards x, not across segments or the rim. Both are kNone where the walk does not end.
   Place locate(const Point& x, TriId from) const;
 
   // The triangles whose circumcircles hold x, as far as x sees them. REQUIRES: x lies in `start`. The rim is in order.
-  // Answers false where rounding leaves x on or beyond the rim.
+  // Returns false where rounding leaves x on or beyond the rim.
   bool findCavity(const Point& x, TriId start, Patch& cavity) const;
 
   // Fills a cavity with a fan round a new free vertex.
@@ -106,7 +130,7 @@ class EditMesh {
   // The same for x on a subsegment: the triangles on both sides, and their rim without the subsegment, side by side.
   bool findSplitCavity(EdgeRef edge, const Point& x, Patch& cavity) const;
 
-  // Splits a subsegment with a new vertex at x, on it as well as doubles allow. Answers kNone, and changes nothing,
+  // Splits a subsegment with a new vertex at x, on it as well as doubles allow. Returns kNone, and changes nothing,
   // where rounding would turn a triangle over.
   VertexId splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>& touched);
 
@@ -130,17 +154,14 @@ class EditMesh {
  private:
   TriId newTriangle();
   void kill(TriId t);
-  void write(TriId t, const Corners& corners);
-  void link(EdgeRef e, EdgeRef f, SegmentId seg);
+  void noteCorners(TriId t);
   void moveTriangles(const std::vector<TriId>& slot);
-  bool flip(EdgeRef e);
-  void flipWaiting(std::vector<TriId>& touched);
+  void flipStack(std::vector<TriId>& touched);
   void collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const;
   bool appendSide(EdgeRef side, const Point& x, Patch& cavity) const;
   void fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan);
 
   std::vector<Point> points_;
-  std::vector<Triangle> triangles_;
   std::vector<VertexKind> kinds_;
   std::vector<TriId> triangle_of_;  // one of the triangles round a vertex
   std::vector<TriId> free_triangles_;
@@ -172,7 +193,7 @@ bool triangulateChain(const EditMesh& mesh, std::span<const VertexId> chain, std
 
 }  // namespace detail
 
-// The Delaunay triangulation of a simple polygon given counter-clockwise: k - 2 triangles. Answers false where it has
+// The Delaunay triangulation of a simple polygon given counter-clockwise: k - 2 triangles. Returns false where it has
 // none without a turned triangle, or as soon as `accept` refuses a triangle.
 template <typename Accept>
 bool triangulatePolygon(const EditMesh& mesh, std::span<const VertexId> polygon, std::vector<Corners>& triangles,

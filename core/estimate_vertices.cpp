@@ -18,7 +18,7 @@ double lengthsAlong(const Point& a, const Point& b, const SizeFunction& size, do
   double along = 0.0, count = 0.0, here = size.at(a);
   while (along < length && count <= enough) {
     const double next = std::min(along + here, length);
-    if (!(next > along)) return enough + 1.0;  // lengths below what coordinates tell apart
+    if (!(next > along)) return enough + 1.0;  // lengths below what coordinates resolve
     const double there = size.at(a + (next / length) * (b - a));
     count += 0.5 * (next - along) * (1.0 / here + 1.0 / there);
     along = next;

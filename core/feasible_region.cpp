@@ -14,12 +14,11 @@ struct Disk {
   double radius;
 };
 
-// The points that see the link edge under at least the smallest angle, from the left. REQUIRES: bound.min_angle > 0.
-Disk petalOf(const LinkEdge& e, const TriangleBound& bound) {
+// The points that see the link edge under at least the smallest angle, from the left. REQUIRES: that is above 0.
+Disk petalOf(const LinkEdge& e, const PetalShape& petal) {
   const Point d = e.y - e.x;
   const Point mid = midpoint(e.x, e.y);
-  return {{mid.x - bound.petal_height * d.y, mid.y + bound.petal_height * d.x},
-          bound.petal_radius * std::sqrt(squaredLength(d))};
+  return {{mid.x - petal.height * d.y, mid.y + petal.height * d.x}, petal.radius * std::sqrt(squaredLength(d))};
 }
 
 Point turned(const Point& d, double cosine, double sine) {
@@ -44,9 +43,9 @@ bool forEachHalfPlane(std::span<const LinkEdge> link, const TriangleBound& bound
 }
 
 template <typename F>
-void forEachDisk(std::span<const LinkEdge> link, const TriangleBound& bound, F&& disk) {
+void forEachDisk(std::span<const LinkEdge> link, const TriangleBound& bound, const PetalShape& petal, F&& disk) {
   for (const LinkEdge& e : link) {
-    if (bound.min_angle > 0.0) disk(petalOf(e, bound));
+    if (bound.min_angle > 0.0) disk(petalOf(e, petal));
     if (std::isinf(bound.squared_size)) continue;
     // Both ends: an open link has a last corner that starts no edge.
     disk(Disk{e.x, std::sqrt(bound.squared_size)});
@@ -55,7 +54,7 @@ void forEachDisk(std::span<const LinkEdge> link, const TriangleBound& bound, F&&
 }
 
 // Keeps of a convex polygon what lies to the left of the line through `on` along `direction`; `clipped` and `sides` have
-// room for one corner more than the polygon. Answers the number of corners that are left. Rounding may make a thin
+// room for one corner more than the polygon. Returns the number of corners that are left. Rounding may make a thin
 // polygon cross the line more than twice: that adds no corners.
 std::size_t clip(Point*& polygon, std::size_t corners, Point*& clipped, double* sides, const Point& on,
                  const Point& direction) {
@@ -115,13 +114,13 @@ void FeasibleRegion::makeRoom(std::size_t corners) {
   sides_.resize(corners);
 }
 
-bool FeasibleRegion::isEmpty(std::span<const LinkEdge> link, const TriangleBound& bound) {
-  if (bound.min_angle <= 0.0) return false;
+bool FeasibleRegion::isEmpty(std::span<const LinkEdge> link) {
+  if (bound_.min_angle <= 0.0) return false;
   // A box round the petals' common part: that alone is empty most of the time.
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Point low{-kFar, -kFar}, high{kFar, kFar};
   for (const LinkEdge& e : link) {
-    const Disk petal = petalOf(e, bound);
+    const Disk petal = petalOf(e, petal_);
     low = {larger(low.x, petal.centre.x - petal.radius), larger(low.y, petal.centre.y - petal.radius)};
     high = {smaller(high.x, petal.centre.x + petal.radius), smaller(high.y, petal.centre.y + petal.radius)};
   }
@@ -141,21 +140,21 @@ bool FeasibleRegion::isEmpty(std::span<const LinkEdge> link, const TriangleBound
     double worst = 0.0;
     const LinkEdge* worst_edge = nullptr;
     for (const LinkEdge& e : link) {
-      const Lacks lacks = lacksOf(e, c, bound);
+      const Lacks lacks = lacksOf(e, c, bound_);
       const double lack = larger(larger(lacks.at_x, lacks.at_y), larger(lacks.at_c, 0.0));
       const double share = lack * lack * (1.0 / squaredDistance(e.x, e.y));
       worst_edge = share > worst ? &e : worst_edge;
       worst = larger(worst, share);
     }
     if (worst_edge == nullptr) return false;
-    const Lacks lacks = lacksOf(*worst_edge, c, bound);
+    const Lacks lacks = lacksOf(*worst_edge, c, bound_);
     const Point d = worst_edge->y - worst_edge->x;
     if (lacks.at_x >= lacks.at_y && lacks.at_x >= lacks.at_c) {
-      corners = clip(polygon, corners, clipped, sides, worst_edge->x, turned(d, bound.cos_min, bound.sin_min));
+      corners = clip(polygon, corners, clipped, sides, worst_edge->x, turned(d, bound_.cos_min, bound_.sin_min));
     } else if (lacks.at_y >= lacks.at_c) {
-      corners = clip(polygon, corners, clipped, sides, worst_edge->y, turned(d, bound.cos_min, -bound.sin_min));
+      corners = clip(polygon, corners, clipped, sides, worst_edge->y, turned(d, bound_.cos_min, -bound_.sin_min));
     } else {
-      const Disk petal = petalOf(*worst_edge, bound);
+      const Disk petal = petalOf(*worst_edge, petal_);
       const Point outward = c - petal.centre;
       const Point on = petal.centre + (petal.radius / std::sqrt(squaredLength(outward))) * outward;
       corners = clip(polygon, corners, clipped, sides, on, {-outward.y, outward.x});
@@ -165,13 +164,13 @@ bool FeasibleRegion::isEmpty(std::span<const LinkEdge> link, const TriangleBound
   return false;
 }
 
-std::optional<Point> FeasibleRegion::findPoint(std::span<const LinkEdge> link, const TriangleBound& bound) {
+std::optional<Point> FeasibleRegion::findPoint(std::span<const LinkEdge> link) {
   Point low = link.front().x, high = link.front().x;
   for (const LinkEdge& e : link) {
     low = {std::min(low.x, e.x.x), std::min(low.y, e.x.y)};
     high = {std::max(high.x, e.x.x), std::max(high.y, e.x.y)};
   }
-  forEachDisk(link, bound, [&](const Disk& d) {
+  forEachDisk(link, bound_, petal_, [&](const Disk& d) {
     low = {std::max(low.x, d.centre.x - d.radius), std::max(low.y, d.centre.y - d.radius)};
     high = {std::min(high.x, d.centre.x + d.radius), std::min(high.y, d.centre.y + d.radius)};
   });
@@ -188,13 +187,13 @@ std::optional<Point> FeasibleRegion::findPoint(std::span<const LinkEdge> link, c
     corners = clip(polygon, corners, clipped, sides_.data(), on, direction);
     return corners >= 3;
   };
-  if (!forEachHalfPlane(link, bound, cut)) return std::nullopt;
+  if (!forEachHalfPlane(link, bound_, cut)) return std::nullopt;
 
   for (std::size_t cuts = 0; cuts < kMostCuts; ++cuts) {
     const Point c = centreOf(polygon, corners);
     double worst = 0.0;
     Disk broken{};
-    forEachDisk(link, bound, [&](const Disk& d) {
+    forEachDisk(link, bound_, petal_, [&](const Disk& d) {
       const double excess = squaredDistance(c, d.centre) - d.radius * d.radius;
       if (excess <= worst) return;
       worst = excess;
@@ -208,11 +207,11 @@ std::optional<Point> FeasibleRegion::findPoint(std::span<const LinkEdge> link, c
   return std::nullopt;
 }
 
-std::optional<Point> FeasibleRegion::findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link,
-                                                      const TriangleBound& bound) {
+std::optional<Point> FeasibleRegion::findPointBetween(const Point& a, const Point& b,
+                                                      std::span<const LinkEdge> link) const {
   const Point along = b - a;
   double low = 0.0, high = 1.0;
-  forEachHalfPlane(link, bound, [&](const Point& on, const Point& direction) {
+  forEachHalfPlane(link, bound_, [&](const Point& on, const Point& direction) {
     // cross(direction, a + s along - on) >= 0
     const double at_a = cross(direction, a - on), slope = cross(direction, along);
     if (slope > 0.0) low = std::max(low, -at_a / slope);
@@ -220,7 +219,7 @@ std::optional<Point> FeasibleRegion::findPointBetween(const Point& a, const Poin
     if (slope == 0.0 && at_a < 0.0) high = -1.0;
     return low < high;
   });
-  forEachDisk(link, bound, [&](const Disk& d) {
+  forEachDisk(link, bound_, petal_, [&](const Disk& d) {
     const Point offset = a - d.centre;
     const double qa = squaredLength(along), qb = dot(along, offset), qc = squaredLength(offset) - d.radius * d.radius;
     const double discriminant = qb * qb - qa * qc;

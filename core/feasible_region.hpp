@@ -15,6 +15,14 @@ struct LinkEdge {
   Point y;
 };
 
+// The disk whose boundary sees an edge under the smallest angle, the edge being of length 1.
+struct PetalShape {
+  double radius;
+  double height;  // of its centre above the edge
+
+  explicit PetalShape(const AngleBound& bound) : radius(0.5 / bound.sin_min), height(radius * bound.cos_min) {}
+};
+
 // Where a vertex may lie so that, its link fixed, all triangles of its star hold the bounds (Erten & Üngör 2007,
 // Section 5). That set is an intersection of convex ones: for every link edge the petal (the angle at the vertex), two
 // half-planes (the angles at the ends), and disks round the ends where edges may not be longer than a size. The petals
@@ -22,20 +30,25 @@ struct LinkEdge {
 // petals. Only a bound on the largest angle at the vertex itself is not convex: it is for the caller to test.
 class FeasibleRegion {
  public:
-  // A point well inside the region, or nothing where there is none (or one thinner than rounding).
-  std::optional<Point> findPoint(std::span<const LinkEdge> link, const TriangleBound& bound);
+  explicit FeasibleRegion(const TriangleBound& bound) : bound_(bound), petal_(bound) {}
 
-  // Whether the region is certainly empty; a quick test without sizes and largest angles. A `false` tells nothing.
+  // A point well inside the region, or nothing where there is none (or one thinner than rounding).
+  std::optional<Point> findPoint(std::span<const LinkEdge> link);
+
+  // Whether the region is certainly empty; a quick test without sizes and largest angles. A `false` says nothing.
   // REQUIRES: the link is closed.
-  bool isEmpty(std::span<const LinkEdge> link, const TriangleBound& bound);
+  bool isEmpty(std::span<const LinkEdge> link);
 
   // As findPoint on the line from a to b: the point in the middle of what is feasible there.
-  static std::optional<Point> findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link,
-                                               const TriangleBound& bound);
+  std::optional<Point> findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link) const;
 
  private:
   void makeRoom(std::size_t corners);
 
+  TriangleBound bound_;
+  PetalShape petal_;
+
+  // Scratch.
   std::vector<Point> polygon_;
   std::vector<Point> clipped_;
   std::vector<double> sides_;

@@ -36,10 +36,11 @@ class Fitter {
       if (mesh_.isLiveVertex(v)) wanted_[v] = size_->at(mesh_.point(v));
   }
 
-  Fitter(Piece&& piece, const Pslg& pslg, const RefineOptions& options) : Fitter(std::move(piece.mesh), pslg, options) {
+  Fitter(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
+      : Fitter(std::move(state.mesh), pslg, options) {
     ops_.keepClearOfFrozen();
-    is_piece_ = true;
-    due_ = std::move(piece.due_vertices);
+    is_submesh_ = true;
+    due_ = std::move(state.due_vertices);
   }
 
   void run(int sweeps, const RunControl& control) {
@@ -57,7 +58,7 @@ class Fitter {
   }
 
   TriMesh release() { return mesh_.release(); }
-  Piece releasePiece() { return releaseDue(mesh_, std::move(due_)); }
+  MeshState releaseState() { return releaseDue(mesh_, std::move(due_)); }
   RefineStats& stats() { return stats_; }
 
  private:
@@ -65,24 +66,15 @@ class Fitter {
 
   // The triangles round a free vertex; false where a frozen edge is opposite, or there are too many.
   bool gatherRing(VertexId v) {
-    corners_.clear();
-    triangles_.clear();
-    const TriId home = mesh_.triangleOf(v);
-    TriId t = home;
-    do {
-      const Triangle& tri = mesh_.triangle(t);
-      const unsigned i = mesh_.cornerOf(t, v);
-      if (is_piece_ && tri.seg[i] == kFrozen) return false;
-      corners_.push_back(tri.v[next3(i)]);
-      triangles_.push_back(t);
-      t = triOf(tri.adj[next3(i)]);
-    } while (t != home && corners_.size() < 64);
-    return t == home;
+    constexpr std::size_t kMost = 64;
+    if (mesh_.ring(v, mesh_.triangleOf(v), kMost, ring_) != StarKind::Closed) return false;
+    const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
+    return !is_submesh_ || std::ranges::none_of(ring_.triangles, isFrozen);
   }
 
   bool mergeShort(VertexId v) {
     const Point here = mesh_.point(v);
-    for (const VertexId w : corners_) {
+    for (const VertexId w : ring_.corners) {
       const double shortest = kShortest * 0.5 * (wanted_[v] + wanted_[w]);
       if (squaredDistance(here, mesh_.point(w)) > shortest * shortest || mesh_.kind(w) == VertexKind::Input) continue;
       touched_.clear();
@@ -98,19 +90,20 @@ class Fitter {
   Point wantedPlace(VertexId v) const {
     const Point here = mesh_.point(v);
     Point sum;
-    for (const VertexId w : corners_) {
+    for (const VertexId w : ring_.corners) {
       const Point from = mesh_.point(w);
       sum = sum + from;
       if (size_ == nullptr) continue;
       const double wanted = 0.5 * (wanted_[v] + wanted_[w]);
       sum = sum + (wanted / distance(from, here)) * (here - from);
     }
-    return (1.0 / static_cast<double>(corners_.size())) * sum;
+    return (1.0 / static_cast<double>(ring_.corners.size())) * sum;
   }
 
   bool fits(const Point& place) const {
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-      const Point &a = mesh_.point(corners_[i]), &b = mesh_.point(corners_[i + 1 == corners_.size() ? 0 : i + 1]);
+    for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
+      const Point &a = mesh_.point(ring_.corners[i]),
+                  &b = mesh_.point(ring_.corners[i + 1 == ring_.corners.size() ? 0 : i + 1]);
       if (orient2d(a, b, place) <= 0 || isBad(a, b, place, bound_)) return false;
     }
     return true;
@@ -121,12 +114,12 @@ class Fitter {
     Point to = wantedPlace(v);
     if (!std::isfinite(to.x) || !std::isfinite(to.y)) return;
     const auto isBesideBad = [&](TriId t) { return ops_.isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
-    if (std::ranges::any_of(triangles_, isBesideBad)) return;
+    if (std::ranges::any_of(ring_.triangles, isBesideBad)) return;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       if (fits(to)) {
         mesh_.setPoint(v, to);
         if (size_ != nullptr) wanted_[v] = size_->at(to);
-        touched_.assign(triangles_.begin(), triangles_.end());
+        touched_.assign(ring_.triangles.begin(), ring_.triangles.end());
         mesh_.restoreDelaunayRound(v, touched_);
         ++stats_.relocations;
         return;
@@ -139,21 +132,21 @@ class Fitter {
   TriangleBound bound_;
   EditMesh mesh_;
   VertexOps ops_;
-  bool is_piece_ = false;
+  bool is_submesh_ = false;
   RefineStats stats_;
   std::vector<double> wanted_;  // one a vertex: the length wanted there
-  std::vector<VertexId> corners_;
-  std::vector<TriId> triangles_, touched_;
+  Ring ring_;                   // of the vertex whose turn it is
+  std::vector<TriId> touched_;
   std::vector<std::uint8_t> due_;  // one a vertex; empty where all are
 };
 
 }  // namespace
 
-RefineStats fitPiece(Piece& piece, const Pslg& pslg, const RefineOptions& options, int sweeps,
-                     const RunControl& control) {
-  Fitter fitter(std::move(piece), pslg, options);
+RefineStats fitSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, int sweeps,
+                       const RunControl& control) {
+  Fitter fitter(std::move(state), pslg, options);
   fitter.run(sweeps, control);
-  piece = fitter.releasePiece();
+  state = fitter.releaseState();
   return std::move(fitter.stats());
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/piece.hpp"
 #include "core/pslg.hpp"
 #include "core/refine.hpp"
 #include "core/run_control.hpp"
+#include "core/submesh_runs.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -18,8 +18,8 @@ inline constexpr int kFitSweeps = 2, kSmoothSweeps = 10;
 RefineStats fit(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
                 const RunControl& control = {});
 
-// The same for the due vertices of a part of a larger mesh, as `shrinkPiece`.
-RefineStats fitPiece(Piece& piece, const Pslg& pslg, const RefineOptions& options, int sweeps,
-                     const RunControl& control = {});
+// The same for the due vertices of a part of a larger mesh, as `shrinkSubmesh`.
+RefineStats fitSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, int sweeps,
+                       const RunControl& control = {});
 
 }  // namespace coastmesh

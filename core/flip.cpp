@@ -1,5 +1,6 @@
 #include "core/flip.hpp"
 
+#include "core/links.hpp"
 #include "core/predicates.hpp"
 
 namespace coastmesh {
@@ -19,20 +20,13 @@ bool flipEdge(std::span<const Point> points, std::span<Triangle> triangles, Edge
   };
   const auto side = [&](TriId s, unsigned k) { return Side{triangles[s].adj[k], triangles[s].seg[k]}; };
   const Side ab = side(t, prev3(i)), ca = side(t, next3(i)), bd = side(n, next3(j)), dc = side(n, prev3(j));
-  const auto link = [&](EdgeRef own, const Side& other) {
-    triangles[triOf(own)].adj[indexOf(own)] = other.beyond;
-    triangles[triOf(own)].seg[indexOf(own)] = other.seg;
-    if (other.beyond == kNone) return;
-    triangles[triOf(other.beyond)].adj[indexOf(other.beyond)] = own;
-    triangles[triOf(other.beyond)].seg[indexOf(other.beyond)] = other.seg;
-  };
   triangles[t].v = {a, b, d};
   triangles[n].v = {a, d, c};
-  link(edgeRef(t, 0), bd);
-  link(edgeRef(t, 2), ab);
-  link(edgeRef(n, 0), dc);
-  link(edgeRef(n, 1), ca);
-  link(edgeRef(t, 1), {edgeRef(n, 2), kNone});
+  link(triangles, edgeRef(t, 0), bd.beyond, bd.seg);
+  link(triangles, edgeRef(t, 2), ab.beyond, ab.seg);
+  link(triangles, edgeRef(n, 0), dc.beyond, dc.seg);
+  link(triangles, edgeRef(n, 1), ca.beyond, ca.seg);
+  link(triangles, edgeRef(t, 1), edgeRef(n, 2), kNone);
   return true;
 }
 
@@ -45,16 +39,12 @@ bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles
 
 std::vector<TriId> restoreDelaunay(TriMesh& mesh, std::vector<EdgeRef> edges) {
   std::vector<TriId> changed;
-  while (!edges.empty()) {
-    const EdgeRef e = edges.back();
-    edges.pop_back();
-    if (mesh.segment(e) != kNone || mesh.twin(e) == kNone) continue;
-    const TriId t = triOf(e), n = triOf(mesh.twin(e));
-    if (!flipToDelaunay(mesh.points, mesh.triangles, e)) continue;
-    changed.push_back(t);
-    changed.push_back(n);
-    for (const EdgeRef f : {edgeRef(t, 0), edgeRef(t, 2), edgeRef(n, 0), edgeRef(n, 1)}) edges.push_back(f);
-  }
+  flipWaiting(
+      mesh.points, mesh.triangles, edges, [&](EdgeRef e) { return mesh.segment(e) == kNone && mesh.twin(e) != kNone; },
+      [&](TriId t, TriId n) {
+        changed.push_back(t);
+        changed.push_back(n);
+      });
   return changed;
 }
 

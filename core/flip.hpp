@@ -8,13 +8,29 @@
 namespace coastmesh {
 
 // Replaces an edge by the other diagonal of its two triangles, which keep their slots. The edge must have a triangle on both sides.
-// Answers false where these make no convex quadrilateral.
+// Returns false where these make no convex quadrilateral.
 bool flipEdge(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e);
 
-// The same where that makes the edge Delaunay; answers false where it is so already.
+// The same where that makes the edge Delaunay; returns false where it is so already.
 bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e);
 
-// Lawson's flips from the given edges on. Answers the triangles that changed, some of them several times.
+// Lawson's flips: takes edges off `waiting` until none is left, flips those that `mayFlip(e)` allows and that are not Delaunay, calls
+// `flipped(t, n)` with their two triangles, and lets the four edges round these wait. REQUIRES: an edge that may flip has two sides.
+template <typename MayFlip, typename Flipped>
+void flipWaiting(std::span<const Point> points, std::span<Triangle> triangles, std::vector<EdgeRef>& waiting,
+                 const MayFlip& mayFlip, const Flipped& flipped) {
+  while (!waiting.empty()) {
+    const EdgeRef e = waiting.back();
+    waiting.pop_back();
+    if (!mayFlip(e)) continue;
+    const TriId t = triOf(e), n = triOf(triangles[t].adj[indexOf(e)]);
+    if (!flipToDelaunay(points, triangles, e)) continue;
+    flipped(t, n);
+    for (const EdgeRef f : {edgeRef(t, 0), edgeRef(t, 2), edgeRef(n, 0), edgeRef(n, 1)}) waiting.push_back(f);
+  }
+}
+
+// The same from the given edges on, but for segments. Returns the triangles that changed, some of them several times.
 std::vector<TriId> restoreDelaunay(TriMesh& mesh, std::vector<EdgeRef> edges);
 
 }  // namespace coastmesh

@@ -35,7 +35,7 @@ void labelRegions(TriMesh& mesh, const Pslg& pslg) {
       const SegmentId s = mesh.triangles[t].seg[i];
       if (s == kNone) continue;
       const Segment& segment = pslg.segments[s];
-      // Pieces of a segment run with it or against it: told by its longer side alone, since products underflow.
+      // Pieces of a segment run with it or against it: decided by its longer side alone, since products underflow.
       const Point &a = pslg.points[segment.a], &b = pslg.points[segment.b];
       const Point &from = mesh.points[mesh.origin(edgeRef(t, i))], &to = mesh.points[mesh.target(edgeRef(t, i))];
       const bool by_x = std::abs(b.x - a.x) >= std::abs(b.y - a.y);

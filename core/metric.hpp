@@ -10,8 +10,7 @@
 
 namespace coastmesh {
 
-// The quality measure of the plane. Topology tests (core/predicates.hpp) never use it: a mesh on a curved surface has
-// another measure and the same tests in its parameter plane.
+// The quality measure, of the plane only. Tests that decide on topology are exact and lie in core/predicates.hpp.
 
 inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y}; }
 inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
@@ -26,7 +25,12 @@ inline double squaredDistanceToSegment(const Point& p, const Point& a, const Poi
   const double share = square > 0.0 ? std::clamp(dot(p - a, b - a) / square, 0.0, 1.0) : 0.0;
   return squaredDistance(p, a + share * (b - a));
 }
+// The foot of the perpendicular from p on the line through a and b, which differ.
+inline Point projectedOnLine(const Point& p, const Point& a, const Point& b) {
+  return a + (dot(p - a, b - a) / squaredDistance(a, b)) * (b - a);
+}
 inline Point midpoint(const Point& a, const Point& b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
+inline Point centroid(const Point& a, const Point& b, const Point& c) { return (1.0 / 3.0) * (a + b + c); }
 
 // The angle at b on the way a, b, c, in radians, 0 to pi.
 inline double angleAt(const Point& b, const Point& a, const Point& c) {
@@ -44,41 +48,23 @@ inline Point circumcenterOffset(const Point& a, const Point& b, const Point& c) 
 constexpr double toRadians(double deg) { return deg * std::numbers::pi / 180.0; }
 constexpr double toDegrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
-// What is asked of every triangle, in the forms that tests need. The bounds are a ten-millionth of a degree stricter
-// than asked, so that rounding a coordinate, once projected, does not break them.
-struct TriangleBound {
+// What is asked of a triangle's angles, in the forms that tests need. The bounds are a millionth of a degree stricter than asked, so that
+// rounding a coordinate, once projected, does not break them.
+struct AngleBound {
   double min_angle;  // radians
   double max_angle;  // radians; pi where nothing is asked
   double cos_min;
   double sin_min;
   double cot_min;
-  double petal_radius;  // of the disk whose rim sees an edge under min_angle, over the edge's length
-  double petal_height;  // of its centre above the edge
-  double place_angle;   // radians: the smallest angle that new points aim at
   double cos_max;
-  double squared_size;                 // longest edge, squared; infinite where nothing is asked
-  const SizeFunction* size = nullptr;  // lengths wanted; null where none are
-  double longest_share = 0.0;          // longest edge as a share of the length wanted at the triangle's centre
 
-  TriangleBound(double min_angle_deg, double max_angle_deg, double size_max)
+  AngleBound(double min_angle_deg, double max_angle_deg)
       : min_angle(min_angle_deg <= 0.0 ? 0.0 : toRadians(min_angle_deg + kMarginDeg)),
         max_angle(max_angle_deg >= 180.0 ? std::numbers::pi : toRadians(max_angle_deg - kMarginDeg)),
         cos_min(std::cos(min_angle)),
         sin_min(std::sin(min_angle)),
         cot_min(cos_min / sin_min),
-        petal_radius(0.5 / sin_min),
-        petal_height(petal_radius * cos_min),
-        place_angle(min_angle + toRadians(kMarginDeg)),
-        cos_max(std::cos(max_angle)),
-        squared_size(size_max * size_max) {}
-
-  // With lengths wanted besides.
-  TriangleBound(double min_angle_deg, double max_angle_deg, double size_max, const SizeFunction* wanted, double share)
-      : TriangleBound(min_angle_deg, max_angle_deg,
-                      wanted == nullptr ? size_max : std::min(size_max, share * wanted->most())) {
-    size = wanted;
-    longest_share = share;
-  }
+        cos_max(std::cos(max_angle)) {}
 
   static constexpr double kMarginDeg = 1e-6;
 
@@ -87,6 +73,24 @@ struct TriangleBound {
     const double largest = std::min(max_angle, std::numbers::pi - 2.0 * min_angle);
     const double pieces = std::max(1.0, std::ceil(angle / largest - 1e-9));
     return angle >= pieces * min_angle - 1e-9;
+  }
+};
+
+// What is asked of every triangle: of its angles, and of the length of its edges.
+struct TriangleBound : AngleBound {
+  double squared_size;                 // longest edge, squared; infinite where nothing is asked
+  const SizeFunction* size = nullptr;  // lengths wanted; null where none are
+  double longest_share = 0.0;          // longest edge as a share of the length wanted at the triangle's centroid
+
+  TriangleBound(double min_angle_deg, double max_angle_deg, double size_max)
+      : AngleBound(min_angle_deg, max_angle_deg), squared_size(size_max * size_max) {}
+
+  // With lengths wanted besides.
+  TriangleBound(double min_angle_deg, double max_angle_deg, double size_max, const SizeFunction* wanted, double share)
+      : TriangleBound(min_angle_deg, max_angle_deg,
+                      wanted == nullptr ? size_max : std::min(size_max, share * wanted->most())) {
+    size = wanted;
+    longest_share = share;
   }
 };
 
@@ -129,7 +133,7 @@ inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, 
 
 inline bool isLongerThanWanted(const Point& a, const Point& b, const Point& c, double squared_longest,
                                const TriangleBound& bound) {
-  const double longest = bound.longest_share * bound.size->at((1.0 / 3.0) * (a + b + c));
+  const double longest = bound.longest_share * bound.size->at(centroid(a, b, c));
   return squared_longest > longest * longest;
 }
 

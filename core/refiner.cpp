@@ -52,7 +52,7 @@ Refiner::Refiner(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options,
       search_(options.algorithm, bound_, toRadians(variant.aim_deg), options.size_scale),
       ops_(mesh_, pslg_, bound_),
       cos_lens_(-std::cos(2.0 * bound_.min_angle)),
-      squared_grain_(squaredGrain()),
+      squared_resolution_(squaredResolution()),
       notes_(std::move(notes)),
       moves_(mesh_.vertexSlots(), 0) {
   if (variant_.clear_of_frozen) findFrozenVertices();
@@ -73,12 +73,12 @@ bool Refiner::isBarred(const Patch& patch) const {
 }
 
 // A thousand units in the last place of the largest coordinate, squared.
-double Refiner::squaredGrain() const {
+double Refiner::squaredResolution() const {
   double magnitude = 0.0;
   for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
     magnitude = std::max({magnitude, std::abs(mesh_.point(v).x), std::abs(mesh_.point(v).y)});
-  const double grain = 1000.0 * std::numeric_limits<double>::epsilon() * magnitude;
-  return grain * grain;
+  const double resolution = 1000.0 * std::numeric_limits<double>::epsilon() * magnitude;
+  return resolution * resolution;
 }
 
 void Refiner::enqueueIfBad(TriId t) {
@@ -254,7 +254,7 @@ bool Refiner::insertPoint(TriId t, unsigned apex) {
   }
   if (hit != kNone) return splitFor(hit, t, apex);
   const double spacing = spacingAt(candidate.place, patch_);
-  if (!inside || std::min(candidate.squared_clearance, spacing * spacing) < squared_grain_) return false;
+  if (!inside || std::min(candidate.squared_clearance, spacing * spacing) < squared_resolution_) return false;
   if (candidate.squared_clearance < variant_.free_share * variant_.free_share * spacing * spacing) return false;
   const VertexId fan = fanApexBehind(t, apex);
   if (fan != kNone)

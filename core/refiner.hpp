@@ -71,7 +71,7 @@ class Refiner {
   void resume(std::vector<TriId>& touched, const RunControl& control);
 
  private:
-  double squaredGrain() const;
+  double squaredResolution() const;
   void enqueueIfBad(TriId t);
   void enqueueTouched();
   void findFrozenVertices();
@@ -106,7 +106,7 @@ class Refiner {
   SteinerSearch search_;
   VertexOps ops_;
   double cos_lens_;
-  double squared_grain_;  // no vertex is put nearer to another: there rounding decides what an angle is
+  double squared_resolution_;  // no vertex is put nearer to another: there rounding decides what an angle is
 
   VertexNotes notes_;
   std::vector<std::uint8_t> moves_;  // one a vertex: relocations so far

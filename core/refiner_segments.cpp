@@ -5,7 +5,7 @@
 
 namespace coastmesh {
 
-// The same for a point that is to split a subsegment, where the other segments beside it count too.
+// As spacingAt, for a point that is to split a subsegment, where the other segments beside it count too.
 double Refiner::spacingOnSegment(const Point& x, EdgeRef edge, const Patch& cavity) const {
   double spacing = spacingAt(x, cavity);
   for (const VertexId v : {mesh_.origin(edge), mesh_.target(edge)})
@@ -13,12 +13,10 @@ double Refiner::spacingOnSegment(const Point& x, EdgeRef edge, const Patch& cavi
   const Segment& own = pslg_.segments[mesh_.segment(edge)];
   for (const RimEdge& r : cavity.rim) {
     if (r.seg >= pslg_.segments.size()) continue;
-    // A segment that meets this one comes as near as one likes: there the spacing of their common vertex counts.
+    // Near a common end two segments are arbitrarily close: there the spacing of that vertex counts.
     const Segment& other = pslg_.segments[r.seg];
     if (own.a == other.a || own.a == other.b || own.b == other.a || own.b == other.b) continue;
-    const Point &from = mesh_.point(r.a), &to = mesh_.point(r.b);
-    const double share = std::clamp(dot(x - from, to - from) / squaredDistance(from, to), 0.0, 1.0);
-    spacing = std::min(spacing, distance(x, from + share * (to - from)));
+    spacing = std::min(spacing, std::sqrt(squaredDistanceToSegment(x, mesh_.point(r.a), mesh_.point(r.b))));
   }
   return spacing;
 }
@@ -36,11 +34,10 @@ Point Refiner::splitPlace(VertexId a, VertexId b, SegmentId seg) const {
     share = unit(a) > 0.0 ? from : 1.0 - from;
   }
   const Point &sa = pslg_.points[pslg_.segments[seg].a], &sb = pslg_.points[pslg_.segments[seg].b];
-  const Point place = pa + share * (pb - pa);
-  return sa + (dot(place - sa, sb - sa) / squaredDistance(sa, sb)) * (sb - sa);
+  return projectedOnLine(pa + share * (pb - pa), sa, sb);
 }
 
-// Takes out the free vertices in the subsegment's diametral circle (Chew 1993). Answers the subsegment, which may have
+// Takes out the free vertices in the subsegment's diametral circle (Chew 1993). Returns the subsegment, which may have
 // come to lie in another triangle.
 EdgeRef Refiner::clearDiametralCircle(EdgeRef edge) {
   const VertexId a = mesh_.origin(edge), b = mesh_.target(edge);
@@ -85,8 +82,8 @@ bool Refiner::splitFor(EdgeRef edge, TriId t, unsigned apex) {
   }
   const double spacing = spacingOnSegment(place, edge, patch_);
   const double nearer = std::min(squaredDistance(place, mesh_.point(a)), squaredDistance(place, mesh_.point(b)));
-  // Where the input itself is finer than the grain, nothing can be mended.
-  if (std::min(nearer, spacing * spacing) < squared_grain_) return false;
+  // Where the input itself is finer than coordinates resolve, nothing can be mended.
+  if (std::min(nearer, spacing * spacing) < squared_resolution_) return false;
   if (nearer < kSegmentShare * kSegmentShare * spacing * spacing) return false;
   const EdgeRef cleared = clearDiametralCircle(edge);
   const VertexId v = cleared == kNone ? kNone : mesh_.splitSegment(cleared, place, touched_);

@@ -7,38 +7,50 @@
 #include <utility>
 #include <vector>
 
-#include "core/local_patch.hpp"
+#include "core/submesh.hpp"
 
 namespace coastmesh {
 
 namespace {
 
 struct Attempt {
-  bool strip;  // start without the patch's free vertices
+  bool strip = true;  // start without the patch's free vertices
   RefineVariant variant;
 };
 
-// What differs is where points aim and which triangle comes first: small changes lead a spiral elsewhere.
-constexpr std::array kAttempts = {
-    Attempt{false, {0.5, false, 0.0}}, Attempt{true, {0.0, false, 0.0}}, Attempt{true, {0.5, false, 0.0}},
-    Attempt{true, {1.0, false, 0.0}},  Attempt{true, {2.0, false, 0.0}}, Attempt{true, {4.0, false, 0.0}},
-    Attempt{true, {0.0, true, 0.0}},   Attempt{true, {1.0, true, 0.0}},  Attempt{true, {3.0, true, 0.0}},
-    Attempt{true, {6.0, false, 0.0}},  Attempt{true, {1.5, false, 0.0}}, Attempt{true, {3.0, false, 0.0}},
-    Attempt{true, {8.0, false, 0.0}},  Attempt{true, {2.0, true, 0.0}},  Attempt{true, {4.5, true, 0.0}},
+// What differs is where points aim and which triangle comes first: a small change leads the order of insertions elsewhere. The first
+// are all tried, and the smallest mesh without a bad triangle wins.
+constexpr std::array kCompeting = {
+    Attempt{.strip = false, .variant = {.aim_deg = 0.5}},
+    Attempt{.variant = {.aim_deg = 0.0}},
+    Attempt{.variant = {.aim_deg = 0.5}},
+    Attempt{.variant = {.aim_deg = 1.0}},
+    Attempt{.variant = {.aim_deg = 2.0}},
+    Attempt{.variant = {.aim_deg = 4.0}},
+    Attempt{.variant = {.aim_deg = 0.0, .worst_first = true}},
+    Attempt{.variant = {.aim_deg = 1.0, .worst_first = true}},
+    Attempt{.variant = {.aim_deg = 3.0, .worst_first = true}},
+    Attempt{.variant = {.aim_deg = 6.0}},
 };
-// As many compete; the rest is for where they fail.
-constexpr std::size_t kUsualAttempts = 10;
+// Where all of those fail, these in turn until one leaves no bad triangle.
+constexpr std::array kLastResorts = {
+    Attempt{.variant = {.aim_deg = 1.5}},
+    Attempt{.variant = {.aim_deg = 3.0}},
+    Attempt{.variant = {.aim_deg = 8.0}},
+    Attempt{.variant = {.aim_deg = 2.0, .worst_first = true}},
+    Attempt{.variant = {.aim_deg = 4.5, .worst_first = true}},
+};
 constexpr std::array kRings = {2u, 3u, 4u, 6u};
 // A patch may grow to this many times its vertices, and some.
 constexpr std::uint64_t kGrowth = 2;
 constexpr std::uint64_t kGrowthRoom = 12;
 
-// Vertices that local runs may handle in vain: a share of the mesh, and some for small ones; at angles that no input has
+// Vertices that failed local runs may handle: a share of the mesh, and some for small ones; at angles that no input has
 // reached, a third.
 std::uint64_t mostWork(double min_angle_deg, std::uint64_t vertices) {
   return (6000 + 3 * vertices) / (min_angle_deg > 43.0 ? 3 : 1);
 }
-// Vertices that local runs may handle with success, as a multiple of those in vain: each time fewer triangles fall short.
+// Vertices that local runs may handle with success, as a multiple of those of failed ones: each time fewer triangles fall short.
 std::uint64_t timesAsMuch(double min_angle_deg) { return min_angle_deg > 43.0 ? 2 : 10; }
 // Past so many failures, and twice the successes, the bound is out of reach; at angles that no input has reached, sooner.
 std::uint64_t hopeless(double min_angle_deg) { return min_angle_deg > 43.0 ? 4 : 24; }
@@ -58,8 +70,8 @@ struct Solution {
   }
 };
 
-// Answers nothing where more than `most` triangles fall short, or no fewer than before.
-std::optional<Solution> solve(const LocalPatch& patch, const Attempt& attempt, std::size_t most, const Pslg& pslg,
+// Returns nothing where more than `most` triangles fall short, or no fewer than before.
+std::optional<Solution> solve(const Submesh& patch, const Attempt& attempt, std::size_t most, const Pslg& pslg,
                               const RefineOptions& options, std::uint64_t& work) {
   RefineOptions local = options;
   local.max_vertices = patch.parent.size() * kGrowth + kGrowthRoom;
@@ -75,13 +87,17 @@ std::optional<Solution> solve(const LocalPatch& patch, const Attempt& attempt, s
   return Solution{left, refiner.release()};
 }
 
-std::optional<Solution> solveBest(const LocalPatch& patch, std::size_t most, const Pslg& pslg,
+std::optional<Solution> solveBest(const Submesh& patch, std::size_t most, const Pslg& pslg,
                                   const RefineOptions& options, std::uint64_t& work) {
   std::optional<Solution> best;
-  const auto isMended = [&] { return best && best->short_triangles == 0; };
-  for (std::size_t i = 0; i < kAttempts.size() && !(isMended() && i >= kUsualAttempts); ++i) {
-    std::optional<Solution> solved = solve(patch, kAttempts[i], most, pslg, options, work);
+  const auto attempt = [&](const Attempt& how) {
+    std::optional<Solution> solved = solve(patch, how, most, pslg, options, work);
     if (solved && (!best || solved->isBetterThan(*best))) best = std::move(solved);
+  };
+  for (const Attempt& how : kCompeting) attempt(how);
+  for (const Attempt& how : kLastResorts) {
+    if (best && best->short_triangles == 0) break;
+    attempt(how);
   }
   return best;
 }
@@ -89,14 +105,14 @@ std::optional<Solution> solveBest(const LocalPatch& patch, std::size_t most, con
 enum class Outcome { Mended, Failed, Deferred };
 
 // Whether the mesh is a part of a larger one and the patch lies at its frozen rim.
-bool isAtFrozenRim(const EditMesh& mesh, const LocalPatch& patch) {
+bool isAtFrozenRim(const EditMesh& mesh, const Submesh& patch) {
   return std::ranges::any_of(patch.triangles, [&](TriId t) {
     return std::ranges::find(mesh.triangle(t).seg, kFrozen) != mesh.triangle(t).seg.end();
   });
 }
 
 // Puts a solution in; what it pushes beyond its patch is handled at once where nothing in it falls short.
-void take(Refiner& refiner, const LocalPatch& patch, const Solution& solution, const RunControl& control) {
+void take(Refiner& refiner, const Submesh& patch, const Solution& solution, const RunControl& control) {
   std::vector<VertexId> added;
   std::vector<TriId> touched;
   putBack(refiner.mesh(), patch, solution.mesh, added, touched);
@@ -116,9 +132,9 @@ void take(Refiner& refiner, const LocalPatch& patch, const Solution& solution, c
 Outcome mendPlace(Refiner& refiner, std::span<const TriId> centre, const Pslg& pslg, const RefineOptions& options,
                   const RunControl& control, std::uint64_t& work) {
   std::optional<Solution> best;
-  LocalPatch best_patch;
+  Submesh best_patch;
   for (const unsigned rings : kRings) {
-    LocalPatch patch = extractPatch(refiner.mesh(), refiner.notes(), centre, rings);
+    Submesh patch = extractAround(refiner.mesh(), refiner.notes(), centre, rings);
     if (refiner.isClearOfFrozen() && isAtFrozenRim(refiner.mesh(), patch)) {
       if (best) break;
       refiner.defer(centre.back());
@@ -143,7 +159,8 @@ Outcome mendPlace(Refiner& refiner, std::span<const TriId> centre, const Pslg& p
   return Outcome::Mended;
 }
 
-// Strips at input angles that fall short, with water beyond their sides: as wholes, since what mends one side breaks the other.
+// First the runs of bad triangles along a small input angle that has domain on both sides: each run is re-meshed as one patch, because
+// fixing one side spoils the other.
 void repairStrips(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
                   const auto& isGivenUp) {
   constexpr std::size_t kLongestStrip = 500;
@@ -168,45 +185,50 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
   };
   repairStrips(refiner, pslg, options, control, isGivenUp);
   const std::uint64_t most_work = mostWork(options.min_angle_deg, refiner.mesh().vertexCount());
-  std::uint64_t well_spent = 0, wasted = 0, successes = 0, failures = 0;
+  struct Tally {
+    std::uint64_t places = 0;
+    std::uint64_t work = 0;  // vertices handled
+  };
+  Tally successes, failures;
   // Where mending has failed the triangles beside wait for the next round.
-  std::vector<bool> in_vain;
-  const auto isInVain = [&](TriId t) {
+  std::vector<bool> near_failure;  // one a vertex
+  const auto isNearFailure = [&](TriId t) {
     return std::ranges::all_of(refiner.mesh().triangle(t).v,
-                               [&](VertexId v) { return v < in_vain.size() && in_vain[v]; });
+                               [&](VertexId v) { return v < near_failure.size() && near_failure[v]; });
   };
   const auto giveUp = [&](TriId t) {
-    in_vain.resize(refiner.mesh().vertexSlots(), false);
+    near_failure.resize(refiner.mesh().vertexSlots(), false);
     for (const TriId near : trianglesAround(refiner.mesh(), {&t, 1}, 1))
-      for (const VertexId v : refiner.mesh().triangle(near).v) in_vain[v] = true;
+      for (const VertexId v : refiner.mesh().triangle(near).v) near_failure[v] = true;
   };
   // What a repair pushes beyond its patch is met on the next round.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     bool again = false;
-    in_vain.clear();
+    near_failure.clear();
     const TriId slots = refiner.mesh().triangleSlots();
     for (TriId k = 0; k < slots; ++k) {
       // There and back: of a few beside one another another comes first, which makes another patch.
       const TriId t = round % 2 == 0 ? k : slots - 1 - k;
       if (!refiner.mesh().isLive(t) || !refiner.isShort(t) || isGivenUp(t)) continue;
       if (refiner.isDeferred(t)) continue;
-      if (isInVain(t)) {
+      if (isNearFailure(t)) {
         again = true;
         continue;
       }
-      if (wasted > most_work || well_spent > timesAsMuch(options.min_angle_deg) * most_work ||
+      if (failures.work > most_work || successes.work > timesAsMuch(options.min_angle_deg) * most_work ||
           refiner.stats().budget_reached)
         return;
       control.checkpoint(1.0);
       std::uint64_t work = 0;
       const Outcome outcome = mendPlace(refiner, {&t, 1}, pslg, options, control, work);
-      (outcome == Outcome::Mended ? well_spent : wasted) += work;
+      Tally& tally = outcome == Outcome::Mended ? successes : failures;
+      tally.work += work;
       if (outcome == Outcome::Deferred) continue;
+      ++tally.places;
       if (outcome == Outcome::Failed) giveUp(t);
-      again |= outcome == Outcome::Mended;
-      ++(outcome == Outcome::Mended ? successes : failures);
-      if (failures > hopeless(options.min_angle_deg) + 2 * successes) return;
+      if (outcome == Outcome::Mended) again = true;
+      if (failures.places > hopeless(options.min_angle_deg) + 2 * successes.places) return;
     }
     if (!again) return;
   }

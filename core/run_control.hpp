@@ -5,7 +5,7 @@
 
 namespace coastmesh {
 
-// Thrown out of any long stage soon after `RunControl::cancelled` answers true. Nothing of the stage's result is kept.
+// Thrown out of any long stage soon after `RunControl::cancelled` returns true. Nothing of the stage's result is kept.
 struct Cancelled : std::runtime_error {
   Cancelled() : std::runtime_error("interrupted") {}
 };
@@ -14,7 +14,7 @@ struct Cancelled : std::runtime_error {
 // thread, every few thousand steps.
 struct RunControl {
   std::function<bool()> cancelled;
-  std::function<void(double)> progress;  // share of the stage that is done, 0 to 1, as well as can be told
+  std::function<void(double)> progress;  // share of the stage that is done, 0 to 1, an estimate
 
   void checkpoint(double share) const {
     if (cancelled && cancelled()) throw Cancelled();

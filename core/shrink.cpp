@@ -8,9 +8,9 @@
 #include "core/edit_mesh.hpp"
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
-#include "core/piece.hpp"
 #include "core/refine.hpp"
 #include "core/shortfalls.hpp"
+#include "core/submesh_runs.hpp"
 #include "core/vertex_ops.hpp"
 
 namespace coastmesh {
@@ -68,10 +68,10 @@ class Shrinker {
   }
 
   // Of a part of a larger mesh: only the due vertices, and clear of frozen edges.
-  Shrinker(Piece&& piece, const Pslg& pslg, const RefineOptions& options)
-      : Shrinker(std::move(piece.mesh), pslg, options) {
+  Shrinker(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
+      : Shrinker(std::move(state.mesh), pslg, options) {
     ops_.keepClearOfFrozen();
-    due_ = std::move(piece.due_vertices);
+    due_ = std::move(state.due_vertices);
   }
 
   void run(int sweeps, const RunControl& control) {
@@ -92,7 +92,7 @@ class Shrinker {
   }
 
   TriMesh release() { return mesh_.release(); }
-  Piece releasePiece() { return releaseDue(mesh_, std::move(due_)); }
+  MeshState releaseState() { return releaseDue(mesh_, std::move(due_)); }
   RefineStats& stats() { return stats_; }
 
  private:
@@ -142,11 +142,11 @@ bool Shrinker::isFinerThanWanted(VertexId v) {
 
 }  // namespace
 
-RefineStats shrinkPiece(Piece& piece, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
-  Shrinker shrinker(std::move(piece), pslg, options);
-  // As the large mesh that it is a piece of.
+RefineStats shrinkSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  Shrinker shrinker(std::move(state), pslg, options);
+  // As many as of the large mesh that it is a part of.
   shrinker.run(sweepsFor(options.min_angle_deg, std::numeric_limits<std::size_t>::max()), control);
-  piece = shrinker.releasePiece();
+  state = shrinker.releaseState();
   return std::move(shrinker.stats());
 }
 

@@ -12,7 +12,7 @@ class SizeFunction {
 
   // The length wanted at x: finite, above 0, for every finite x.
   virtual double at(const Point& x) const = 0;
-  // Bounds of what `at` answers anywhere.
+  // Bounds of what `at` returns anywhere.
   virtual double least() const = 0;
   virtual double most() const = 0;
 };

@@ -14,7 +14,7 @@ namespace {
 // Steeper than this share of the grade sizes are graded by distance; below it, it is cheaper to flatten triangles.
 constexpr double kMuchTooSteep = 1.1;
 // So much of the way from a place to its neighbours sizes stay as they are there: grown all the way to two neighbours at a right angle
-// they would be too steep between these, and the dent that mending it makes goes on and on.
+// they would be too steep between these, and lowering them there would make the next cells too steep, without end.
 constexpr double kFlatFoot = 0.3;
 // Triangles are flattened to a little less than what is still left alone, so that each time something is gained.
 constexpr double kFlattened = 1.0 - 1e-5;

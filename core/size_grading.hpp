@@ -35,7 +35,7 @@ struct LeavesRound {
   std::size_t count = 0;
 };
 
-// Lowers sizes at the vertices of such cells until they grow no faster than `grade` anywhere, in two steps. Places are told in `unit`.
+// Lowers sizes at the vertices of such cells until they grow no faster than `grade` anywhere, in two steps. Places are in multiples of `unit`.
 class SizeGrading {
  public:
   SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit, std::span<const LeafVertices> leaves,

@@ -22,7 +22,7 @@ struct SizeRange {
   double high = 0.0;
 };
 
-// Where wanted lengths come from: asked for many places at once, so that whoever answers can share the work out. Lengths are in plane
+// Where wanted lengths come from: asked for many places at once, so that whoever computes them can share the work out. Lengths are in plane
 // units, above 0; infinite where nothing is wanted.
 class SizeSource {
  public:
@@ -63,7 +63,7 @@ struct SizeTreeOptions {
 // No two places' lengths differ by more than the grade times their distance. Proof: on each triangle the gradient is at most the grade
 // (`SizeGrading`; the builder sees to it that this holds for the rounded values that are kept). The triangles fill the root square, a
 // convex set, so that the straight way between two places in it is a row of pieces, each in one triangle, and on each the length
-// changes by at most the grade times the piece. A place beyond the square is answered as the nearest place in it, and nearest places
+// changes by at most the grade times the piece. A place beyond the square gets the length of the nearest place in it, and nearest places
 // of a convex set are no further apart than the places themselves.
 class SizeTree final : public SizeFunction {
  public:
@@ -87,7 +87,7 @@ class SizeTree final : public SizeFunction {
  private:
   friend class SizeTreeBuilder;
 
-  // Cells are told by the place of their lower left corner, in units of the finest level.
+  // Cells are named by the place of their lower left corner, in units of the finest level.
   struct Cell {
     std::uint32_t below = 0;  // the first of four children in a row, or, where `is_leaf`, a leaf's number
     bool is_leaf = true;

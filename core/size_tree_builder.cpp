@@ -193,7 +193,7 @@ class SizeTreeBuilder {
       source_.bound(boxes, ranges);
       Demand pending = settled;
       for (std::size_t k = 0; k < wanted.size(); ++k) pending.add(demandOf(wanted[k], ranges[k]));
-      // Few cells more cost nothing and tell better how much it is.
+      // A few cells more cost nothing and make the estimate better.
       constexpr std::uint32_t kFewCells = 20'000;
       too_much |= isSurelyTooMuch(pending.likely) || pending.least > options_.most_vertices;
       if (too_much && end >= kFewCells) return abandon(pending);
@@ -219,7 +219,7 @@ class SizeTreeBuilder {
     if (too_much) abandon(settled);
   }
 
-  // Splits cells whose centre or sides are not what the corners tell, or that hold something much smaller than all of these.
+  // Splits cells whose centre or sides differ from what the corners give, or that hold something much smaller than all of these.
   void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<double>& lows) {
     std::vector<std::array<std::uint32_t, 4>> middles(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -467,12 +467,12 @@ class SizeTreeBuilder {
   std::vector<std::uint32_t> leaf_cells_;
   std::vector<LeafVertices> leaf_vertices_;
   std::vector<char> is_wanted_;  // leaves
-  std::vector<double> likely_;   // demand as each level of cells told it
+  std::vector<double> likely_;   // demand as estimated at each level of cells
 };
 
 SizeTree::SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,
                    const ItemLoop& loop) {
-  // A hair larger, so that nothing lies on the root's own sides.
+  // A little larger, so that nothing lies on the root's own sides.
   const double extent = std::max(high.x - low.x, high.y - low.y);
   side_ = 1.01 * (extent > 0.0 ? extent : 1.0);
   origin_ = midpoint(low, high) - Point{0.5 * side_, 0.5 * side_};

@@ -35,7 +35,7 @@ void evenShares(const Point& a, const Point& b, const SizeFunction& size, std::u
   while (along < length && static_cast<double>(marks.size()) < most_steps) {
     const double step = std::min(here / kStepsALength, length - along);
     const double next = step >= length - along ? length : along + step;
-    if (!(next > along)) break;  // lengths below what coordinates tell apart
+    if (!(next > along)) break;  // lengths below what coordinates resolve
     const double there = size.at(a + (next / length) * (b - a));
     count += 0.5 * (next - along) * (1.0 / here + 1.0 / there);
     along = next;
@@ -98,8 +98,7 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
       if (edge == kNone) break;
       const Segment& seg = pslg.segments[cut.seg];
       const Point &sa = pslg.points[seg.a], &sb = pslg.points[seg.b];
-      const Point place = a + share * (b - a);
-      const Point on = sa + (dot(place - sa, sb - sa) / squaredDistance(sa, sb)) * (sb - sa);
+      const Point on = projectedOnLine(a + share * (b - a), sa, sb);
       touched.clear();
       const VertexId v = edit.splitSegment(edge, on, touched);
       if (v == kNone) break;

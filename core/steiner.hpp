@@ -29,7 +29,11 @@ class SteinerSearch {
  public:
   // Points aim at an angle that is `aim` (radians) above the bound.
   SteinerSearch(Algorithm algorithm, const TriangleBound& bound, double aim, double scale = 1.0)
-      : algorithm_(algorithm), bound_(bound), sin_place_(std::sin(bound.place_angle + aim)), scale_(scale) {}
+      : algorithm_(algorithm),
+        bound_(bound),
+        // A little more than the bound: rounding finds a triangle bad whose apex is on the petal's boundary.
+        sin_place_(std::sin(bound.min_angle + toRadians(AngleBound::kMarginDeg) + aim)),
+        scale_(scale) {}
 
   // `t` is bad and its shortest edge is opposite its corner `apex`.
   SteinerPoint find(const EditMesh& mesh, TriId t, unsigned apex);
@@ -42,8 +46,8 @@ class SteinerSearch {
 
   Algorithm algorithm_;
   const TriangleBound& bound_;
-  double sin_place_;
-  double scale_;  // wanted lengths are aimed at times this
+  double sin_place_;  // of the smallest angle that points aim at
+  double scale_;      // wanted lengths are aimed at times this
   std::vector<Step> steps_;
 };
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/links.hpp"
+
 namespace coastmesh {
 
 TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<VertexId, 3>> corners,
@@ -30,31 +32,32 @@ TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<Vert
     }
   }
 
+  // The one edge that can be the other side; kNone where there is none, or several.
+  const auto from = [&](VertexId v) { return std::span(leaving).subspan(first[v], first[v + 1] - first[v]); };
+  std::vector<std::array<EdgeRef, 3>> twins(corners.size(), {kNone, kNone, kNone});
   for (TriId t = 0; t < corners.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef e = edgeRef(t, i);
-      const VertexId a = mesh.origin(e), b = mesh.target(e);
-      const auto from = [&](VertexId v) { return std::span(leaving).subspan(first[v], first[v + 1] - first[v]); };
+      const VertexId a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
       const auto claims = std::ranges::count_if(from(a), [&](EdgeRef f) { return mesh.target(f) == b; });
       EdgeRef twin = kNone;
-      std::size_t twins = 0;
+      std::size_t found = 0;
       for (EdgeRef f : from(b)) {
         if (mesh.target(f) != a) continue;
         twin = f;
-        ++twins;
+        ++found;
       }
-      if (a == b || claims > 1 || twins > 1) {
-        if (a <= b || twins == 0) conflicts.push_back({a, b});
-      } else if (twins == 1) {
-        mesh.triangles[t].adj[i] = twin;
+      if (a == b || claims > 1 || found > 1) {
+        if (a <= b || found == 0) conflicts.push_back({a, b});
+      } else if (found == 1) {
+        twins[t][i] = twin;
       }
     }
   }
-  // Where one side of an edge was refused, the other must not point there.
+  // Where one side of an edge was refused, the other is on the boundary too.
   for (TriId t = 0; t < corners.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef twin = mesh.triangles[t].adj[i];
-      if (twin != kNone && mesh.twin(twin) != edgeRef(t, i)) mesh.triangles[t].adj[i] = kNone;
+      const EdgeRef e = edgeRef(t, i), twin = twins[t][i];
+      if (twin != kNone && e < twin && twins[triOf(twin)][indexOf(twin)] == e) setTwins(mesh.triangles, e, twin);
     }
   }
   return mesh;

@@ -35,16 +35,10 @@ struct Triangle {
   std::array<SegmentId, 3> seg{kNone, kNone, kNone};  // the input segment that edge i is a piece of
 };
 
-// A triangle mesh that is compact: every triangle is live; points may be unused where the input had points off the
-// domain.
-struct TriMesh {
-  // The first `input_vertices` points are the PSLG's, in its order, bit for bit; Steiner points follow.
-  std::vector<Point> points;
+// Triangles that know their neighbours. core/links.hpp writes what links them.
+struct LinkedTriangles {
   std::vector<Triangle> triangles;
-  std::vector<RegionId> regions;  // one a triangle: the feature it belongs to
-  VertexId input_vertices = 0;
 
-  const Point& point(VertexId v) const { return points[v]; }
   const Triangle& triangle(TriId t) const { return triangles[t]; }
   VertexId origin(EdgeRef e) const { return triangles[triOf(e)].v[next3(indexOf(e))]; }
   VertexId target(EdgeRef e) const { return triangles[triOf(e)].v[prev3(indexOf(e))]; }
@@ -57,6 +51,17 @@ struct TriMesh {
     const auto& c = triangles[t].v;
     return (c[1] == v ? 1u : 0u) | (c[2] == v ? 2u : 0u);  // no branch: there is nothing to predict
   }
+};
+
+// A triangle mesh that is compact: every triangle is live; points may be unused where the input had points off the
+// domain.
+struct TriMesh : LinkedTriangles {
+  // The first `input_vertices` points are the PSLG's, in its order, bit for bit; Steiner points follow.
+  std::vector<Point> points;
+  std::vector<RegionId> regions;  // one a triangle: the feature it belongs to
+  VertexId input_vertices = 0;
+
+  const Point& point(VertexId v) const { return points[v]; }
 };
 
 // An edge that more than two triangles, or two triangles of opposite orientation, claim.

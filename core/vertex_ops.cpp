@@ -18,7 +18,7 @@ std::size_t mostTriangles(const TriangleBound& bound) {
 // Triangles that vanish when two vertices become one.
 constexpr std::size_t kMergedAway = 2;
 
-// The same for what is to be round a merged vertex, hardly ever so many that little is left.
+// The same for what is to be round a merged vertex. The limit is below a full turn: near that a place is hardly ever feasible.
 bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
   constexpr double kMostTurn = toRadians(299.5);
   return static_cast<double>(triangles) * bound.min_angle > kMostTurn;
@@ -44,46 +44,74 @@ VertexOps::VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& boun
       pslg_(pslg),
       bound_(bound),
       most_triangles_(mostTriangles(bound)),
-      flips_may_harm_(bound.max_angle < std::numbers::pi || !std::isinf(bound.squared_size)) {}
+      flips_may_harm_(bound.max_angle < std::numbers::pi || !std::isinf(bound.squared_size)),
+      region_(bound) {}
 
-// Fills inner_ (and outer_) with the subsegments at v, rim and link with what is round it, less what it shares with
-// `other`. Answers false where there are too many triangles.
-bool VertexOps::gather(VertexId v, VertexId other, VertexId stays) {
-  const bool closed = mesh_.star(v, star_, most_triangles_ + kMergedAway);
-  if (star_.size() > most_triangles_ + kMergedAway) return false;
-  for (const EdgeRef e : star_) {
+void VertexOps::Star::clear() {
+  patch.triangles.clear();
+  patch.rim.clear();
+  spokes.clear();
+  sides.clear();
+}
+
+// Appends what is round v, less what it shares with `other`; its spokes start at `stays`. Returns false where there are too many
+// triangles.
+bool VertexOps::appendStar(VertexId v, VertexId other, VertexId stays, Star& star) {
+  const StarKind kind = mesh_.star(v, opposite_, most_triangles_ + kMergedAway);
+  if (kind == StarKind::TooMany) return false;
+  for (const EdgeRef e : opposite_) {
     const VertexId a = mesh_.origin(e), b = mesh_.target(e);
     const bool shared = a == other || b == other;
-    if (!shared || v == stays) patch_.triangles.push_back(triOf(e));
-    if (!shared) patch_.rim.push_back({a, b, mesh_.twin(e), mesh_.segment(e)});
+    if (!shared || v == stays) star.patch.triangles.push_back(triOf(e));
+    if (!shared) star.patch.rim.push_back({a, b, mesh_.twin(e), mesh_.segment(e)});
     const EdgeRef spoke = spokeBefore(e);
     const SegmentId seg = mesh_.segment(spoke);
     if (a == other || seg == kNone) continue;
-    inner_.push_back({stays, a, kNone, seg});
-    if (mesh_.twin(spoke) == kNone) outer_.push_back(inner_.back());
+    star.spokes.push_back({stays, a, kNone, seg});
+    if (mesh_.twin(spoke) == kNone) star.sides.push_back(star.spokes.back());
   }
-  if (closed) return true;
-  const EdgeRef last = spokeAfter(star_.back());
+  if (kind == StarKind::Closed) return true;
+  const EdgeRef last = spokeAfter(opposite_.back());
   if (mesh_.origin(last) == other) return true;
-  inner_.push_back({stays, mesh_.origin(last), kNone, mesh_.segment(last)});
-  outer_.push_back({mesh_.origin(last), stays, kNone, mesh_.segment(last)});
+  star.spokes.push_back({stays, mesh_.origin(last), kNone, mesh_.segment(last)});
+  star.sides.push_back({mesh_.origin(last), stays, kNone, mesh_.segment(last)});
   return true;
 }
 
-// Where v may go, with the link in patch_.rim and the subsegments at v in inner_.
-std::optional<Point> VertexOps::findPlace(VertexId v) {
+bool VertexOps::gather(VertexId v, Star& star) {
+  star.clear();
+  return appendStar(v, kNone, v, star);
+}
+
+// What is round two neighbours. Returns false where they cannot become one: the link condition, that the two stars share the corners
+// beside their edge and no others.
+bool VertexOps::gatherBoth(VertexId goes, VertexId stays, Star& star) {
+  star.clear();
+  if (!appendStar(goes, stays, stays, star)) return false;
+  const std::size_t own = star.patch.rim.size();
+  if (!appendStar(stays, goes, stays, star) || isBarred(star)) return false;
+  const std::vector<RimEdge>& rim = star.patch.rim;
+  if (rim.size() < 3 || hasTooManyToMerge(rim.size(), bound_)) return false;
+  std::size_t common = 0;
+  for (std::size_t i = own; i < rim.size(); ++i)
+    for (std::size_t j = 0; j < own; ++j) common += rim[i].a == rim[j].b;
+  return common <= 1;
+}
+
+// Where v may go; fills link_.
+std::optional<Point> VertexOps::findPlace(VertexId v, const Star& star) {
   link_.clear();
-  for (const RimEdge& r : patch_.rim) link_.push_back({mesh_.point(r.a), mesh_.point(r.b)});
-  if (mesh_.kind(v) == VertexKind::Free) return region_.findPoint(link_, bound_);
-  if (inner_.size() != 2 || inner_[0].seg != inner_[1].seg || inner_[0].seg >= pslg_.segments.size())
+  for (const RimEdge& r : star.patch.rim) link_.push_back({mesh_.point(r.a), mesh_.point(r.b)});
+  if (mesh_.kind(v) == VertexKind::Free) return region_.findPoint(link_);
+  if (star.spokes.size() != 2 || star.spokes[0].seg != star.spokes[1].seg ||
+      star.spokes[0].seg >= pslg_.segments.size())
     return std::nullopt;
-  const std::optional<Point> place = FeasibleRegion::findPointBetween(
-      mesh_.point(otherEnd(inner_[0], v)), mesh_.point(otherEnd(inner_[1], v)), link_, bound_);
+  const std::optional<Point> place = region_.findPointBetween(mesh_.point(otherEnd(star.spokes[0], v)),
+                                                              mesh_.point(otherEnd(star.spokes[1], v)), link_);
   if (!place) return std::nullopt;
   // On the input segment itself, lest rounding adds up.
-  const Segment& seg = pslg_.segments[inner_[0].seg];
-  const Point &a = pslg_.points[seg.a], &b = pslg_.points[seg.b];
-  return a + (dot(*place - a, b - a) / squaredDistance(a, b)) * (b - a);
+  const Segment& seg = pslg_.segments[star.spokes[0].seg];
+  return projectedOnLine(*place, pslg_.points[seg.a], pslg_.points[seg.b]);
 }
 
 bool VertexOps::fits(const Point& place) const {
@@ -92,24 +120,24 @@ bool VertexOps::fits(const Point& place) const {
 }
 
 // Whether a fan round `place` over the rim would be flipped into triangles that no one has tested.
-bool VertexOps::fanFlips(const Point& place) const {
-  for (const RimEdge& r : patch_.rim) {
+bool VertexOps::fanFlips(const Star& star, const Point& place) const {
+  for (const RimEdge& r : star.patch.rim) {
     const Point &a = mesh_.point(r.a), &b = mesh_.point(r.b);
     if (r.seg == kNone && r.beyond != kNone && inCircle(place, a, b, mesh_.point(mesh_.apex(r.beyond))) > 0)
       return true;
     const bool constrained =
-        std::ranges::any_of(inner_, [&](const RimEdge& spoke) { return spoke.a == r.b || spoke.b == r.b; });
-    const auto next = std::ranges::find_if(patch_.rim, [&](const RimEdge& s) { return s.a == r.b; });
-    if (constrained || next == patch_.rim.end()) continue;
+        std::ranges::any_of(star.spokes, [&](const RimEdge& spoke) { return spoke.a == r.b || spoke.b == r.b; });
+    const auto next = std::ranges::find_if(star.patch.rim, [&](const RimEdge& s) { return s.a == r.b; });
+    if (constrained || next == star.patch.rim.end()) continue;
     if (inCircle(place, a, b, mesh_.point(next->b)) > 0) return true;
   }
   return false;
 }
 
 // The same for the triangles that are to fill a hole: they are Delaunay among themselves.
-bool VertexOps::holeFlips() const {
+bool VertexOps::holeFlips(const Star& star) const {
   for (const Corners& c : all_fresh_) {
-    for (const RimEdge& r : patch_.rim) {
+    for (const RimEdge& r : star.patch.rim) {
       if (r.seg != kNone || r.beyond == kNone) continue;
       const bool on = (c[0] == r.a && c[1] == r.b) || (c[1] == r.a && c[2] == r.b) || (c[2] == r.a && c[0] == r.b);
       if (on &&
@@ -120,9 +148,9 @@ bool VertexOps::holeFlips() const {
   return false;
 }
 
-// Whether the star in patch_ is next to a frozen edge, and is to be left alone for that.
-bool VertexOps::isBarred() const {
-  return clear_of_frozen_ && std::ranges::any_of(patch_.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
+// Whether a star is next to a frozen edge, and is to be left alone for that.
+bool VertexOps::isBarred(const Star& star) const {
+  return clear_of_frozen_ && std::ranges::any_of(star.patch.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
 }
 
 bool VertexOps::isBadBeyond(EdgeRef e) const {
@@ -131,24 +159,11 @@ bool VertexOps::isBadBeyond(EdgeRef e) const {
   return isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_);
 }
 
-// Whether flips at the rim in patch_ could do harm.
-bool VertexOps::mayNotFlip() const {
-  return flips_may_harm_ ||
-         (bad_stays_ && std::ranges::any_of(patch_.rim, [this](const RimEdge& r) { return isBadBeyond(r.beyond); }));
-}
-
-// The ring of a free vertex, from the triangle `home` on.
-void VertexOps::walkRound(VertexId v, TriId home, Ring& ring) const {
-  ring.corners.clear();
-  ring.triangles.clear();
-  TriId t = home;
-  do {
-    const Triangle& tri = mesh_.triangle(t);
-    const unsigned i = mesh_.cornerOf(t, v);
-    ring.corners.push_back(tri.v[next3(i)]);
-    ring.triangles.push_back(t);
-    t = triOf(tri.adj[next3(i)]);
-  } while (t != home && ring.corners.size() <= most_triangles_ + kMergedAway);
+// Whether flips at the boundary of a star could do harm.
+bool VertexOps::mayNotFlip(const Star& star) const {
+  return flips_may_harm_ || (bad_stays_ && std::ranges::any_of(star.patch.rim, [this](const RimEdge& r) {
+                               return isBadBeyond(r.beyond);
+                             }));
 }
 
 // Appends to link_ what is round a vertex, less the edges that end at `other`.
@@ -166,13 +181,13 @@ void VertexOps::appendLink(const Ring& ring, VertexId other) {
 
 // A quick test of two free vertices, v with its ring_ and w beside it, that rules most merges out.
 bool VertexOps::cannotMerge(VertexId v, VertexId w, TriId beside) {
-  walkRound(w, beside, other_ring_);
+  if (mesh_.ring(w, beside, most_triangles_ + kMergedAway, other_ring_) != StarKind::Closed) return true;
   const std::size_t edges = ring_.corners.size() + other_ring_.corners.size() - 4;
   if (edges < 3 || hasTooManyToMerge(edges, bound_)) return true;
   link_.clear();
   appendLink(ring_, w);
   appendLink(other_ring_, v);
-  return region_.isEmpty(link_, bound_);
+  return region_.isEmpty(link_);
 }
 
 Point VertexOps::meanOfLink() const {
@@ -182,16 +197,15 @@ Point VertexOps::meanOfLink() const {
 }
 
 bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
-  walkRound(v, mesh_.triangleOf(v), ring_);
-  if (ring_.corners.size() > most_triangles_) return false;
+  if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, ring_) != StarKind::Closed) return false;
   link_.clear();
   appendLink(ring_, kNone);
   const Point& here = mesh_.point(v);
   const bool good = std::ranges::none_of(link_, [&](const LinkEdge& e) { return isBad(e.x, e.y, here, bound_); });
-  if (!good && region_.isEmpty(link_, bound_)) return false;
+  if (!good && region_.isEmpty(link_)) return false;
   std::optional<Point> place;
   if (good && bound_.min_angle < kMeanServesBelow) place = meanOfLink();
-  if (!place || !fits(*place)) place = region_.findPoint(link_, bound_);
+  if (!place || !fits(*place)) place = region_.findPoint(link_);
   if (!place || !fits(*place)) return false;
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   if (clear_of_frozen_ && std::ranges::any_of(ring_.triangles, isFrozen)) return false;
@@ -209,100 +223,95 @@ bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
 }
 
 bool VertexOps::relocateWatchingFlips(VertexId v, std::vector<TriId>& touched) {
-  patch_.triangles.clear();
-  patch_.rim.clear();
-  inner_.clear();
-  outer_.clear();
-  if (!gather(v, kNone, v) || isBarred()) return false;
-  const std::optional<Point> place = findPlace(v);
-  if (!place || !fits(*place) || (mayNotFlip() && fanFlips(*place))) return false;
+  if (!gather(v, star_) || isBarred(star_)) return false;
+  const std::optional<Point> place = findPlace(v, star_);
+  if (!place || !fits(*place) || (mayNotFlip(star_) && fanFlips(star_, *place))) return false;
   mesh_.setPoint(v, *place);
-  touched.insert(touched.end(), patch_.triangles.begin(), patch_.triangles.end());
+  touched.insert(touched.end(), star_.patch.triangles.begin(), star_.patch.triangles.end());
   mesh_.restoreDelaunay(touched);
   return true;
 }
 
-// Triangulates the polygon of the rim edges first..last, closed by a straight edge where they are not closed
-// themselves.
-bool VertexOps::fillHole(std::size_t first, std::size_t last) {
+bool VertexOps::isGood(const Corners& c) const {
+  return !isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_);
+}
+
+// Triangulates the polygon of some boundary edges, closed by a straight edge where they are not closed themselves, into fresh_. Returns
+// false at the first triangle that `accept` refuses.
+template <typename Accept>
+bool VertexOps::fillHole(std::span<const RimEdge> side, const Accept& accept) {
   polygon_.clear();
-  for (std::size_t i = first; i < last; ++i) polygon_.push_back(patch_.rim[i].a);
-  if (patch_.rim[last - 1].b != polygon_.front()) polygon_.push_back(patch_.rim[last - 1].b);
-  return polygon_.size() <= most_triangles_ && triangulateWell();
-}
-
-// Triangulates polygon_ into fresh_; answers false at the first triangle that is not taken.
-bool VertexOps::triangulateWell() {
-  return triangulatePolygon(mesh_, polygon_, fresh_, [this](const Corners& c) {
-    return takes_any_ || !isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_) ||
-           sorted(c) == excused_;
-  });
-}
-
-bool VertexOps::removeInto(const Corners& excused, VertexId v, std::vector<TriId>& touched) {
-  excused_ = sorted(excused);
-  const bool gone = remove(v, touched);
-  excused_ = {kNone, kNone, kNone};
-  return gone;
-}
-
-bool VertexOps::removeAnyway(VertexId v, std::vector<TriId>& touched) {
-  takes_any_ = true;
-  const bool gone = remove(v, touched);
-  takes_any_ = false;
-  return gone;
+  for (const RimEdge& r : side) polygon_.push_back(r.a);
+  if (side.back().b != polygon_.front()) polygon_.push_back(side.back().b);
+  return polygon_.size() <= most_triangles_ && triangulatePolygon(mesh_, polygon_, fresh_, accept);
 }
 
 bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
+  return removeWhere(
+      v, Flips::Watched, [this](const Corners& c) { return isGood(c); }, touched);
+}
+
+bool VertexOps::removeInto(const Corners& excused, VertexId v, std::vector<TriId>& touched) {
+  const auto accept = [&, only = sorted(excused)](const Corners& c) { return isGood(c) || sorted(c) == only; };
+  return removeWhere(v, Flips::Watched, accept, touched);
+}
+
+bool VertexOps::removeAnyway(VertexId v, std::vector<TriId>& touched) {
+  return removeWhere(
+      v, Flips::Any, [](const Corners&) { return true; }, touched);
+}
+
+template <typename Accept>
+bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free) {
     // Most fail: before anything else is looked at.
-    walkRound(v, mesh_.triangleOf(v), ring_);
-    polygon_.assign(ring_.corners.begin(), ring_.corners.end());
-    if (polygon_.size() > most_triangles_ || !triangulateWell()) return false;
+    if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, ring_) != StarKind::Closed) return false;
+    if (!triangulatePolygon(mesh_, ring_.corners, fresh_, accept)) return false;
   }
-  const bool closed = mesh_.star(v, star_, most_triangles_);
-  if (star_.size() > most_triangles_) return false;
-  patch_.triangles.clear();
-  patch_.rim.clear();
-  inner_.clear();
-  for (const EdgeRef e : star_) {
-    patch_.triangles.push_back(triOf(e));
-    patch_.rim.push_back({mesh_.origin(e), mesh_.target(e), mesh_.twin(e), mesh_.segment(e)});
+  const StarKind kind = mesh_.star(v, opposite_, most_triangles_);
+  if (kind == StarKind::TooMany) return false;
+  star_.clear();
+  std::vector<RimEdge>& rim = star_.patch.rim;
+  for (const EdgeRef e : opposite_) {
+    star_.patch.triangles.push_back(triOf(e));
+    rim.push_back({mesh_.origin(e), mesh_.target(e), mesh_.twin(e), mesh_.segment(e)});
   }
-  if (isBarred()) return false;
+  if (isBarred(star_)) return false;
   if (mesh_.kind(v) == VertexKind::Free) {
     all_fresh_ = fresh_;
-  } else if (!closed) {
-    // At the rim: the two subsegments become the last side of the hole.
-    const SegmentId seg = mesh_.segment(spokeBefore(star_.front()));
-    if (seg == kNone || mesh_.segment(spokeAfter(star_.back())) != seg || star_.size() < 2) return false;
-    if (!fillHole(0, star_.size())) return false;
+  } else if (kind == StarKind::Open) {
+    // On the boundary: the two subsegments become the last side of the hole.
+    const SegmentId seg = mesh_.segment(spokeBefore(opposite_.front()));
+    if (seg == kNone || mesh_.segment(spokeAfter(opposite_.back())) != seg || rim.size() < 2) return false;
+    if (!fillHole(rim, accept)) return false;
     all_fresh_ = fresh_;
-    patch_.rim.push_back({patch_.rim.back().b, patch_.rim.front().a, kNone, seg});
+    rim.push_back({rim.back().b, rim.front().a, kNone, seg});
   } else {
     // Inside the mesh: one hole on either side of the segment.
-    const std::size_t count = star_.size();
-    std::size_t first = count, second = count;
-    for (std::size_t i = 0; i < count; ++i)
-      if (mesh_.segment(spokeBefore(star_[i])) != kNone) (first == count ? first : second) = i;
-    if (second == count || second - first < 2 || count - second + first < 2) return false;
-    inner_.push_back({patch_.rim[first].a, patch_.rim[second].a, kNone, mesh_.segment(spokeBefore(star_[first]))});
-    if (!fillHole(first, second)) return false;
+    const auto isOnSegment = [&](EdgeRef e) { return mesh_.segment(spokeBefore(e)) != kNone; };
+    const auto one = std::ranges::find_if(opposite_, isOnSegment);
+    if (one == opposite_.end()) return false;
+    const auto other = std::find_if(one + 1, opposite_.end(), isOnSegment);
+    if (other == opposite_.end()) return false;
+    const auto first = static_cast<std::size_t>(one - opposite_.begin());
+    const auto beside = static_cast<std::size_t>(other - one);
+    if (beside < 2 || rim.size() - beside < 2) return false;
+    std::ranges::rotate(rim, rim.begin() + static_cast<std::ptrdiff_t>(first));
+    star_.spokes.push_back({rim[0].a, rim[beside].a, kNone, mesh_.segment(spokeBefore(*one))});
+    if (!fillHole(std::span(rim).first(beside), accept)) return false;
     all_fresh_ = fresh_;
-    std::ranges::rotate(patch_.rim, patch_.rim.begin() + static_cast<std::ptrdiff_t>(second));
-    if (!fillHole(0, count - (second - first))) return false;
+    if (!fillHole(std::span(rim).subspan(beside), accept)) return false;
     all_fresh_.insert(all_fresh_.end(), fresh_.begin(), fresh_.end());
   }
-  if (!takes_any_ && mayNotFlip() && holeFlips()) return false;
-  mesh_.replace(patch_, all_fresh_, {&v, 1}, touched, inner_);
+  if (flips == Flips::Watched && mayNotFlip(star_) && holeFlips(star_)) return false;
+  mesh_.replace(star_.patch, all_fresh_, {&v, 1}, touched, star_.spokes);
   mesh_.restoreDelaunay(touched);
   return true;
 }
 
 bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free) {
-    walkRound(v, mesh_.triangleOf(v), ring_);
-    if (ring_.corners.size() > most_triangles_ + kMergedAway) return false;
+    if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring_) != StarKind::Closed) return false;
     const Point here = mesh_.point(v);
     double longest = 0.0;
     for (const VertexId w : ring_.corners) longest += squaredDistance(here, mesh_.point(w));
@@ -319,11 +328,10 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
     }
     return false;
   }
-  mesh_.star(v, star_, most_triangles_ + kMergedAway);
-  if (star_.size() > most_triangles_ + kMergedAway) return false;
+  if (mesh_.star(v, opposite_, most_triangles_ + kMergedAway) == StarKind::TooMany) return false;
   neighbours_.clear();
-  for (const EdgeRef e : star_) neighbours_.push_back(mesh_.origin(e));
-  if (const VertexId last = mesh_.target(star_.back()); last != neighbours_.front()) neighbours_.push_back(last);
+  for (const EdgeRef e : opposite_) neighbours_.push_back(mesh_.origin(e));
+  if (const VertexId last = mesh_.target(opposite_.back()); last != neighbours_.front()) neighbours_.push_back(last);
   for (const VertexId w : neighbours_) {
     if (mesh_.kind(w) == VertexKind::Input || (each_gets_its_turn && w < v && mesh_.kind(w) == mesh_.kind(v))) continue;
     // The vertex that stays is the one on the segment.
@@ -333,26 +341,14 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
 }
 
 bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched) {
-  patch_.triangles.clear();
-  patch_.rim.clear();
-  inner_.clear();
-  outer_.clear();
-  if (!gather(goes, stays, stays)) return false;
-  const std::size_t own = patch_.rim.size();
-  if (!gather(stays, goes, stays) || isBarred()) return false;
-  if (patch_.rim.size() < 3 || hasTooManyToMerge(patch_.rim.size(), bound_)) return false;
-  // Link condition: the two stars share the corners beside their edge and no others.
-  std::size_t common = 0;
-  for (std::size_t i = own; i < patch_.rim.size(); ++i)
-    for (std::size_t j = 0; j < own; ++j) common += patch_.rim[i].a == patch_.rim[j].b;
-  if (common > 1) return false;
-  const std::optional<Point> place = findPlace(stays);
-  if (!place || !fits(*place) || (mayNotFlip() && fanFlips(*place))) return false;
+  if (!gatherBoth(goes, stays, star_)) return false;
+  const std::optional<Point> place = findPlace(stays, star_);
+  if (!place || !fits(*place) || (mayNotFlip(star_) && fanFlips(star_, *place))) return false;
   all_fresh_.clear();
-  for (const RimEdge& r : patch_.rim) all_fresh_.push_back({stays, r.a, r.b});
+  for (const RimEdge& r : star_.patch.rim) all_fresh_.push_back({stays, r.a, r.b});
   mesh_.setPoint(stays, *place);
-  patch_.rim.insert(patch_.rim.end(), outer_.begin(), outer_.end());
-  mesh_.replace(patch_, all_fresh_, {&goes, 1}, touched, inner_);
+  star_.patch.rim.insert(star_.patch.rim.end(), star_.sides.begin(), star_.sides.end());
+  mesh_.replace(star_.patch, all_fresh_, {&goes, 1}, touched, star_.spokes);
   mesh_.restoreDelaunay(touched);
   return true;
 }

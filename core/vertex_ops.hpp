@@ -24,8 +24,8 @@ class VertexOps {
   // From now on leaves alone what a frozen edge is next to: it is another's to change too.
   void keepClearOfFrozen() { clear_of_frozen_ = true; }
 
-  // From now on flips nothing of a bad triangle into its surroundings: where an input angle excuses it there, it may not do so a
-  // triangle further.
+  // From now on rejects any flip that involves a bad triangle: an input angle may excuse that triangle but not the one that the flip
+  // would make.
   void keepBadInPlace() { bad_stays_ = true; }
 
   // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
@@ -54,27 +54,36 @@ class VertexOps {
   bool isBadBeyond(EdgeRef e) const;
 
  private:
-  // What is round a free vertex, counter-clockwise: where each edge of its link starts, and the triangle there.
-  struct Ring {
-    std::vector<VertexId> corners;
-    std::vector<TriId> triangles;
-  };
+  // What is to be replaced round a vertex, or round two that become one.
+  struct Star {
+    Patch patch;                  // the triangles, and their boundary without the edges below that end at the vertex
+    std::vector<RimEdge> spokes;  // subsegments that end at the vertex, as edges from it
+    std::vector<RimEdge> sides;   // of them, those on the boundary of the mesh, the mesh to their left
 
-  void walkRound(VertexId v, TriId home, Ring& ring) const;
+    void clear();
+  };
+  // Whether the flips that follow a change may make triangles that no one has tested.
+  enum class Flips { Watched, Any };
+
+  bool gather(VertexId v, Star& star);
+  bool gatherBoth(VertexId goes, VertexId stays, Star& star);
+  bool appendStar(VertexId v, VertexId other, VertexId stays, Star& star);
   void appendLink(const Ring& ring, VertexId other);
   Point meanOfLink() const;
   bool relocateFree(VertexId v, std::vector<TriId>& touched);
   bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
   bool cannotMerge(VertexId v, VertexId w, TriId beside);
-  bool triangulateWell();
-  bool fillHole(std::size_t first, std::size_t last);
-  bool gather(VertexId v, VertexId other, VertexId stays);
-  std::optional<Point> findPlace(VertexId v);
+  template <typename Accept>
+  bool removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
+  template <typename Accept>
+  bool fillHole(std::span<const RimEdge> side, const Accept& accept);
+  std::optional<Point> findPlace(VertexId v, const Star& star);
   bool fits(const Point& place) const;
-  bool fanFlips(const Point& place) const;
-  bool holeFlips() const;
-  bool isBarred() const;
-  bool mayNotFlip() const;
+  bool isGood(const Corners& c) const;
+  bool fanFlips(const Star& star, const Point& place) const;
+  bool holeFlips(const Star& star) const;
+  bool isBarred(const Star& star) const;
+  bool mayNotFlip(const Star& star) const;
   EdgeRef spokeBefore(EdgeRef opposite) const { return edgeRef(triOf(opposite), prev3(indexOf(opposite))); }
   EdgeRef spokeAfter(EdgeRef opposite) const { return edgeRef(triOf(opposite), next3(indexOf(opposite))); }
 
@@ -83,23 +92,19 @@ class VertexOps {
   const TriangleBound& bound_;
   bool clear_of_frozen_ = false;
   bool bad_stays_ = false;
-  bool takes_any_ = false;                   // good or bad
-  Corners excused_ = {kNone, kNone, kNone};  // sorted
-  std::size_t most_triangles_;               // no vertex can have more round it without a bad one among them
-  bool flips_may_harm_;                      // they keep the smallest angle, but not the largest, nor the longest edge
+  std::size_t most_triangles_;  // no vertex can have more round it without a bad one among them
+  bool flips_may_harm_;         // they keep the smallest angle, but not the largest, nor the longest edge
 
   // Scratch.
   FeasibleRegion region_;
   Ring ring_;        // of the vertex whose turn it is
   Ring other_ring_;  // of its neighbour
-  std::vector<EdgeRef> star_;
+  Star star_;
+  std::vector<EdgeRef> opposite_;
   std::vector<VertexId> neighbours_;
   std::vector<VertexId> polygon_;
   std::vector<Corners> fresh_, all_fresh_;
-  std::vector<RimEdge> inner_;  // subsegments that end at the vertex, as edges from it
-  std::vector<RimEdge> outer_;  // of them, those on the rim of the mesh, the mesh to their left
   std::vector<LinkEdge> link_;
-  Patch patch_;
 };
 
 }  // namespace coastmesh

@@ -3,76 +3,37 @@
 #include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <tuple>
+#include <cassert>
 #include <utility>
 
+#include "core/check.hpp"
 #include "core/flip.hpp"
+#include "core/links.hpp"
 #include "core/predicates.hpp"
 
 namespace coastmesh {
 
-CutPiece cutOut(const Sheet& sheet, const Partition& partition, PieceId piece, VertexMarks& marks) {
-  marks.resize(sheet.mesh.points.size(), kNone);
+CutSubmesh cutOut(const MeshState& whole, const Partition& partition, PieceId piece, VertexNumbers& numbers) {
+  numbers.resize(whole.mesh.points.size(), kNone);
   const std::span<const TriId> triangles = partition.of(piece);
-  CutPiece cut;
-  std::vector<VertexId> own;  // the sheet's number of a local vertex
-  const auto number = [&](VertexId v) {
-    if (marks[v] != kNone) return;
-    marks[v] = static_cast<VertexId>(own.size());
-    own.push_back(v);
-  };
-  // Vertices that must not change come first.
-  for (const TriId t : triangles) {
-    const Triangle& tri = sheet.mesh.triangle(t);
-    for (unsigned i = 0; i < 3; ++i) {
-      if (tri.v[i] < sheet.mesh.input_vertices) number(tri.v[i]);
-      if (tri.adj[i] == kNone || partition.piece_of[triOf(tri.adj[i])] == piece) continue;
-      const VertexId a = tri.v[next3(i)], b = tri.v[prev3(i)];
-      number(a);
-      number(b);
-      cut.edges.push_back({marks[a], marks[b], std::min(edgeRef(t, i), tri.adj[i]), tri.seg[i]});
-    }
+  const auto slotOf = [&](TriId t) { return partition.piece_of[t] == piece ? partition.slot_of[t] : kNone; };
+  const auto numberOf = [&](VertexId v) -> VertexId& { return numbers[v]; };
+  Submesh sub = extractSubmesh(whole.mesh, whole.mesh.input_vertices, whole.notes, triangles, slotOf, numberOf);
+
+  CutSubmesh cut;
+  for (const EdgeRef e : sub.frozen) {
+    const VertexId a = numbers[whole.mesh.origin(e)], b = numbers[whole.mesh.target(e)];
+    cut.edges.push_back({a, b, std::min(e, whole.mesh.twin(e)), whole.mesh.segment(e)});
   }
   std::ranges::sort(cut.edges, {}, [](const CutEdge& e) { return std::pair(e.a, e.b); });
-  cut.fixed = own;
-  for (const TriId t : triangles)
-    for (const VertexId v : sheet.mesh.triangle(t).v) number(v);
-
-  TriMesh& mesh = cut.piece.mesh;
-  VertexNotes& notes = cut.piece.notes;
-  mesh.input_vertices = static_cast<VertexId>(cut.fixed.size());
-  mesh.points.reserve(own.size());
-  for (const VertexId v : own) mesh.points.push_back(sheet.mesh.point(v));
-  notes.corners = sheet.notes.corners;
-  if (!sheet.notes.spacing.empty()) {
-    notes.spacing.reserve(own.size());
-    for (const VertexId v : own) notes.spacing.push_back(sheet.notes.spacing[v]);
-  }
-  for (const VertexId v : cut.fixed) {
-    const bool input = v < sheet.mesh.input_vertices;
-    notes.shell_unit.push_back(input ? sheet.notes.shell_unit[v] : 0.0);
-    notes.small_angle.push_back(input && sheet.notes.small_angle[v]);
-  }
-  if (!sheet.due_vertices.empty())
-    for (const VertexId v : own) cut.piece.due_vertices.push_back(sheet.due_vertices[v]);
-  mesh.triangles.reserve(triangles.size());
-  for (const TriId t : triangles) {
-    const Triangle& from = sheet.mesh.triangle(t);
-    Triangle& to = mesh.triangles.emplace_back();
-    for (unsigned i = 0; i < 3; ++i) {
-      to.v[i] = marks[from.v[i]];
-      to.seg[i] = from.seg[i];
-      if (from.adj[i] == kNone) continue;
-      const TriId beyond = triOf(from.adj[i]);
-      if (partition.piece_of[beyond] == piece) {
-        to.adj[i] = edgeRef(partition.slot_of[beyond], indexOf(from.adj[i]));
-      } else {
-        to.seg[i] = kFrozen;
-      }
-    }
-    if (!sheet.due_triangles.empty()) cut.piece.due_triangles.push_back(sheet.due_triangles[t]);
-  }
-  for (const VertexId v : own) marks[v] = kNone;
+  cut.fixed.assign(sub.parent.begin(), sub.parent.begin() + sub.mesh.input_vertices);
+  if (!whole.due_vertices.empty())
+    for (const VertexId v : sub.parent) cut.state.due_vertices.push_back(whole.due_vertices[v]);
+  if (!whole.due_triangles.empty())
+    for (const TriId t : triangles) cut.state.due_triangles.push_back(whole.due_triangles[t]);
+  for (const VertexId v : sub.parent) numbers[v] = kNone;
+  cut.state.mesh = std::move(sub.mesh);
+  cut.state.notes = std::move(sub.notes);
   return cut;
 }
 
@@ -87,22 +48,22 @@ struct CutSide {
 
 // Where in the stitched mesh the pieces begin.
 struct Layout {
-  std::vector<VertexId> on_cuts;  // Steiner points on cuts: the sheet's numbers, ascending
+  std::vector<VertexId> on_cuts;  // Steiner points on cuts: the whole's numbers, ascending
   std::vector<VertexId> vertex;   // one a piece, and the end
   std::vector<TriId> triangle;    // one a piece, and the end
 };
 
-Layout layOut(const std::vector<CutPiece>& pieces, VertexId input_vertices) {
+Layout layOut(const std::vector<CutSubmesh>& pieces, VertexId input_vertices) {
   Layout layout;
-  for (const CutPiece& cut : pieces)
+  for (const CutSubmesh& cut : pieces)
     std::ranges::copy_if(cut.fixed, std::back_inserter(layout.on_cuts),
                          [&](VertexId v) { return v >= input_vertices; });
   tbb::parallel_sort(layout.on_cuts.begin(), layout.on_cuts.end());
   layout.on_cuts.erase(std::unique(layout.on_cuts.begin(), layout.on_cuts.end()), layout.on_cuts.end());
   layout.vertex.push_back(input_vertices + static_cast<VertexId>(layout.on_cuts.size()));
   layout.triangle.push_back(0);
-  for (const CutPiece& cut : pieces) {
-    const TriMesh& mesh = cut.piece.mesh;
+  for (const CutSubmesh& cut : pieces) {
+    const TriMesh& mesh = cut.state.mesh;
     layout.vertex.push_back(layout.vertex.back() + static_cast<VertexId>(mesh.points.size()) - mesh.input_vertices);
     layout.triangle.push_back(layout.triangle.back() + static_cast<TriId>(mesh.triangles.size()));
   }
@@ -110,9 +71,9 @@ Layout layOut(const std::vector<CutPiece>& pieces, VertexId input_vertices) {
 }
 
 // Writes one piece to its place; lists its sides of cut edges.
-std::vector<CutSide> place(const CutPiece& cut, std::size_t p, const Layout& layout, Sheet& sheet) {
-  const TriMesh& mesh = cut.piece.mesh;
-  const VertexId input_vertices = sheet.mesh.input_vertices;
+std::vector<CutSide> place(const CutSubmesh& cut, std::size_t p, const Layout& layout, MeshState& whole) {
+  const TriMesh& mesh = cut.state.mesh;
+  const VertexId input_vertices = whole.mesh.input_vertices;
   std::vector<VertexId> number(mesh.points.size());
   for (VertexId v = 0; v < mesh.input_vertices; ++v) {
     const auto at = std::ranges::lower_bound(layout.on_cuts, cut.fixed[v]) - layout.on_cuts.begin();
@@ -121,31 +82,29 @@ std::vector<CutSide> place(const CutPiece& cut, std::size_t p, const Layout& lay
   for (VertexId v = mesh.input_vertices; v < mesh.points.size(); ++v)
     number[v] = layout.vertex[p] + v - mesh.input_vertices;
   for (VertexId v = mesh.input_vertices; v < mesh.points.size(); ++v) {
-    sheet.mesh.points[number[v]] = mesh.points[v];
-    if (!sheet.notes.spacing.empty()) sheet.notes.spacing[number[v]] = cut.piece.notes.spacing[v];
-    if (!sheet.due_vertices.empty()) sheet.due_vertices[number[v]] = cut.piece.due_vertices[v];
+    whole.mesh.points[number[v]] = mesh.points[v];
+    if (!whole.notes.spacing.empty()) whole.notes.spacing[number[v]] = cut.state.notes.spacing[v];
+    if (!whole.due_vertices.empty()) whole.due_vertices[number[v]] = cut.state.due_vertices[v];
   }
   std::vector<CutSide> sides;
   sides.reserve(cut.edges.size());
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     const TriId at = layout.triangle[p] + t;
-    Triangle& to = sheet.mesh.triangles[at];
-    to = mesh.triangles[t];
+    whole.mesh.triangles[at] = renumbered(
+        mesh.triangle(t), [&](TriId n) { return layout.triangle[p] + n; }, [&](VertexId v) { return number[v]; });
     for (unsigned i = 0; i < 3; ++i) {
-      if (to.adj[i] != kNone) to.adj[i] += 4 * layout.triangle[p];
-      if (to.seg[i] != kFrozen) continue;
+      if (mesh.triangle(t).seg[i] != kFrozen) continue;
       const std::pair ends(mesh.origin(edgeRef(t, i)), mesh.target(edgeRef(t, i)));
       const CutEdge& edge =
           *std::ranges::lower_bound(cut.edges, ends, {}, [](const CutEdge& e) { return std::pair(e.a, e.b); });
       sides.push_back({edge.name, edgeRef(at, i), edge.seg});
     }
-    for (VertexId& v : to.v) v = number[v];
-    if (!sheet.due_triangles.empty()) sheet.due_triangles[at] = cut.piece.due_triangles[t];
+    if (!whole.due_triangles.empty()) whole.due_triangles[at] = cut.state.due_triangles[t];
   }
   return sides;
 }
 
-// Joins the two sides of every cut edge; answers the edges.
+// Joins the two sides of every cut edge; returns the edges.
 std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of, TriMesh& mesh, Recorder& recorder) {
   std::vector<CutSide> sides;
   for (const std::vector<CutSide>& some : sides_of) sides.insert(sides.end(), some.begin(), some.end());
@@ -155,10 +114,7 @@ std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of
   std::vector<EdgeRef> edges(sides.size() / 2);
   forEachByStretches(recorder.loop("stitch"), edges.size(), [&](std::size_t i) {
     const CutSide &one = sides[2 * i], &other = sides[2 * i + 1];
-    for (const auto& [from, to] : {std::pair(one, other), std::pair(other, one)}) {
-      mesh.triangles[triOf(from.edge)].adj[indexOf(from.edge)] = to.edge;
-      mesh.triangles[triOf(from.edge)].seg[indexOf(from.edge)] = from.seg;
-    }
+    link(mesh.triangles, one.edge, other.edge, one.seg);
     edges[i] = one.edge;
   });
   return edges;
@@ -166,24 +122,23 @@ std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of
 
 }  // namespace
 
-Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& recorder, Sheet&& reused) {
+void stitch(std::vector<CutSubmesh>&& pieces, const MeshState& before, Recorder& recorder, MeshState& whole) {
   const VertexId input_vertices = before.mesh.input_vertices;
   const Layout layout = layOut(pieces, input_vertices);
-  Sheet sheet = std::move(reused);
-  sheet.mesh.input_vertices = input_vertices;
+  whole.mesh.input_vertices = input_vertices;
   const ItemLoop loop = recorder.loop("stitch");
-  resizeAnew(loop, sheet.mesh.points, layout.vertex.back());
-  resizeAnew(loop, sheet.mesh.triangles, layout.triangle.back());
-  sheet.notes.shell_unit = before.notes.shell_unit;
-  sheet.notes.small_angle = before.notes.small_angle;
-  sheet.notes.corners = before.notes.corners;
-  resizeAnew(loop, sheet.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back());
-  resizeAnew(loop, sheet.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back());
-  resizeAnew(loop, sheet.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back());
+  resizeAnew(loop, whole.mesh.points, layout.vertex.back());
+  resizeAnew(loop, whole.mesh.triangles, layout.triangle.back());
+  whole.notes.shell_unit = before.notes.shell_unit;
+  whole.notes.small_angle = before.notes.small_angle;
+  whole.notes.corners = before.notes.corners;
+  resizeAnew(loop, whole.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back());
+  resizeAnew(loop, whole.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back());
+  resizeAnew(loop, whole.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back());
   const auto keep = [&](VertexId from, VertexId to) {
-    sheet.mesh.points[to] = before.mesh.points[from];
-    if (!sheet.notes.spacing.empty()) sheet.notes.spacing[to] = before.notes.spacing[from];
-    if (!sheet.due_vertices.empty()) sheet.due_vertices[to] = before.due_vertices[from];
+    whole.mesh.points[to] = before.mesh.points[from];
+    if (!whole.notes.spacing.empty()) whole.notes.spacing[to] = before.notes.spacing[from];
+    if (!whole.due_vertices.empty()) whole.due_vertices[to] = before.due_vertices[from];
   };
   forEachByStretches(recorder.loop("stitch"), input_vertices + layout.on_cuts.size(), [&](std::size_t i) {
     const auto to = static_cast<VertexId>(i);
@@ -192,19 +147,19 @@ Sheet stitch(std::vector<CutPiece>&& pieces, const Sheet& before, Recorder& reco
 
   std::vector<std::vector<CutSide>> sides(pieces.size());
   recorder.forEach("stitch", pieces.size(), {}, [&](std::size_t p) {
-    sides[p] = place(pieces[p], p, layout, sheet);
+    sides[p] = place(pieces[p], p, layout, whole);
     pieces[p] = {};
   });
-  std::vector<EdgeRef> edges = joinSides(sides, sheet.mesh, recorder);
+  std::vector<EdgeRef> edges = joinSides(sides, whole.mesh, recorder);
   std::erase_if(edges, [&](EdgeRef e) {
-    if (sheet.mesh.segment(e) != kNone) return true;
-    const auto& v = sheet.mesh.triangle(triOf(e)).v;
-    return inCircle(sheet.mesh.point(v[0]), sheet.mesh.point(v[1]), sheet.mesh.point(v[2]),
-                    sheet.mesh.point(sheet.mesh.apex(sheet.mesh.twin(e)))) <= 0;
+    if (whole.mesh.segment(e) != kNone) return true;
+    const auto& v = whole.mesh.triangle(triOf(e)).v;
+    return inCircle(whole.mesh.point(v[0]), whole.mesh.point(v[1]), whole.mesh.point(v[2]),
+                    whole.mesh.point(whole.mesh.apex(whole.mesh.twin(e)))) <= 0;
   });
-  for (const TriId t : restoreDelaunay(sheet.mesh, std::move(edges)))
-    if (!sheet.due_triangles.empty()) sheet.due_triangles[t] = 1;
-  return sheet;
+  for (const TriId t : restoreDelaunay(whole.mesh, std::move(edges)))
+    if (!whole.due_triangles.empty()) whole.due_triangles[t] = 1;
+  assert(checkMesh(whole.mesh, nullptr, {}).empty());
 }
 
 }  // namespace coastmesh

@@ -54,10 +54,9 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
 }
 
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
-  RoundsMemory memory;
+  RoundsWorkspace workspace;
   CutTree cuts;
   const auto add = [&](RoundsReport&& report) {
-    memory = std::move(report.memory);
     region.stats.add(report.stats);
     if (report.pieces > region.pieces) {
       region.pieces = report.pieces;
@@ -66,14 +65,14 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
     region.log.append(std::move(report.log));
   };
   Stopwatch watch;
-  add(refineInRounds(region.mesh, pslg, options.refine, control));
+  add(refineInRounds(region.mesh, pslg, options.refine, control, workspace));
   region.seconds.refine = watch.lap();
   if (options.shrink) {
-    add(shrinkInRounds(region.mesh, pslg, options.refine, control, std::move(memory)));
+    add(shrinkInRounds(region.mesh, pslg, options.refine, control, workspace));
     region.seconds.shrink = watch.lap();
   }
   if (const int sweeps = fitSweeps(options); sweeps > 0) {
-    add(fitInRounds(region.mesh, pslg, options.refine, sweeps, control, std::move(memory)));
+    add(fitInRounds(region.mesh, pslg, options.refine, sweeps, control, workspace));
     region.seconds.fit = watch.lap();
   }
   Recorder recorder;

@@ -54,7 +54,7 @@ class CutTreeBuilder {
 
 Point centroidOf(const TriMesh& mesh, TriId t) {
   const auto& v = mesh.triangle(t).v;
-  return (1.0 / 3.0) * (mesh.point(v[0]) + mesh.point(v[1]) + mesh.point(v[2]));
+  return centroid(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]));
 }
 
 // The triangles in the order of their pieces.
@@ -98,8 +98,8 @@ std::array<double, 2> CutTree::turn(const Point& p) const {
   return {cosine * p.x + sine * p.y, cosine * p.y - sine * p.x};
 }
 
-Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
-                    Recorder& recorder, Partition&& reused) {
+void partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
+               Recorder& recorder, Partition& parts) {
   CutTree tree{std::cos(angle), std::sin(angle), std::vector<CutTree::Node>(2 * pieces - 1)};
   const auto centre = [&](TriId t) { return tree.turn(centroidOf(mesh, t)); };
   // Enough samples a piece that their weights differ little; all triangles would take longer to sort than to mesh.
@@ -114,14 +114,12 @@ Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std
   });
   CutTreeBuilder(tree.nodes).split(0, samples, 0, pieces);
 
-  Partition result = std::move(reused);
-  result.pieces = pieces;
-  resizeAnew(loop, result.piece_of, count);
+  parts.pieces = pieces;
+  resizeAnew(loop, parts.piece_of, count);
   forEachByStretches(loop, count,
-                     [&](std::size_t t) { result.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t))); });
-  sortByPiece(result, recorder);
-  result.tree = std::move(tree);
-  return result;
+                     [&](std::size_t t) { parts.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t))); });
+  sortByPiece(parts, recorder);
+  parts.tree = std::move(tree);
 }
 
 std::vector<PieceId> piecesOf(const TriMesh& mesh, const CutTree& tree, const ItemLoop& loop) {

@@ -47,9 +47,9 @@ struct Partition {
 // and so on (Bentley's k-d tree). Depends on nothing but its arguments.
 //   weight(t)  what a triangle counts, above 0
 //   angle      radians: the directions are turned by so much; cuts under other angles meet these at single points
-//   reused     lends its memory
-Partition partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
-                    Recorder& recorder, Partition&& reused = {});
+//   parts      what is written; what it holds is lost but for its memory, which serves again
+void partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
+               Recorder& recorder, Partition& parts);
 
 // The piece that each triangle's centroid lies in.
 std::vector<PieceId> piecesOf(const TriMesh& mesh, const CutTree& tree, const ItemLoop& loop);

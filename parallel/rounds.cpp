@@ -10,6 +10,7 @@
 
 #include "core/fit.hpp"
 #include "core/split_segments.hpp"
+#include "core/submesh_runs.hpp"
 #include "parallel/cut.hpp"
 #include "parallel/recorder.hpp"
 
@@ -17,29 +18,40 @@ namespace coastmesh {
 
 namespace {
 
-// A piece is worth so many triangles of the end: many pieces share out well, large ones leave little to the next round.
+// Numbers found by trial on the sea of the README's tables, with and without `--size-max`, at 30°, 33° and 40°. To find them anew change
+// one, and compare what it is said to trade with what it was: vertices beside those of `--no-cut`, the critical path in `--report`,
+// the processor's seconds on one thread. All change meshes, so `tests/golden` changes with them.
+
+// A piece is worth so many triangles of the end, as many as make so many pieces within these limits. Smaller ones share out better and
+// shorten the critical path; larger ones have fewer triangles beside a cut, which wait for a later round and cost vertices.
 constexpr double kLeastGrain = 6000.0, kMostGrain = 40000.0;
 constexpr double kWantedPieces = 512.0;
-// Edges come to the length asked by steps of this factor: a piece begins with a ninth of its triangles.
+// Edges come to the length asked by steps of this factor: a piece begins with a ninth of its triangles. Larger steps leave strips of long
+// triangles along cuts, smaller ones are more rounds.
 constexpr double kSizeStep = 3.0;
-// Triangles with a smaller angle than this, in degrees, are refined before anything is cut.
+// Triangles with a smaller angle than this, in degrees, are refined before anything is cut: those that reach from shore to shore. Larger
+// values cost vertices and time on one thread; smaller ones leave triangles that lie across several pieces.
 constexpr double kFirstAngleDeg = 0.5;
-// Rounds of a step.
+// Rounds of a step, the uncut one at the end not counted. A bound on the run: most steps end sooner, by the next number.
 constexpr int kMostRounds = 8;
-// Bad triangles that a step may leave to the next.
+// Bad triangles that a step may leave to the next, or that are mended uncut at the end. More are work for one thread, fewer are rounds
+// that copy the whole mesh for next to nothing.
 constexpr double kFewDue = 200.0;
-// Of so few triangles the whole is gone through sooner than in one more round of pieces.
+// In a mesh of so few triangles what is left in the last step is mended uncut; in a larger one a round of pieces takes less time.
 constexpr std::size_t kSmallMesh = 1'000'000;
-// Work, in triangles, that is not worth a cut.
+// Work, in triangles, that is not worth a cut: the first step makes about so many. Fewer are more steps, more are work for one thread.
 constexpr double kLittleWork = 5000.0;
-// From an equilateral triangle's area to the number of triangles that refinement makes of it.
+
+// The others estimate work, in triangles, so that pieces are of like weight: compare with counts of what refinement made.
+
+// Triangles that refinement makes of an area, over the equilateral ones with the longest edge asked that would fill it.
 constexpr double kExcess = 1.5;
 constexpr double kEquilateral = 0.43301270189221932;  // area for edges of length 1
-// Triangles that come of a bad one on a coast.
+// What comes of a bad triangle on a coast.
 constexpr double kOfABadOne = 3.0;
-// Halvings of a triangle's sides in adding up what it will become: four to this power of places.
+// Halvings of a triangle's sides in adding up what wanted lengths make of it: four to this power of places. A bound on the time.
 constexpr int kMostDepth = 9;
-// A triangle that is only copied.
+// The work of copying a triangle, beside refining one.
 constexpr double kOfACopy = 0.1;
 
 // The angle that round r cuts under: far from those of the rounds before it.
@@ -51,7 +63,7 @@ double cutAngle(int round) {
 // How many triangles of the lengths wanted a triangle is worth.
 double wantedIn(const Point& a, const Point& b, const Point& c, const TriangleBound& bound, int depth) {
   constexpr double kFine = 16.0;
-  const double size = bound.longest_share / kLongestShare * bound.size->at((1.0 / 3.0) * (a + b + c));
+  const double size = bound.longest_share / kLongestShare * bound.size->at(centroid(a, b, c));
   const double count = 0.5 * std::abs(cross(b - a, c - a)) / (kEquilateral * size * size);
   if (count < kFine || depth == 0) return count;
   const Point ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
@@ -76,23 +88,22 @@ PieceId piecesFor(double weight) {
 // The mesh from round to round.
 class Rounds {
  public:
-  Rounds(TriMesh&& mesh, const RunControl& control, RoundsMemory&& memory)
-      : spare_(std::move(memory.spare)), parts_(std::move(memory.parts)), control_(control) {
-    sheet_.mesh = std::move(mesh);
+  Rounds(TriMesh&& mesh, const RunControl& control, RoundsWorkspace& workspace)
+      : workspace_(workspace), control_(control) {
+    whole_.mesh = std::move(mesh);
   }
 
-  Sheet& sheet() { return sheet_; }
+  MeshState& whole() { return whole_; }
   Recorder& recorder() { return recorder_; }
   RefineStats& stats() { return stats_; }
 
-  // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `work(piece, share, control)` handles a piece with that share of the
-  // whole weight, and answers what it did.
+  // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `work(state, share, control)` handles a piece with that share of the
+  // whole weight, and returns what it did.
   template <typename Weigh, typename Work>
-  void round(std::string_view name, const Weigh& weigh, bool whole, const Work& work) {
+  void round(std::string_view name, const Weigh& weigh, bool uncut, const Work& work) {
     const double weight = total(weigh);
-    parts_ =
-        partition(sheet_.mesh, whole ? 1 : piecesFor(weight), cutAngle(count_++), weigh, recorder_, std::move(parts_));
-    const Partition& parts = parts_;
+    Partition& parts = workspace_.parts;
+    partition(whole_.mesh, uncut ? 1 : piecesFor(weight), cutAngle(count_++), weigh, recorder_, parts);
     if (parts.pieces > most_pieces_) {
       most_pieces_ = parts.pieces;
       most_cuts_ = parts.tree;
@@ -105,17 +116,17 @@ class Rounds {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, [&](std::size_t p, std::size_t q) { return weights[p] > weights[q]; });
 
-    std::vector<CutPiece> pieces(parts.pieces);
+    std::vector<CutSubmesh> pieces(parts.pieces);
     std::vector<RefineStats> stats(parts.pieces);
-    tbb::enumerable_thread_specific<VertexMarks> marks;
+    tbb::enumerable_thread_specific<VertexNumbers> numbers;
     const RunControl inner{control_.cancelled, {}};
     recorder_.forEach(name, parts.pieces, inner, [&](std::size_t i) {
       const std::size_t p = order[i];
-      pieces[p] = cutOut(sheet_, parts, static_cast<PieceId>(p), marks.local());
-      stats[p] = work(pieces[p].piece, weights[p] / weight, inner);
+      pieces[p] = cutOut(whole_, parts, static_cast<PieceId>(p), numbers.local());
+      stats[p] = work(pieces[p].state, weights[p] / weight, inner);
     });
-    Sheet stitched = stitch(std::move(pieces), sheet_, recorder_, std::move(spare_));
-    spare_ = std::exchange(sheet_, std::move(stitched));
+    stitch(std::move(pieces), whole_, recorder_, workspace_.spare);
+    std::swap(whole_, workspace_.spare);
     for (const RefineStats& some : stats) stats_.add(some);
   }
 
@@ -123,7 +134,7 @@ class Rounds {
   template <typename Weigh>
   double total(const Weigh& weigh) {
     constexpr std::size_t kStretches = 256;
-    const std::size_t count = sheet_.mesh.triangles.size();
+    const std::size_t count = whole_.mesh.triangles.size();
     std::vector<double> sums(kStretches, 0.0);
     recorder_.forEach("cut", kStretches, {}, [&](std::size_t s) {
       for (std::size_t t = count * s / kStretches; t < count * (s + 1) / kStretches; ++t)
@@ -133,17 +144,13 @@ class Rounds {
   }
 
   RoundsReport finish(TriMesh& mesh) {
-    mesh = std::move(sheet_.mesh);
-    return {std::move(stats_),
-            most_pieces_,
-            std::move(most_cuts_),
-            recorder_.finish(),
-            {std::move(spare_), std::move(parts_)}};
+    mesh = std::move(whole_.mesh);
+    return {std::move(stats_), most_pieces_, std::move(most_cuts_), recorder_.finish()};
   }
 
  private:
-  Sheet sheet_, spare_;
-  Partition parts_;
+  MeshState whole_;
+  RoundsWorkspace& workspace_;
   const RunControl& control_;
   Recorder recorder_;
   RefineStats stats_;
@@ -186,28 +193,28 @@ std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& 
 }
 
 void markBad(Rounds& run, const TriangleBound& bound) {
-  Sheet& sheet = run.sheet();
-  resizeAnew(run.recorder().loop("cut"), sheet.due_triangles, sheet.mesh.triangles.size());
-  forEachByStretches(run.recorder().loop("cut"), sheet.mesh.triangles.size(), [&](std::size_t t) {
-    const auto& v = sheet.mesh.triangles[t].v;
-    sheet.due_triangles[t] = isBad(sheet.mesh.point(v[0]), sheet.mesh.point(v[1]), sheet.mesh.point(v[2]), bound);
+  MeshState& whole = run.whole();
+  resizeAnew(run.recorder().loop("cut"), whole.due_triangles, whole.mesh.triangles.size());
+  forEachByStretches(run.recorder().loop("cut"), whole.mesh.triangles.size(), [&](std::size_t t) {
+    const auto& v = whole.mesh.triangles[t].v;
+    whole.due_triangles[t] = isBad(whole.mesh.point(v[0]), whole.mesh.point(v[1]), whole.mesh.point(v[2]), bound);
   });
 }
 
-void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, const TriangleBound& bound, bool whole,
+void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, const TriangleBound& bound, bool uncut,
                  bool mends) {
-  Sheet& sheet = run.sheet();
-  const std::uint64_t vertices = sheet.mesh.points.size();
+  MeshState& whole = run.whole();
+  const std::uint64_t vertices = whole.mesh.points.size();
   const std::uint64_t room = options.max_vertices - std::min(options.max_vertices, vertices);
-  const auto weigh = [&](TriId t) { return sheet.due_triangles[t] ? expectedOf(sheet.mesh, t, bound) : kOfACopy; };
+  const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? expectedOf(whole.mesh, t, bound) : kOfACopy; };
   run.stats().budget_reached = false;
-  run.round("refine", weigh, whole, [&](Piece& piece, double share, const RunControl& inner) {
-    if (!anyOf(piece.due_triangles)) return RefineStats{};
+  run.round("refine", weigh, uncut, [&](MeshState& state, double share, const RunControl& inner) {
+    if (!anyOf(state.due_triangles)) return RefineStats{};
     // What the whole may still hold is shared out by the work expected.
     RefineOptions own = options;
     const double most = static_cast<double>(room) * share;
-    if (most < 4e9) own.max_vertices = piece.mesh.points.size() + static_cast<std::uint64_t>(most);
-    return refinePiece(piece, pslg, own, mends, inner);
+    if (most < 4e9) own.max_vertices = state.mesh.points.size() + static_cast<std::uint64_t>(most);
+    return refineSubmesh(state, pslg, own, mends, inner);
   });
 }
 
@@ -221,17 +228,17 @@ double expectedTriangles(const TriMesh& mesh, const RefineOptions& options) {
 }
 
 RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsMemory&& memory) {
+                            RoundsWorkspace& workspace) {
   const std::vector<RefineOptions> steps = stepsTo(options, mesh);
-  Rounds run(std::move(mesh), control, std::move(memory));
-  Sheet& sheet = run.sheet();
-  sheet.notes = noteInput(sheet.mesh, boundOf(options));
-  if (options.size != nullptr) splitSegments(sheet.mesh, pslg, sheet.notes, options);
+  Rounds run(std::move(mesh), control, workspace);
+  MeshState& whole = run.whole();
+  whole.notes = noteInput(whole.mesh, boundOf(options));
+  if (options.size != nullptr) splitSegments(whole.mesh, pslg, whole.notes, options);
   for (std::size_t step = 0; step < steps.size() && !run.stats().budget_reached; ++step) {
     const bool last_step = step + 1 == steps.size();
     const TriangleBound bound = boundOf(steps[step]);
     markBad(run, bound);
-    const auto due = [&] { return run.total([&](TriId t) { return static_cast<double>(sheet.due_triangles[t]); }); };
+    const auto due = [&] { return run.total([&](TriId t) { return static_cast<double>(whole.due_triangles[t]); }); };
     for (int round = 0; round <= kMostRounds; ++round) {
       const double left = due();
       // Only the last step has to leave nothing: its last round is not cut. The first step is not cut at all.
@@ -239,7 +246,7 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
       if (!last_step && (left < kFewDue || round == kMostRounds)) break;
       control.checkpoint((static_cast<double>(step) + static_cast<double>(round) / (kMostRounds + 1)) /
                          static_cast<double>(steps.size()));
-      const bool soon_done = last_step && round > 0 && left < kFewDue && sheet.mesh.triangles.size() < kSmallMesh;
+      const bool soon_done = last_step && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
       refineRound(run, pslg, steps[step], bound, step == 0 || round == kMostRounds || soon_done, last_step);
     }
   }
@@ -248,25 +255,23 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
 
 namespace {
 
-// Gives every Steiner point its turn in some round: `work(piece, control)` handles the due vertices of a piece.
+// Gives every Steiner point its turn in some round: `work(state, control)` handles the due vertices of a piece.
 template <typename Work>
-RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunControl& control, RoundsMemory&& memory,
+RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunControl& control, RoundsWorkspace& workspace,
                            const Work& work) {
   constexpr int kRounds = 3;
-  Rounds run(std::move(mesh), control, std::move(memory));
-  Sheet& sheet = run.sheet();
-  sheet.notes.shell_unit.assign(sheet.mesh.input_vertices, 0.0);
-  sheet.notes.small_angle.assign(sheet.mesh.input_vertices, false);
-  sheet.due_vertices.assign(sheet.mesh.points.size(), 1);
-  std::fill_n(sheet.due_vertices.begin(), sheet.mesh.input_vertices, std::uint8_t{0});
-  for (int r = 0; r < kRounds && anyOf(sheet.due_vertices); ++r) {
+  Rounds run(std::move(mesh), control, workspace);
+  MeshState& whole = run.whole();
+  whole.due_vertices.assign(whole.mesh.points.size(), 1);
+  std::fill_n(whole.due_vertices.begin(), whole.mesh.input_vertices, std::uint8_t{0});
+  for (int r = 0; r < kRounds && anyOf(whole.due_vertices); ++r) {
     control.checkpoint(static_cast<double>(r) / kRounds);
     const auto weigh = [&](TriId t) {
-      const auto& v = sheet.mesh.triangle(t).v;
-      return kOfACopy + sheet.due_vertices[v[0]] + sheet.due_vertices[v[1]] + sheet.due_vertices[v[2]];
+      const auto& v = whole.mesh.triangle(t).v;
+      return kOfACopy + whole.due_vertices[v[0]] + whole.due_vertices[v[1]] + whole.due_vertices[v[2]];
     };
-    run.round(name, weigh, false, [&](Piece& piece, double, const RunControl& inner) {
-      return anyOf(piece.due_vertices) ? work(piece, inner) : RefineStats{};
+    run.round(name, weigh, false, [&](MeshState& state, double, const RunControl& inner) {
+      return anyOf(state.due_vertices) ? work(state, inner) : RefineStats{};
     });
   }
   return run.finish(mesh);
@@ -275,15 +280,16 @@ RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunContro
 }  // namespace
 
 RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsMemory&& memory) {
-  return sweepInRounds("shrink", mesh, control, std::move(memory),
-                       [&](Piece& piece, const RunControl& inner) { return shrinkPiece(piece, pslg, options, inner); });
+                            RoundsWorkspace& workspace) {
+  return sweepInRounds("shrink", mesh, control, workspace, [&](MeshState& state, const RunControl& inner) {
+    return shrinkSubmesh(state, pslg, options, inner);
+  });
 }
 
 RoundsReport fitInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
-                         const RunControl& control, RoundsMemory&& memory) {
-  return sweepInRounds("fit", mesh, control, std::move(memory), [&](Piece& piece, const RunControl& inner) {
-    return fitPiece(piece, pslg, options, sweeps, inner);
+                         const RunControl& control, RoundsWorkspace& workspace) {
+  return sweepInRounds("fit", mesh, control, workspace, [&](MeshState& state, const RunControl& inner) {
+    return fitSubmesh(state, pslg, options, sweeps, inner);
   });
 }
 

@@ -13,9 +13,9 @@ namespace coastmesh {
 // About how many triangles refinement will make of a mesh.
 double expectedTriangles(const TriMesh& mesh, const RefineOptions& options);
 
-// What rounds keep from one another, and refining for shrinking: fresh memory costs more than what is written to it.
-struct RoundsMemory {
-  Sheet spare;
+// What rounds lend to one another, and refining to shrinking, for its memory alone: fresh memory costs more than what is written to it.
+struct RoundsWorkspace {
+  MeshState spare;
   Partition parts;
 };
 
@@ -25,7 +25,6 @@ struct RoundsReport {
   std::size_t pieces = 0;  // of the round that was cut into the most
   CutTree cuts;            // of that round
   WorkLog log;
-  RoundsMemory memory;  // to be handed on
 };
 
 // Refines a mesh made by `constrainedDelaunay(pslg)` in rounds: the mesh is cut into pieces along straight lines, the pieces are refined at
@@ -33,14 +32,14 @@ struct RoundsReport {
 // inside its pieces. Where an edge length is asked, rounds come to it by steps, so that pieces never consist of few large triangles. The
 // result does not depend on the number of threads. Throws Cancelled.
 RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsMemory&& memory = {});
+                            RoundsWorkspace& workspace);
 
 // Shrinks in rounds of the same kind.
 RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsMemory&& memory = {});
+                            RoundsWorkspace& workspace);
 
 // Fits edges to the lengths wanted, in rounds of the same kind: see `fit`.
 RoundsReport fitInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
-                         const RunControl& control, RoundsMemory&& memory = {});
+                         const RunControl& control, RoundsWorkspace& workspace);
 
 }  // namespace coastmesh

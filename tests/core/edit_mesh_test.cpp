@@ -50,7 +50,13 @@ void expectSound(const EditMesh& mesh, const Pslg& pslg) {
     ASSERT_TRUE(std::ranges::count(home.v, v) == 1);
     ASSERT_EQ(home.v[mesh.cornerOf(mesh.triangleOf(v), v)], v);
 
-    const bool closed = mesh.star(v, star);
+    const StarKind kind = mesh.star(v, star);
+    const bool closed = kind == StarKind::Closed;
+    std::vector<EdgeRef> some;
+    ASSERT_EQ(mesh.star(v, some, star.size()), kind);
+    ASSERT_EQ(some, star);
+    ASSERT_EQ(mesh.star(v, some, star.size() - 1), StarKind::TooMany);
+    ASSERT_LT(some.size(), star.size());
     if (mesh.kind(v) != VertexKind::Input) {
       ASSERT_EQ(star.size(), triangles_at[v]);
     }

@@ -79,13 +79,13 @@ void PrintTo(const Asked& asked, std::ostream* out) {
 // Against sampling: a place that is found holds what is asked; where a sample has room, a place is found.
 TEST_P(FeasibleRegionAt, AgreesWithSampling) {
   const Asked asked = GetParam();
-  FeasibleRegion region;
+  FeasibleRegion region(asked.bound());
   int found = 0, empty = 0, roomy = 0;
   for (unsigned seed = 1; seed <= 80; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
     const auto link = randomLink(random, {}, 1.0);
-    const auto place = region.findPoint(link, asked.bound());
+    const auto place = region.findPoint(link);
     if (place) {
       EXPECT_GE(roomAt(*place, link, asked), 0.0) << place->x << ", " << place->y;
     }
@@ -112,7 +112,7 @@ TEST_P(FeasibleRegionAt, BetweenTwoPointsAgreesWithSampling) {
     auto link = randomLink(random, {}, 1.0);
     const Point a = link[0].x, b = link[link.size() / 2].x;
     if (seed % 2 == 0) link.resize(link.size() / 2);
-    const auto place = FeasibleRegion::findPointBetween(a, b, link, asked.bound());
+    const auto place = FeasibleRegion(asked.bound()).findPointBetween(a, b, link);
     double best = -180.0, low = 2.0, high = -1.0;
     for (int i = 1; i < 600; ++i) {
       const double share = i / 600.0, room = roomAt(a + share * (b - a), link, asked);
@@ -142,26 +142,24 @@ INSTANTIATE_TEST_SUITE_P(Bounds, FeasibleRegionAt,
                                            Asked{25, 95, 1.2}));
 
 TEST(FeasibleRegion, RegularLinkHasItsCentre) {
-  FeasibleRegion region;
   std::vector<LinkEdge> link;
   const auto corner = [](int i) { return Point{std::cos(toRadians(60.0 * i)), std::sin(toRadians(60.0 * i))}; };
   for (int i = 0; i < 6; ++i) link.push_back({corner(i), corner(i + 1)});
   for (const double angle : {0.0, 30.0, 45.0, 59.0}) {
-    const auto place = region.findPoint(link, TriangleBound(angle, 180.0, kNoSize));
+    const auto place = FeasibleRegion(TriangleBound(angle, 180.0, kNoSize)).findPoint(link);
     ASSERT_TRUE(place) << angle;
     EXPECT_GE(roomAt(*place, link, {angle, 180.0, kNoSize}), 0.0);
   }
-  EXPECT_FALSE(region.findPoint(link, TriangleBound(60.5, 180.0, kNoSize)));
-  EXPECT_FALSE(region.findPoint(link, TriangleBound(30.0, 180.0, 0.9)));
+  EXPECT_FALSE(FeasibleRegion(TriangleBound(60.5, 180.0, kNoSize)).findPoint(link));
+  EXPECT_FALSE(FeasibleRegion(TriangleBound(30.0, 180.0, 0.9)).findPoint(link));
 }
 
 TEST(FeasibleRegion, WithoutAnAngleTheKernelOfTheLink) {
-  FeasibleRegion region;
   // An L: its kernel is the square at the corner.
   const std::vector<Point> corners{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
   std::vector<LinkEdge> link;
   for (std::size_t i = 0; i < corners.size(); ++i) link.push_back({corners[i], corners[(i + 1) % corners.size()]});
-  const auto place = region.findPoint(link, TriangleBound(0.0, 180.0, kNoSize));
+  const auto place = FeasibleRegion(TriangleBound(0.0, 180.0, kNoSize)).findPoint(link);
   ASSERT_TRUE(place);
   EXPECT_GT(place->x, 0.0);
   EXPECT_LT(place->x, 1.0);
@@ -170,14 +168,13 @@ TEST(FeasibleRegion, WithoutAnAngleTheKernelOfTheLink) {
 }
 
 TEST(FeasibleRegion, SizeAndPlaceDoNotMatter) {
-  FeasibleRegion region;
   for (const double size : {1e-9, 1.0, 1e9}) {
     for (const double far : {0.0, 1e5}) {
       int found = 0;
       for (unsigned seed = 1; seed <= 60; ++seed) {
         std::mt19937_64 random(seed);
         const auto link = randomLink(random, {far * size, -2.0 * far * size}, size);
-        const auto place = region.findPoint(link, TriangleBound(25.0, 180.0, kNoSize));
+        const auto place = FeasibleRegion(TriangleBound(25.0, 180.0, kNoSize)).findPoint(link);
         if (!place) continue;
         ++found;
         EXPECT_GE(roomAt(*place, link, {25.0, 180.0, kNoSize}), -1e-6) << "seed " << seed << ", size " << size;
@@ -188,16 +185,15 @@ TEST(FeasibleRegion, SizeAndPlaceDoNotMatter) {
 }
 
 TEST(FeasibleRegion, IsEmptyOnlyWhereNoPlaceIsFound) {
-  FeasibleRegion region;
   int empty = 0, found = 0;
   for (unsigned seed = 1; seed <= 2000; ++seed) {
     std::mt19937_64 random(seed);
     const auto link = randomLink(random, {3.0, -2.0}, 1.0);
     const double angle = uniform(random, 5.0, 45.0);
-    const TriangleBound bound(angle, 180.0, kNoSize);
-    const auto place = region.findPoint(link, bound);
+    FeasibleRegion region(TriangleBound(angle, 180.0, kNoSize));
+    const auto place = region.findPoint(link);
     found += place.has_value();
-    if (!region.isEmpty(link, bound)) continue;
+    if (!region.isEmpty(link)) continue;
     ++empty;
     EXPECT_TRUE(!place || roomAt(*place, link, {angle, 180.0, kNoSize}) < 1e-6) << "seed " << seed;
   }

@@ -32,7 +32,8 @@ TEST_P(CutInto, PartitionTakesEveryTriangleOnce) {
   const TriMesh mesh = refined(fractalCoast(2, 3, 3));
   for (const double angle : {0.0, 0.7, 1.3}) {
     Recorder recorder;
-    const Partition parts = partition(mesh, GetParam(), angle, one, recorder);
+    Partition parts;
+    partition(mesh, GetParam(), angle, one, recorder, parts);
     ASSERT_EQ(parts.pieces, GetParam());
     std::vector<int> seen(mesh.triangles.size(), 0);
     for (PieceId p = 0; p < parts.pieces; ++p) {
@@ -53,7 +54,8 @@ TEST_P(CutInto, PiecesAreOfLikeWeight) {
   // The left half of the square weighs four times the right.
   const auto weight = [&](TriId t) { return mesh.point(mesh.triangle(t).v[0]).x < 0.5 ? 4.0 : 1.0; };
   Recorder recorder;
-  const Partition parts = partition(mesh, GetParam(), 0.3, weight, recorder);
+  Partition parts;
+  partition(mesh, GetParam(), 0.3, weight, recorder, parts);
   double whole = 0.0;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) whole += weight(t);
   const double fair = whole / GetParam();
@@ -66,27 +68,29 @@ TEST_P(CutInto, PiecesAreOfLikeWeight) {
 
 TEST_P(CutInto, StitchedAgainIsTheSameMesh) {
   for (const Pslg& pslg : {fractalCoast(2, 3, 3), touchingHoles(), openLines(), twoRegions()}) {
-    Sheet sheet;
-    sheet.mesh = refined(pslg);
-    sheet.notes = noteInput(sheet.mesh, TriangleBound(30.0, 180.0, 0.05));
-    sheet.due_triangles.resize(sheet.mesh.triangles.size());
-    for (TriId t = 0; t < sheet.mesh.triangles.size(); t += 3) sheet.due_triangles[t] = 1;
+    MeshState whole;
+    whole.mesh = refined(pslg);
+    whole.notes = noteInput(whole.mesh, TriangleBound(30.0, 180.0, 0.05));
+    whole.due_triangles.resize(whole.mesh.triangles.size());
+    for (TriId t = 0; t < whole.mesh.triangles.size(); t += 3) whole.due_triangles[t] = 1;
     Recorder recorder;
-    const Partition parts = partition(sheet.mesh, GetParam(), 0.4, one, recorder);
-    std::vector<CutPiece> pieces;
-    VertexMarks marks;
-    for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(sheet, parts, p, marks));
-    const Sheet again = stitch(std::move(pieces), sheet, recorder);
+    Partition parts;
+    partition(whole.mesh, GetParam(), 0.4, one, recorder, parts);
+    std::vector<CutSubmesh> pieces;
+    VertexNumbers numbers;
+    for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(whole, parts, p, numbers));
+    MeshState again;
+    stitch(std::move(pieces), whole, recorder, again);
 
     TriMesh labelled = again.mesh;
     labelRegions(labelled, pslg);
     expectValidMesh(labelled, pslg);
-    ASSERT_EQ(again.mesh.points.size(), sheet.mesh.points.size());
-    for (VertexId v = 0; v < sheet.mesh.input_vertices; ++v) EXPECT_EQ(again.mesh.point(v), sheet.mesh.point(v));
+    ASSERT_EQ(again.mesh.points.size(), whole.mesh.points.size());
+    for (VertexId v = 0; v < whole.mesh.input_vertices; ++v) EXPECT_EQ(again.mesh.point(v), whole.mesh.point(v));
     // Triangles by their corners' places, with what hangs on them.
     using Known =
         std::tuple<std::array<std::pair<double, double>, 3>, std::array<SegmentId, 3>, std::array<double, 3>, int>;
-    const auto known = [](const Sheet& s) {
+    const auto known = [](const MeshState& s) {
       std::set<Known> all;
       for (TriId t = 0; t < s.mesh.triangles.size(); ++t) {
         const Triangle& tri = s.mesh.triangles[t];
@@ -101,33 +105,57 @@ TEST_P(CutInto, StitchedAgainIsTheSameMesh) {
       }
       return all;
     };
-    EXPECT_EQ(known(again), known(sheet));
+    EXPECT_EQ(known(again), known(whole));
   }
 }
 
 TEST_P(CutInto, PiecesShareFrozenEdgesOnly) {
-  Sheet sheet;
-  sheet.mesh = refined(twoRegions());
-  sheet.notes = noteInput(sheet.mesh, TriangleBound(30.0, 180.0, 0.05));
+  MeshState whole;
+  whole.mesh = refined(twoRegions());
+  whole.notes = noteInput(whole.mesh, TriangleBound(30.0, 180.0, 0.05));
   Recorder recorder;
-  const Partition parts = partition(sheet.mesh, GetParam(), 0.0, one, recorder);
-  VertexMarks marks;
+  Partition parts;
+  partition(whole.mesh, GetParam(), 0.0, one, recorder, parts);
+  VertexNumbers numbers;
   std::size_t frozen = 0;
   for (PieceId p = 0; p < parts.pieces; ++p) {
-    const CutPiece cut = cutOut(sheet, parts, p, marks);
-    for (const Triangle& t : cut.piece.mesh.triangles) {
+    const CutSubmesh cut = cutOut(whole, parts, p, numbers);
+    for (const Triangle& t : cut.state.mesh.triangles) {
       for (unsigned i = 0; i < 3; ++i) {
         if (t.seg[i] != kFrozen) continue;
         ++frozen;
         EXPECT_EQ(t.adj[i], kNone);
-        EXPECT_LT(t.v[next3(i)], cut.piece.mesh.input_vertices);
-        EXPECT_LT(t.v[prev3(i)], cut.piece.mesh.input_vertices);
+        EXPECT_LT(t.v[next3(i)], cut.state.mesh.input_vertices);
+        EXPECT_LT(t.v[prev3(i)], cut.state.mesh.input_vertices);
       }
     }
-    EXPECT_TRUE(std::ranges::all_of(marks, [](VertexId mark) { return mark == kNone; }));
+    EXPECT_TRUE(std::ranges::all_of(numbers, [](VertexId number) { return number == kNone; }));
   }
   EXPECT_EQ(frozen > 0, GetParam() > 1);
   EXPECT_EQ(frozen % 2, 0u);
+}
+
+// Shrinking needs no notes: what is not known is not made up on the way.
+TEST_P(CutInto, NothingNotedStaysNothing) {
+  const Pslg pslg = fractalCoast(2, 3, 3);
+  MeshState whole;
+  whole.mesh = refined(pslg);
+  whole.due_vertices.assign(whole.mesh.points.size(), 1);
+  Recorder recorder;
+  Partition parts;
+  partition(whole.mesh, GetParam(), 0.4, one, recorder, parts);
+  std::vector<CutSubmesh> pieces;
+  VertexNumbers numbers;
+  for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(whole, parts, p, numbers));
+  MeshState again;
+  stitch(std::move(pieces), whole, recorder, again);
+  EXPECT_TRUE(again.notes.spacing.empty());
+  EXPECT_TRUE(again.notes.small_angle.empty());
+  EXPECT_TRUE(again.notes.shell_unit.empty());
+  EXPECT_TRUE(again.due_triangles.empty());
+  EXPECT_EQ(again.due_vertices, whole.due_vertices);
+  labelRegions(again.mesh, pslg);
+  expectValidMesh(again.mesh, pslg);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pieces, CutInto, ::testing::Values(1, 2, 3, 7, 16));

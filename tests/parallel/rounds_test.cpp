@@ -45,8 +45,9 @@ Meshed runInRounds(const Case& c, int threads) {
   Meshed run;
   withThreads({.threads = threads}, [&] {
     run.mesh = constrainedDelaunay(c.pslg);
-    run.refined = refineInRounds(run.mesh, c.pslg, c.options, {});
-    run.shrunk = shrinkInRounds(run.mesh, c.pslg, c.options, {});
+    RoundsWorkspace workspace;
+    run.refined = refineInRounds(run.mesh, c.pslg, c.options, {}, workspace);
+    run.shrunk = shrinkInRounds(run.mesh, c.pslg, c.options, {}, workspace);
   });
   return run;
 }
@@ -92,7 +93,8 @@ TEST_P(InRounds, KeepsToTheBudgetOfVertices) {
   for (const int threads : {1, 3}) {
     TriMesh mesh = constrainedDelaunay(c.pslg);
     RoundsReport report;
-    withThreads({.threads = threads}, [&] { report = refineInRounds(mesh, c.pslg, c.options, {}); });
+    RoundsWorkspace workspace;
+    withThreads({.threads = threads}, [&] { report = refineInRounds(mesh, c.pslg, c.options, {}, workspace); });
     EXPECT_TRUE(report.stats.budget_reached);
     EXPECT_LE(mesh.points.size(), c.options.max_vertices);
     expectValid(mesh, c.pslg);
@@ -126,8 +128,9 @@ TEST_P(InRounds, CanBeCancelled) {
     RunControl control;
     control.cancelled = [&] { return asked++ >= most; };
     TriMesh mesh = constrainedDelaunay(c.pslg);
+    RoundsWorkspace workspace;
     withThreads({.threads = 1},
-                [&] { EXPECT_THROW(refineInRounds(mesh, c.pslg, c.options, control), Cancelled) << most; });
+                [&] { EXPECT_THROW(refineInRounds(mesh, c.pslg, c.options, control, workspace), Cancelled) << most; });
   }
 }
 

@@ -1,4 +1,4 @@
-#include "core/piece.hpp"
+#include "core/submesh_runs.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -8,12 +8,12 @@
 
 namespace coastmesh {
 
-RefineStats refinePiece(Piece& piece, const Pslg& pslg, const RefineOptions& options, bool mends,
-                        const RunControl& control) {
+RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, bool mends,
+                          const RunControl& control) {
   RefineVariant variant = usualVariant(options);
   variant.clear_of_frozen = true;
-  std::vector<std::uint8_t> due = std::move(piece.due_triangles);
-  Refiner refiner(std::move(piece.mesh), pslg, options, std::move(piece.notes), variant);
+  std::vector<std::uint8_t> due = std::move(state.due_triangles);
+  Refiner refiner(std::move(state.mesh), pslg, options, std::move(state.notes), variant);
 
   std::vector<TriId> first;
   std::vector<BadTriangle> given_up;
@@ -29,13 +29,13 @@ RefineStats refinePiece(Piece& piece, const Pslg& pslg, const RefineOptions& opt
     refiner.growFans(Refiner::Beyond::StaysGood, control);
     repair(refiner, pslg, options, control, given_up);
   }
-  piece.mesh = refiner.release(piece.notes, piece.due_triangles);
+  state.mesh = refiner.release(state.notes, state.due_triangles);
   RefineStats stats = std::move(refiner.stats());
   stats.steiner_points = 0;
   return stats;
 }
 
-Piece releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due) {
+MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due) {
   std::vector<EdgeRef> star;
   const auto isAtFrozenEdge = [&](VertexId v) {
     mesh.star(v, star);
@@ -43,13 +43,13 @@ Piece releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due) {
   };
   for (VertexId v = 0; v < mesh.vertexSlots(); ++v)
     due[v] = due[v] && mesh.isLiveVertex(v) && (v < mesh.inputVertices() || isAtFrozenEdge(v));
-  Piece piece;
+  MeshState state;
   Renumbering by;
-  piece.mesh = mesh.release(by, false);
-  piece.due_vertices.assign(piece.mesh.points.size(), 0);
+  state.mesh = mesh.release(by, false);
+  state.due_vertices.assign(state.mesh.points.size(), 0);
   for (VertexId v = 0; v < by.vertex.size(); ++v)
-    if (by.vertex[v] != kNone) piece.due_vertices[by.vertex[v]] = due[v];
-  return piece;
+    if (by.vertex[v] != kNone) state.due_vertices[by.vertex[v]] = due[v];
+  return state;
 }
 
 }  // namespace coastmesh

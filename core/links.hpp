@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cassert>
+#include <span>
+
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+// How triangles hang together: all writes of `Triangle::adj` and `Triangle::seg` in core and parallel are made here. Each writes
+// both sides of an edge, or one whole triangle, so that no edge can be seen differently from its two sides.
+
+// Lets the two sides of an edge name each other. REQUIRES: they run between the same vertices, in opposite directions.
+inline void setTwins(std::span<Triangle> triangles, EdgeRef e, EdgeRef f) {
+  Triangle &one = triangles[triOf(e)], &other = triangles[triOf(f)];
+  assert(one.v[next3(indexOf(e))] == other.v[prev3(indexOf(f))]);
+  assert(one.v[prev3(indexOf(e))] == other.v[next3(indexOf(f))]);
+  one.adj[indexOf(e)] = f;
+  other.adj[indexOf(f)] = e;
+}
+
+// Makes an edge, on both its sides, a piece of a segment, or of none.
+inline void setSegment(std::span<Triangle> triangles, EdgeRef e, SegmentId seg) {
+  Triangle& own = triangles[triOf(e)];
+  own.seg[indexOf(e)] = seg;
+  if (const EdgeRef f = own.adj[indexOf(e)]; f != kNone) triangles[triOf(f)].seg[indexOf(f)] = seg;
+}
+
+// Both at once; `f` is kNone where `e` is on the boundary of the mesh.
+inline void link(std::span<Triangle> triangles, EdgeRef e, EdgeRef f, SegmentId seg) {
+  assert(e != kNone);
+  if (f == kNone) {
+    triangles[triOf(e)].adj[indexOf(e)] = kNone;
+  } else {
+    setTwins(triangles, e, f);
+    triangles[triOf(f)].seg[indexOf(f)] = seg;
+  }
+  triangles[triOf(e)].seg[indexOf(e)] = seg;
+}
+
+// A triangle of its own: its edges are to be linked.
+inline Triangle unlinked(const std::array<VertexId, 3>& corners) { return {.v = corners}; }
+
+// A triangle as it is where triangles and vertices have other numbers. `triangle(t)` is the new number of a neighbour, kNone of one
+// that is not there: that edge is on the boundary then, and `bare` in place of its segment unless that is kNone.
+template <typename NewTriangle, typename NewVertex>
+Triangle renumbered(const Triangle& from, const NewTriangle& triangle, const NewVertex& vertex,
+                    SegmentId bare = kNone) {
+  Triangle to;
+  for (unsigned i = 0; i < 3; ++i) {
+    to.v[i] = vertex(from.v[i]);
+    to.seg[i] = from.seg[i];
+    if (from.adj[i] == kNone) continue;
+    const TriId t = triangle(triOf(from.adj[i]));
+    if (t != kNone) {
+      to.adj[i] = edgeRef(t, indexOf(from.adj[i]));
+    } else if (bare != kNone) {
+      to.seg[i] = bare;
+    }
+  }
+  return to;
+}
+
+// An edge that its two sides do not agree on: other ends, another segment, or not each other's twin. kNone where there is none.
+// Triangles whose first corner is kNone are passed over. Meant for asserts: goes through all triangles.
+EdgeRef findBrokenLink(std::span<const Triangle> triangles);
+
+}  // namespace coastmesh
