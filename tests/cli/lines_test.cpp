@@ -154,11 +154,19 @@ TEST_F(NamedLines, CleanedFilesHoldAllOfTheInput) {
     done(arguments);
   };
   run({"clean", "-o", file("cleaned.gpkg"), "--quiet"}, given);
-  run({"mesh", "-o", file("direct.gpkg"), "--report", file("direct.json"), "--quiet"}, given);
-  done({"mesh", file("cleaned.gpkg"), "-o", file("then.gpkg"), "--report", file("then.json"), "--quiet"});
-  EXPECT_EQ(Json::parse(readText(file("direct.json")))["mesh"]["digest"],
-            Json::parse(readText(file("then.json")))["mesh"]["digest"]);
-  EXPECT_TRUE(readText(file("direct.gpkg")) == readText(file("then.gpkg")));
+  run({"mesh", "-o", file("direct.gpkg"), "--quiet"}, given);
+  done({"mesh", file("cleaned.gpkg"), "-o", file("then.gpkg"), "--quiet"});
+  // Vertices where lines cross are points of the cleaned file, so its projection's centre has other last bits.
+  const Json direct = layerOf(file("direct.gpkg"), "triangles"), then = layerOf(file("then.gpkg"), "triangles");
+  ASSERT_EQ(direct.size(), then.size());
+  for (std::size_t t = 0; t < direct.size(); ++t) {
+    for (const char* const key : {"src_fid", "source", "name", "region", "node1", "node2", "node3"})
+      EXPECT_EQ(direct[t]["properties"][key], then[t]["properties"][key]) << t << " " << key;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        EXPECT_NEAR(direct[t]["geometry"]["coordinates"][0][k][axis].get<double>(),
+                    then[t]["geometry"]["coordinates"][0][k][axis].get<double>(), 1e-12);
+  }
   EXPECT_EQ(valuesOf(layerOf(file("then.gpkg"), "triangles"), "region"), (std::set<std::string>{"north", "south"}));
   EXPECT_EQ(valuesOf(layerOf(file("then.gpkg"), "lines"), "name"), (std::set<std::string>{"w1", "north", "south"}));
   done({"clean", file("cleaned.gpkg"), "-o", file("again.gpkg"), "--quiet"});
