@@ -25,14 +25,12 @@ Vector scaled(const Vector& a, double by) { return {a[0] * by, a[1] * by, a[2] *
 
 }  // namespace
 
-std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places) {
-  std::vector<Point> plane(places.begin(), places.end());
-  if (!crs.geographic || places.empty()) return plane;
-  std::vector<Vector> on_sphere;
+void flattenLocally(const Crs& crs, std::span<Point> places) {
+  if (!crs.geographic || places.empty()) return;
   Vector middle{};
   for (const Point& place : places) {
-    on_sphere.push_back(unitVector(place));
-    for (std::size_t k = 0; k < 3; ++k) middle[k] += on_sphere.back()[k];
+    const Vector on_sphere = unitVector(place);
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += on_sphere[k];
   }
   middle = scaled(middle, 1.0 / std::sqrt(dot(middle, middle)));
   // East of the middle is nowhere at a pole; any direction will do there.
@@ -40,8 +38,15 @@ std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places) {
   if (dot(east, east) < 1e-12) east = {1.0, 0.0, 0.0};
   east = scaled(east, 1.0 / std::sqrt(dot(east, east)));
   const Vector north = cross(middle, east);
-  for (std::size_t i = 0; i < plane.size(); ++i)
-    plane[i] = {crs.semi_major_m * dot(on_sphere[i], east), crs.semi_major_m * dot(on_sphere[i], north)};
+  for (Point& place : places) {
+    const Vector on_sphere = unitVector(place);
+    place = {crs.semi_major_m * dot(on_sphere, east), crs.semi_major_m * dot(on_sphere, north)};
+  }
+}
+
+std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places) {
+  std::vector<Point> plane(places.begin(), places.end());
+  flattenLocally(crs, plane);
   return plane;
 }
 

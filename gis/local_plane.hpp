@@ -13,5 +13,6 @@ namespace coastmesh {
 // otherwise. Angles and lengths are right to the square of their extent over the Earth's radius.
 std::vector<Point> localPlane(const Grid& grid, std::span<const std::uint32_t> nodes);
 std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places);
+void flattenLocally(const Crs& crs, std::span<Point> places);  // the same, in their place
 
 }  // namespace coastmesh

@@ -15,88 +15,79 @@
 
 namespace coastmesh {
 
-// Flips and splits that would mend a mesh for models, tried on a few triangles of it.
+// A few triangles of a grid, and edits of them that would mend it for models.
 
 // An edge, whichever way it goes.
 inline NodePair edgeKey(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-using RimKinds = std::map<NodePair, RimKind>;  // by `edgeKey`
+using BoundaryKinds = std::map<NodePair, RimKind>;  // by `edgeKey`
 
 // How the grid hangs together.
 struct GridLinks {
   TriMesh mesh;
   std::vector<std::vector<std::uint32_t>> triangles_at;  // one list a node
-  RimKinds kinds;                                        // of the rim's edges
+  BoundaryKinds kinds;                                   // of the boundary's edges
+  std::vector<bool> on_boundary;                         // one flag a node
   std::set<NodePair> line_edges;                         // by `edgeKey`; these stay
 };
 
-// A triangle of a patch, and the grid's triangle that it is, or is cut from.
-struct PatchTriangle {
-  GridCorners v{};
-  std::uint32_t slot = kNone;  // kNone for a new one
-  std::uint32_t source = kNone;
+// What a search for repairs looks at.
+struct RepairView {
+  const Grid& grid;
+  const GridLinks& links;
+  std::span<const Target> targets;
+
+  bool isFor(Target target) const { return std::ranges::count(targets, target) > 0; }
 };
 
-// Triangles of the grid as they would become.
+struct PatchEdge {
+  NodePair key{};              // by `edgeKey`
+  std::uint32_t triangle = 0;  // of the grid
+  std::uint32_t apex = 0;      // the triangle's corner opposite
+};
+
 struct Patch {
-  std::vector<PatchTriangle> triangles;
-  RimKinds halves;             // edges of the rim that splitting made
-  std::vector<NodePair> gone;  // and the one it split
-  Point fresh{};               // of the node that is to be added, which has the number after the grid's last
+  std::vector<std::uint32_t> triangles;  // of the grid, ascending
+  std::vector<PatchEdge> edges;          // of them, by key and triangle
+
+  std::span<const PatchEdge> edgesAt(const NodePair& key) const;
 };
 
-// An edge flipped, or split at a share of it.
-struct Reshaping {
-  Patch patch;
-  NodePair edge{};
-  std::optional<double> split_at;
+// A triangle as an edit makes it.
+struct EditedTriangle {
+  GridCorners v{};
+  std::uint32_t slot = kNone;    // the triangle that it was; kNone for a new one
+  std::uint32_t source = kNone;  // the one that it is cut from
 };
 
-class PatchSearch {
- public:
-  // Keeps references to all three.
-  PatchSearch(const Grid& grid, const GridLinks& links, std::span<const Target> targets)
-      : grid_(grid), links_(links), targets_(targets) {}
-
-  // The triangles that share a node with one of these.
-  Patch patchRound(const std::vector<std::uint32_t>& middle) const;
-
-  // The flip or split of an edge of `inside` that leaves the fewest defects in `before`, the patch round it; among
-  // these the largest smallest angle. None where no edge leaves fewer.
-  std::optional<Reshaping> bestReshaping(const std::vector<std::uint32_t>& inside, const Patch& before) const;
-
-  // The same of splitting an inner node in two: half of its triangles get a node of their own, between it and their
-  // other ends.
-  std::optional<Patch> bestNodeSplit(std::uint32_t node, const Patch& before) const;
-
-  // The other ends of edges at a node that have to stay: parts of lines, and those where features meet.
-  std::set<std::uint32_t> fixedNeighbours(std::uint32_t node) const;
-
- private:
-  // What an edit leaves of a patch: fewer defects are better, then a larger smallest angle.
-  struct Score {
-    int defects = 0;
-    double min_angle = 0.0;
-
-    bool betterThan(const Score& other) const {
-      return defects != other.defects ? defects < other.defects : min_angle > other.min_angle;
-    }
-  };
-
-  bool isFor(Target target) const;
-  bool isFixed(std::uint32_t a, std::uint32_t b, std::uint32_t left, std::uint32_t right) const;
-  std::vector<Point> planeOf(const Patch& patch, std::span<const std::uint32_t> nodes) const;
-  const RimKind* kindOf(const Patch& patch, std::uint32_t a, std::uint32_t b) const;
-  bool isOnRim(std::uint32_t node) const;
-  Score scoreOf(const Patch& patch, const Patch& before) const;
-  int badValences(const Patch& patch, const Patch& before) const;
-  std::optional<Patch> flipped(Patch patch, std::uint32_t a, std::uint32_t b) const;
-  Patch split(Patch patch, std::uint32_t a, std::uint32_t b, double share) const;
-  std::vector<std::uint32_t> ringRound(std::uint32_t node) const;
-
-  const Grid& grid_;
-  const GridLinks& links_;
-  std::span<const Target> targets_;
+struct PatchEdit {
+  std::vector<EditedTriangle> triangles;  // those that change, then new ones
+  BoundaryKinds halves;                   // edges of the boundary that splitting made
+  std::optional<NodePair> gone;           // and the one it split
+  std::optional<Point> fresh;             // a node that is added, which has the number after the grid's last
 };
+
+// The triangles that share a node with one of these.
+Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle);
+
+// What the boundary is at the edge once the edit is made; null inside the mesh.
+const RimKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b);
+
+// The edge between two triangles of the patch turned to join their other corners; none where it has to stay.
+std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b);
+
+// A new node on the edge, at `share` of the way.
+PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b, double share);
+
+// The nodes round an inner node, counter-clockwise; empty where they do not close.
+std::vector<std::uint32_t> ringRound(const RepairView& view, std::uint32_t node);
+
+// An inner node split in two: `count` triangles from ring[first] on get a node of their own, yet to be placed. None
+// where an edge that has to stay would move.
+std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node, std::span<const std::uint32_t> ring,
+                                     const std::set<std::uint32_t>& fixed, std::size_t first, std::size_t count);
+
+// The other ends of edges at a node that have to stay: parts of lines, and those where features meet.
+std::set<std::uint32_t> fixedNeighbours(const RepairView& view, std::uint32_t node);
 
 }  // namespace coastmesh

@@ -14,6 +14,7 @@
 #include "gis/grid_edit.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/repair_patch.hpp"
+#include "gis/repair_search.hpp"
 #include "gis/rim_boundaries.hpp"
 
 namespace coastmesh {
@@ -33,7 +34,7 @@ std::string metres(double length) {
 class Repairer {
  public:
   Repairer(Grid& grid, std::span<const Target> targets)
-      : grid_(grid), targets_(targets), search_(grid, links_, targets) {}
+      : grid_(grid), targets_(targets), view_{grid, links_, targets} {}
 
   RepairReport run() {
     for (int round = 0; round < kMostRounds; ++round) {
@@ -96,6 +97,8 @@ class Repairer {
     touched_.assign(grid_.triangles.size(), false);
     disturbed_ = touched_;
     dead_.assign(grid_.triangles.size(), false);
+    links_.on_boundary.assign(grid_.nodes.size(), false);
+    for (const auto& [edge, kind] : links_.kinds) links_.on_boundary[edge[0]] = links_.on_boundary[edge[1]] = true;
     links_.line_edges.clear();
     for (const GridLine& line : grid_.lines)
       for (const auto& [a, b] : edgesOf({BoundaryRole::Land, line.closed, line.nodes}))
@@ -306,9 +309,8 @@ class Repairer {
   // The patch round the triangles, none where part of it has been changed in this round: then another one will do.
   std::optional<Patch> untouchedPatch(const std::vector<std::uint32_t>& middle) const {
     if (anyTaken(middle)) return std::nullopt;
-    Patch patch = search_.patchRound(middle);
-    const auto taken = [this](const PatchTriangle& triangle) { return isTaken(triangle.slot); };
-    if (std::ranges::any_of(patch.triangles, taken)) return std::nullopt;
+    Patch patch = patchRound(view_, middle);
+    if (anyTaken(patch.triangles)) return std::nullopt;
     return patch;
   }
 
@@ -320,10 +322,10 @@ class Repairer {
   Attempt splitNode(std::uint32_t node, const TargetDefect& defect, Target target) {
     const auto before = untouchedPatch(links_.triangles_at[node]);
     if (!before) return {};
-    const std::optional<Patch> chosen = search_.bestNodeSplit(node, *before);
+    const std::optional<PatchEdit> chosen = bestNodeSplit(view_, node, *before);
     if (!chosen) return {true, false};
-    copyNode(grid_, node, chosen->fresh);
-    put(*chosen);
+    copyNode(grid_, node, *chosen->fresh);
+    put(*before, *chosen);
     tell(defect.kind, target, defect.place, "node split in two");
     return {true, true};
   }
@@ -336,10 +338,10 @@ class Repairer {
     const std::vector<std::uint32_t> inside(concerned.begin(), concerned.end());
     const auto before = untouchedPatch(inside);
     if (!before) return {};
-    const std::optional<Reshaping> chosen = search_.bestReshaping(inside, *before);
+    const std::optional<Reshaping> chosen = bestReshaping(view_, inside, *before);
     if (!chosen) return {true, false};
     if (chosen->split_at) splitEdge(chosen->edge[0], chosen->edge[1], *chosen->split_at);
-    put(chosen->patch);
+    put(*before, chosen->edit);
     tell(defect.kind, target, defect.place, chosen->split_at ? "edge split" : "edge flipped");
     return {true, true};
   }
@@ -355,10 +357,11 @@ class Repairer {
     if (links_.line_edges.erase(edgeKey(a, b)) > 0) links_.line_edges.insert({edgeKey(a, middle), edgeKey(middle, b)});
   }
 
-  void put(const Patch& patch) {
-    for (const NodePair& edge : patch.gone) links_.kinds.erase(edge);
-    for (const auto& [edge, kind] : patch.halves) links_.kinds[edge] = kind;
-    for (const PatchTriangle& triangle : patch.triangles) {
+  void put(const Patch& patch, const PatchEdit& edit) {
+    if (edit.gone) links_.kinds.erase(*edit.gone);
+    for (const auto& [edge, kind] : edit.halves) links_.kinds[edge] = kind;
+    for (const std::uint32_t t : patch.triangles) touched_[t] = true;
+    for (const EditedTriangle& triangle : edit.triangles) {
       if (triangle.slot == kNone) {
         copyTriangle(grid_, triangle.source, triangle.v);
         changed_.push_back(true);
@@ -367,8 +370,6 @@ class Repairer {
         dead_.push_back(false);
         continue;
       }
-      touched_[triangle.slot] = true;
-      if (grid_.triangles[triangle.slot] == triangle.v) continue;
       grid_.triangles[triangle.slot] = triangle.v;
       changed_[triangle.slot] = disturbed_[triangle.slot] = true;
     }
@@ -384,7 +385,7 @@ class Repairer {
       hopeless_nodes_[node] = reshaped.made && was_split.made && !was_split.done;
       return;
     }
-    if (round.size() < 3 || !search_.fixedNeighbours(node).empty()) return;
+    if (round.size() < 3 || !fixedNeighbours(view_, node).empty()) return;
     if (anyTaken(round)) return;
     Corners corners = grid_.triangles[round[0]];
     // What the other two have and the first has not takes the node's place.
@@ -414,7 +415,7 @@ class Repairer {
       *flags = renumbered(*flags, triangle_index, grid_.triangles.size());
     const std::vector<std::uint32_t> index = removeUnusedNodes(grid_);
     hopeless_nodes_ = renumbered(hopeless_nodes_, index, grid_.nodes.size());
-    RimKinds kinds;
+    BoundaryKinds kinds;
     for (const auto& [edge, kind] : links_.kinds)
       if (index[edge[0]] != kNone && index[edge[1]] != kNone) kinds[edgeKey(index[edge[0]], index[edge[1]])] = kind;
     links_.kinds = std::move(kinds);
@@ -448,7 +449,7 @@ class Repairer {
   std::span<const Target> targets_;
   RepairReport report_;
   GridLinks links_;
-  PatchSearch search_;
+  RepairView view_;
   // One a triangle: changed or looked at in this round, taken out in it, changed since it was measured.
   std::vector<bool> touched_, dead_, changed_;
   // One a triangle and one a node: in vain tried to mend. `disturbed_` are triangles that have changed since, which
