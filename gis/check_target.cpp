@@ -9,6 +9,7 @@
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/box_tree.hpp"
+#include "gis/flow_links.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/rim_boundaries.hpp"
 #include "gis/target_limits.hpp"
@@ -19,10 +20,11 @@ namespace {
 constexpr double kGravity = 9.81;  // m/s2
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
-    "wrong count",     "broken edge",     "clockwise",      "unused node",    "repeated node",        "hanging node",
-    "pinched node",    "orphan cell",     "unknown depth",  "no boundary",    "boundary off the rim", "boundary twice",
-    "boundary turned", "looped boundary", "wrong shore",    "two open edges", "open and solid edge",  "lone wall",
-    "valence",         "large angle",     "not orthogonal", "courant"};
+    "wrong count",          "broken edge",         "clockwise",       "unused node",     "repeated node",
+    "hanging node",         "pinched node",        "orphan cell",     "unknown depth",   "no boundary",
+    "boundary off the rim", "boundary twice",      "boundary turned", "looped boundary", "wrong shore",
+    "two open edges",       "open and solid edge", "lone wall",       "valence",         "large angle",
+    "not orthogonal",       "small flow link",     "courant"};
 
 bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
 
@@ -43,7 +45,7 @@ class TargetCheck {
     if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
     if (target_ == Target::Fvcom) checkOpenCells();
     if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
-    if (target_ == Target::Dflowfm) checkOrthogonality();
+    if (target_ == Target::Dflowfm) checkFlowLinks();
     if (options_.time_step_s > 0.0 && target_ != Target::Swan && !grid_.z.empty()) checkCourant();
     std::ranges::stable_sort(defects_, {}, [](const TargetDefect& defect) { return defect.kind; });
     return std::move(defects_);
@@ -78,7 +80,8 @@ class TargetCheck {
       if (std::ranges::count(adj, kNone) == 3)
         add(TargetDefectKind::OrphanCell, middle(t), static_cast<std::int64_t>(t));
       if (target_ != Target::Swan) continue;
-      const double largest = std::ranges::max(anglesDeg(corners[0], corners[1], corners[2]));
+      const auto& [a, b, c] = grid_.triangles[t];
+      const double largest = largestFileAngle(grid_.nodes[a], grid_.nodes[b], grid_.nodes[c]);
       if (largest > kSwanLargestAngleDeg)
         add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
     }
@@ -222,16 +225,17 @@ class TargetCheck {
     }
   }
 
-  void checkOrthogonality() {
+  void checkFlowLinks() {
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
         if (twin == kNone || triOf(twin) < t) continue;
         const std::array<std::uint32_t, 4> nodes{mesh_.origin(e), mesh_.target(e), mesh_.apex(e), mesh_.apex(twin)};
         const std::vector<Point> p = localPlane(grid_, nodes);
-        const double cosine = orthogonality(p[0], p[1], p[2], p[3]);
-        if (cosine > kDflowfmLargestCosine)
-          add(TargetDefectKind::NotOrthogonal, middle(nodes[0], nodes[1]), t, nodes[0], cosine);
+        const FlowLink link = flowLinkAcross(p[0], p[1], p[2], p[3]);
+        const Point place = middle(nodes[0], nodes[1]);
+        if (link.cosine > kDflowfmLargestCosine) add(TargetDefectKind::NotOrthogonal, place, t, nodes[0], link.cosine);
+        if (link.length < kDflowfmSmallestLink) add(TargetDefectKind::SmallFlowLink, place, t, nodes[0], link.length);
       }
     }
   }
@@ -259,34 +263,11 @@ class TargetCheck {
   std::vector<TargetDefect> defects_;
 };
 
-Point circumcentre(const Point& a, const Point& b, const Point& c) {
-  const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
-  const double d = 2.0 * (bx * cy - by * cx), b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
-  return {a.x + (cy * b2 - by * c2) / d, a.y + (bx * c2 - cx * b2) / d};
-}
-
-Point centreWithin(const Point& a, const Point& b, const Point& c) {
-  const Point circle = circumcentre(a, b, c);
-  const Point mass{(a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0};
-  double reach = 1.0;  // how far from the centre of gravity to the other one the triangle goes
-  for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-    const auto side = [&](const Point& x) { return (q.x - p.x) * (x.y - p.y) - (q.y - p.y) * (x.x - p.x); };
-    const double from = side(mass), to = side(circle);
-    if (to < 0.0) reach = std::min(reach, from / (from - to));
-  }
-  return {mass.x + reach * (circle.x - mass.x), mass.y + reach * (circle.y - mass.y)};
-}
-
 }  // namespace
 
 std::string_view toString(TargetDefectKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
-double orthogonality(const Point& a, const Point& b, const Point& left, const Point& right) {
-  const Point from = centreWithin(a, b, left), to = centreWithin(b, a, right);
-  const double ex = b.x - a.x, ey = b.y - a.y, lx = to.x - from.x, ly = to.y - from.y;
-  const double lengths = std::hypot(ex, ey) * std::hypot(lx, ly);
-  return lengths > 0.0 ? std::abs(ex * lx + ey * ly) / lengths : 1.0;
-}
+double largestFileAngle(const Point& a, const Point& b, const Point& c) { return std::ranges::max(anglesDeg(a, b, c)); }
 
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options) {
   return TargetCheck(grid, target, options).run();

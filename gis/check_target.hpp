@@ -37,9 +37,10 @@ enum class TargetDefectKind {
   Valence,         // an inner node with too few or too many triangles
   LargeAngle,      // an angle larger than the model takes
   NotOrthogonal,   // an edge that the line between the neighbours' centres crosses askew
+  SmallFlowLink,   // an edge with the neighbours' centres too near to one another
   Courant,         // a triangle whose Courant number the time step puts out of range
 };
-inline constexpr std::size_t kTargetDefectKinds = 22;
+inline constexpr std::size_t kTargetDefectKinds = 23;
 std::string_view toString(TargetDefectKind kind);
 
 struct TargetDefect {
@@ -47,7 +48,7 @@ struct TargetDefect {
   Point place;                 // in the grid's CRS
   std::int64_t triangle = -1;  // index, -1 where none is meant
   std::int64_t node = -1;      // the same
-  double value = 0.0;          // degrees, triangles round a node, a cosine, a Courant number
+  double value = 0.0;          // degrees, triangles round a node, a cosine, a share (`FlowLink`), a Courant number
   std::string text;            // of WrongCount
 };
 
@@ -59,9 +60,8 @@ struct TargetCheckOptions {
 // target_limits.hpp; a Courant number is sqrt(g depth) times the time step over the shortest edge.
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {});
 
-// D-FlowFM's measure at the edge from `a` to `b` between triangles with apexes `left` and `right`: the cosine of the
-// angle between the edge and the line from centre to centre. A centre is that of the circle through the corners, or
-// where it would leave the triangle, the place where the way there from the centre of gravity crosses the rim.
-double orthogonality(const Point& a, const Point& b, const Point& left, const Point& right);
+// SWAN's measure: the largest angle in degrees, of coordinates as they stand in the file. It takes longitudes and latitudes
+// for a plane.
+double largestFileAngle(const Point& a, const Point& b, const Point& c);
 
 }  // namespace coastmesh

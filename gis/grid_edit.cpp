@@ -246,6 +246,19 @@ std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, doubl
   return added;
 }
 
+void moveNode(Grid& grid, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share) {
+  forEachArray(nodeArrays(grid), [&]<typename T>(std::vector<T>& values) {
+    if constexpr (std::is_same_v<T, Point>) {
+      values[node] = placeBetween(grid.crs, values[node], placeBetween(grid.crs, values[a], values[b], 0.5), share);
+    } else {
+      static_assert(std::is_floating_point_v<T>, "say what lies between two");
+      if (values.empty()) return;
+      const T step = static_cast<T>(share) * ((values[a] + values[b]) / 2 - values[node]);
+      if (!std::isnan(step)) values[node] += step;
+    }
+  });
+}
+
 std::uint32_t detachTriangles(Grid& grid, std::uint32_t node, std::span<const std::uint32_t> triangles,
                               const Point& place) {
   const std::uint32_t twin = copyNode(grid, node, place);

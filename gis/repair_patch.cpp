@@ -58,7 +58,7 @@ std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std:
   const PatchEdge* const right = findSide(view.grid, patch, b, a);
   if (left == nullptr || right == nullptr) return std::nullopt;
   if (isFixed(view, a, b, left->triangle, right->triangle)) return std::nullopt;
-  PatchEdit edit;
+  PatchEdit edit{.kind = PatchEditKind::EdgeFlip, .nodes = {a, b}};
   edit.triangles.push_back({{a, right->apex, left->apex}, left->triangle, left->triangle});
   edit.triangles.push_back({{right->apex, b, left->apex}, right->triangle, right->triangle});
   return edit;
@@ -66,8 +66,8 @@ std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std:
 
 PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b, double share) {
   const auto middle = static_cast<std::uint32_t>(view.grid.nodes.size());
-  PatchEdit edit;
-  edit.fresh = placeBetween(view.grid.crs, view.grid.nodes[a], view.grid.nodes[b], share);
+  PatchEdit edit{.kind = PatchEditKind::EdgeSplit, .nodes = {a, b}, .share = share, .placed = middle};
+  edit.place = placeBetween(view.grid.crs, view.grid.nodes[a], view.grid.nodes[b], share);
   std::vector<EditedTriangle> added;
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
     const PatchEdge* const side = findSide(view.grid, patch, from, to);
@@ -106,7 +106,7 @@ std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node,
     if (k > 0 && fixed.contains(from)) return std::nullopt;
     moved.insert({from, ring[(first + k + 1) % n]});
   }
-  PatchEdit edit;
+  PatchEdit edit{.kind = PatchEditKind::NodeSplit, .nodes = {node, node}, .placed = fresh};
   std::uint32_t source = kNone;
   for (const std::uint32_t t : view.links.triangles_at[node]) {
     GridCorners v = view.grid.triangles[t];
@@ -118,6 +118,19 @@ std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node,
   }
   edit.triangles.push_back({{node, ring[first], fresh}, kNone, source});
   edit.triangles.push_back({{node, fresh, ring[(first + count) % n]}, kNone, source});
+  return edit;
+}
+
+bool isMovable(const RepairView& view, std::uint32_t node) {
+  return !view.links.on_boundary[node] && fixedNeighbours(view, node).empty();
+}
+
+PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share) {
+  const Crs& crs = view.grid.crs;
+  const std::vector<Point>& nodes = view.grid.nodes;
+  PatchEdit edit{.kind = PatchEditKind::NodeMove, .nodes = {a, b}, .share = share, .placed = node};
+  edit.place = placeBetween(crs, nodes[node], placeBetween(crs, nodes[a], nodes[b], 0.5), share);
+  for (const std::uint32_t t : view.links.triangles_at[node]) edit.triangles.push_back({view.grid.triangles[t], t, t});
   return edit;
 }
 

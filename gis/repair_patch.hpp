@@ -60,11 +60,17 @@ struct EditedTriangle {
   std::uint32_t source = kNone;  // the one that it is cut from
 };
 
+enum class PatchEditKind { EdgeFlip, EdgeSplit, NodeSplit, NodeMove };
+
 struct PatchEdit {
-  std::vector<EditedTriangle> triangles;  // those that change, then new ones
-  BoundaryKinds halves;                   // edges of the boundary that splitting made
-  std::optional<NodePair> gone;           // and the one it split
-  std::optional<Point> fresh;             // a node that is added, which has the number after the grid's last
+  PatchEditKind kind = PatchEditKind::EdgeFlip;
+  NodePair nodes{};                         // the edge; what a node moves towards: the middle between these
+  double share = 0.0;                       // of the way along the edge, or of the move's
+  std::uint32_t placed = kNone;             // the node that is moved, or added behind the grid's last
+  Point place{};                            // of it
+  std::vector<EditedTriangle> triangles{};  // those that change, then new ones
+  BoundaryKinds halves{};                   // edges of the boundary that splitting made
+  std::optional<NodePair> gone{};           // and the one it split
 };
 
 // The triangles that share a node with one of these.
@@ -86,6 +92,12 @@ std::vector<std::uint32_t> ringRound(const RepairView& view, std::uint32_t node)
 // where an edge that has to stay would move.
 std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node, std::span<const std::uint32_t> ring,
                                      const std::set<std::uint32_t>& fixed, std::size_t first, std::size_t count);
+
+// An inner node that no edge holds in its place.
+bool isMovable(const RepairView& view, std::uint32_t node);
+
+// The node moved `share` of the way towards the middle between `a` and `b`, nodes of its ring.
+PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share);
 
 // The other ends of edges at a node that have to stay: parts of lines, and those where features meet.
 std::set<std::uint32_t> fixedNeighbours(const RepairView& view, std::uint32_t node);

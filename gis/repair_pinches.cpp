@@ -54,7 +54,7 @@ std::string distanceText(const Crs& crs, const Point& from, const Point& to) {
   const std::vector<Point> plane = localPlane(crs, std::array{from, to});
   char text[40];
   std::snprintf(text, sizeof text, "%.3g", std::hypot(plane[1].x - plane[0].x, plane[1].y - plane[0].y));
-  return text + std::string(crs.geographic ? " m" : "");
+  return std::string(text) + (crs.geographic ? " m" : "");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
+#include "gis/flow_links.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/target_limits.hpp"
 
@@ -13,10 +14,16 @@ namespace coastmesh {
 namespace {
 
 template <std::size_t N>
-std::array<Point, N> planeOf(const RepairView& view, const PatchEdit& edit, const std::array<std::uint32_t, N>& nodes) {
+std::array<Point, N> placesOf(const RepairView& view, const PatchEdit& edit,
+                              const std::array<std::uint32_t, N>& nodes) {
   std::array<Point, N> places;
-  for (std::size_t i = 0; i < N; ++i)
-    places[i] = nodes[i] < view.grid.nodes.size() ? view.grid.nodes[nodes[i]] : *edit.fresh;
+  for (std::size_t i = 0; i < N; ++i) places[i] = nodes[i] == edit.placed ? edit.place : view.grid.nodes[nodes[i]];
+  return places;
+}
+
+template <std::size_t N>
+std::array<Point, N> planeOf(const RepairView& view, const PatchEdit& edit, const std::array<std::uint32_t, N>& nodes) {
+  std::array<Point, N> places = placesOf(view, edit, nodes);
   flattenLocally(view.grid.crs, places);
   return places;
 }
@@ -32,7 +39,10 @@ std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEd
   if (orient2d(p[0], p[1], p[2]) <= 0) return std::nullopt;
   const auto angles = anglesDeg(p[0], p[1], p[2]);
   TriangleScore score{0, std::ranges::min(angles)};
-  if (view.isFor(Target::Swan)) score.defects += std::ranges::max(angles) > kSwanLargestAngleDeg;
+  if (view.isFor(Target::Swan)) {
+    const auto q = placesOf(view, edit, v);
+    score.defects += largestFileAngle(q[0], q[1], q[2]) > kSwanLargestAngleDeg;
+  }
   int open = 0, solid = 0;
   for (unsigned i = 0; i < 3; ++i)
     if (const RimKind* const kind = kindOf(view, edit, v[i], v[next3(i)]))
@@ -56,7 +66,8 @@ int edgeDefects(const RepairView& view, const PatchEdit& edit, const NodePair& e
   if (apexes.size() != 2) return 0;
   auto p = planeOf(view, edit, std::array{edge[0], edge[1], apexes[0], apexes[1]});
   if (orient2d(p[0], p[1], p[2]) < 0) std::swap(p[0], p[1]);
-  return orthogonality(p[0], p[1], p[2], p[3]) > kDflowfmLargestCosine ? 1 : 0;
+  const FlowLink link = flowLinkAcross(p[0], p[1], p[2], p[3]);
+  return (link.cosine > kDflowfmLargestCosine ? 1 : 0) + (link.length < kDflowfmSmallestLink ? 1 : 0);
 }
 
 // Of the edges that have another triangle beside them after the edit than before.
@@ -87,7 +98,7 @@ int edgeDefectsAdded(const RepairView& view, const Patch& patch, const PatchEdit
       if (!std::ranges::binary_search(replaced, edge.triangle)) after.push_back(edge.apex);
     }
     for (const PatchEdge& edge : std::ranges::equal_range(made, key, {}, &PatchEdge::key)) after.push_back(edge.apex);
-    added += edgeDefects(view, edit, key, after) - edgeDefects(view, edit, key, before);
+    added += edgeDefects(view, edit, key, after) - edgeDefects(view, {}, key, before);
   }
   return added;
 }

@@ -7,19 +7,21 @@
 
 namespace coastmesh {
 
-// An edge flipped, or split at a share of it.
-struct Reshaping {
-  PatchEdit edit;
-  NodePair edge{};
-  std::optional<double> split_at;
+// The best edit is that which leaves the fewest defects in `patch`; among these the largest smallest angle. None where
+// each leaves as many as there are.
+
+// What is tried.
+struct SearchReach {
+  std::span<const double> shares;          // at which edges are split
+  std::span<const std::uint32_t> movable;  // nodes that are moved a little
 };
 
-// The flip or split of an edge of `inside` that leaves the fewest defects in `patch`, that round it; among these the
-// largest smallest angle. None where no edge leaves fewer.
-std::optional<Reshaping> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
-                                       const Patch& patch);
+// A node moved, or an edge of `inside` flipped or split. REQUIRES: the patch is that round `inside` and the triangles of
+// the movable nodes.
+std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
+                                       const SearchReach& reach, const Patch& patch);
 
-// The same of splitting an inner node in two: half of its triangles get a node of their own, between it and their
+// An inner node split in two: half of its triangles get a node of their own, between it and their
 // other ends.
 std::optional<PatchEdit> bestNodeSplit(const RepairView& view, std::uint32_t node, const Patch& patch);
 

@@ -1,12 +1,18 @@
 #include "gis/repair_shape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <string_view>
 
 #include "gis/repair_search.hpp"
 
 namespace coastmesh {
 namespace {
+
+constexpr std::array kShares{0.5, 0.4, 0.6, 0.3, 0.7};
+// Where these do not help: at a sharp corner of the input an edge is to be cut near its end.
+constexpr std::array kFarShares{0.2, 0.8, 0.15, 0.85, 0.1, 0.9, 0.05, 0.95};
 
 // The patch round the triangles, none where part of it has been changed in this round: then another one will do.
 std::optional<Patch> untouchedPatch(const RepairState& state, std::span<const std::uint32_t> middle) {
@@ -16,8 +22,32 @@ std::optional<Patch> untouchedPatch(const RepairState& state, std::span<const st
   return patch;
 }
 
-// The grid has the edit's node already, if it adds one.
-void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit) {
+void placeNode(RepairState& state, const PatchEdit& edit) {
+  const auto [a, b] = edit.nodes;
+  switch (edit.kind) {
+    case PatchEditKind::EdgeFlip:
+      return;
+    case PatchEditKind::EdgeSplit:
+      addNodeBetween(state.grid, a, b, edit.share);
+      if (state.links.line_edges.erase(edgeKey(a, b)) > 0)
+        state.links.line_edges.insert({edgeKey(a, edit.placed), edgeKey(edit.placed, b)});
+      return;
+    case PatchEditKind::NodeSplit:
+      copyNode(state.grid, a, edit.place);
+      return;
+    case PatchEditKind::NodeMove:
+      moveNode(state.grid, edit.placed, a, b, edit.share);
+      return;
+  }
+}
+
+std::string_view textOf(PatchEditKind kind) {
+  constexpr std::array<std::string_view, 4> kTexts{"edge flipped", "edge split", "node split in two", "node moved"};
+  return kTexts[static_cast<std::size_t>(kind)];
+}
+
+void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit, const FoundDefect& found) {
+  placeNode(state, edit);
   if (edit.gone) state.links.kinds.erase(*edit.gone);
   for (const auto& [edge, kind] : edit.halves) state.links.kinds[edge] = kind;
   for (const std::uint32_t t : patch.triangles) state.touched[t] = true;
@@ -31,12 +61,7 @@ void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit) {
     state.grid.triangles[triangle.slot] = triangle.v;
     state.changed[triangle.slot] = state.disturbed[triangle.slot] = true;
   }
-}
-
-void splitEdge(RepairState& state, const NodePair& edge, double share) {
-  const auto [a, b] = edge;
-  const std::uint32_t middle = addNodeBetween(state.grid, a, b, share);
-  if (state.links.line_edges.erase(edge) > 0) state.links.line_edges.insert({edgeKey(a, middle), edgeKey(middle, b)});
+  addRepair(state, found, found.defect.place, std::string(textOf(edit.kind)));
 }
 
 // Whether the attempt was made; `done` says whether it did anything.
@@ -48,27 +73,39 @@ Attempt splitNode(RepairState& state, std::uint32_t node, const FoundDefect& fou
   const auto patch = untouchedPatch(state, state.links.triangles_at[node]);
   if (!patch) return {};
   const std::optional<PatchEdit> chosen = bestNodeSplit(state.view(), node, *patch);
-  if (!chosen) return {true, false};
-  copyNode(state.grid, node, *chosen->fresh);
-  applyEdit(state, *patch, *chosen);
-  addRepair(state, found, found.defect.place, "node split in two");
-  return {true, true};
+  if (chosen) applyEdit(state, *patch, *chosen, found);
+  return {true, chosen.has_value()};
 }
 
-Attempt reshape(RepairState& state, std::span<const std::uint32_t> middle, const FoundDefect& found) {
-  std::set<std::uint32_t> concerned(middle.begin(), middle.end());
-  for (const std::uint32_t t : middle)
-    for (const EdgeRef twin : state.links.mesh.triangles[t].adj)
+// These, and what lies across their edges.
+std::vector<std::uint32_t> withNeighbours(const TriMesh& mesh, std::span<const std::uint32_t> triangles) {
+  std::set<std::uint32_t> concerned(triangles.begin(), triangles.end());
+  for (const std::uint32_t t : triangles)
+    for (const EdgeRef twin : mesh.triangles[t].adj)
       if (twin != kNone) concerned.insert(triOf(twin));
-  const std::vector<std::uint32_t> inside(concerned.begin(), concerned.end());
-  const auto patch = untouchedPatch(state, inside);
+  return {concerned.begin(), concerned.end()};
+}
+
+Attempt reshape(RepairState& state, std::span<const std::uint32_t> inside, const SearchReach& reach,
+                const FoundDefect& found) {
+  std::vector<std::uint32_t> middle(inside.begin(), inside.end());
+  for (const std::uint32_t node : reach.movable)
+    middle.insert(middle.end(), state.links.triangles_at[node].begin(), state.links.triangles_at[node].end());
+  const auto patch = untouchedPatch(state, middle);
   if (!patch) return {};
-  const std::optional<Reshaping> chosen = bestReshaping(state.view(), inside, *patch);
-  if (!chosen) return {true, false};
-  if (chosen->split_at) splitEdge(state, chosen->edge, *chosen->split_at);
-  applyEdit(state, *patch, chosen->edit);
-  addRepair(state, found, found.defect.place, chosen->split_at ? "edge split" : "edge flipped");
-  return {true, true};
+  const std::optional<PatchEdit> chosen = bestReshaping(state.view(), inside, reach, *patch);
+  if (chosen) applyEdit(state, *patch, *chosen, found);
+  return {true, chosen.has_value()};
+}
+
+std::vector<std::uint32_t> movableCorners(const RepairState& state, std::span<const std::uint32_t> triangles) {
+  std::set<std::uint32_t> nodes;
+  for (const std::uint32_t t : triangles)
+    nodes.insert(state.links.mesh.triangles[t].v.begin(), state.links.mesh.triangles[t].v.end());
+  std::vector<std::uint32_t> movable;
+  for (const std::uint32_t node : nodes)
+    if (isMovable(state.view(), node)) movable.push_back(node);
+  return movable;
 }
 
 // An inner node of three triangles goes, and these become one.
@@ -90,7 +127,20 @@ void takeOutNode(RepairState& state, std::uint32_t node, const FoundDefect& foun
 void reshapeTriangle(RepairState& state, const FoundDefect& found) {
   const auto t = static_cast<std::uint32_t>(found.defect.triangle);
   if (state.hopeless_triangles[t]) return;
-  const Attempt attempt = reshape(state, std::array{t}, found);
+  const std::vector<std::uint32_t> inside = withNeighbours(state.links.mesh, std::array{t});
+  Attempt attempt = reshape(state, inside, {kShares, {}}, found);
+  if (attempt.made && !attempt.done)
+    attempt = reshape(state, inside, {kFarShares, movableCorners(state, inside)}, found);
+  state.hopeless_triangles[t] = attempt.made && !attempt.done;
+}
+
+void lengthenFlowLink(RepairState& state, const FoundDefect& found) {
+  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
+  if (state.hopeless_triangles[t]) return;
+  const std::vector<std::uint32_t> inside = withNeighbours(state.links.mesh, std::array{t});
+  const std::vector<std::uint32_t> movable = movableCorners(state, inside);
+  Attempt attempt = reshape(state, inside, {kShares, movable}, found);
+  if (attempt.made && !attempt.done) attempt = reshape(state, inside, {kFarShares, {}}, found);
   state.hopeless_triangles[t] = attempt.made && !attempt.done;
 }
 
@@ -99,7 +149,7 @@ void mendValence(RepairState& state, const FoundDefect& found) {
   const std::vector<std::uint32_t>& round = state.links.triangles_at[node];
   if (round.size() <= 3) return takeOutNode(state, node, found);
   if (state.hopeless_nodes[node]) return;
-  const Attempt reshaped = reshape(state, round, found);
+  const Attempt reshaped = reshape(state, withNeighbours(state.links.mesh, round), {kShares, {}}, found);
   if (reshaped.done) return;
   const Attempt was_split = splitNode(state, node, found);
   state.hopeless_nodes[node] = reshaped.made && was_split.made && !was_split.done;

@@ -82,6 +82,8 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::LargeAngle:
     case TargetDefectKind::NotOrthogonal:
       return reshapeTriangle(state, found);
+    case TargetDefectKind::SmallFlowLink:
+      return lengthenFlowLink(state, found);
     case TargetDefectKind::Valence:
       return mendValence(state, found);
     case TargetDefectKind::NoBoundary:

@@ -4,14 +4,18 @@ namespace coastmesh {
 
 // What models take: `checkTarget` measures against these, and `repairForTargets` works towards them.
 
-// SWAN, SwanCheckGrid: it stops at an angle with a cosine of -0.8 or less (143.13 degrees), and at an inner node with
-// fewer or more triangles.
+// SWAN, SwanCheckGrid: it stops at an angle with a cosine of -0.8 or less (143.13 degrees; it computes in single
+// precision, hence a little less here), and at an inner node with fewer or more triangles.
 inline constexpr double kSwanLargestAngleDeg = 143.0;
 inline constexpr int kSwanFewestCells = 4, kSwanMostCells = 10;
 
 // D-Flow FM, user manual, "orthogonality": the cosine of the angle between an edge and the line between the centres
 // beside it.
 inline constexpr double kDflowfmLargestCosine = 0.5;
+
+// D-Flow FM, "removesmalllinkstrsh": a shorter link, as a share of half the sum of the square roots of the areas of the
+// triangles it joins, is taken out, and nothing flows there.
+inline constexpr double kDflowfmSmallestLink = 0.1;
 
 // Courant numbers: explicit schemes (ADCIRC, FVCOM, TELEMAC, D-Flow FM) want it small; SCHISM's scheme wants it large
 // (SCHISM's manual, "grid generation").

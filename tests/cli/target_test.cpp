@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/cli/program.hpp"
 
@@ -22,6 +25,82 @@ std::map<std::pair<double, double>, double> sizesIn(const std::string& path) {
     sizes[{place.at(0), place.at(1)}] = feature.at("properties").at("size");
   }
   return sizes;
+}
+
+// A fort.14 file, read by its own lines.
+struct Fort14 {
+  std::vector<std::array<double, 2>> nodes;
+  std::vector<std::array<std::size_t, 3>> triangles;
+};
+
+Fort14 readFort14(const std::string& path) {
+  std::istringstream text(readText(path));
+  std::string title;
+  std::getline(text, title);
+  std::size_t triangles = 0, nodes = 0, number = 0, corners = 0;
+  double depth = 0.0;
+  text >> triangles >> nodes;
+  Fort14 grid;
+  grid.nodes.resize(nodes);
+  grid.triangles.resize(triangles);
+  for (auto& [x, y] : grid.nodes) text >> number >> x >> y >> depth;
+  for (auto& [a, b, c] : grid.triangles) {
+    text >> number >> corners >> a >> b >> c;
+    --a, --b, --c;
+  }
+  EXPECT_TRUE(text.good()) << path;
+  return grid;
+}
+
+// SWAN reads coordinates as they stand, and stops where the cosine of an angle is -0.8 or less.
+std::size_t refusedBySwan(const Fort14& grid) {
+  const auto squareOf = [&](std::size_t a, std::size_t b) {
+    const double dx = grid.nodes[a][0] - grid.nodes[b][0], dy = grid.nodes[a][1] - grid.nodes[b][1];
+    return dx * dx + dy * dy;
+  };
+  std::size_t refused = 0;
+  for (const auto& v : grid.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double before = squareOf(v[i], v[(i + 1) % 3]), after = squareOf(v[i], v[(i + 2) % 3]);
+      const double across = squareOf(v[(i + 1) % 3], v[(i + 2) % 3]);
+      refused += (before + after - across) / (2.0 * std::sqrt(before * after)) <= -0.8;
+    }
+  }
+  return refused;
+}
+
+// A lake of some hundred kilometres whose degrees of longitude are a quarter of those of latitude.
+TEST_F(Target, SwanGetsNoLargeAngleInTheDegreesOfItsFile) {
+  LonLatRing ring;
+  for (int k = 0; k < 120; ++k) {
+    const double turn = 2.0 * M_PI * k / 120, reach = 0.5 * (1.0 + 0.2 * std::sin(5.0 * turn));
+    ring.emplace_back(10.0 + 4.0 * reach * std::cos(turn), 75.0 + reach * std::sin(turn));
+  }
+  ring.push_back(ring.front());
+  const std::string input = write("lake.geojson", geoJsonPolygons({{ring}}));
+  const std::vector<std::string> plain{"mesh", input, "--size-max", "3000", "-o", file("plain.14")};
+  ASSERT_EQ(runProgram(plain).code, 0);
+  EXPECT_GT(refusedBySwan(readFort14(file("plain.14"))), 0u);
+  EXPECT_EQ(runProgram({"check", file("plain.14"), "--target", "swan"}).code, 1);
+  const std::vector<std::string> mended{"mesh", input, "--size-max", "3000", "--target", "swan", "-o", file("swan.14")};
+  EXPECT_EQ(runProgram(mended).code, 0);
+  const Fort14 grid = readFort14(file("swan.14"));
+  EXPECT_GT(grid.triangles.size(), 2000u);
+  EXPECT_EQ(refusedBySwan(grid), 0u);
+  EXPECT_EQ(runProgram({"check", file("swan.14"), "--target", "swan"}).code, 0);
+}
+
+// Circles round the corners of a square's halves have one centre: no water would flow across its diagonal.
+TEST_F(Target, FlowLinksOfDflowfmHaveALength) {
+  const std::string square =
+      write("square.poly", "4 2 0 0\n1 0 0\n2 1000 0\n3 1000 1000\n4 0 1000\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  const std::string plain = file("plain.14"), mended = file("mended.14");
+  ASSERT_EQ(runProgram({"mesh", square, "-o", plain}).code, 0);
+  ASSERT_EQ(readFort14(plain).triangles.size(), 2u);
+  EXPECT_EQ(runProgram({"check", plain, "--target", "dflowfm"}).code, 1);
+  ASSERT_EQ(runProgram({"convert", plain, "--target", "dflowfm", "-o", mended}).code, 0);
+  EXPECT_GT(readFort14(mended).triangles.size(), 2u);
+  EXPECT_EQ(runProgram({"check", mended, "--target", "dflowfm"}).code, 0);
 }
 
 TEST_F(Target, ADoubledNodeHasTheSizeOfTheNodeThatItWas) {

@@ -11,6 +11,8 @@
 #include "core/quality.hpp"
 #include "gis/assign_boundaries.hpp"
 #include "gis/error.hpp"
+#include "gis/flow_links.hpp"
+#include "gis/grid_edit.hpp"
 #include "gis/grid_io.hpp"
 #include "gis/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
@@ -340,10 +342,86 @@ TEST(CheckTarget, LargeAngle) {
   expectMended(grid, {Target::Swan});
 }
 
+// At 75 degrees north, where a degree of longitude is a quarter of one
+// of latitude.
+TEST(CheckTarget, SwanMeasuresAnglesOfDegreesAsIfTheyWereAPlane) {
+  Grid grid = soundGrid();
+  grid.crs = wgs84();
+  for (Point& p : grid.nodes) p = {p.x * 1e-5 / std::cos(75.0 * M_PI / 180.0), 75.0 + p.y * 1e-5};
+  // Equilateral on the ground; 60 degrees at the top become 2 atan(tan(30) / cos(75)) = 131.7, those of 70 become 139.4.
+  EXPECT_EQ(kindsIn(grid, Target::Swan), Kinds{});
+  grid.nodes[30].y -= 260e-5;
+  EXPECT_EQ(kindsIn(grid, Target::Swan), Kinds{TargetDefectKind::LargeAngle});
+  for (const TargetDefect& defect : checkTarget(grid, Target::Swan)) {
+    const auto& [a, b, c] = grid.triangles[static_cast<std::size_t>(defect.triangle)];
+    const auto on_paper = anglesDeg(grid.nodes[a], grid.nodes[b], grid.nodes[c]);
+    EXPECT_NEAR(defect.value, std::ranges::max(on_paper), 1e-9);
+    const double narrow = std::cos(75.0 * M_PI / 180.0);
+    const auto on_ground = [&](std::uint32_t node) { return Point{grid.nodes[node].x * narrow, grid.nodes[node].y}; };
+    EXPECT_LT(std::ranges::max(anglesDeg(on_ground(a), on_ground(b), on_ground(c))), 110.0);
+  }
+  expectMended(grid, {Target::Swan});
+  // The other way round: 150 degrees on the ground, far fewer in the file.
+  Grid flat = soundGrid();
+  flat.crs = wgs84();
+  for (Point& p : flat.nodes) p = {p.x * 1e-5, 75.0 + p.y * 1e-5};
+  EXPECT_EQ(kindsIn(flat, Target::Swan), Kinds{});
+}
+
+TEST(CheckTarget, SmallFlowLink) {
+  // Centres are the middles of the hypotenuses: a square's two are one.
+  EXPECT_NEAR(flowLinkAcross({0, 0}, {4, 4}, {0, 4}, {4, 0}).length, 0.0, 1e-12);
+  // Equilateral with sides of 2: centres 2 / sqrt(3) apart, areas sqrt(3).
+  EXPECT_NEAR(flowLinkAcross({0, 0}, {2, 0}, {1, std::sqrt(3.0)}, {1, -std::sqrt(3.0)}).length,
+              2.0 / std::sqrt(3.0) / std::pow(3.0, 0.25), 1e-12);
+  Grid grid = soundGrid();
+  // Two triangles that share an edge get right angles there, on one circle round its middle.
+  const auto [a, b, c] = grid.triangles[50];
+  const Point middle{(grid.nodes[b].x + grid.nodes[c].x) / 2.0, (grid.nodes[b].y + grid.nodes[c].y) / 2.0};
+  for (const auto& corners : grid.triangles) {
+    if (std::ranges::count(corners, b) == 0 || std::ranges::count(corners, c) == 0) continue;
+    Point& apex = grid.nodes[*std::ranges::find_if(corners, [&](std::uint32_t n) { return n != b && n != c; })];
+    const double nearer = 1.0 / std::sqrt(3.0);
+    apex = {middle.x + nearer * (apex.x - middle.x), middle.y + nearer * (apex.y - middle.y)};
+  }
+  EXPECT_EQ(kindsIn(grid, Target::Dflowfm), Kinds{TargetDefectKind::SmallFlowLink});
+  for (const Target target : {Target::Adcirc, Target::Schism, Target::Swan})
+    EXPECT_FALSE(kindsIn(grid, target).contains(TargetDefectKind::SmallFlowLink));
+  expectMended(grid, {Target::Dflowfm});
+  const std::size_t nodes = grid.nodes.size();
+  const RepairReport report = repairForTargets(grid, std::array{Target::Dflowfm});
+  EXPECT_EQ(grid.nodes.size(), nodes);  // moved is enough
+  EXPECT_EQ(report.repairs.front().what, "node moved");
+}
+
+// On the boundary and on lines nothing moves.
+TEST(CheckTarget, NoRepairMovesABoundaryOrALine) {
+  Grid grid = corner(false);  // squares cut in two: each diagonal is a link of no length
+  grid.lines = {{LineKind::Constraint, "dam", false, {}}};
+  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
+    if (grid.nodes[node].x == 2000.0) grid.lines[0].nodes.push_back(node);
+  std::ranges::sort(grid.lines[0].nodes, {}, [&](std::uint32_t node) { return grid.nodes[node].y; });
+  requireConsistent(grid);
+  const Grid before = grid;
+  const RepairReport report = repairForTargets(grid, std::array{Target::Dflowfm});
+  EXPECT_TRUE(report.left.empty());
+  bool any_moved = false;
+  for (std::size_t node = 0; node < before.nodes.size(); ++node) {
+    const Point& p = before.nodes[node];
+    const bool fixed = p.x == 0.0 || p.x == 2000.0 || p.x == 4000.0 || p.y == 0.0 || p.y == 4000.0;
+    any_moved = any_moved || grid.nodes[node] != p;
+    if (fixed) {
+      EXPECT_EQ(grid.nodes[node], p);
+    }
+  }
+  EXPECT_TRUE(any_moved);
+  for (const std::uint32_t node : grid.lines[0].nodes) EXPECT_EQ(grid.nodes[node].x, 2000.0);
+}
+
 TEST(CheckTarget, Orthogonality) {
   // Right angles: the line between the middles of hypotenuses meets the edge squarely, or along it.
-  EXPECT_NEAR(orthogonality({0, 0}, {2, 0}, {1, std::sqrt(3.0)}, {1, -std::sqrt(3.0)}), 0.0, 1e-12);
-  EXPECT_NEAR(orthogonality({0, 0}, {4, 0}, {1, 3}, {3, -3}), 0.0, 1e-12);  // acute: always
+  EXPECT_NEAR(flowLinkAcross({0, 0}, {2, 0}, {1, std::sqrt(3.0)}, {1, -std::sqrt(3.0)}).cosine, 0.0, 1e-12);
+  EXPECT_NEAR(flowLinkAcross({0, 0}, {4, 0}, {1, 3}, {3, -3}).cosine, 0.0, 1e-12);  // acute: always
   Grid grid = soundGrid();
   grid.nodes[30].y += 760.0;
   ASSERT_TRUE(kindsIn(grid, Target::Dflowfm).contains(TargetDefectKind::NotOrthogonal));

@@ -267,6 +267,20 @@ TEST(GridEdit, AClosedLineThatIsCutStaysOneLine) {
   EXPECT_EQ(grid.lines[0].nodes, left);
 }
 
+TEST(GridEdit, ValuesMoveWithANode) {
+  Grid grid;
+  grid.nodes = {{0.0, 0.0}, {8.0, 0.0}, {0.0, 8.0}};
+  grid.z = {-10.0, -20.0, -40.0};
+  grid.size_m = {1.0, std::numeric_limits<double>::quiet_NaN(), 3.0};
+  moveNode(grid, 0, 1, 2, 0.5);
+  EXPECT_EQ(grid.nodes[0], (Point{2.0, 2.0}));
+  EXPECT_EQ(grid.z[0], -20.0);     // half the way to -30
+  EXPECT_EQ(grid.size_m[0], 1.0);  // what lies beside is unknown
+  moveNode(grid, 2, 1, 1, 0.25);
+  EXPECT_EQ(grid.nodes[2], (Point{2.0, 6.0}));
+  EXPECT_EQ(grid.z[2], -35.0);
+}
+
 TEST(GridEdit, PlacesBetweenLieTheShortWayRound) {
   const auto expectPlace = [](const Point& place, double x, double y) {
     EXPECT_NEAR(place.x, x, 1e-9);

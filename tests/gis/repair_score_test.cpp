@@ -57,7 +57,8 @@ GridLinks linksOf(const Grid& grid) {
 }
 
 Grid edited(Grid grid, const GridLinks& links, const PatchEdit& edit) {
-  if (edit.fresh) grid.nodes.push_back(Point(*edit.fresh));
+  if (edit.placed == grid.nodes.size()) grid.nodes.emplace_back();
+  if (edit.placed != kNone) grid.nodes[edit.placed] = edit.place;
   for (const EditedTriangle& triangle : edit.triangles) {
     if (triangle.slot == kNone) {
       grid.triangles.push_back(triangle.v);
@@ -102,11 +103,17 @@ void expectTrueScores(Target target, const Crs& crs) {
     const RepairView view{grid, links, targets};
     const int before = defectsOf(grid, target);
     for (std::uint32_t t = 0; t < grid.triangles.size(); t += 5) {
-      const Patch patch = patchRound(view, std::array{t});
+      std::vector<std::uint32_t> near;
+      for (const std::uint32_t node : grid.triangles[t])
+        near.insert(near.end(), links.triangles_at[node].begin(), links.triangles_at[node].end());
+      const Patch patch = patchRound(view, near);
       const PatchScale scale = scaleOf(view, patch);
       for (unsigned i = 0; i < 3; ++i) {
         const std::uint32_t a = grid.triangles[t][i], b = grid.triangles[t][next3(i)];
-        for (const auto& edit : {flipOf(view, patch, a, b), std::optional(splitOf(view, patch, a, b, 0.4))}) {
+        const std::uint32_t c = grid.triangles[t][prev3(i)];
+        std::vector<std::optional<PatchEdit>> edits{flipOf(view, patch, a, b), splitOf(view, patch, a, b, 0.4)};
+        if (isMovable(view, a)) edits.push_back(moveOf(view, a, b, c, 0.3));
+        for (const auto& edit : edits) {
           if (!edit) continue;
           const Grid after = edited(grid, links, *edit);
           const int said = scoreOf(view, patch, scale, *edit).defects;

@@ -107,6 +107,16 @@ def check_case(name, program, folder, arguments, targets, dem, tolerance, is_ope
         if "open_nodes" in grid and "fort.14" in grids:
             nodes = {n for s in grids["fort.14"]["open"] for n in s}
             expect(f"{output}: open nodes", grid["open_nodes"] == nodes)
+    mesh = grids["fort.14"]["nodes"], grids["fort.14"]["triangles"]
+    for model, check in [
+        ("swan", lambda: readers.check_swan(*mesh, readers.check_mesh(*mesh))),
+        ("dflowfm", lambda: readers.check_dflowfm(*mesh)),
+    ]:
+        try:
+            check()
+            expect(f"{model}: shapes accepted", True)
+        except readers.Refused as refusal:
+            expect(f"{model}: shapes accepted", False, str(refusal))
     try:
         import netCDF4
 

@@ -4,6 +4,7 @@ Each gives a dict: nodes [(x, y)], triangles [(a, b, c)] from 0, depth [positive
 the format tells them. What the model would refuse raises Refused.
 """
 
+import math
 import re
 import struct
 
@@ -246,3 +247,59 @@ def read_fvcom(path):
         require(len(opened) < 2, "a cell with two open edges")
         require(not opened or len(outer) == 1, "a cell with an open and a solid edge")
     return {"nodes": nodes, "triangles": triangles, "depth": [float(r[2]) for r in rows_dep], "open_nodes": is_open}
+
+
+def check_swan(nodes, triangles, rim):
+    """SwanCheckGrid: cosines of angles, of coordinates as they stand, above -0.8; 4 to 10 triangles round an inner node."""
+    on_rim = {node for edge in rim for node in edge}
+    round_node = [0] * len(nodes)
+    for t in triangles:
+        square = [(nodes[t[i - 1]][0] - nodes[t[i - 2]][0]) ** 2 + (nodes[t[i - 1]][1] - nodes[t[i - 2]][1]) ** 2 for i in range(3)]
+        for i in range(3):
+            a, b, c = square[i], square[i - 1], square[i - 2]
+            require((b + c - a) / (2 * math.sqrt(b * c)) > -0.8, f"an angle of triangle {t}")
+            round_node[t[i]] += 1
+    for node, count in enumerate(round_node):
+        require(node in on_rim or 4 <= count <= 10, f"{count} triangles round node {node}")
+
+
+def on_sphere(place):
+    x, y = math.radians(place[0]), math.radians(place[1])
+    return (math.cos(y) * math.cos(x), math.cos(y) * math.sin(x), math.sin(y))
+
+
+def flow_centre(corners):
+    """The circumcentre, or where the way there from the centre of gravity leaves the triangle; and the triangle's area."""
+    square = [sum((p - q) ** 2 for p, q in zip(corners[i - 1], corners[i - 2])) for i in range(3)]
+    weights = [square[i] * (square[i - 1] + square[i - 2] - square[i]) for i in range(3)]
+    sixteen_areas_squared = sum(weights)
+    weights = [w / sixteen_areas_squared for w in weights]
+    reach = min([1.0] + [(1 / 3) / (1 / 3 - w) for w in weights if w < 0])
+    weights = [1 / 3 + reach * (w - 1 / 3) for w in weights]
+    centre = [sum(w * corner[k] for w, corner in zip(weights, corners)) for k in range(3)]
+    return centre, math.sqrt(sixteen_areas_squared) / 4
+
+
+def check_dflowfm(nodes, triangles):
+    """Longitudes and latitudes. Flow links: no shorter than 0.1 of half the sum of the roots of the areas beside them
+    (removesmalllinkstrsh), and crossing their edge at a cosine of 0.5 or less. Returns how many there are."""
+    slack = 1e-3  # another plane than the program's
+    points = [on_sphere(place) for place in nodes]
+    beside, links = {}, 0
+    for t in triangles:
+        centre, size = flow_centre([points[n] for n in t])
+        for i in range(3):
+            edge = (t[i], t[(i + 1) % 3])
+            if edge[::-1] not in beside:
+                beside[edge] = centre, size
+                continue
+            other, other_size = beside[edge[::-1]]
+            link = [p - q for p, q in zip(centre, other)]
+            along = [p - q for p, q in zip(points[edge[0]], points[edge[1]])]
+            length = math.hypot(*link)
+            shortest = 0.1 * 0.5 * (math.sqrt(size) + math.sqrt(other_size))
+            require(length >= (1 - slack) * shortest, f"a flow link of {length / shortest} across edge {edge}")
+            cosine = abs(sum(p * q for p, q in zip(link, along))) / length / math.hypot(*along)
+            require(cosine <= 0.5 + slack, f"a flow link across edge {edge} at a cosine of {cosine}")
+            links += 1
+    return links
