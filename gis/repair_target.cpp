@@ -143,22 +143,20 @@ void measureChanged(Grid& grid, const std::vector<bool>& changed) {
 
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets) {
   RepairState state{grid, targets};
-  bool boundaries_done = false;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const std::vector<FoundDefect> defects = findDefects(grid, targets);
-    if (defects.empty()) break;
-    requireNoWeirs(grid);
-    if (round == 0) {
-      state.changed.assign(grid.triangles.size(), false);
-      state.hopeless_triangles = state.disturbed = state.changed;
-      state.hopeless_nodes.assign(grid.nodes.size(), false);
-      state.links.kinds = takeBoundaryKinds(grid);
-    }
-    if (!mendRound(state, defects, boundaries_done)) break;
+  std::vector<FoundDefect> defects = findDefects(grid, targets);
+  if (defects.empty()) return {};
+  requireNoWeirs(grid);
+  state.changed.assign(grid.triangles.size(), false);
+  state.hopeless_triangles = state.disturbed = state.changed;
+  state.hopeless_nodes.assign(grid.nodes.size(), false);
+  state.links.kinds = takeBoundaryKinds(grid);
+  bool again = true, boundaries_done = false;
+  for (int round = 0; round < kMostRounds && again && !defects.empty(); ++round) {
+    again = mendRound(state, defects, boundaries_done);
+    defects = findDefects(grid, targets);
   }
-  if (!targets.empty()) requireTriangles(grid, targets.front());
-  for (FoundDefect& found : findDefects(grid, targets))
-    state.report.left.emplace_back(found.target, std::move(found.defect));
+  requireTriangles(grid, targets.front());
+  for (FoundDefect& found : defects) state.report.left.emplace_back(found.target, std::move(found.defect));
   measureChanged(grid, state.changed);
   requireConsistent(grid);
   return std::move(state.report);
