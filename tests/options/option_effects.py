@@ -199,6 +199,7 @@ def cases():
     convert["--target"] = Case("adcirc", input="hourglass.nc")
     clean = {**region,
              "--crs": Case("EPSG:6933", extra=["--output", "out.poly"], because="a layer is in the input's CRS"),
+             "--boundary-column": Case("other"),
              "--config": Case("angle.toml"), "--pinches": Case("open", input="hourglass.geojson"),
              "--overwrite": Case(exists=["out.gpkg"]), "--output": Case("other.gpkg"),
              "--report": Case("report2.json"), "--quiet": Case()}
