@@ -238,7 +238,7 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
     options.refine.size = size.get();
     if (job.sizes.coast == CoastDetail::Follow) {
       CleanReport coarser;
-      domain = followSizes(std::move(domain), *size, input.coastline(), coarser);
+      domain = followSizes(std::move(domain), *size, job.sizes.follow, input.coastline(), coarser);
       for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     }
     demand.vertices +=

@@ -76,8 +76,14 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
       [&sizes](const std::string& chosen) {
         sizes.coast = chosen == "follow" ? CoastDetail::Follow : CoastDetail::Keep;
       },
-      "whether the coast keeps its detail, or follows the sizes: where elements are larger it is simplified, as are "
-      "the sides of a frame, and islands smaller than an element go");
+      "whether the coast keeps its detail, or follows the sizes: its edges become about as long as they are, water and "
+      "land narrower than elements go, and so do islands smaller than one");
+  line.number("--channel-min", sizes.follow.channel_min, "N", {0.0, 100.0},
+              "with --coast follow: water narrower than N times the size there is closed; 0 closes none")
+      .needs({"--coast"});
+  line.number("--land-min", sizes.follow.land_min, "N", {0.0, 100.0},
+              "with --coast follow: spits and capes narrower than N times the size there go; 0 keeps them")
+      .needs({"--coast"});
   line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
               "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
               "asks for none");

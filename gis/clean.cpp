@@ -100,6 +100,12 @@ std::string_view toString(EditKind kind) {
       return "dissolved edge";
     case EditKind::OpenedPinch:
       return "opened pinch";
+    case EditKind::ClosedWater:
+      return "closed water";
+    case EditKind::DroppedSpit:
+      return "dropped spit";
+    case EditKind::MovedPoint:
+      return "moved point";
   }
   assert(false);
   return "";

@@ -46,8 +46,11 @@ enum class EditKind {
   OutsideWater,     // a point asked for as a vertex lies outside of the domain: dropped
   DissolvedEdge,    // an edge between two features, or a vertex that only such an edge had made: dropped by `dissolve`
   OpenedPinch,      // water passes where rings touched, or crossed, in a vertex: made by `Pinches::Open`
+  ClosedWater,      // water narrower or smaller than the elements wanted there: closed by `followSizes`
+  DroppedSpit,      // land narrower than these that ends in water: dropped by `followSizes`
+  MovedPoint,       // a point of the shore: moved by `followSizes` within half the size wanted there
 };
-inline constexpr std::size_t kEditKinds = 14;
+inline constexpr std::size_t kEditKinds = 17;
 std::string_view toString(EditKind kind);  // "repeated point"
 
 // One change made to the input.

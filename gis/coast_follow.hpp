@@ -6,12 +6,18 @@
 
 namespace coastmesh {
 
-// Makes the shore as coarse as the elements beside it: no shore is moved by more than a quarter of the size wanted
-// there, and islands smaller than a triangle of that size go; nothing crosses, and no island changes sides: see
-// `simplifyEdges`. Open water's rim keeps its corners and is moved by a hundredth of the size; lines inside the water
-// stay as they are. What was dropped goes to the report as simplified points and small islands. Where all of the domain
-// is smaller than its elements, its last three points stay. A graph without labels is labelled first, by its holes.
-// Throws BadPslg where that cannot be.
-Domain followSizes(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report);
+// What is too narrow to be followed, as a multiple of the size wanted there; 0: nothing is.
+struct FollowOptions {
+  double channel_min = 1.0;  // water
+  double land_min = 1.0;     // land
+};
+
+// Makes the shore that of a sea seen at the sizes wanted: narrow land that ends in water and small islands go, narrow and small
+// water is closed (`openLand`, `openWater`), shores get segments about as long as the size (`coarsenShores`), and what is still short,
+// sharp or narrow is mended by moving vertices by up to half the size (`mendShores`). Nothing crosses. Lines inside the water stay as
+// they are, open boundaries keep their corners. What was changed goes to the report. A graph without labels is labelled
+// first, by its holes. Throws BadPslg where that cannot be.
+Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
+                   CleanReport& report);
 
 }  // namespace coastmesh

@@ -9,6 +9,7 @@
 #include "core/item_loop.hpp"
 #include "core/size_tree.hpp"
 #include "gis/clean.hpp"
+#include "gis/coast_follow.hpp"
 #include "gis/size_depth.hpp"
 #include "gis/size_features.hpp"
 #include "gis/size_field.hpp"
@@ -35,7 +36,8 @@ struct SizeOptions {
   double time_step_s = 0.0;  // 0 asks for nothing
   double courant = 1.0;      // above 0
 
-  CoastDetail coast = CoastDetail::Keep;  // Follow: the shore is simplified where elements are larger than its detail
+  CoastDetail coast = CoastDetail::Keep;  // Follow: the shore is made as coarse as the elements beside it
+  FollowOptions follow;                   // how
 
   // Whether anything but bounds is asked for.
   bool any() const {

@@ -76,6 +76,11 @@ def write_inputs(folder):
         [[-87.5, 41.6], [-87.48, 41.6], [-87.48, 41.62], [-87.5, 41.62], [-87.5, 41.6]],
         [[-87.5, 41.6], [-87.495, 41.61], [-87.49, 41.605], [-87.5, 41.6]]])))
     put("islands.geojson", collection(square(-87.495, 41.605, 0.004), square(-87.485, 41.612, 0.003)))
+    # A spit and an inlet, 80 m wide.
+    put("notched.geojson", collection(feature("Polygon", [
+        [[-87.5, 41.6], [-87.491, 41.6], [-87.491, 41.607], [-87.49, 41.607], [-87.49, 41.6], [-87.48, 41.6],
+         [-87.48, 41.61], [-87.473, 41.61], [-87.473, 41.611], [-87.48, 41.611], [-87.48, 41.62], [-87.5, 41.62],
+         [-87.5, 41.6]]])))
     # Water on both sides of a point.
     put("hourglass.geojson", collection(feature("Polygon", [
         [[-87.5, 41.6], [-87.48, 41.6], [-87.48, 41.62], [-87.5, 41.62], [-87.5, 41.6]],
@@ -159,6 +164,8 @@ def cases():
         "--slope-filter": Case("900", extra=[*depths, "--size-min", "50", "--slope-elements", "20"]),
         "--depth-band": Case("0,30,80", extra=depths),
         "--coast": Case("follow", extra=["--size", "900"]),
+        "--channel-min": Case("0", input="notched.geojson", extra=["--size", "150", "--coast", "follow"]),
+        "--land-min": Case("0", input="notched.geojson", extra=["--size", "150", "--coast", "follow"]),
         "--time-step": Case("20", extra=stepped),
         "--courant": Case("0.4", extra=[*stepped, "--time-step", "20"]),
         "--smooth": Case(),

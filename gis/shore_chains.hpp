@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "gis/shore_graph.hpp"
+
+namespace coastmesh {
+
+// The boundaries of a graph as chains with the water to their left, to take vertices out of and to move them. Private to gis.
+struct ShoreChains {
+  std::vector<Point> at;
+  std::vector<VertexId> source;      // the domain's point that it is, or kNone
+  std::vector<VertexId> next, prev;  // kNone: on no boundary (any more)
+  std::vector<Segment> leaving;      // the boundary to the next vertex: its tag and labels
+  std::vector<char> stays;           // ends, corners of open boundaries, ends of lines: neither taken out nor moved
+  std::vector<char> open;            // between two segments of an open boundary
+  std::vector<char> alive;           // a vertex of the graph still
+  std::vector<double> size;          // wanted there
+  std::vector<Segment> lines;        // what is no boundary
+};
+
+ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size);
+ShoreGraph graphOf(ShoreChains&& chains);
+
+// The angle on the water's side on the way a, b, c with the water to the left: 0 to two pi.
+double waterAngle(const Point& a, const Point& b, const Point& c);
+
+// Joins the neighbours of v. REQUIRES: they are not joined.
+void takeOut(ShoreChains& chains, VertexId v);
+
+}  // namespace coastmesh
