@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <queue>
 #include <unordered_map>
@@ -245,14 +246,9 @@ class Simplifier {
 std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
                                    const Coastline& coastline, const Projection& projection,
                                    const Resolution& resolution, double tolerance_m, CleanReport& report) {
-  return simplifyEdges(
-      vertices, edges, coastline, resolution,
-      [&](VertexId v) { return tolerance_m * projection.scaleAt(vertices.plane[v]); }, report);
-}
-
-std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
-                                   const Coastline& coastline, const Resolution& resolution,
-                                   const std::function<double(VertexId)>& tolerance, CleanReport& report) {
+  const std::function<double(VertexId)> tolerance = [&](VertexId v) {
+    return tolerance_m * projection.scaleAt(vertices.plane[v]);
+  };
   Simplifier simplifier(vertices, edges, resolution, tolerance);
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "core/pslg.hpp"
@@ -24,10 +23,5 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
 // centimetre: where polygons were cut apart, the cut left a vertex in the shore. Topology is kept as above.
 std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
                                 const Projection& projection, const Resolution& resolution, CleanReport& report);
-
-// As the first, with a distance of the plane for each vertex; negative where it has to stay.
-std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
-                                   const Coastline& coastline, const Resolution& resolution,
-                                   const std::function<double(VertexId)>& tolerance, CleanReport& report);
 
 }  // namespace coastmesh

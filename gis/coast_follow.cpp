@@ -7,6 +7,7 @@
 #include "core/label_regions.hpp"
 #include "gis/shore_chains.hpp"
 #include "gis/shore_coarsen.hpp"
+#include "gis/shore_ends.hpp"
 #include "gis/shore_graph.hpp"
 #include "gis/shore_mend.hpp"
 #include "gis/shore_opening.hpp"
@@ -33,6 +34,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOption
       if (chains.source[v] != kNone) edit(kind, points[chains.source[v]], water);
     };
   };
+  mendEnds(chains, tell(EditKind::SimplifiedPoint));
   coarsenShores(chains, tell(EditKind::SimplifiedPoint));
   mendShores(chains, tell(EditKind::SimplifiedPoint), tell(EditKind::MovedPoint));
   graph = graphOf(std::move(chains));

@@ -194,6 +194,28 @@ TEST(FollowSizes, ASpitNarrowerThanAnElementGoesAndABarThatPartsWatersStays) {
   EXPECT_EQ(parts(followSizes(std::move(barred), size, {}, oneFeature(), report)), 2u);
 }
 
+// A frame of side 40 with a short way out through land, or with a bit of land at it: neither leaves short edges.
+TEST(FollowSizes, ShortPiecesOfAnOpenBoundaryAndOfShoreAtItGo) {
+  for (const bool way_out : {true, false}) {
+    Domain domain;
+    addShore(domain, {{0, 0}, {40, 0}, {40, 19.8}, {way_out ? 39.0 : 39.5, 20}, {40, 20.2}, {40, 40}, {0, 40}});
+    if (way_out) {
+      domain = {};
+      addShore(domain, {{0, 0}, {36, 0}, {36, 12}, {40, 19.8}, {40, 20.2}, {36, 28}, {36, 40}, {0, 40}});
+      domain.pslg.segments[3].tag = kOpenTag;
+    } else {
+      for (const SegmentId s : {0u, 1u, 4u, 5u, 6u}) domain.pslg.segments[s].tag = kOpenTag;
+    }
+    CleanReport report;
+    const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {}, oneFeature(), report);
+    for (const Segment& s : coarse.pslg.segments) {
+      EXPECT_GE(distance(coarse.pslg.points[s.a], coarse.pslg.points[s.b]), 0.9);
+      EXPECT_EQ(s.tag, way_out ? 0 : kOpenTag);
+    }
+    for (const Point& p : coarse.pslg.points) EXPECT_LE(p.x, 40.0);
+  }
+}
+
 TEST(FollowSizes, LinesInTheWaterStay) {
   Domain domain = twoLakes(1.0);
   const auto first = static_cast<VertexId>(domain.pslg.points.size());
