@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -238,7 +239,10 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
     options.refine.size = size.get();
     if (job.sizes.coast == CoastDetail::Follow) {
       CleanReport coarser;
-      domain = followSizes(std::move(domain), *size, job.sizes.follow, input.coastline(), coarser);
+      FollowOptions follow = job.sizes.follow;
+      if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Open;
+      domain = followSizes(std::move(domain), *size, follow, input.coastline(), coarser);
+      std::ranges::move(coarser.notes, std::back_inserter(result.notes));
       for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     }
     demand.vertices +=

@@ -84,6 +84,18 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
   line.number("--land-min", sizes.follow.land_min, "N", {0.0, 100.0},
               "with --coast follow: spits and capes narrower than N times the size there go; 0 keeps them")
       .needs({"--coast"});
+  line.choice(
+          "--keep-water", "auto", {"auto", "largest", "open", "all"},
+          [&sizes](const std::string& chosen) {
+            sizes.keep_water_given = chosen != "auto";
+            sizes.follow.keep = chosen == "largest" ? KeepWater::Largest
+                                : chosen == "open"  ? KeepWater::Open
+                                                    : KeepWater::All;
+          },
+          "with --coast follow: of water that closing cuts into parts, the largest stays, what reaches an open "
+          "boundary (or "
+          "else the largest), or all; auto is open with --target, else all")
+      .needs({"--coast"});
   line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
               "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
               "asks for none");

@@ -104,6 +104,8 @@ std::string_view toString(EditKind kind) {
       return "closed water";
     case EditKind::DroppedSpit:
       return "dropped spit";
+    case EditKind::CutOffWater:
+      return "cut-off water";
     case EditKind::MovedPoint:
       return "moved point";
   }

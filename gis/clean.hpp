@@ -48,9 +48,10 @@ enum class EditKind {
   OpenedPinch,      // water passes where rings touched, or crossed, in a vertex: made by `Pinches::Open`
   ClosedWater,      // water narrower or smaller than the elements wanted there: closed by `followSizes`
   DroppedSpit,      // land narrower than these that ends in water: dropped by `followSizes`
+  CutOffWater,      // water cut off where narrow water was closed: left out by `followSizes`
   MovedPoint,       // a point of the shore: moved by `followSizes` within half the size wanted there
 };
-inline constexpr std::size_t kEditKinds = 17;
+inline constexpr std::size_t kEditKinds = 18;
 std::string_view toString(EditKind kind);  // "repeated point"
 
 // One change made to the input.

@@ -1,7 +1,10 @@
 #include "gis/coast_follow.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <functional>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "core/label_regions.hpp"
@@ -13,6 +16,30 @@
 #include "gis/shore_opening.hpp"
 
 namespace coastmesh {
+
+namespace {
+
+constexpr std::size_t kNamed = 3;  // cut-off waters
+
+std::string noteOn(std::vector<CutOffWater>&& waters, const FollowOptions& options, const Projection& projection) {
+  std::ranges::stable_sort(waters, std::ranges::greater{}, &CutOffWater::area);
+  std::string note =
+      "closing narrow water cut off " + std::to_string(waters.size()) +
+      (options.keep == KeepWater::All ? " waters, which are meshed apart" : " waters, which are left out");
+  for (std::size_t i = 0; i < std::min(kNamed, waters.size()); ++i) {
+    const double scale = projection.scaleAt(waters[i].place);
+    const Point place = projection.inverse(waters[i].place);
+    char text[120];
+    const double area = waters[i].area / scale / scale;
+    std::snprintf(text, sizeof text,
+                  projection.isIdentity() ? "%s %.3g at (%.6g, %.6g)" : "%s %.3g km² at (%.6g, %.6g)",
+                  i == 0 ? ": the largest" : ",", projection.isIdentity() ? area : 1e-6 * area, place.x, place.y);
+    note += text;
+  }
+  return note + "; a smaller --channel-min keeps what joins them, --keep-water decides what stays";
+}
+
+}  // namespace
 
 Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
                    CleanReport& report) {
@@ -26,7 +53,9 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOption
   std::iota(graph.source.begin(), graph.source.end(), VertexId{0});
   sampleShores(graph, size);
   graph = openLand(graph, size, options.land_min, edit);
-  graph = openWater(graph, size, options.channel_min, edit);
+  std::vector<CutOffWater> cut_off;
+  graph = openWater(graph, size, options.channel_min, options.keep, edit, cut_off);
+  if (!cut_off.empty()) report.notes.push_back(noteOn(std::move(cut_off), options, projection));
 
   ShoreChains chains = chainsOf(std::move(graph), size);
   const auto tell = [&](EditKind kind) {

@@ -112,6 +112,38 @@ class Opening {
     closeSmall();
   }
 
+  // Which parts belonged together is told by `region_was`.
+  void keepWater(KeepWater keep, std::vector<CutOffWater>& cut_off) {
+    const Patches before = patchesOf(mesh(), [&](TriId t) { return t_.region_was[t] != t_.land; });
+    const Patches parts = patchesOf(mesh(), [&](TriId t) { return !isLand(t); });
+    struct Part {
+      double area = 0.0;
+      bool at_open = false;
+    };
+    std::vector<Part> of_part;
+    std::vector<std::uint32_t> best(before.triangles.size(), kNone);
+    const bool open_first = keep != KeepWater::Largest;
+    const auto less = [&](const Part& a, const Part& b) {
+      return open_first && a.at_open != b.at_open ? b.at_open : a.area < b.area;
+    };
+    for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
+      Part& part = of_part.emplace_back();
+      for (const TriId t : parts.triangles[i]) part.area += areaOf(t);
+      part.at_open = (usesOf(parts.triangles[i]) & kOnOpen) != 0;
+      std::uint32_t& most = best[before.of[parts.triangles[i].front()]];
+      if (most == kNone || less(of_part[most], part)) most = i;
+    }
+    for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
+      const std::vector<TriId>& part = parts.triangles[i];
+      if (best[before.of[part.front()]] == i || (open_first && of_part[i].at_open)) continue;
+      const TriId largest = *std::ranges::max_element(part, {}, [&](TriId t) { return areaOf(t); });
+      const auto& v = mesh().triangles[largest].v;
+      const Point place = (1.0 / 3.0) * (mesh().point(v[0]) + mesh().point(v[1]) + mesh().point(v[2]));
+      cut_off.push_back({place, of_part[i].area});
+      if (keep != KeepWater::All) flip(part, t_.land, EditKind::CutOffWater, v[0]);
+    }
+  }
+
  private:
   static constexpr RegionId kNoRegion = kUnlabelled;
 
@@ -238,9 +270,11 @@ ShoreGraph openLand(const ShoreGraph& graph, const SizeFunction& size, double na
   return graphOf(graph, opening.triangles());
 }
 
-ShoreGraph openWater(const ShoreGraph& graph, const SizeFunction& size, double narrowest, const ShoreEdit& edit) {
+ShoreGraph openWater(const ShoreGraph& graph, const SizeFunction& size, double narrowest, KeepWater keep,
+                     const ShoreEdit& edit, std::vector<CutOffWater>& cut_off) {
   Opening opening(graph, size, edit);
   opening.openWater(narrowest);
+  opening.keepWater(keep, cut_off);
   return graphOf(graph, opening.triangles());
 }
 

@@ -38,6 +38,7 @@ struct SizeOptions {
 
   CoastDetail coast = CoastDetail::Keep;  // Follow: the shore is made as coarse as the elements beside it
   FollowOptions follow;                   // how
+  bool keep_water_given = false;          // where not, a model's grid keeps what hangs together with an open boundary
 
   // Whether anything but bounds is asked for.
   bool any() const {

@@ -176,6 +176,27 @@ TEST(FollowSizes, AChannelNarrowerThanAnElementIsClosed) {
   EXPECT_EQ(parts(followSizes(twoLakes(3.0), size, {.channel_min = 2.0}, oneFeature(), kept)), 2u);
 }
 
+TEST(FollowSizes, OfWaterThatIsCutApartWhatIsAskedForStays) {
+  const auto followed = [](KeepWater keep, bool open_to_the_east) {
+    Domain domain = twoLakes(1.0);
+    for (const VertexId v : {0u, 11u, 10u})
+      domain.pslg.points[v].x -= v == 10 ? 0.0 : 5.0;  // the western one is larger
+    domain.input_points = domain.pslg.points;
+    if (open_to_the_east) domain.pslg.segments[5].tag = kOpenTag;
+    CleanReport report;
+    Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
+    EXPECT_EQ(report.notes.size(), 1u);
+    EXPECT_EQ(countOf(report, EditKind::CutOffWater), keep == KeepWater::All ? 0u : 1u);
+    return coarse;
+  };
+  EXPECT_EQ(parts(followed(KeepWater::All, true)), 2u);
+  const Domain largest = followed(KeepWater::Largest, true), open = followed(KeepWater::Open, true),
+               none_open = followed(KeepWater::Open, false);
+  for (const Point& p : largest.pslg.points) EXPECT_LT(p.x, 25.0);
+  for (const Point& p : open.pslg.points) EXPECT_GT(p.x, 25.0);
+  for (const Point& p : none_open.pslg.points) EXPECT_LT(p.x, 25.0);
+}
+
 TEST(FollowSizes, ASpitNarrowerThanAnElementGoesAndABarThatPartsWatersStays) {
   const std::vector<Point> spit{{0, 0}, {19.5, 0}, {19.5, 12}, {20.5, 12}, {20.5, 0}, {40, 0}, {40, 20}, {0, 20}};
   const ConstantSize size(2.0);

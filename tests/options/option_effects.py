@@ -76,6 +76,11 @@ def write_inputs(folder):
         [[-87.5, 41.6], [-87.48, 41.6], [-87.48, 41.62], [-87.5, 41.62], [-87.5, 41.6]],
         [[-87.5, 41.6], [-87.495, 41.61], [-87.49, 41.605], [-87.5, 41.6]]])))
     put("islands.geojson", collection(square(-87.495, 41.605, 0.004), square(-87.485, 41.612, 0.003)))
+    # Two lakes, and a channel of 40 m between them.
+    put("straits.geojson", collection(feature("Polygon", [
+        [[-87.5, 41.6], [-87.485, 41.6], [-87.485, 41.6098], [-87.475, 41.6098], [-87.475, 41.6], [-87.465, 41.6],
+         [-87.465, 41.62], [-87.475, 41.62], [-87.475, 41.6102], [-87.485, 41.6102], [-87.485, 41.62], [-87.5, 41.62],
+         [-87.5, 41.6]]])))
     # A spit and an inlet, 80 m wide.
     put("notched.geojson", collection(feature("Polygon", [
         [[-87.5, 41.6], [-87.491, 41.6], [-87.491, 41.607], [-87.49, 41.607], [-87.49, 41.6], [-87.48, 41.6],
@@ -165,6 +170,7 @@ def cases():
         "--depth-band": Case("0,30,80", extra=depths),
         "--coast": Case("follow", extra=["--size", "900"]),
         "--channel-min": Case("0", input="notched.geojson", extra=["--size", "150", "--coast", "follow"]),
+        "--keep-water": Case("largest", input="straits.geojson", extra=["--size", "150", "--coast", "follow"]),
         "--land-min": Case("0", input="notched.geojson", extra=["--size", "150", "--coast", "follow"]),
         "--time-step": Case("20", extra=stepped),
         "--courant": Case("0.4", extra=[*stepped, "--time-step", "20"]),
