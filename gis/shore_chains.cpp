@@ -1,5 +1,6 @@
 #include "gis/shore_chains.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +52,8 @@ ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size) {
     chains.prev[to] = from;
     chains.leaving[from] = {from, to, s.tag, s.left >= 0 ? s.left : s.right, s.left >= 0 ? s.right : s.left};
   }
+  for (const Segment& s : chains.lines) chains.line_ends.push_back(std::minmax(s.a, s.b));
+  std::ranges::sort(chains.line_ends);
   for (VertexId v = 0; v < count; ++v) {
     if (degree[v] != 2 || chains.next[v] == kNone || chains.prev[v] == kNone) {
       chains.stays[v] = 1;
@@ -91,6 +94,13 @@ double waterAngle(const Point& a, const Point& b, const Point& c) {
   const Point out = c - b, in = a - b;
   const double angle = std::atan2(cross(out, in), dot(out, in));
   return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
+}
+
+bool canTakeOut(const ShoreChains& chains, VertexId v) {
+  if (chains.stays[v] || chains.next[v] == kNone || chains.prev[v] == kNone) return false;
+  const VertexId p = chains.prev[v], q = chains.next[v];
+  return chains.next[q] != p &&
+         !std::ranges::binary_search(chains.line_ends, std::pair<VertexId, VertexId>(std::minmax(p, q)));
 }
 
 void takeOut(ShoreChains& chains, VertexId v) {

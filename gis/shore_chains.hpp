@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "gis/shore_graph.hpp"
@@ -17,6 +18,8 @@ struct ShoreChains {
   std::vector<char> alive;           // a vertex of the graph still
   std::vector<double> size;          // wanted there
   std::vector<Segment> lines;        // what is no boundary
+  // Ends of these, the lower first, in order.
+  std::vector<std::pair<VertexId, VertexId>> line_ends{};
 };
 
 ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size);
@@ -24,6 +27,9 @@ ShoreGraph graphOf(ShoreChains&& chains);
 
 // The angle on the water's side on the way a, b, c with the water to the left: 0 to two pi.
 double waterAngle(const Point& a, const Point& b, const Point& c);
+
+// Whether v may go and its neighbours be joined: a boundary or a line that joins them already would run twice.
+bool canTakeOut(const ShoreChains& chains, VertexId v);
 
 // Joins the neighbours of v. REQUIRES: they are not joined.
 void takeOut(ShoreChains& chains, VertexId v);

@@ -42,7 +42,7 @@ class Coarsener {
       const Entry entry = queue_.top();
       queue_.pop();
       const VertexId v = entry.vertex;
-      if (entry.version != version_[v] || !canGo(v) || isBlocked(v)) continue;
+      if (entry.version != version_[v] || !canTakeOut(c_, v) || isBlocked(v)) continue;
       const VertexId p = c_.prev[v], q = c_.next[v];
       gone_(v, c_.leaving[v].left);
       std::vector<VertexId>& all = dropped_[p];
@@ -65,8 +65,6 @@ class Coarsener {
     bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : vertex > other.vertex; }
   };
 
-  bool canGo(VertexId v) const { return c_.next[v] != kNone && !c_.stays[v] && c_.next[c_.next[v]] != c_.prev[v]; }
-
   // As a share of the size at v: how far v, and what went beside it, lies from the segment that would replace it.
   double costOf(VertexId v) const {
     const Point &a = c_.at[c_.prev[v]], &b = c_.at[c_.next[v]];
@@ -77,7 +75,7 @@ class Coarsener {
   }
 
   void enqueue(VertexId v) {
-    if (!canGo(v)) return;
+    if (!canTakeOut(c_, v)) return;
     const Point &a = c_.at[c_.prev[v]], &b = c_.at[c_.next[v]], &x = c_.at[v];
     const double size = c_.size[v], cost = costOf(v);
     double most = c_.open[v] ? kOpenMoved : kMoved;

@@ -78,11 +78,10 @@ class Mender {
   }
 
   bool mend(VertexId v, double quality) {
-    const VertexId p = c_.prev[v], q = c_.next[v];
     const double size = c_.size[v];
     Change best{std::nullopt, quality + kBetter};
     bool found = false;
-    if (c_.next[q] != p && c_.prev[p] != q && canTakeOut(v)) {
+    if (canTakeOut(c_, v) && holdsNoOther(v)) {
       const double after = qualityOf(v, std::nullopt);
       if (after >= best.quality) best = {std::nullopt, after}, found = true;
     }
@@ -189,7 +188,7 @@ class Mender {
     return orient2d(a, b, y) <= 0 ? 1e300 : std::sqrt(squaredDistanceToSegment(y, a, b));
   }
 
-  bool canTakeOut(VertexId v) const {
+  bool holdsNoOther(VertexId v) const {
     const VertexId p = c_.prev[v], q = c_.next[v];
     const Point &a = c_.at[p], &x = c_.at[v], &b = c_.at[q];
     const double most = (waterAngle(a, x, b) < kSmallAngle ? kClosed : kMoved) * c_.size[v];

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
@@ -248,6 +250,26 @@ TEST(FollowSizes, LinesInTheWaterStay) {
   const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {}, oneFeature(), report);
   EXPECT_EQ(std::ranges::count(coarse.pslg.segments, kFirstLineTag, &Segment::tag), 12);
   EXPECT_EQ(parts(coarse), 1u);
+}
+
+// The last vertex of a shore whose ends a border between two waters joins stays: without it the border would run twice.
+TEST(FollowSizes, AShoreIsNotCoarsenedOntoTheBorderBesideIt) {
+  Domain domain;
+  domain.pslg.points = {{0, 0}, {40, 0}, {40, 40}, {0, 40}, {10, 41}, {20, 42}, {30, 41}};
+  domain.pslg.segments = {{0, 1, 0, 0, kOutside}, {1, 2, 0, 0, kOutside}, {2, 3, 0, 0, 1},
+                          {3, 0, 0, 0, kOutside}, {2, 6, 0, 1, kOutside}, {6, 5, 0, 1, kOutside},
+                          {5, 4, 0, 1, kOutside}, {4, 3, 0, 1, kOutside}};
+  domain.input_points = domain.pslg.points;
+  Coastline two = oneFeature();
+  two.features.emplace_back();
+  CleanReport report;
+  const Domain followed = followSizes(std::move(domain), ConstantSize(40.0), {}, two, report);
+  EXPECT_GT(countOf(report, EditKind::SimplifiedPoint), 0u);
+  std::set<std::pair<VertexId, VertexId>> ends;
+  for (const Segment& s : followed.pslg.segments)
+    EXPECT_TRUE(ends.insert(std::minmax(s.a, s.b)).second) << s.a << " " << s.b;
+  const TriMesh mesh = constrainedDelaunay(followed.pslg);
+  EXPECT_EQ(std::set<RegionId>(mesh.regions.begin(), mesh.regions.end()), (std::set<RegionId>{0, 1}));
 }
 
 TEST(FollowSizes, OpenRimKeepsItsCorners) {
