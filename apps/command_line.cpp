@@ -128,9 +128,13 @@ struct CommandLine::Impl {
     return value != initial;
   }
 
-  void requireKnown(const std::vector<std::string>& names) const {
-    for (const std::string& name : names)
-      if (app->get_option_no_throw(name) == nullptr) throw std::logic_error("there is no option " + name + " to need");
+  // Of "--time-step" that it is active, of "--coast follow" that it is given as that.
+  bool fulfilled(const std::string& need) const {
+    const std::size_t space = need.find(' ');
+    const std::string name = need.substr(0, space);
+    if (app->get_option_no_throw(name) == nullptr) throw std::logic_error("there is no option " + name + " to need");
+    if (space == std::string::npos) return active(name);
+    return given(name) && app->get_option(name)->results().front() == need.substr(space + 1);
   }
 
   Json usage() const {
@@ -188,8 +192,8 @@ const CommandLine::Option& CommandLine::Option::needs(std::vector<std::string> o
   const Impl* impl = line_->impl_.get();
   return needs(
       [impl, others] {
-        impl->requireKnown(others);
-        return std::ranges::any_of(others, [impl](const std::string& other) { return impl->active(other); });
+        // All of them are asked, so that a name that is none shows.
+        return std::ranges::count_if(others, [impl](const std::string& other) { return impl->fulfilled(other); }) > 0;
       },
       text);
 }
@@ -197,12 +201,7 @@ const CommandLine::Option& CommandLine::Option::needs(std::vector<std::string> o
 const CommandLine::Option& CommandLine::Option::ignoredWith(std::vector<std::string> others) const {
   const Impl* impl = line_->impl_.get();
   for (const std::string& other : others) {
-    needs(
-        [impl, other] {
-          impl->requireKnown({other});
-          return !impl->active(other);
-        },
-        "with " + other);
+    needs([impl, other] { return !impl->fulfilled(other); }, "with " + other);
   }
   return *this;
 }

@@ -50,7 +50,8 @@ class CommandLine {
   // `withoutEffect`.
   class Option {
    public:
-    // It has an effect only where one of `others` is given besides, and is not what it is by default.
+    // It has an effect only where one of `others` is given besides, and is not what it is by default; "--coast follow"
+    // stands for that option given as that.
     const Option& needs(std::vector<std::string> others) const;
     // It has no effect where one of `others` is given.
     const Option& ignoredWith(std::vector<std::string> others) const;

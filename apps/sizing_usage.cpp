@@ -80,10 +80,10 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
       "land narrower than elements go, and so do islands smaller than one");
   line.number("--channel-min", sizes.follow.channel_min, "N", {0.0, 100.0},
               "with --coast follow: water narrower than N times the size there is closed; 0 closes none")
-      .needs({"--coast"});
+      .needs({"--coast follow"});
   line.number("--land-min", sizes.follow.land_min, "N", {0.0, 100.0},
               "with --coast follow: spits and capes narrower than N times the size there go; 0 keeps them")
-      .needs({"--coast"});
+      .needs({"--coast follow"});
   line.choice(
           "--keep-water", "auto", {"auto", "largest", "open", "all"},
           [&sizes](const std::string& chosen) {
@@ -95,7 +95,7 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
           "with --coast follow: of water that closing cuts into parts, the largest stays, what reaches an open "
           "boundary (or "
           "else the largest), or all; auto is open with --target, else all")
-      .needs({"--coast"});
+      .needs({"--coast follow"});
   line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
               "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
               "asks for none");

@@ -130,6 +130,8 @@ class NeedsTest : public testing::Test {
     line_.number("--heel", heel_, "CM", {0.0, 9.0}, "heel");
     line_.number("--heel-stitches", stitches_, "N", {0.0, 9.0}, "stitches of the heel").needs({"--heel", "--pattern"});
     line_.flag("--plain", plain_, "no pattern").ignoredWith({"--pattern"});
+    line_.choice("--toe", toe_, {"round", "wedge", "star"}, "toe");
+    line_.number("--toe-rounds", rounds_, "N", {0.0, 9.0}, "rounds of a star").needs({"--toe star"});
     line_.outputs("-o,--output", outputs_, {.required = true, .files = twoFiles}, "socks");
     line_.output("--bill", bill_, {.standard_output = true}, "bill");
   }
@@ -144,8 +146,8 @@ class NeedsTest : public testing::Test {
 
   CLI::App app_;
   std::vector<std::string> inputs_, outputs_;
-  std::string pattern_, bill_;
-  double heel_ = 0.0, stitches_ = 3.0;
+  std::string pattern_, bill_, toe_ = "round";
+  double heel_ = 0.0, stitches_ = 3.0, rounds_ = 4.0;
   bool plain_ = false;
   CommandLine line_;
 };
@@ -164,6 +166,19 @@ TEST_F(NeedsTest, AnOptionAtItsDefaultIsAsGoodAsNotGiven) {
 
 TEST_F(NeedsTest, WithWhatItNeedsNothingIsSaid) {
   parse({"--heel-stitches", "4", "--pattern", "stars"});
+  EXPECT_TRUE(line_.withoutEffect().empty());
+}
+
+TEST_F(NeedsTest, AnotherOptionMayHaveToBeGivenAsOneOfItsValues) {
+  for (const std::string toe : {"round", "wedge"}) {
+    parse({"--toe-rounds", "5", "--toe", toe});
+    EXPECT_EQ(line_.withoutEffect(), Sentences{"--toe-rounds has no effect without --toe star"}) << toe;
+    app_.clear();
+  }
+  parse({"--toe-rounds", "5"});
+  EXPECT_EQ(line_.withoutEffect().size(), 1u);
+  app_.clear();
+  parse({"--toe-rounds", "5", "--toe", "star"});
   EXPECT_TRUE(line_.withoutEffect().empty());
 }
 

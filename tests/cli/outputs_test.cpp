@@ -231,6 +231,11 @@ TEST_F(Outputs, OptionsWithoutEffectAreWarnedOf) {
   EXPECT_THAT(run.errors, HasSubstr("coastmesh: warning: --min-depth has no effect without --bathymetry\n"));
   EXPECT_THAT(readText(file("r.json")), HasSubstr("\"--courant has no effect without --time-step\""));
   EXPECT_EQ(runProgram({"mesh", lake(), "-o", file("p.nc"), "--domain", "outside"}).code, 2);
+  const ProgramRun kept = runProgram({"mesh", lake(), "-o", file("k.nc"), "--coast", "keep", "--channel-min", "2",
+                                      "--land-min", "0", "--keep-water", "all"});
+  EXPECT_EQ(kept.code, 0) << kept.errors;
+  for (const char* option : {"--channel-min", "--land-min", "--keep-water"})
+    EXPECT_THAT(kept.errors, HasSubstr(std::string(option) + " has no effect without --coast follow\n"));
 }
 
 }  // namespace
