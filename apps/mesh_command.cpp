@@ -11,7 +11,7 @@
 #include "apps/mesh_job.hpp"
 #include "apps/mesh_report.hpp"
 #include "apps/mesh_usage.hpp"
-#include "apps/places.hpp"
+#include "apps/mesh_warnings.hpp"
 #include "apps/progress.hpp"
 #include "apps/run_outputs.hpp"
 #include "core/run_control.hpp"
@@ -21,26 +21,8 @@ namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kWarningsShown = 20;
-
 int threadsAsked(const ParallelOptions& options) {
   return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
-void showWarnings(const MeshJobResult& result, Run& run) {
-  for (const std::string& warning : result.read.warnings) run.warn(warning);
-  for (const std::string& warning : result.finish.warnings()) run.warn(warning);
-  if (result.turned > 0) {
-    run.warn("triangles that are not counter-clockwise on the ground: " + std::to_string(result.turned) +
-             ", the first at " + pointText(result.turned_places.front()) +
-             ": sides that are straight in the working plane are not so there; cut the long edges of the input at that "
-             "place (ogr2ogr -segmentize), or widen its angle");
-  }
-  if (result.regions == 0 && result.refusals.size() == 1) return;  // the error to come says it
-  const std::size_t shown = std::min(kWarningsShown, result.refusals.size());
-  for (std::size_t i = 0; i < shown; ++i) run.warn("left out: " + result.refusals[i].reason);
-  if (result.refusals.size() > shown)
-    run.warn("left out: " + std::to_string(result.refusals.size() - shown) + " more, which --report lists");
 }
 
 // Why there is no mesh at all.
@@ -81,7 +63,7 @@ int runMesh(const MeshUsage& usage, Run& run) {
                            [&display](std::string_view phase, double share) { display.show(phase, share); }};
   MeshJobResult result = runMeshJob(usage.job, control);
   display.clear();
-  showWarnings(result, run);
+  for (const std::string& warning : warningsOf(result)) run.warn(warning);
 
   const auto write_start = std::chrono::steady_clock::now();
   const bool any = result.regions > 0;

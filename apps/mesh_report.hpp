@@ -13,7 +13,7 @@ inline constexpr const char* kAlgorithmNames[] = {"circumcenter", "offcenter", "
 // The report of a job as JSON text, its keys as apps/README.md documents them. `threads` is what the job ran on,
 // `warnings` all that the run gave.
 std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads,
-                       const std::vector<std::string>& warnings = {});
+                       const std::vector<std::string>& warnings);
 
 // A few lines for people.
 std::string meshSummary(const MeshJob& job, const MeshJobResult& result);

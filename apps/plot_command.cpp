@@ -40,12 +40,7 @@ int runPlot(PlotUsage& usage, Run& run) {
   requirePlotFormat(usage.output);
   RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
   StagedFiles& picture = outputs.addFile(usage.output);
-  Grid grid = readMeshFile(usage.mesh, run);
-  if (usage.plot.color == PlotColor::Piece) {
-    if (grid.piece_of.empty())
-      throw UsageError("--color piece: the mesh does not say its pieces; make it with --mark-pieces, as .nc");
-    grid.feature_of = grid.piece_of;
-  }
+  const Grid grid = readMeshFile(usage.mesh, run);
   run.interrupt.check();
   picture.make([&](const std::string& path) { plotMesh(grid, usage.plot, path); });
   outputs.commit();

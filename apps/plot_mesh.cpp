@@ -211,7 +211,7 @@ class MeshPlot {
       case PlotColor::Angle:
         return rampColor(smallestAngle(t) / 60.0);
       case PlotColor::Feature:
-      case PlotColor::Piece:  // in place of the features: see `runPlot`
+      case PlotColor::Piece:  // in place of the features: see `plotMesh`
         return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
       case PlotColor::Size:
         return rampColor((std::log(area(t)) - least_log_area_) / std::max(1e-12, most_log_area_ - least_log_area_));
@@ -497,10 +497,16 @@ void requirePlotFormat(const std::string& path) {
 
 void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path) {
   requirePlotFormat(path);
+  if (options.color == PlotColor::Piece && grid.piece_of.empty())
+    throw UsageError("the mesh does not say its pieces, to be coloured by: make it with --mark-pieces, as .nc");
   std::vector<std::uint32_t> shown = trianglesIn(grid, options);
   if (shown.empty()) throw InputError("the mesh has no triangle in the box asked for");
   const Projection projection = fitProjection(grid, shown);
-  const GridPiece piece = makePiece(grid, std::move(shown), projection);
+  GridPiece piece = makePiece(grid, std::move(shown), projection);
+  if (options.color == PlotColor::Piece) {
+    for (std::size_t t = 0; t < piece.triangles.size(); ++t)
+      piece.mesh.regions[t] = static_cast<RegionId>(grid.piece_of[piece.triangles[t]]);
+  }
   const Window window = windowOf(piece, options);
   MeshPlot(grid, piece, options, window, path).draw();
 }

@@ -2,7 +2,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <filesystem>
 #include <string>
 
 #include "apps/command_line.hpp"
@@ -12,6 +11,7 @@
 #include "apps/python/run.hpp"
 #include "gis/error.hpp"
 #include "gis/grid_io.hpp"
+#include "gis/staged_files.hpp"
 
 namespace py = pybind11;
 
@@ -80,34 +80,10 @@ void plotFile(const MeshResult& mesh, const std::string& path, const std::string
   options.size_px = static_cast<std::uint64_t>(size);
   options.edges = edges;
   requirePlotFormat(path);
-  if (!overwrite && std::filesystem::exists(path)) {
-    throw OutputError("'" + path + "' exists; give overwrite=True to replace it");
-  }
   const py::gil_scoped_release release;
-  // Drawn aside, so that it appears whole or not at all.
-  const std::filesystem::path target(path);
-  const std::filesystem::path aside = target.parent_path() / (".part-" + target.filename().string());
-  const auto removeAside = [&aside] {
-    std::error_code ignored;
-    std::filesystem::remove(aside, ignored);
-  };
-  try {
-    plotMesh(mesh.grid, options, aside.string());
-  } catch (const OutputError& error) {
-    removeAside();
-    std::string text = error.what();
-    if (const std::size_t at = text.find(aside.string()); at != std::string::npos)
-      text.replace(at, aside.string().size(), path);
-    throw OutputError(text);
-  } catch (...) {
-    removeAside();
-    throw;
-  }
-  std::error_code failed;
-  std::filesystem::rename(aside, target, failed);
-  if (!failed) return;
-  removeAside();
-  throw OutputError("'" + path + "' cannot be written: " + failed.message());
+  StagedFiles picture(path, overwrite);
+  picture.make([&](const std::string& aside) { plotMesh(mesh.grid, options, aside); });
+  picture.commit();
 }
 
 MeshResult readMesh(const std::string& path) {

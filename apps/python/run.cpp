@@ -9,11 +9,13 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <iterator>
 #include <mutex>
 #include <thread>
 
 #include "apps/mesh_report.hpp"
 #include "apps/mesh_usage.hpp"
+#include "apps/mesh_warnings.hpp"
 #include "apps/python/arrays.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
@@ -171,11 +173,12 @@ MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::st
   MeshUsage usage;
   CLI::App app("", "coastmesh");
   const CommandLine line = declareMeshUsage(app, usage);
-  // What the command line insists on; neither is used.
-  arguments.insert(arguments.begin(), {"mesh", "--output=none"});
+  // What the command line insists on; neither is used. A mesh in memory holds what UGRID can.
+  arguments.insert(arguments.begin(), {"mesh", "--output=none.nc"});
   arguments.emplace_back("none");
   parse(app, std::move(arguments));
   settle(usage);
+  std::vector<std::string> warnings = line.withoutEffect();
   std::optional<MemoryFile> geojson;
   if (text) {
     geojson.emplace(std::move(*text));
@@ -203,11 +206,12 @@ MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::st
     for (GridFeature& feature : done.grid.features) feature.source = geojson->named(feature.source);
     usage.job.input.files = {MemoryFile::kName};
   }
+  std::ranges::move(warningsOf(done), std::back_inserter(warnings));
   MeshResult result;
   const int threads = usage.job.parallel.threads;
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  result.report = meshReport(usage.job, done, threads > 0 ? threads : static_cast<int>(cores));
-  result.warnings = std::move(done.read.warnings);
+  result.report = meshReport(usage.job, done, threads > 0 ? threads : static_cast<int>(cores), warnings);
+  result.warnings = std::move(warnings);
   result.complete = done.complete();
   result.refusals = std::move(done.refusals);
   result.grid = std::move(done.grid);

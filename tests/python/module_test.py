@@ -27,6 +27,8 @@ PROGRAM, DATA = sys.argv[1:3]
 LAKE = os.path.join(DATA, "lake_superior.geojson")
 SQUARE = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4]])
 RIM = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+SPIKES = {"type": "Polygon", "coordinates": [[[0, 47.5], [-87.07, 47.25], [-87.25, 0], [-88, 47.5], [0, 47.75],
+                                              [-87.5, 48], [0, 47.93], [-87, 47.5], [0, 47.5]]]}
 POLYGON = {"type": "Polygon", "coordinates": [[[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2], [0, 0]]]}
 
 
@@ -231,6 +233,58 @@ class FilesTest(unittest.TestCase):
             mesh = coastmesh.mesh({"type": "FeatureCollection", "features": features})
         self.assertFalse(mesh.complete)
         self.assertTrue(any("left out" in str(w.message) for w in caught))
+
+    def test_options_without_effect_are_warned_of(self):
+        def said(**options):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                mesh = coastmesh.mesh(POLYGON, **options)
+            texts = [str(w.message) for w in caught if w.category is coastmesh.CoastmeshWarning]
+            self.assertEqual(mesh.report["warnings"], texts)
+            return texts
+
+        self.assertEqual(said(courant=0.5, min_depth=2), ["--courant has no effect without --time-step",
+                                                          "--min-depth has no effect without --bathymetry"])
+        self.assertEqual(said(coast="keep", land_min=2), ["--land-min has no effect without --coast follow"])
+        self.assertEqual(said(size=5000, coast="follow", land_min=2), [])
+        self.assertEqual(said(mark_pieces=True), [])
+
+    def test_what_is_odd_in_the_result_is_warned_of_as_the_program_does(self):
+        with open(self.path("spike.geojson"), "w", encoding="utf-8") as file:
+            json.dump(SPIKES, file)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            coastmesh.mesh(self.path("spike.geojson"))
+        run = subprocess.run([PROGRAM, "mesh", self.path("spike.geojson"), "-o", self.path("spike.nc")],
+                             capture_output=True, text=True, check=False)
+        expected = [line.split("warning: ", 1)[1] for line in run.stderr.splitlines() if "warning: " in line]
+        self.assertTrue(any("not counter-clockwise on the ground" in line for line in expected))
+        self.assertEqual([str(w.message) for w in caught], expected)
+
+    def test_pictures_come_into_place_as_other_files_do(self):
+        mesh = coastmesh.mesh(POLYGON)
+        os.mkfifo(self.path("pipe.png"))
+        os.symlink("elsewhere.png", self.path("link.png"))
+        for name in ("pipe.png", "link.png"):
+            with self.assertRaisesRegex(coastmesh.OutputError, name):
+                mesh.plot(self.path(name), overwrite=True)
+        mesh.plot(self.path("lake.svg"))
+        with self.assertRaisesRegex(coastmesh.OutputError, "overwrite=True"):
+            mesh.plot(self.path("lake.svg"))
+        # What stands in the way of a name aside is nobody's to remove.
+        with open(self.path(".part-lake.png"), "w", encoding="utf-8") as file:
+            file.write("precious")
+        mesh.plot(self.path("lake.png"))
+        with open(self.path(".part-lake.png"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "precious")
+        with self.assertRaisesRegex(coastmesh.OptionError, "pieces"):
+            mesh.plot(self.path("other.png"), color="piece")
+        with self.assertRaisesRegex(coastmesh.InputError, "depth"):
+            mesh.plot(self.path("other.png"), color="depth")
+        pieces = coastmesh.mesh(POLYGON, mark_pieces=True)
+        pieces.plot(self.path("pieces.png"), color="piece")
+        self.assertEqual(sorted(os.listdir(self.folder)),
+                         [".part-lake.png", "lake.png", "lake.svg", "link.png", "pieces.png", "pipe.png"])
 
     def test_writes_and_draws_whole_files(self):
         mesh = coastmesh.mesh(POLYGON)

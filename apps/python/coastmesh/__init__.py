@@ -48,7 +48,7 @@ class OutputError(Error, OSError):
 
 
 class CoastmeshWarning(UserWarning):
-    """Something about the input that was mended or left out."""
+    """An option without effect, or something about the input that was mended, left out or cannot be had."""
 
 
 @contextlib.contextmanager
@@ -60,7 +60,7 @@ def _own_errors():
     except _coastmesh.InputError as error:
         raise InputError(str(error)) from None
     except _coastmesh.OutputError as error:
-        raise OutputError(str(error)) from None
+        raise OutputError(str(error).replace("--overwrite", "overwrite=True")) from None
 
 
 class Mesh:
@@ -180,12 +180,12 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
         raise TypeError("progress is not callable")
     with _own_errors():
         made = _coastmesh.run([*map(os.fsencode, _arguments(keywords))], [*map(os.fsencode, files)], text, graph, progress)
+    for warning in made._warnings:
+        _warnings.warn(warning, CoastmeshWarning, stacklevel=2)
     refusals = made._refusals
     if len(made.triangles) == 0:
         reasons = refusals[0]["reason"] if len(refusals) == 1 else f"none of the {len(refusals)} parts can be meshed"
         raise InputError(reasons, refusals)
-    for warning in made._warnings + [f"left out: {refusal['reason']}" for refusal in refusals[:20]]:
-        _warnings.warn(warning, CoastmeshWarning, stacklevel=2)
     return Mesh(made)
 
 
