@@ -6,7 +6,8 @@
 
 namespace coastmesh {
 
-// Of water that closing has cut into parts: all of them, the largest, or those at an open boundary, the largest where none is.
+// Of the parts of each region of water, into which closing may have cut it: all of them, the largest, or those at an open boundary, the
+// largest where none is.
 enum class KeepWater { All, Largest, Open };
 
 // What is too narrow to be followed, as a multiple of the size wanted there; 0: nothing is.
@@ -18,7 +19,8 @@ struct FollowOptions {
 
 // Makes the shore that of a sea seen at the sizes wanted: narrow land that ends in water and small islands go, narrow and small
 // water is closed (`openLand`, `openWater`), shores get segments about as long as the size (`coarsenShores`), and what is still short,
-// sharp or narrow is mended by moving vertices by up to half the size (`mendShores`). Nothing crosses. Lines inside the water stay as
+// sharp or narrow is mended by moving vertices by up to half the size (`mendShores`). Where the area of a water would differ by more than
+// half a percent, its shores are moved by up to a tenth of the size (`shiftShores`). Nothing crosses. Lines inside the water stay as
 // they are, open boundaries keep their corners. What was changed goes to the report, with a note on the largest waters that were cut off. A graph without labels is labelled
 // first, by its holes. Throws BadPslg where that cannot be.
 Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,

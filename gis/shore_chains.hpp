@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct ShoreChains {
   // Ends of these, the lower first, in order.
   std::vector<std::pair<VertexId, VertexId>> line_ends{};
 };
+
+// Called before a vertex is taken out, and before it is moved to a place.
+using ShoreLoss = std::function<void(VertexId)>;
+using ShoreMove = std::function<void(VertexId, const Point&)>;
 
 ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size);
 ShoreGraph graphOf(ShoreChains&& chains);

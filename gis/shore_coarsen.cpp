@@ -26,7 +26,7 @@ constexpr double kLeastAngle = std::numbers::pi / 4;
 
 class Coarsener {
  public:
-  Coarsener(ShoreChains& chains, const std::function<void(VertexId, RegionId)>& gone) : c_(chains), gone_(gone) {
+  Coarsener(ShoreChains& chains, const ShoreLoss& gone) : c_(chains), gone_(gone) {
     version_.assign(c_.at.size(), 0);
     dropped_.resize(c_.at.size());
     std::vector<Box> boxes(c_.at.size());
@@ -44,7 +44,7 @@ class Coarsener {
       const VertexId v = entry.vertex;
       if (entry.version != version_[v] || !canTakeOut(c_, v) || isBlocked(v)) continue;
       const VertexId p = c_.prev[v], q = c_.next[v];
-      gone_(v, c_.leaving[v].left);
+      gone_(v);
       std::vector<VertexId>& all = dropped_[p];
       all.push_back(v);
       all.insert(all.end(), dropped_[v].begin(), dropped_[v].end());
@@ -135,7 +135,7 @@ class Coarsener {
   }
 
   ShoreChains& c_;
-  const std::function<void(VertexId, RegionId)>& gone_;
+  const ShoreLoss& gone_;
   std::vector<std::uint32_t> version_;
   std::vector<std::vector<VertexId>> dropped_;  // beside the segment that leaves a vertex
   std::vector<VertexId> near_;
@@ -145,8 +145,6 @@ class Coarsener {
 
 }  // namespace
 
-void coarsenShores(ShoreChains& chains, const std::function<void(VertexId, RegionId)>& gone) {
-  Coarsener(chains, gone).run();
-}
+void coarsenShores(ShoreChains& chains, const ShoreLoss& gone) { Coarsener(chains, gone).run(); }
 
 }  // namespace coastmesh

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "gis/shore_chains.hpp"
 
 namespace coastmesh {
@@ -10,7 +8,6 @@ namespace coastmesh {
 // by at most a quarter of the size, or by nearly half of it where segments are much shorter; open boundaries by a hundredth. A vertex
 // goes only where its triangle with its neighbours holds no other, so that nothing crosses; and where the segment that
 // replaces it comes no nearer to others than half the size, or than what it replaces, and makes no small angle in the water.
-// `gone` is called with each vertex and the region of its water.
-void coarsenShores(ShoreChains& chains, const std::function<void(VertexId, RegionId)>& gone);
+void coarsenShores(ShoreChains& chains, const ShoreLoss& gone);
 
 }  // namespace coastmesh

@@ -25,7 +25,7 @@ bool isEnd(const ShoreChains& c, VertexId v) {
 
 class EndMender {
  public:
-  EndMender(ShoreChains& chains, const std::function<void(VertexId, RegionId)>& gone) : c_(chains), gone_(gone) {
+  EndMender(ShoreChains& chains, const ShoreLoss& gone) : c_(chains), gone_(gone) {
     has_line_.assign(c_.at.size(), 0);
     for (const Segment& s : c_.lines) has_line_[s.a] = has_line_[s.b] = 1;
     std::vector<Box> boxes(c_.at.size());
@@ -79,7 +79,7 @@ class EndMender {
     if (!empty) return;
     const Segment open = c_.leaving[c_.prev[first]];
     for (std::size_t i = 1; i + 1 < way_.size(); ++i) {
-      gone_(way_[i], c_.leaving[way_[i]].left);
+      gone_(way_[i]);
       takeOut(c_, way_[i]);
     }
     c_.leaving[first] = open;
@@ -87,7 +87,7 @@ class EndMender {
   }
 
   ShoreChains& c_;
-  const std::function<void(VertexId, RegionId)>& gone_;
+  const ShoreLoss& gone_;
   std::vector<char> has_line_;
   std::vector<VertexId> way_;
   BoxTree tree_;
@@ -95,8 +95,6 @@ class EndMender {
 
 }  // namespace
 
-void mendEnds(ShoreChains& chains, const std::function<void(VertexId, RegionId)>& gone) {
-  EndMender(chains, gone).run();
-}
+void mendEnds(ShoreChains& chains, const ShoreLoss& gone) { EndMender(chains, gone).run(); }
 
 }  // namespace coastmesh

@@ -45,8 +45,8 @@ Patches patchesOf(const TriMesh& mesh, In&& in) {
 
 class Opening {
  public:
-  Opening(const ShoreGraph& graph, const SizeFunction& size, const ShoreEdit& edit)
-      : t_(triangulateShores(graph, size)), edit_(edit) {}
+  Opening(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreEdit& edit, WaterAreas& gained)
+      : t_(triangulateShores(graph, sizes.wanted)), projection_(sizes.projection), edit_(edit), gained_(gained) {}
 
   ShoreTriangles& triangles() { return t_; }
 
@@ -112,36 +112,42 @@ class Opening {
     closeSmall();
   }
 
-  // Which parts belonged together is told by `region_was`.
+  // Parts of a region belong together.
   void keepWater(KeepWater keep, std::vector<CutOffWater>& cut_off) {
-    const Patches before = patchesOf(mesh(), [&](TriId t) { return t_.region_was[t] != t_.land; });
     const Patches parts = patchesOf(mesh(), [&](TriId t) { return !isLand(t); });
     struct Part {
       double area = 0.0;
       bool at_open = false;
     };
     std::vector<Part> of_part;
-    std::vector<std::uint32_t> best(before.triangles.size(), kNone);
+    std::map<RegionId, std::uint32_t> best;
     const bool open_first = keep != KeepWater::Largest;
     const auto less = [&](const Part& a, const Part& b) {
       return open_first && a.at_open != b.at_open ? b.at_open : a.area < b.area;
     };
     for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
       Part& part = of_part.emplace_back();
-      for (const TriId t : parts.triangles[i]) part.area += areaOf(t);
+      for (const TriId t : parts.triangles[i]) part.area += groundAreaOf(t);
       part.at_open = (usesOf(parts.triangles[i]) & kOnOpen) != 0;
-      std::uint32_t& most = best[before.of[parts.triangles[i].front()]];
-      if (most == kNone || less(of_part[most], part)) most = i;
+      const auto [most, first] = best.try_emplace(mesh().regions[parts.triangles[i].front()], i);
+      if (!first && less(of_part[most->second], part)) most->second = i;
     }
     for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
       const std::vector<TriId>& part = parts.triangles[i];
-      if (best[before.of[part.front()]] == i || (open_first && of_part[i].at_open)) continue;
+      if (best[mesh().regions[part.front()]] == i || (open_first && of_part[i].at_open)) continue;
       const TriId largest = *std::ranges::max_element(part, {}, [&](TriId t) { return areaOf(t); });
-      const auto& v = mesh().triangles[largest].v;
-      const Point place = (1.0 / 3.0) * (mesh().point(v[0]) + mesh().point(v[1]) + mesh().point(v[2]));
-      cut_off.push_back({place, of_part[i].area});
-      if (keep != KeepWater::All) flip(part, t_.land, EditKind::CutOffWater, v[0]);
+      cut_off.push_back({centreOf(largest), of_part[i].area});
+      if (keep == KeepWater::All) continue;
+      gained_[mesh().regions[largest]] += of_part[i].area;
+      flip(part, t_.land, EditKind::CutOffWater, mesh().triangles[largest].v[0]);
     }
+  }
+
+  WaterAreas areas() const {
+    WaterAreas areas;
+    for (TriId t = 0; t < mesh().triangles.size(); ++t)
+      if (!isLand(t)) areas[mesh().regions[t]] += groundAreaOf(t);
+    return areas;
   }
 
  private:
@@ -165,6 +171,14 @@ class Opening {
   double areaOf(TriId t) const {
     const auto& v = mesh().triangles[t].v;
     return 0.5 * cross(mesh().point(v[1]) - mesh().point(v[0]), mesh().point(v[2]) - mesh().point(v[0]));
+  }
+  Point centreOf(TriId t) const {
+    const auto& v = mesh().triangles[t].v;
+    return centroid(mesh().point(v[0]), mesh().point(v[1]), mesh().point(v[2]));
+  }
+  double groundAreaOf(TriId t) const {
+    const double scale = projection_.scaleAt(centreOf(t));
+    return areaOf(t) / scale / scale;
   }
   // In triangles of the size wanted.
   double elementsIn(const std::vector<TriId>& patch) const {
@@ -238,6 +252,7 @@ class Opening {
     RegionId water = region;
     for (const TriId t : patch) {
       if (region == t_.land) water = mesh().regions[t];
+      gained_[water] += (region == t_.land ? -1.0 : 1.0) * groundAreaOf(t);
       t_.mesh.regions[t] = region;
     }
     edit_(kind, mesh().point(place), water);
@@ -257,25 +272,31 @@ class Opening {
   }
 
   ShoreTriangles t_;
+  const Projection& projection_;
   const ShoreEdit& edit_;
+  WaterAreas& gained_;
   double narrowest_ = 0.0;
   std::vector<bool> keeps_all_;
 };
 
 }  // namespace
 
-ShoreGraph openLand(const ShoreGraph& graph, const SizeFunction& size, double narrowest, const ShoreEdit& edit) {
-  Opening opening(graph, size, edit);
+ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, double narrowest, const ShoreEdit& edit,
+                    WaterAreas& gained) {
+  Opening opening(graph, sizes, edit, gained);
   opening.openLand(narrowest);
   return graphOf(graph, opening.triangles());
 }
 
-ShoreGraph openWater(const ShoreGraph& graph, const SizeFunction& size, double narrowest, KeepWater keep,
-                     const ShoreEdit& edit, std::vector<CutOffWater>& cut_off) {
-  Opening opening(graph, size, edit);
+OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, double narrowest, KeepWater keep,
+                      const ShoreEdit& edit, WaterAreas& gained) {
+  Opening opening(graph, sizes, edit, gained);
+  OpenedWater opened;
   opening.openWater(narrowest);
-  opening.keepWater(keep, cut_off);
-  return graphOf(graph, opening.triangles());
+  opening.keepWater(keep, opened.cut_off);
+  opened.areas = opening.areas();
+  opened.graph = graphOf(graph, opening.triangles());
+  return opened;
 }
 
 }  // namespace coastmesh
