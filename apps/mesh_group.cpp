@@ -207,6 +207,23 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
   return grid;
 }
 
+// Sizes of shores that are dropped or closed would stay behind: they are made again from what is left, and where they are other ones at
+// the shore then, it follows them anew. `sized` is replaced.
+template <typename MakeSizes>
+Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
+                   const Coastline& coastline, CleanReport& report) {
+  constexpr double kSame = 1.05;
+  Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report);
+  DomainSizes again = makeSizes(followed);
+  const auto same = [&](const Point& p) { return again.function->at(p) <= kSame * sized.function->at(p); };
+  if (!std::ranges::all_of(followed.pslg.points, same)) {
+    report = {};
+    followed = followSizes(std::move(domain), *again.function, options, coastline, report);
+  }
+  sized = std::move(again);
+  return followed;
+}
+
 void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
                const GroupRoom& room, const RunControl& control, GroupResult& result) {
   const Stopwatch cleaning;
@@ -233,18 +250,22 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   if (job.sizes.any()) {
     Recorder recorder;
     const Stopwatch sizing;
-    auto [function, demand] =
-        makeSizeFunction(job.sizes, sizes, domain, mostVertices(room), recorder.loop("size", control));
-    size = std::move(function);
-    options.refine.size = size.get();
+    const ItemLoop loop = recorder.loop("size", control);
+    DomainSizes sized = makeSizeFunction(job.sizes, sizes, domain, mostVertices(room), loop);
     if (job.sizes.coast == CoastDetail::Follow) {
-      CleanReport coarser;
       FollowOptions follow = job.sizes.follow;
       if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Open;
-      domain = followSizes(std::move(domain), *size, follow, input.coastline(), coarser);
+      const auto makeSizes = [&](const Domain& followed) {
+        return makeSizeFunction(job.sizes, sizes, followed, mostVertices(room), loop);
+      };
+      CleanReport coarser;
+      domain = followShore(std::move(domain), sized, makeSizes, follow, input.coastline(), coarser);
       std::ranges::move(coarser.notes, std::back_inserter(result.notes));
       for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     }
+    size = std::move(sized.function);
+    VertexDemand& demand = sized.demand;
+    options.refine.size = size.get();
     demand.vertices +=
         verticesOfSegments(domain.pslg, *size, std::max(0.0, 2.0 * mostVertices(room) - demand.vertices));
     result.estimated_vertices = demand.vertices;
