@@ -4,13 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
+#include "gis/box.hpp"
 #include "gis/chain_index.hpp"
 #include "gis/clean_touches.hpp"
 #include "gis/error.hpp"
 #include "gis/geodesic_area.hpp"
 #include "gis/point_grid.hpp"
 #include "gis/seam.hpp"
+#include "gis/torn_edges.hpp"
 #include "gis/turned_rings.hpp"
 
 namespace coastmesh {
@@ -105,6 +108,22 @@ std::vector<Point> projectAll(const std::vector<InputChain>& chains, std::size_t
   };
   if (count > 0) forStretches(loop, count, work, kWorthAStretch);
   return plane;
+}
+
+void requireUntorn(const std::vector<InputChain>& chains, const std::vector<Point>& plane, const Coastline& coastline,
+                   const Projection& projection) {
+  Box box;
+  for (const Point& p : plane) box.add(p);
+  const double extent = std::hypot(box.xmax - box.xmin, box.ymax - box.ymin);
+  std::span<const Point> rest(plane);
+  for (const InputChain& chain : chains) {
+    const Feature& feature = coastline.features[chain.feature];
+    const bool closed = chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole;
+    requireUntorn({feature.source + ", feature " + std::to_string(feature.fid), chain.points,
+                   rest.first(chain.points.size()), closed},
+                  extent, coastline.crs, projection);
+    rest = rest.subspan(chain.points.size());
+  }
 }
 
 // Turns input points into vertices.
@@ -260,6 +279,7 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
     result.beyond = holdersOf(*beyond, coastline, members);
   }
   const std::vector<Point> plane = projectAll(input, count, projection, loop);
+  if (projection.mayTear()) requireUntorn(input, plane, coastline, projection);
   constexpr std::size_t kAhead = 16;
   std::size_t at = 0;
   VertexMaker maker(result.vertices, result.snap, count);

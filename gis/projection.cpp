@@ -25,6 +25,7 @@ Point Projection::inverse(const Point& plane) const { return impl_->inverse(plan
 double Projection::scaleAt(const Point& plane) const { return impl_->scaleAt(plane); }
 std::optional<Point> Projection::infinity() const { return impl_->infinity(); }
 bool Projection::isIdentity() const { return impl_->isIdentity(); }
+bool Projection::mayTear() const { return impl_->mayTear(); }
 const std::string& Projection::reason() const { return impl_->reason; }
 const std::string& Projection::description() const { return impl_->description; }
 

@@ -34,6 +34,7 @@ class Projection {
   // The place, in the input's CRS, that lies beyond all of the plane, for maps that show all others.
   std::optional<Point> infinity() const;
   bool isIdentity() const;                 // of `plane()`
+  bool mayTear() const;                    // of a chosen CRS: places that touch may lie far apart in the plane
   const std::string& reason() const;       // why this one was chosen, for people; empty where nobody chose
   const std::string& description() const;  // for people: "transverse Mercator, central meridian -87.5°"
 

@@ -14,6 +14,7 @@ struct Projection::Impl {
   virtual double scaleAt(const Point& plane) const = 0;
   virtual std::optional<Point> infinity() const { return std::nullopt; }
   virtual bool isIdentity() const { return false; }
+  virtual bool mayTear() const { return false; }
   std::string description, reason;
 };
 

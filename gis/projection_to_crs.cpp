@@ -23,6 +23,7 @@ class ToCrs final : public Projection::Impl {
 
   Point forward(const Point& input) const override { return map_.forward(input); }
   Point inverse(const Point& plane) const override { return map_.inverse(plane); }
+  bool mayTear() const override { return true; }
 
   // The geometric mean of the scales along x and y, from the geodesic lengths of two short lines.
   double scaleAt(const Point& plane) const override {

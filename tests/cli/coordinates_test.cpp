@@ -94,6 +94,36 @@ TEST_F(Coordinates, TrianglesTurnedOverOnTheGroundAreTold) {
   EXPECT_TRUE(place["lon"] > -87 && place["lon"] < 0 && place["lat"] > 47 && place["lat"] < 60) << place;
 }
 
+// A plane of the user's choice that ends at ±180 has the two halves of a lake there at its two ends.
+TEST_F(Coordinates, ACrsThatTearsTheInputIsRefused) {
+  const std::string lake = ring("across.geojson", {{179.9, 10}, {-179.8, 10}, {-179.8, 10.3}, {179.9, 10.3}});
+  for (const char* crs : {"EPSG:4326", "EPSG:3857"}) {
+    const ProgramRun run = runProgram({"mesh", lake, "--crs", crs, "-o", file("m.nc"), "--quiet"});
+    EXPECT_EQ(run.code, 3) << crs << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    for (const char* part : {"across.geojson, feature 0", crs, "tears it apart between", "leave out --crs"})
+      EXPECT_NE(run.errors.find(part), std::string::npos) << run.errors;
+    EXPECT_FALSE(names().contains("m.nc"));
+  }
+  // Metres of a CRS for the Pacific, where the same lake is in one piece.
+  ASSERT_EQ(runProgram({"mesh", lake, "-o", file("whole.nc"), "--quiet"}).code, 0);
+  const ProgramRun pacific = runProgram({"mesh", lake, "--crs", "EPSG:3832", "-o", file("pacific.nc"), "--quiet"});
+  ASSERT_EQ(pacific.code, 0) << pacific.errors;
+  const double area = infoOf(file("whole.nc"))["area_m2"];
+  EXPECT_NEAR(infoOf(file("pacific.nc"))["area_m2"].get<double>(), area, 1e-4 * area);
+}
+
+TEST_F(Coordinates, ACrsThatShowsAWideInputInOnePieceIsTaken) {
+  // From end to end of the map, by edges that span half of it, with an island; and as far north as it goes.
+  const std::string belt = write(
+      "belt.geojson",
+      geoJsonPolygons({{{{-180, -60}, {0, -60}, {180, -60}, {180, 89}, {-180, 60}}, {{-60, 0}, {60, 0}, {0, 40}}}}));
+  for (const char* crs : {"EPSG:4326", "EPSG:3857", "ESRI:54001"}) {
+    const ProgramRun run = runProgram({"mesh", belt, "--crs", crs, "-o", file("m.2dm"), "--overwrite", "--quiet"});
+    EXPECT_LE(run.code, 1) << crs << run.errors;
+  }
+}
+
 // What GeoJSON calls longitudes, in metres: taken as a plane where that is asked for.
 TEST_F(Coordinates, MetresInAPlane) {
   for (const double at : {0.0, 1000.0, 448123.0, -5e6}) {
