@@ -7,6 +7,7 @@
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "gis/flow_links.hpp"
+#include "gis/ground_orientation.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/target_limits.hpp"
 
@@ -37,6 +38,9 @@ struct TriangleScore {
 std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEdit& edit, const GridCorners& v) {
   const auto p = planeOf(view, edit, v);
   if (orient2d(p[0], p[1], p[2]) <= 0) return std::nullopt;
+  // The plane is rounded: what is flat to within that is asked of the places themselves, as the report does.
+  const auto on_ground = placesOf(view, edit, v);
+  if (orientationOnGround(on_ground[0], on_ground[1], on_ground[2], view.grid.crs) <= 0) return std::nullopt;
   const auto angles = anglesDeg(p[0], p[1], p[2]);
   TriangleScore score{0, std::ranges::min(angles)};
   if (view.isFor(Target::Swan)) {

@@ -103,6 +103,18 @@ TEST_F(Target, FlowLinksOfDflowfmHaveALength) {
   EXPECT_EQ(runProgram({"check", mended, "--target", "dflowfm"}).code, 0);
 }
 
+// Gaps of a tenth of a millimetre between features, filled with triangles that are flat but for the last bits.
+TEST_F(Target, RepairsTurnNoTriangleOver) {
+  const ProgramRun run =
+      runProgram({"mesh", inputFile("target/narrow_gaps.geojson"), "--pinches", "open", "--max-vertices", "6000",
+                  "--size-shore", "2261.2280973999214", "--shore-rate", "0.2", "--smooth", "--target", "dflowfm",
+                  "--report", file("report.json"), "-o", file("m.nc")});
+  EXPECT_EQ(run.code, 1) << run.errors;  // some defects stay
+  const Json report = Json::parse(readText(file("report.json")));
+  EXPECT_GT(report.at("repairs").at("done").size(), 20u);
+  EXPECT_EQ(report.at("mesh").at("turned").at("count"), 0) << run.errors;
+}
+
 TEST_F(Target, ADoubledNodeHasTheSizeOfTheNodeThatItWas) {
   const std::string input = inputFile("target/islands_that_touch.geojson");
   ASSERT_EQ(runProgram({"mesh", input, "--size", "20000", "-o", file("plain.geojson")}).code, 0);
