@@ -22,10 +22,16 @@ def turn_in_plane(a, b, c):
     return (exact > 0) - (exact < 0)
 
 
+def degrees_east(a, b):
+    """From one longitude to another the shorter way; rounded once."""
+    turns = round((b - a) / 360)
+    return math.fsum((b, -a, -360.0 * turns))
+
+
 def sine_at(a, b, c):
     """The sine of the angle at a from b to c, along great circles. Free of cancellation: on the plane that touches at a."""
     def place(p):
-        away = math.radians((p[0] - a[0] + 540) % 360 - 180)
+        away = math.radians(degrees_east(a[0], p[0]))
         lat, here = math.radians(p[1]), math.radians(a[1])
         x = math.cos(lat) * math.sin(away)
         y = math.sin(lat - here) + 2 * math.sin(here) * math.cos(lat) * math.sin(away / 2) ** 2
@@ -41,8 +47,15 @@ def turn_on_globe(a, b, c):
     return max((sine_at(a, b, c), sine_at(b, c, a), sine_at(c, a, b)), key=abs)
 
 
-def check_mesh(nodes, triangles, geographic):
-    """Counter-clockwise triangles, each edge once in each direction, each node used."""
+def bend_of(corners):
+    """How much, in radians, lines that are straight in degrees turn from great circles over a triangle's longest side."""
+    longest = max(math.hypot((b[0] - a[0] + 540) % 360 - 180, b[1] - a[1]) for a, b in zip(corners, corners[1:] + corners[:1]))
+    return math.radians(longest)
+
+
+def check_mesh(nodes, triangles, geographic, bent=0):
+    """Counter-clockwise triangles, each edge once in each direction, each node used. `bent` triangles may be turned over
+    as far as sides bend that are straight in a CRS of the user's choice."""
     turn = turn_on_globe if geographic else turn_in_plane
     edges, used = set(), set()
     for number, t in enumerate(triangles):
@@ -50,6 +63,8 @@ def check_mesh(nodes, triangles, geographic):
         corners = [nodes[n] for n in t]
         require(all(math.isfinite(v) for p in corners for v in p), f"triangle {number}: {corners}")
         turned = turn(*corners)
+        if bent > 0 and -bend_of(corners) < turned <= 0:
+            bent, turned = bent - 1, 1
         require(turned > 0, f"triangle {number} is not counter-clockwise ({turned:.2g}): {corners}")
         used.update(t)
         for edge in zip(t, t[1:] + t[:1]):

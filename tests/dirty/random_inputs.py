@@ -157,9 +157,11 @@ class Case:
     def poly(self, rng):
         """One ring, mostly a sound one, with a hole; what is not sound is refused."""
         rings = [star(rng, 0, 0, 1, rng.randint(3, 60), rng.choice([0.1, 0.5]))]
-        if rng.random() < 0.5:
+        hollow = rng.random() < 0.5
+        if hollow:
             rings.append(star(rng, 0, 0, 0.3, rng.randint(3, 20), 0.5))
-        if rng.random() < 0.15:
+        sound = rng.random() >= 0.15
+        if not sound:
             rings.append(any_ring(rng))
         rings = [[self.world.place(p) for p in ring] for ring in rings]
         self.features = [rings]
@@ -171,8 +173,8 @@ class Case:
         lines = [f"{len(points)} 2 0 0"] + [f"{i} {x!r} {y!r}" for i, (x, y) in enumerate(points)]
         lines += [f"{len(segments)} 0"] + [f"{i} {a} {b}" for i, (a, b) in enumerate(segments)]
         hole = self.world.place((0.0, 0.0))
-        lines += [f"1\n0 {hole[0]!r} {hole[1]!r}"] if len(rings) > 1 else ["0"]
-        self.keeps_area = len(rings) < 3
+        lines += [f"1\n0 {hole[0]!r} {hole[1]!r}"] if hollow else ["0"]
+        self.keeps_area = sound  # another ring's inside is meshed too
         return "\n".join(lines) + "\n"
 
     def length(self, rng, low, high):
