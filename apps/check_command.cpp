@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "apps/check_grid.hpp"
 #include "apps/commands.hpp"
@@ -40,6 +42,7 @@ struct DefectRow {
   std::int64_t node = -1;
   double value = 0.0;
   std::string detail;
+  bool advice = false;
 };
 
 DefectRow rowOf(const GridDefect& defect) {
@@ -59,7 +62,8 @@ DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
                 defect.triangle,
                 defect.node,
                 defect.value,
-                defect.text};
+                defect.text,
+                defect.advice};
   if (row.detail.empty() && defect.value != 0.0) {
     char text[40];
     std::snprintf(text, sizeof text, "%.6g", defect.value);
@@ -68,15 +72,17 @@ DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
   return row;
 }
 
+bool isDefect(const DefectRow& row) { return !row.advice; }
+
 void printDefects(const CheckUsage& usage, const Grid& grid, const std::vector<DefectRow>& defects) {
-  std::printf("%s: %zu nodes, %zu triangles, %zu defects\n", usage.mesh.path.c_str(), grid.nodes.size(),
-              grid.triangles.size(), defects.size());
+  std::printf("%s: %zu nodes, %zu triangles, %td defects\n", usage.mesh.path.c_str(), grid.nodes.size(),
+              grid.triangles.size(), std::ranges::count_if(defects, isDefect));
   for (std::size_t begin = 0, end = 0; begin < defects.size(); begin = end) {
     const DefectRow& first = defects[begin];
-    for (end = begin; end < defects.size() && defects[end].kind == first.kind && defects[end].target == first.target;)
-      ++end;
-    std::printf("%s%s%s: %zu\n", first.target.c_str(), first.target.empty() ? "" : ": ", first.kind.c_str(),
-                end - begin);
+    const auto group = [](const DefectRow& row) { return std::tie(row.kind, row.target, row.advice); };
+    for (end = begin; end < defects.size() && group(defects[end]) == group(first);) ++end;
+    std::printf("%s%s%s%s: %zu\n", first.target.c_str(), first.target.empty() ? "" : ": ",
+                first.advice ? "advice, " : "", first.kind.c_str(), end - begin);
     for (std::size_t i = begin; i < std::min(begin + kPlacesShown, end); ++i) {
       std::printf("  at %s", pointText(defects[i].place).c_str());
       if (defects[i].triangle >= 0) std::printf(", triangle %lld", static_cast<long long>(defects[i].triangle + 1));
@@ -92,12 +98,13 @@ VectorLayer layerOf(const std::vector<DefectRow>& defects) {
   const auto numberOf = [](std::int64_t index) { return index < 0 ? std::int64_t{-1} : index + 1; };
   VectorLayer layer;
   layer.name = "defects";
-  layer.fields = {{"kind", std::string()},  {"triangle", std::int64_t{}}, {"value", 0.0},
-                  {"node", std::int64_t{}}, {"target", std::string()},    {"detail", std::string()}};
+  layer.fields = {{"kind", std::string()},   {"triangle", std::int64_t{}}, {"value", 0.0},
+                  {"node", std::int64_t{}},  {"target", std::string()},    {"detail", std::string()},
+                  {"advice", std::int64_t{}}};
   for (const DefectRow& defect : defects)
-    layer.shapes.push_back(
-        {{defect.place},
-         {defect.kind, numberOf(defect.triangle), defect.value, numberOf(defect.node), defect.target, defect.detail}});
+    layer.shapes.push_back({{defect.place},
+                            {defect.kind, numberOf(defect.triangle), defect.value, numberOf(defect.node), defect.target,
+                             defect.detail, std::int64_t{defect.advice}}});
   return layer;
 }
 
@@ -127,12 +134,17 @@ int runCheck(const CheckUsage& usage, Run& run) {
     for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check))
       rows.push_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
   }
+  if (targets.empty() && usage.target_check.time_step_s > 0.0)
+    for (const TargetDefect& defect : checkTimeStep(grid, usage.target_check.time_step_s))
+      rows.push_back(rowOf(defect, {}));
+  // Advice of all models after all refusals.
+  std::ranges::stable_partition(rows, isDefect);
   if (layer != nullptr) {
     layer->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(rows)}); });
   }
   outputs.commit();
   if (!usage.quiet) printDefects(usage, grid, rows);
-  return rows.empty() ? kExitDone : kExitShort;
+  return std::ranges::any_of(rows, isDefect) ? kExitShort : kExitDone;
 }
 
 }  // namespace
@@ -145,8 +157,8 @@ Command declareCheck(CLI::App& root) {
              "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
   declareTargets(line, usage->targets, "also look for all that makes the model refuse the mesh; repeat it for several");
   line.number("--time-step", usage->target_check.time_step_s, "S", {0.0, std::numeric_limits<double>::infinity()},
-              "time step that --target checks Courant numbers with; 0 leaves them out")
-      .needs({"--target"});
+              "also look for triangles whose Courant number with this time step is above 1, or as --target has it; 0 "
+              "leaves them out");
   line.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
   line.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
   line.flag("--delaunay", usage->check.delaunay,

@@ -102,7 +102,8 @@ MeshInfo describeMesh(const Grid& grid) {
     edges.add(grid.nodes[b], grid.nodes[c]);
     edges.add(grid.nodes[c], grid.nodes[a]);
   }
-  info.shortest_edge_m = edges.shortest();
+  info.step = measureStep(grid);
+  info.plane = grid.crs.isPlane();
   info.longest_edge_m = edges.longest();
   for (double area : triangleAreas(grid.nodes, grid.triangles, grid.crs)) info.area_m2 += area;
   return info;

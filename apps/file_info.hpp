@@ -8,6 +8,7 @@
 #include "apps/job_input.hpp"
 #include "core/quality.hpp"
 #include "gis/grid.hpp"
+#include "gis/time_step.hpp"
 
 namespace coastmesh {
 
@@ -29,9 +30,10 @@ struct MeshInfo {
   double lowest_z = 0.0;  // metres
   double highest_z = 0.0;
   double area_m2 = 0.0;
-  MeshQuality quality;           // lengths and areas in it are the working plane's
-  double shortest_edge_m = 0.0;  // on the ellipsoid
+  MeshQuality quality;  // lengths and areas in it are the working plane's
+  StepReport step;      // the shortest edge, on the ellipsoid, and the time step
   double longest_edge_m = 0.0;
+  bool plane = false;
 };
 
 struct CoastlineInfo {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/file_info.hpp"
+#include "apps/step_outcome.hpp"
 
 namespace coastmesh {
 
@@ -64,8 +65,9 @@ std::string toJson(const MeshInfo& info) {
             {"area_m2", info.area_m2},
             {"min_angle_deg", info.quality.min_angle_deg},
             {"max_angle_deg", info.quality.max_angle_deg},
-            {"shortest_edge_m", info.shortest_edge_m},
+            {"shortest_edge_m", info.step.shortest_edge_m},
             {"longest_edge_m", info.longest_edge_m},
+            {"step", stepJson(info.step)},
             {"angle_histogram", info.quality.angle_histogram}};
   if (info.has_z) json["z"] = {info.lowest_z, info.highest_z};
   return dump(json);
@@ -110,7 +112,8 @@ std::string toText(const MeshInfo& info) {
   addExtent(text, info.extent);
   if (info.has_z) addLine(text, "z               %.10g to %.10g m", info.lowest_z, info.highest_z);
   addLine(text, "area            %.10g m2", info.area_m2);
-  addLine(text, "edges           %.6g to %.6g m", info.shortest_edge_m, info.longest_edge_m);
+  addLine(text, "edges           %.6g to %.6g m", info.step.shortest_edge_m, info.longest_edge_m);
+  text += "step            " + stepText(info.step, info.plane) + "\n";
   addLine(text, "smallest angle  %.3f degrees", info.quality.min_angle_deg);
   addLine(text, "largest angle   %.3f degrees", info.quality.max_angle_deg);
   addHistogram(text, info.quality);

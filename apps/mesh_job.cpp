@@ -229,6 +229,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     result.log.addAlone("finish", result.seconds.finish);
   }
   findTurned(result);
+  result.step = measureOutcome(result.grid, job.sizes);
   result.seconds.total = whole.seconds();
   return result;
 }

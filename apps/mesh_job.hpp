@@ -13,6 +13,7 @@
 
 #include "apps/finish_grid.hpp"
 #include "apps/job_input.hpp"
+#include "apps/step_outcome.hpp"
 #include "core/quality.hpp"
 #include "core/refine.hpp"
 #include "gis/grid.hpp"
@@ -98,10 +99,12 @@ struct MeshJobResult {
   std::uint64_t digest = 0;
   PhaseSeconds seconds;
   FinishReport finish;                       // depths, boundaries and repairs
+  StepOutcome step;                          // of the finished grid
   std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
 
   bool complete() const {
-    return unresolved == 0 && turned == 0 && !refine.budget_reached && refusals.empty() && finish.repairs.left.empty();
+    return unresolved == 0 && turned == 0 && !refine.budget_reached && refusals.empty() &&
+           finish.repairs.left.empty() && step.held();
   }
 };
 

@@ -175,6 +175,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"mesh", meshSection(result)},
                     {"depth", Json::parse(depthSection(job.finish, result.finish))},
                     {"boundaries", Json::parse(boundarySection(job.finish, result.finish, result.grid))},
+                    {"step", outcomeJson(result.step, job.sizes)},
                     {"lines", lineSection(result.grid)},
                     {"repairs", Json::parse(repairSection(job.finish, result.finish))},
                     {"output_warnings", result.output_warnings},
@@ -205,6 +206,7 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     std::snprintf(bound, sizeof bound, "%g", job.mesh.refine.min_angle_deg);
     text += grouped(result.unresolved) + " triangles fall short of what was asked (at least " + bound + " degrees)\n";
   }
+  text += stepText(result.step.step, result.crs.isPlane()) + "\n";
   text += finishSummary(job.finish, result.finish);
   if (result.refine.budget_reached) text += "the vertex budget was reached before all angles were good\n";
   return text;

@@ -11,6 +11,7 @@ std::vector<std::string> warningsOf(const MeshJobResult& result) {
   std::vector<std::string> all = result.read.warnings;
   const std::vector<std::string> of_finish = result.finish.warnings();
   all.insert(all.end(), of_finish.begin(), of_finish.end());
+  all.insert(all.end(), result.step.warnings.begin(), result.step.warnings.end());
   if (result.turned > 0) {
     all.push_back("triangles that are not counter-clockwise on the ground: " + std::to_string(result.turned) +
                   ", the first at " + pointText(result.turned_places.front()) +

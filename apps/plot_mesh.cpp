@@ -17,6 +17,7 @@
 #include "core/quality.hpp"
 #include "gis/error.hpp"
 #include "gis/grid_names.hpp"
+#include "gis/time_step.hpp"
 
 namespace coastmesh {
 
@@ -222,6 +223,11 @@ class MeshPlot {
         if (!std::isfinite(z)) return kUnknown;
         return depthColor((z - lowest_z_) / std::max(1e-12, highest_z_ - lowest_z_));
       }
+      case PlotColor::TimeStep: {
+        const double step = steps_[piece_.triangles[t]];
+        if (!std::isfinite(step)) return kUnknown;
+        return rampColor(std::log(step / least_step_s_) / std::max(1e-12, std::log(most_step_s_ / least_step_s_)));
+      }
       case PlotColor::None:
         break;
     }
@@ -246,6 +252,18 @@ class MeshPlot {
       highest_z_ = std::max(highest_z_, z);
     }
     if (lowest_z_ > highest_z_) throw InputError("the mesh has no depth to colour it by");
+  }
+
+  void findSteps() {
+    steps_ = timeSteps(grid_);
+    least_step_s_ = std::numeric_limits<double>::infinity();
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      const double step = steps_[piece_.triangles[t]];
+      if (!std::isfinite(step) || !shows(t)) continue;
+      least_step_s_ = std::min(least_step_s_, step);
+      most_step_s_ = std::max(most_step_s_, step);
+    }
+    if (!(most_step_s_ > 0.0)) throw InputError("the mesh has no depth below water, so no time step to colour it by");
   }
 
   // Numbers the regions by their names where there are any, else the parts that hang together by edges and lie in one
@@ -296,6 +314,7 @@ class MeshPlot {
     if (options_.color == PlotColor::Size) findAreas();
     if (options_.color == PlotColor::Depth) findHeights();
     if (options_.color == PlotColor::Region) findParts();
+    if (options_.color == PlotColor::TimeStep) findSteps();
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       const bool blurred = options_.edges && longestEdgePx(t) < kBlurPx;
       const bool bad = isBad(t);
@@ -422,9 +441,8 @@ class MeshPlot {
 
   void drawLegend() {
     if (shows_roles_) drawRoleLegend();
-    if (options_.color != PlotColor::Angle && options_.color != PlotColor::Size && options_.color != PlotColor::Depth) {
-      return;
-    }
+    constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep};
+    if (std::ranges::count(kWithScale, options_.color) == 0) return;
     constexpr int kSteps = 60;
     constexpr double kStep = 3.0;
     const double left = canvas_.width() - kSteps * kStep - 12.0;
@@ -454,6 +472,13 @@ class MeshPlot {
       std::snprintf(text, sizeof text, "%.4g m up", highest_z_);
       high = text;
     }
+    if (options_.color == PlotColor::TimeStep) {
+      char text[40];
+      std::snprintf(text, sizeof text, "%.3g s", least_step_s_);
+      low = text;
+      std::snprintf(text, sizeof text, "%.3g s by CFL", most_step_s_);
+      high = text;
+    }
     canvas_.text({left, top + 26.0}, low, 13.0, kInk);
     canvas_.textEndingAt({left + kSteps * kStep, top + 26.0}, high, 13.0, kInk);
   }
@@ -470,6 +495,9 @@ class MeshPlot {
   double most_log_area_ = 0.0;
   double lowest_z_ = 0.0;  // metres, of the triangles shown
   double highest_z_ = 0.0;
+  std::vector<double> steps_;  // one a triangle of the grid, where they are shown
+  double least_step_s_ = 0.0;  // of the triangles shown
+  double most_step_s_ = 0.0;
   std::vector<std::uint32_t> parts_;  // one a triangle, where parts are shown
   bool shows_roles_ = false;
 };
@@ -478,7 +506,7 @@ class MeshPlot {
 
 const std::vector<std::string>& plotColorNames() {
   static const std::vector<std::string> kNames = {"none", "angle", "feature", "region",
-                                                  "size", "depth", "piece"};  // as in PlotColor
+                                                  "size", "depth", "piece",   "timestep"};  // as in PlotColor
   return kNames;
 }
 

@@ -10,8 +10,8 @@
 
 namespace coastmesh {
 
-// Region: parts that hang together and lie in one feature. Depth: z of the nodes.
-enum class PlotColor { None, Angle, Feature, Region, Size, Depth, Piece };
+// Region: parts that hang together and lie in one feature. Depth: z of the nodes. TimeStep: see time_step.hpp.
+enum class PlotColor { None, Angle, Feature, Region, Size, Depth, Piece, TimeStep };
 
 // The names that --color takes; throws UsageError for another.
 const std::vector<std::string>& plotColorNames();

@@ -1,5 +1,6 @@
 #include "apps/sizing_usage.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -41,7 +42,10 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
   constexpr NumberRange kNotNegative{0.0, kInfinity};
   line.number("--size", sizes.size_m, "M", kAboveZero,
               "length that edges should have everywhere, where nothing else asks for less");
-  line.number("--size-min", sizes.least_m, "M", kNotNegative, "no size is less").needs(kSizes);
+  line.number("--size-min", sizes.least_m, "M", kNotNegative,
+              "no size is less; edges shorter than it are told, with exit code 1 where --coast follow leaves one "
+              "shorter than half")
+      .needs(kSizes);
   line.number("--size-max", sizes.most_m, "M", kAboveZero,
               "no size is more; given without any other size, no edge is longer");
   line.number("--grade", sizes.grade, "G", {0.0, 1.0, true},
@@ -97,15 +101,20 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
           "else the largest), or all; auto is open with --target, else all")
       .needs({"--coast follow"});
   line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
-              "no element smaller than the Courant number allows with this time step, as far as --grade lets it; 0 "
-              "asks for none");
-  line.number("--courant", sizes.courant, "C", {1e-3, 1e3}, "largest Courant number").needs({"--time-step"});
+              "no element smaller than the Courant number allows with this time step; triangles in which it does not "
+              "hold are told, with exit code 1; 0 asks for none");
+  line.number(
+          "--courant", sizes.courant, "C", {1e-3, 1e3},
+          "largest Courant number: sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the "
+          "depth of its deepest corner")
+      .needs({"--time-step"});
 }
 
 void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeOptions& sizes) {
   sizes.bathymetry = depths.files;
   sizes.depth.positive_down = depths.positive_down;
   sizes.depth.water_level_m = depths.water_level_m;
+  sizes.depth.least_depth_m = std::max(sizes.depth.least_depth_m, depths.min_depth_m);
   sizes.depth.bands.clear();
   for (const std::string& band : usage.bands) sizes.depth.bands.push_back(parseBand(band));
   if (!usage.filter_given) sizes.depth.slope_filter_m = sizes.least_m;

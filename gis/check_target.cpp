@@ -4,20 +4,21 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/box_tree.hpp"
 #include "gis/flow_links.hpp"
+#include "gis/ground_orientation.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/rim_boundaries.hpp"
 #include "gis/target_limits.hpp"
+#include "gis/time_step.hpp"
 
 namespace coastmesh {
 namespace {
-
-constexpr double kGravity = 9.81;  // m/s2
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
     "wrong count",          "broken edge",         "clockwise",       "unused node",     "repeated node",
@@ -27,6 +28,21 @@ constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
     "not orthogonal",       "small flow link",     "courant"};
 
 bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
+
+// Courant numbers above what explicit schemes take, or below what SCHISM's wants; the worst first.
+std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, bool from_below) {
+  std::vector<TargetDefect> found;
+  const std::vector<double> steps = timeSteps(grid);
+  for (std::uint32_t t = 0; t < steps.size(); ++t) {
+    if (!std::isfinite(steps[t])) continue;  // dry, or unknown
+    const double courant = time_step_s / steps[t];
+    if (from_below ? courant < kSchismLeastCourant : courant > kLargestCourant)
+      found.push_back({TargetDefectKind::Courant, middleOf(grid, t), t, -1, courant, {}});
+  }
+  std::ranges::stable_sort(
+      found, {}, [from_below](const TargetDefect& defect) { return from_below ? defect.value : -defect.value; });
+  return found;
+}
 
 class TargetCheck {
  public:
@@ -47,7 +63,8 @@ class TargetCheck {
     if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
     if (target_ == Target::Dflowfm) checkFlowLinks();
     if (options_.time_step_s > 0.0 && target_ != Target::Swan && !grid_.z.empty()) checkCourant();
-    std::ranges::stable_sort(defects_, {}, [](const TargetDefect& defect) { return defect.kind; });
+    std::ranges::stable_sort(defects_, {},
+                             [](const TargetDefect& defect) { return std::pair(defect.advice, defect.kind); });
     return std::move(defects_);
   }
 
@@ -241,17 +258,11 @@ class TargetCheck {
   }
 
   void checkCourant() {
-    for (std::size_t t = 0; t < grid_.triangles.size(); ++t) {
-      const auto& [a, b, c] = grid_.triangles[t];
-      const double depth = 0.0 - (grid_.z[a] + grid_.z[b] + grid_.z[c]) / 3.0;
-      if (!(depth > 0.0)) continue;  // dry, or unknown
-      const std::vector<Point> p = cornersOf(t);
-      const double shortest =
-          std::min({std::hypot(p[1].x - p[0].x, p[1].y - p[0].y), std::hypot(p[2].x - p[1].x, p[2].y - p[1].y),
-                    std::hypot(p[0].x - p[2].x, p[0].y - p[2].y)});
-      const double courant = std::sqrt(kGravity * depth) * options_.time_step_s / shortest;
-      if (target_ == Target::Schism ? courant < kSchismLeastCourant : courant > kLargestCourant)
-        add(TargetDefectKind::Courant, middle(t), static_cast<std::int64_t>(t), -1, courant);
+    const bool from_below = target_ == Target::Schism;
+    const bool advice = from_below || target_ == Target::Telemac || target_ == Target::Dflowfm;
+    for (TargetDefect& defect : courantsBeyond(grid_, options_.time_step_s, from_below)) {
+      defect.advice = advice;
+      defects_.push_back(std::move(defect));
     }
   }
 
@@ -268,6 +279,10 @@ class TargetCheck {
 std::string_view toString(TargetDefectKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
 double largestFileAngle(const Point& a, const Point& b, const Point& c) { return std::ranges::max(anglesDeg(a, b, c)); }
+
+std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s) {
+  return courantsBeyond(grid, time_step_s, false);
+}
 
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options) {
   return TargetCheck(grid, target, options).run();

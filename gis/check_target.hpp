@@ -50,15 +50,19 @@ struct TargetDefect {
   std::int64_t node = -1;      // the same
   double value = 0.0;          // degrees, triangles round a node, a cosine, a share (`FlowLink`), a Courant number
   std::string text;            // of WrongCount
+  bool advice = false;         // the model runs all the same, but not as well as it could
 };
 
 struct TargetCheckOptions {
   double time_step_s = 0.0;  // seconds; 0: Courant numbers are not looked at
 };
 
-// Everything that makes the model refuse the grid, by kind; boundaries are taken as they stand. The bounds are in
-// target_limits.hpp; a Courant number is sqrt(g depth) times the time step over the shortest edge.
+// Everything that makes the model refuse the grid, by kind, Courant numbers from the worst on (`timeSteps` says how they
+// are measured); then what is advice. Boundaries are taken as they stand. The bounds are in target_limits.hpp.
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {});
+
+// The same of the time step alone, whatever the model: triangles with a Courant number above 1, from the worst on.
+std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s);
 
 // SWAN's measure: the largest angle in degrees, of coordinates as they stand in the file. It takes longitudes and latitudes
 // for a plane.

@@ -143,6 +143,32 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
   return areas;
 }
 
+std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
+                                               std::span<const std::array<std::uint32_t, 3>> triangles,
+                                               const Crs& crs) {
+  std::vector<std::array<double, 3>> lengths(triangles.size());
+  const auto measure = [&](const auto& lengthBetween) {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) lengths[t][i] = lengthBetween(triangles[t][i], triangles[t][(i + 1) % 3]);
+  };
+  if (crs.isPlane()) {
+    measure(
+        [&](std::uint32_t a, std::uint32_t b) { return std::hypot(nodes[b].x - nodes[a].x, nodes[b].y - nodes[a].y); });
+    return lengths;
+  }
+  const Geodetic geodetic = toGeodetic(nodes, crs);
+  const double e2 = geodetic.f * (2.0 - geodetic.f);
+  std::vector<Vector> places;
+  for (const Point& p : geodetic.lonlat) places.push_back(toEarthCentred(p, geodetic.a, e2));
+  measure([&](std::uint32_t a, std::uint32_t b) {
+    const Vector along = places[b] - places[a];
+    const double chord = std::sqrt(dot(along, along));
+    // The arc over the chord, on a sphere about as large.
+    return 2.0 * geodetic.a * std::asin(std::min(1.0, chord / (2.0 * geodetic.a)));
+  });
+  return lengths;
+}
+
 std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, const Crs& crs) {
   std::vector<double> lengths(chains.size(), 0.0);
   if (crs.isPlane()) {

@@ -26,6 +26,11 @@ void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::stri
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const Crs& crs, const ItemLoop& loop = inOrder);
 
+// Lengths of the triangles' edges in metres on the ellipsoid of `crs`, to 1e-6 of them up to 1000 km: from the first corner to
+// the second, from there to the third, and back. In a plane: in its units. Throws InputError as `triangleAreas` does.
+std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
+                                               std::span<const std::array<std::uint32_t, 3>> triangles, const Crs& crs);
+
 // Length of each chain of points in metres along geodesics (in a plane: in its units).
 std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, const Crs& crs);
 

@@ -29,7 +29,7 @@ std::vector<FoundDefect> withoutRepeats(const std::vector<FoundDefect>& defects)
   std::vector<FoundDefect> once;
   std::set<std::pair<TargetDefectKind, std::int64_t>> seen;
   for (const FoundDefect& found : defects) {
-    const auto& [kind, place, triangle, node, value, text] = found.defect;
+    const auto& [kind, place, triangle, node, value, text, advice] = found.defect;
     const bool has_place = node >= 0 || triangle >= 0;
     if (!has_place || seen.emplace(kind, triangle >= 0 ? triangle : node).second) once.push_back(found);
   }

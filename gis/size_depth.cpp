@@ -6,11 +6,12 @@
 #include <numbers>
 #include <utility>
 
+#include "gis/long_wave.hpp"
+
 namespace coastmesh {
 
 namespace {
 
-constexpr double kGravity = 9.80665;
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
 // A function of the depth, from a table: there are as many calls as pixels.
@@ -143,7 +144,7 @@ TileRule depthRule(const DepthRules& rules) {
 TileRule courantRule(double time_step_s, double courant, const DepthRules& rules) {
   return {0.0, [=](const RasterTile& tile, std::span<float> sizes) {
             forEachDepth(tile, rules, [&](std::size_t pixel, int, int, double depth) {
-              const double speed = std::sqrt(kGravity * std::max(depth, rules.least_depth_m));
+              const double speed = longWaveSpeed(std::max(depth, rules.least_depth_m));
               sizes[pixel] = static_cast<float>(speed * time_step_s / courant);
             });
           }};

@@ -11,6 +11,7 @@
 #include "gis/plane_table.hpp"
 #include "gis/size_channel.hpp"
 #include "gis/size_distance.hpp"
+#include "gis/size_floor.hpp"
 #include "gis/size_raster.hpp"
 
 namespace coastmesh {
@@ -78,6 +79,7 @@ class ComposedSizes final : public SizeSource {
   }
   void limitRate(double rate) {
     for (const auto& field : fields_) field->limitRate(rate);
+    if (floor_) floor_->limitRate(rate);
   }
   bool isWanted(const SizeBox& box) const override { return mask_.meets(box); }
 
@@ -103,21 +105,18 @@ class ComposedSizes final : public SizeSource {
           range = {std::min(range.low, own[k].low), std::min(range.high, own[k].high)};
         }
       }
-      std::ranges::fill(own, SizeRange{kInfinity, kInfinity});
+      std::ranges::fill(own, SizeRange{0.0, 0.0});
       if (floor_) floor_->bound(here, own);
       for (std::size_t i = 0; i < out.size(); ++i) {
         const double scale = scale_(here[i].centre);
-        // Where the depth is not known there is no floor; where it is known in a part of the box only, there may be any.
-        const bool none = own[i].low == kInfinity, part = !none && own[i].high == kInfinity;
-        out[i] = {bounded(out[i].low, none || part ? 0.0 : own[i].low) * scale,
-                  (part ? options_.most_m : bounded(out[i].high, none ? 0.0 : own[i].high)) * scale};
+        out[i] = {bounded(out[i].low, own[i].low) * scale, bounded(out[i].high, own[i].high) * scale};
       }
     });
   }
 
  private:
   double bounded(double size, double floor) const {
-    return std::min({std::max({size, options_.least_m, std::isfinite(floor) ? floor : 0.0}), options_.most_m, most_m_});
+    return std::min({std::max({size, options_.least_m, floor}), options_.most_m, most_m_});
   }
 
   const SizeOptions& options_;
@@ -184,6 +183,11 @@ double gradeForScale(const ComposedSizes& source, const std::function<double(con
   constexpr double kBetweenProbes = 1.25;
   return kBetweenProbes * most;
 }
+
+// Edges come out no shorter than this share of the size there, but for few.
+constexpr double kShortestOfSize = 0.6;
+// Those of a shore that follows the sizes come shorter: beside it sizes are so many times larger.
+constexpr double kShoreFloor = 1.4;
 
 // A map of sizes takes about a cell for two vertices; more, where something small lies on few of them.
 constexpr double kCellsPerVertex = 2.0;
@@ -270,8 +274,14 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     source.add(askingOfDepths(options.depth),
                rasterFields(inputs.bathymetry, inputs.crs, projection, square, depthRule(options.depth), loop));
   if (options.time_step_s > 0.0) {
-    source.setFloor(rasterFields(inputs.bathymetry, inputs.crs, projection, square,
-                                 courantRule(options.time_step_s, options.courant, options.depth), loop));
+    const TileRule rule = courantRule(options.time_step_s, kShortestOfSize * options.courant, options.depth);
+    auto floor =
+        std::make_unique<SizeFloor>(rasterFields(inputs.bathymetry, inputs.crs, projection, square, rule, loop),
+                                    options.grade, scale, root, mask, loop);
+    if (options.coast == CoastDetail::Follow)
+      floor->raiseNear(std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.grade), scale),
+                       kShoreFloor);
+    source.setFloor(std::move(floor));
   }
   source.limitRate(options.grade);
   double for_scale = gradeForScale(source, scale, root, reach_m);

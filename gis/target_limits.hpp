@@ -17,8 +17,8 @@ inline constexpr double kDflowfmLargestCosine = 0.5;
 // triangles it joins, is taken out, and nothing flows there.
 inline constexpr double kDflowfmSmallestLink = 0.1;
 
-// Courant numbers: explicit schemes (ADCIRC, FVCOM, TELEMAC, D-Flow FM) want it small; SCHISM's scheme wants it large
-// (SCHISM's manual, "grid generation").
+// Courant numbers (`timeSteps`). ADCIRC and FVCOM blow up above 1. TELEMAC-2D and SCHISM are implicit, and D-Flow FM
+// shortens its steps: there the bounds are advice, of SCHISM's manual ("grid generation") from below.
 inline constexpr double kLargestCourant = 1.0;
 inline constexpr double kSchismLeastCourant = 0.4;
 

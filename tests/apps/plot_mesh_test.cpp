@@ -120,6 +120,7 @@ TEST_F(PlotMesh, VeryManyTrianglesMakeASmallVectorDrawing) {
 TEST(PlotColorNames, AreThoseOfTheColors) {
   EXPECT_EQ(plotColorNamed("depth"), PlotColor::Depth);
   EXPECT_EQ(plotColorNamed("none"), PlotColor::None);
+  EXPECT_EQ(plotColorNamed("timestep"), PlotColor::TimeStep);
   EXPECT_THROW(plotColorNamed("pink"), UsageError);
 }
 

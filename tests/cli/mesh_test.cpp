@@ -56,7 +56,7 @@ TEST_F(MeshRun, FormatIsTakenWhereTheEndingDoesNotTell) {
 TEST_F(MeshRun, ReportHasItsKeys) {
   const Json json = report();
   EXPECT_EQ(keysOf(json), (std::set<std::string>{"coastmesh", "input", "clean", "refine", "mesh", "depth", "boundaries",
-                                                 "lines", "repairs", "output_warnings", "warnings", "time_s",
+                                                 "lines", "step", "repairs", "output_warnings", "warnings", "time_s",
                                                  "parallel", "peak_memory_mib", "threads"}));
   EXPECT_EQ(keysOf(json["parallel"]),
             (std::set<std::string>{"work_s", "critical_path_s", "speedup", "meshing", "stages"}));

@@ -434,6 +434,16 @@ TEST(CheckTarget, Courant) {
   EXPECT_EQ(kindsIn(soundGrid(), Target::Adcirc, {100.0}), Kinds{TargetDefectKind::Courant});
   EXPECT_EQ(kindsIn(soundGrid(), Target::Schism, {100.0}), Kinds{});
   EXPECT_EQ(kindsIn(soundGrid(), Target::Schism, {20.0}), Kinds{TargetDefectKind::Courant});
+  // The worst first; SCHISM, TELEMAC and D-Flow FM run all the same.
+  for (const Target target : {Target::Adcirc, Target::Fvcom, Target::Telemac, Target::Dflowfm, Target::Schism}) {
+    const bool from_below = target == Target::Schism;
+    const std::vector<TargetDefect> found = checkTarget(soundGrid(), target, {from_below ? 20.0 : 100.0});
+    ASSERT_FALSE(found.empty());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].advice, target != Target::Adcirc && target != Target::Fvcom);
+      if (i > 0) EXPECT_TRUE(from_below ? found[i].value >= found[i - 1].value : found[i].value <= found[i - 1].value);
+    }
+  }
 }
 
 // Angles and areas of what was changed are measured again, features kept.

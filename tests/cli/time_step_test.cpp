@@ -1,0 +1,149 @@
+// What runs say of the time step that their grids leave, and of --time-step and --size-min that do not hold.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+class TimeStep : public ProgramTest {
+ protected:
+  // A bay of 60 by 40 km in metres, with notches of 100 m in its shore.
+  std::string bay() const {
+    std::string ring;
+    const auto add = [&](double x, double y) {
+      ring += (ring.empty() ? "[" : ", [") + std::to_string(x) + ", " + std::to_string(y) + "]";
+    };
+    for (int i = 0; i <= 60; ++i) add(1000.0 * i, i % 3 == 1 ? 100.0 : 0.0);
+    add(60000, 40000), add(0, 40000), add(0, 0);
+    return write(
+        "bay.geojson",
+        R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32631"}}, )"
+        R"("features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[)" +
+            ring + "]]}}]}");
+  }
+  // 10 m deep in the south, 1000 m in the north.
+  std::string depths() const {
+    std::string text = "ncols 140\nnrows 100\nxllcorner -5000\nyllcorner -5000\ncellsize 500\n";
+    for (int j = 0; j < 100; ++j) {
+      const double y = 50000.0 - 500.0 * j - 5250.0;
+      for (int i = 0; i < 140; ++i) text += std::to_string(y < 20000.0 ? -10.0 : -1000.0) + " ";
+      text += "\n";
+    }
+    return write("bed.asc", text);
+  }
+  ProgramRun mesh(std::vector<std::string> more) const {
+    std::vector<std::string> arguments{"mesh", bay(), "-o", file("bay.2dm"), "--report", file("r.json"), "--overwrite"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(arguments);
+  }
+  Json step() const { return Json::parse(readText(file("r.json"))).at("step"); }
+
+  struct Node {
+    double x, y, z;
+  };
+  // The least time step in a .2dm, by its own lines; NaN where depths are not above 0.
+  double leastStep() const {
+    std::istringstream text(readText(file("bay.2dm")));
+    std::vector<Node> nodes;
+    std::vector<std::array<std::size_t, 3>> triangles;
+    for (std::string line; std::getline(text, line);) {
+      std::istringstream words(line);
+      std::string card;
+      std::size_t number = 0;
+      words >> card >> number;
+      if (card == "ND") words >> nodes.emplace_back().x >> nodes.back().y >> nodes.back().z;
+      if (card == "E3T") words >> triangles.emplace_back()[0] >> triangles.back()[1] >> triangles.back()[2];
+    }
+    double least = INFINITY;
+    for (const auto& v : triangles) {
+      double edge = INFINITY, depth = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Node &a = nodes.at(v[i] - 1), &b = nodes.at(v[(i + 1) % 3] - 1);
+        edge = std::min(edge, std::hypot(a.x - b.x, a.y - b.y));
+        depth = std::max(depth, -a.z);
+      }
+      least = std::min(least, edge / std::sqrt(9.81 * depth));
+    }
+    return least;
+  }
+};
+
+TEST_F(TimeStep, IsSaidInSummaryReportAndInfo) {
+  const ProgramRun without = mesh({"--size", "2000"});
+  EXPECT_THAT(without.output, HasSubstr("without depths there is no time step"));
+  EXPECT_TRUE(step().at("time_step_s").is_null());
+  const ProgramRun run = mesh({"--size", "2000", "--bathymetry", depths()});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("time step by CFL "));
+  // Lengths in the file are those of UTM's plane, at most a few thousandths off those on the ground so far from its meridian.
+  EXPECT_NEAR(step().at("time_step_s").get<double>() / leastStep(), 1.0, 0.01);
+  const Json info = Json::parse(runProgram({"info", "--json", file("bay.2dm")}).output);
+  EXPECT_NEAR(info.at("step").at("time_step_s").get<double>(), leastStep(), 0.01 * leastStep());
+  EXPECT_THAT(runProgram({"info", file("bay.2dm")}).output, HasSubstr("time step by CFL "));
+}
+
+TEST_F(TimeStep, AskedForHoldsOrIsListedWithExitCode1) {
+  const ProgramRun follows =
+      mesh({"--size", "300", "--time-step", "20", "--bathymetry", depths(), "--coast", "follow", "--size-max", "9000"});
+  EXPECT_EQ(follows.code, 0) << follows.errors;
+  EXPECT_GE(leastStep(), 20.0 * 0.997);
+  EXPECT_EQ(step().at("asked").at("missed"), 0);
+
+  // The notches of a coast that is kept are shorter than that leaves room for.
+  const ProgramRun keeps = mesh({"--size", "3000", "--time-step", "120", "--bathymetry", depths()});
+  EXPECT_EQ(keeps.code, 1);
+  EXPECT_THAT(keeps.errors, HasSubstr("--time-step 120 at --courant 1 does not hold in "));
+  EXPECT_THAT(keeps.errors, HasSubstr("--coast follow"));
+  const Json asked = step().at("asked");
+  EXPECT_GT(asked.at("missed").get<int>(), 0);
+  EXPECT_NEAR(asked.at("places").at(0).at("time_step_s").get<double>() / leastStep(), 1.0, 0.01);
+}
+
+TEST_F(TimeStep, SizeMinThatTheCoastUndercutsIsSaid) {
+  const ProgramRun keeps = mesh({"--size", "3000", "--size-min", "2000"});
+  EXPECT_EQ(keeps.code, 0);
+  EXPECT_THAT(keeps.errors, HasSubstr("edges shorter than --size-min 2000: "));
+  EXPECT_FALSE(step().at("size_min").at("missed").get<bool>());
+  const ProgramRun follows = mesh({"--size", "3000", "--size-min", "2000", "--coast", "follow"});
+  EXPECT_EQ(follows.code, 0) << follows.errors;
+  for (const Json& place : step().at("size_min").at("places")) EXPECT_GE(place.at("length_m").get<double>(), 1000.0);
+}
+
+TEST_F(TimeStep, CheckListsTheWorstFirstAndKeepsAdviceApart) {
+  ASSERT_EQ(mesh({"--size", "2000", "--bathymetry", depths()}).code, 0);
+  const ProgramRun any = runProgram({"check", file("bay.2dm"), "--time-step", "60"});
+  EXPECT_EQ(any.code, 1);
+  const std::size_t at = any.output.find("courant: ");
+  ASSERT_NE(at, std::string::npos) << any.output;
+  const std::string first = any.output.substr(any.output.find(", triangle", at));
+  double worst = 0.0;
+  ASSERT_EQ(std::sscanf(first.c_str(), ", triangle %*d, %lf", &worst), 1);
+  EXPECT_NEAR(worst, 60.0 / leastStep(), 0.01 * worst);
+
+  const ProgramRun schism = runProgram({"check", file("bay.2dm"), "--target", "schism", "--time-step", "10"});
+  EXPECT_THAT(schism.output, HasSubstr("schism: advice, courant: "));
+  EXPECT_THAT(schism.output, Not(HasSubstr("schism: courant")));
+}
+
+TEST_F(TimeStep, IsDrawn) {
+  ASSERT_EQ(mesh({"--size", "2000", "--bathymetry", depths()}).code, 0);
+  const ProgramRun run = runProgram({"plot", file("bay.2dm"), "-o", file("step.svg"), "--color", "timestep"});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  ASSERT_EQ(runProgram({"plot", file("bay.2dm"), "-o", file("size.svg"), "--color", "size"}).code, 0);
+  EXPECT_TRUE(readText(file("step.svg")) != readText(file("size.svg")));
+  ASSERT_EQ(mesh({"--size", "2000"}).code, 0);
+  EXPECT_EQ(runProgram({"plot", file("bay.2dm"), "-o", file("none.svg"), "--color", "timestep"}).code, 3);
+}
+
+}  // namespace
+}  // namespace coastmesh::test
