@@ -21,6 +21,7 @@
 #include "gis/feature_names.hpp"
 #include "gis/node_sizes.hpp"
 #include "gis/poly_io.hpp"
+#include "gis/size_choice.hpp"
 #include "parallel/recorder.hpp"
 
 namespace coastmesh {
@@ -251,12 +252,16 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
     Recorder recorder;
     const Stopwatch sizing;
     const ItemLoop loop = recorder.loop("size", control);
-    DomainSizes sized = makeSizeFunction(job.sizes, sizes, domain, mostVertices(room), loop);
+    const SizeOptions wanted = job.sizes.choose ? chooseSizes(job.sizes, sizes, domain, loop) : job.sizes;
+    if (job.sizes.choose)
+      result.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(wanted) +
+                             "; give --size-shore or any other size to choose them yourself");
+    DomainSizes sized = makeSizeFunction(wanted, sizes, domain, mostVertices(room), loop);
     if (job.sizes.coast == CoastDetail::Follow) {
       FollowOptions follow = job.sizes.follow;
       if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Open;
       const auto makeSizes = [&](const Domain& followed) {
-        return makeSizeFunction(job.sizes, sizes, followed, mostVertices(room), loop);
+        return makeSizeFunction(wanted, sizes, followed, mostVertices(room), loop);
       };
       CleanReport coarser;
       domain = followShore(std::move(domain), sized, makeSizes, follow, input.coastline(), coarser);

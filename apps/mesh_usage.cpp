@@ -71,7 +71,8 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
 }
 
 void settle(MeshUsage& usage) {
-  settleSizing(usage.sizing, usage.job.finish.depth, usage.job.sizes);
+  const bool framed = !usage.job.input.bbox.empty() || !usage.job.input.clip.empty();
+  settleSizing(usage.sizing, usage.job.finish.depth, framed && !usage.job.finish.targets.empty(), usage.job.sizes);
   usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
   // The classical algorithms are there to compare with: they insert what their papers say.
   if (!usage.shrink_given) usage.job.mesh.shrink = usage.job.mesh.refine.algorithm == Algorithm::Relocate;

@@ -49,7 +49,7 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
   line.number("--size-max", sizes.most_m, "M", kAboveZero,
               "no size is more; given without any other size, no edge is longer");
   line.number("--grade", sizes.grade, "G", {0.0, 1.0, true},
-              "sizes at two places differ by at most this times their distance")
+              "sizes at two places differ by at most this times their distance", &usage.grade_given)
       .needs(kSizes);
   line.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
   line.number("--shore-rate", sizes.shore_rate, "R", kNotNegative,
@@ -77,7 +77,8 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
              "size where the depth is FROM or more and less than TO, all in metres, depths positive");
   line.choice(
       "--coast", "keep", {"keep", "follow"},
-      [&sizes](const std::string& chosen) {
+      [&sizes, &usage](const std::string& chosen) {
+        usage.coast_given = true;
         sizes.coast = chosen == "follow" ? CoastDetail::Follow : CoastDetail::Keep;
       },
       "whether the coast keeps its detail, or follows the sizes: its edges become about as long as they are, water and "
@@ -110,13 +111,21 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
       .needs({"--time-step"});
 }
 
-void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeOptions& sizes) {
+void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may_choose, SizeOptions& sizes) {
   sizes.bathymetry = depths.files;
   sizes.depth.positive_down = depths.positive_down;
   sizes.depth.water_level_m = depths.water_level_m;
   sizes.depth.least_depth_m = std::max(sizes.depth.least_depth_m, depths.min_depth_m);
   sizes.depth.bands.clear();
   for (const std::string& band : usage.bands) sizes.depth.bands.push_back(parseBand(band));
+  if (may_choose && !depths.files.empty() && !sizes.any() && sizes.most_m == SizeOptions::kNone) {
+    constexpr double kGrade = 0.2, kWaveElements = 100.0, kTimeStep = 5.0;
+    sizes.choose = true;
+    sizes.grade = usage.grade_given ? sizes.grade : kGrade;
+    sizes.depth.wave_elements = kWaveElements;
+    if (sizes.time_step_s == 0.0) sizes.time_step_s = kTimeStep;
+    if (!usage.coast_given) sizes.coast = CoastDetail::Follow;
+  }
   if (!usage.filter_given) sizes.depth.slope_filter_m = sizes.least_m;
   if (sizes.least_m > sizes.most_m) throw UsageError("--size-min is more than --size-max");
   if ((sizes.depth.any() || sizes.time_step_s > 0.0) && sizes.bathymetry.empty()) {

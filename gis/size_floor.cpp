@@ -31,9 +31,10 @@ double distanceBetween(const SizeBox& a, const SizeBox& b) {
 
 }  // namespace
 
-SizeFloor::SizeFloor(std::unique_ptr<SizeField> field, double rate, std::function<double(const Point&)> scale,
-                     const SizeBox& root, const DomainMask& mask, const ItemLoop& loop)
-    : field_(std::move(field)), rate_(rate), scale_(std::move(scale)), root_(root) {
+SizeFloor::SizeFloor(std::unique_ptr<SizeField> field, double rate, double least_m,
+                     std::function<double(const Point&)> scale, const SizeBox& root, const DomainMask& mask,
+                     const ItemLoop& loop)
+    : field_(std::move(field)), rate_(rate), least_m_(least_m), scale_(std::move(scale)), root_(root) {
   build(mask, loop);
 }
 
@@ -58,6 +59,7 @@ void SizeFloor::build(const DomainMask& mask, const ItemLoop& loop) {
       const auto& [low, high] = ranges[i];
       // Where the field ends is a cliff as well, wherever it lies: what is beyond would be graded down into the domain.
       if (high < kInfinity && !mask.meets(box)) continue;
+      if (high <= least_m_) continue;
       if (low == kInfinity) continue;                                     // nothing is known
       if (high < kInfinity && high - low <= kTolerance * high) continue;  // even
       // The least that is known to lie within stands for what is not.

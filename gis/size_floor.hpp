@@ -19,8 +19,9 @@ namespace coastmesh {
 // with the most in it, so that the result is too large by a few hundredths at most, never too small by more.
 class SizeFloor final : public SizeField {
  public:
-  // Over the square `root`, of what `mask` meets. `scale` is plane length over metres at a place. `loop` lends threads.
-  SizeFloor(std::unique_ptr<SizeField> field, double rate, std::function<double(const Point&)> scale,
+  // Over the square `root`, of what `mask` meets. What is no more than `least_m` matters to nobody: sizes are not less
+  // anyway. `scale` is plane length over metres at a place. `loop` lends threads.
+  SizeFloor(std::unique_ptr<SizeField> field, double rate, double least_m, std::function<double(const Point&)> scale,
             const SizeBox& root, const DomainMask& mask, const ItemLoop& loop);
 
   // Beside what `distances` tells the distance from, in metres times a rate, it is `factor` times as high, and falls to what
@@ -43,7 +44,7 @@ class SizeFloor final : public SizeField {
   void descend(std::uint32_t node, const SizeBox& box, const SizeBox& asked, double rate, double& most) const;
 
   std::unique_ptr<SizeField> field_;
-  double rate_;
+  double rate_, least_m_;
   std::function<double(const Point&)> scale_;
   SizeBox root_;
   std::vector<Node> nodes_;  // level after level

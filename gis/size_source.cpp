@@ -59,6 +59,13 @@ class ComposedSizes final : public SizeSource {
     });
   }
 
+  // Nothing asks for less, metres.
+  double leastWanted() const {
+    double least = options_.size_m;
+    for (const auto& field : fields_) least = std::min(least, field->least());
+    return std::max(least, options_.least_m);
+  }
+
   void limitSize(double most_m) { most_m_ = most_m; }
   double share(const SizeBox& box) const override { return mask_.share(box); }
 
@@ -277,7 +284,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     const TileRule rule = courantRule(options.time_step_s, kShortestOfSize * options.courant, options.depth);
     auto floor =
         std::make_unique<SizeFloor>(rasterFields(inputs.bathymetry, inputs.crs, projection, square, rule, loop),
-                                    options.grade, scale, root, mask, loop);
+                                    options.grade, source.leastWanted() / kShoreFloor, scale, root, mask, loop);
     if (options.coast == CoastDetail::Follow)
       floor->raiseNear(std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.grade), scale),
                        kShoreFloor);

@@ -40,10 +40,12 @@ struct SizeOptions {
   FollowOptions follow;                   // how
   bool keep_water_given = false;          // where not, a model's grid keeps what hangs together with an open boundary
 
+  bool choose = false;  // sizes are chosen for each domain: `chooseSizes`
+
   // Whether anything but bounds is asked for.
   bool any() const {
-    return size_m < kNone || shore_m < kNone || channel_elements > 0.0 || !features.empty() || !rasters.empty() ||
-           depth.any();
+    return choose || size_m < kNone || shore_m < kNone || channel_elements > 0.0 || !features.empty() ||
+           !rasters.empty() || depth.any();
   }
 };
 

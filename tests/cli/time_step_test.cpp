@@ -135,6 +135,53 @@ TEST_F(TimeStep, CheckListsTheWorstFirstAndKeepsAdviceApart) {
   EXPECT_THAT(schism.output, Not(HasSubstr("schism: courant")));
 }
 
+// Land with a ragged coast in the south of a box; the sea is 3 m deep at the coast and 4000 m far from it.
+TEST_F(TimeStep, ASeaForAModelHasSizesThatSuitIt) {
+  LonLatRing land{{-1.0, 39.0}};
+  for (int i = 0; i <= 400; ++i) {
+    const double x = -1.0 + 0.015 * i;
+    land.emplace_back(x, 41.0 + 0.3 * std::sin(3.0 * x) + 0.04 * std::sin(41.0 * x) + 0.01 * (i % 3));
+  }
+  land.emplace_back(5.0, 39.0);
+  land.push_back(land.front());
+  const std::string coast = write("land.geojson", geoJsonPolygons({{land}}));
+  std::string text = "ncols 120\nnrows 100\nxllcorner -1\nyllcorner 40\ncellsize 0.05\n";
+  for (int j = 0; j < 100; ++j) {
+    for (int i = 0; i < 120; ++i) {
+      const double x = -1.0 + 0.05 * (i + 0.5), y = 45.0 - 0.05 * (j + 0.5);
+      const double from_shore = std::max(0.0, y - 41.0 - 0.3 * std::sin(3.0 * x));
+      text +=
+          std::to_string(-3.0 - std::min(4000.0, 100.0 * from_shore + 2000.0 * std::max(0.0, from_shore - 1.0))) + " ";
+    }
+    text += "\n";
+  }
+  const std::vector<std::string> command{
+      "mesh",     coast,    "--domain", "outside",      "--bbox=0,40.2,4,44", "--bathymetry", write("sea.asc", text),
+      "--target", "adcirc", "--report", file("r.json"), "--overwrite"};
+  const auto runWith = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(arguments);
+  };
+  const ProgramRun run = runWith({"-o", file("chosen.14")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  const Json report = Json::parse(readText(file("r.json")));
+  EXPECT_GE(report.at("mesh").at("vertices").get<int>(), 10'000);
+  EXPECT_LE(report.at("mesh").at("vertices").get<int>(), 100'000);
+  EXPECT_GE(report.at("step").at("time_step_s").get<double>(), 5.0);
+
+  // What the summary says makes the same mesh.
+  const std::string lead = "as with ";
+  const std::size_t at = run.output.find(lead);
+  ASSERT_NE(at, std::string::npos) << run.output;
+  std::istringstream said(run.output.substr(at + lead.size(), run.output.find(';', at) - at - lead.size()));
+  std::vector<std::string> options{"-o", file("said.14")};
+  for (std::string word; said >> word;) options.push_back(word);
+  EXPECT_GE(options.size(), 14u);
+  ASSERT_EQ(runWith(options).code, 0);
+  EXPECT_TRUE(readText(file("chosen.14")) == readText(file("said.14")));
+}
+
 TEST_F(TimeStep, IsDrawn) {
   ASSERT_EQ(mesh({"--size", "2000", "--bathymetry", depths()}).code, 0);
   const ProgramRun run = runProgram({"plot", file("bay.2dm"), "-o", file("step.svg"), "--color", "timestep"});
