@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -77,8 +78,9 @@ void declareFinishOptions(CommandLine& line, FinishOptions& options) {
       "--boundary-column", boundaries.column, "NAME",
       "the column with the types of boundaries, in INPUT too where it is given; else the first called type, role, "
       "boundary, ibtype or kind");
-  line.number("--open-deeper", boundaries.open_deeper_m, "M", {-kInfinity, kInfinity},
-              "boundaries of outer loops are open where they are deeper than this");
+  line.number(
+      "--open-deeper", boundaries.open_deeper_m, "M", {-kInfinity, kInfinity},
+      "boundaries of outer loops are open where they are deeper than this; sides of a frame are open everywhere");
   line.number("--min-boundary", boundaries.least_length_m, "M", {0.0, kInfinity},
               "boundaries shorter than this become part of the longer one beside them");
   declareTargets(line, options.targets,
@@ -91,11 +93,16 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
   if (!grid.triangles.empty() && !targets.empty()) report.repairs = repairForTargets(grid, targets);
-  // Nodes that repairs made or moved get a depth of their own.
-  if (!report.repairs.repairs.empty() && !options.depth.files.empty()) {
+  // Nodes that repairs made or moved get a depth of their own; openings may be above the water then.
+  const auto ofDepths = [](const Repair& repair) { return repair.kind == TargetDefectKind::DryOpening; };
+  if (!std::ranges::all_of(report.repairs.repairs, ofDepths) && !options.depth.files.empty()) {
     const std::vector<std::string> warnings = std::move(report.depth.warnings);
     report.depth = setDepths(grid, options.depth, control);
     report.depth.warnings = warnings;
+    std::erase_if(report.repairs.repairs, ofDepths);
+    RepairReport again = repairForTargets(grid, targets);
+    std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
+    report.repairs.left = std::move(again.left);
   }
   return report;
 }

@@ -12,6 +12,7 @@
 #include "apps/grid_pieces.hpp"
 #include "apps/mesh_group.hpp"
 #include "apps/stopwatch.hpp"
+#include "gis/frame_box.hpp"
 #include "gis/grid_edit.hpp"
 #include "gis/ground_orientation.hpp"
 #include "parallel/recorder.hpp"
@@ -109,7 +110,6 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   }
   result.quality.add(part.quality);
   if (part.input_area_m2) result.input_area_m2 = result.input_area_m2.value_or(0.0) + *part.input_area_m2;
-  for (double area : part.grid.area_m2) result.mesh_area_m2 += area;
   result.digest = result.regions == 1 ? part.digest : combineDigests(result.digest, part.digest);
   result.seconds.triangulate += part.mesh_s.triangulate;
   result.seconds.size += part.size_s;
@@ -217,6 +217,8 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   });
   merge.finish();
   result.grid.crs = result.crs;
+  if (!input.isPoly()) keepInFrame(result.grid, input.coastline());
+  result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   FinishOptions finish = job.finish;
   if (result.read.boundary_types) finish.boundaries.inputs = job.input.files;
   if (finish.any()) {

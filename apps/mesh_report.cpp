@@ -207,6 +207,12 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     text += grouped(result.unresolved) + " triangles fall short of what was asked (at least " + bound + " degrees)\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";
+  const auto isOpenRing = [](const Boundary& boundary) {
+    return boundary.closed && boundary.role == BoundaryRole::Open;
+  };
+  if (const auto rings = std::ranges::count_if(result.grid.boundaries, isOpenRing); rings > 0)
+    text += grouped(static_cast<std::uint64_t>(rings)) +
+            " open boundaries are rings, which fort.14 and hgrid.gr3 hold as two that share their ends\n";
   text += finishSummary(job.finish, result.finish);
   if (result.refine.budget_reached) text += "the vertex budget was reached before all angles were good\n";
   return text;

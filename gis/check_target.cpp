@@ -21,11 +21,10 @@ namespace coastmesh {
 namespace {
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
-    "wrong count",          "broken edge",         "clockwise",       "unused node",     "repeated node",
-    "hanging node",         "pinched node",        "orphan cell",     "unknown depth",   "no boundary",
-    "boundary off the rim", "boundary twice",      "boundary turned", "looped boundary", "wrong shore",
-    "two open edges",       "open and solid edge", "lone wall",       "valence",         "large angle",
-    "not orthogonal",       "small flow link",     "courant"};
+    "wrong count",    "broken edge",     "clockwise",       "unused node",    "repeated node",   "hanging node",
+    "pinched node",   "orphan cell",     "unknown depth",   "dry opening",    "no boundary",     "boundary off the rim",
+    "boundary twice", "boundary turned", "looped boundary", "wrong shore",    "two open edges",  "open and solid edge",
+    "lone wall",      "valence",         "large angle",     "not orthogonal", "small flow link", "courant"};
 
 bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
 
@@ -59,6 +58,7 @@ class TargetCheck {
     checkNodes();
     checkHangingNodes();
     if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
+    if (target_ != Target::Swan && target_ != Target::Dflowfm) checkOpenings();
     if (target_ == Target::Fvcom) checkOpenCells();
     if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
     if (target_ == Target::Dflowfm) checkFlowLinks();
@@ -209,6 +209,16 @@ class TargetCheck {
     // Islands close themselves; for the others SCHISM wants two linked segments.
     if (boundary.repeats_first && (target_ == Target::Schism || boundary.role == BoundaryRole::Island))
       add(TargetDefectKind::LoopedBoundary, grid_.nodes[first], -1, first);
+  }
+
+  void checkOpenings() {
+    if (grid_.z.empty()) return;
+    std::vector<bool> dry(grid_.nodes.size(), false);
+    for (const Boundary& boundary : grid_.boundaries)
+      if (isOpening(boundary.role))
+        for (const std::uint32_t node : boundary.nodes) dry[node] = grid_.z[node] > 0.0;
+    for (std::uint32_t node = 0; node < dry.size(); ++node)
+      if (dry[node]) add(TargetDefectKind::DryOpening, grid_.nodes[node], -1, node, grid_.z[node]);
   }
 
   void checkOpenCells() {

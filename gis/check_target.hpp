@@ -25,6 +25,7 @@ enum class TargetDefectKind {
   PinchedNode,     // the mesh touches itself in a node
   OrphanCell,      // a triangle without a neighbour
   UnknownDepth,    // a node without a depth
+  DryOpening,      // a node of an opening that is above the water
   NoBoundary,      // an edge of the rim in no boundary
   BoundaryOffRim,  // two nodes of a boundary that follow one another and are no edge of the rim
   BoundaryTwice,   // an edge of the rim in two boundaries
@@ -40,7 +41,7 @@ enum class TargetDefectKind {
   SmallFlowLink,   // an edge with the neighbours' centres too near to one another
   Courant,         // a triangle whose Courant number the time step puts out of range
 };
-inline constexpr std::size_t kTargetDefectKinds = 23;
+inline constexpr std::size_t kTargetDefectKinds = 24;
 std::string_view toString(TargetDefectKind kind);
 
 struct TargetDefect {
@@ -48,9 +49,10 @@ struct TargetDefect {
   Point place;                 // in the grid's CRS
   std::int64_t triangle = -1;  // index, -1 where none is meant
   std::int64_t node = -1;      // the same
-  double value = 0.0;          // degrees, triangles round a node, a cosine, a share (`FlowLink`), a Courant number
-  std::string text;            // of WrongCount
-  bool advice = false;         // the model runs all the same, but not as well as it could
+  double value =
+      0.0;  // degrees, metres above the water, triangles round a node, a cosine, a share (`FlowLink`), a Courant number
+  std::string text;     // of WrongCount
+  bool advice = false;  // the model runs all the same, but not as well as it could
 };
 
 struct TargetCheckOptions {

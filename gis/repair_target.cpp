@@ -8,6 +8,7 @@
 #include "gis/geodesy.hpp"
 #include "gis/local_plane.hpp"
 #include "gis/repair_boundaries.hpp"
+#include "gis/repair_depths.hpp"
 #include "gis/repair_pinches.hpp"
 #include "gis/repair_shape.hpp"
 #include "gis/repair_state.hpp"
@@ -77,6 +78,8 @@ void mend(RepairState& state, const FoundDefect& found) {
       return takeOutOrphan(state, found);
     case TargetDefectKind::LoneWall:
       return openLoneWall(state, found);
+    case TargetDefectKind::DryOpening:
+      return lowerDryOpening(state, found);
     case TargetDefectKind::TwoOpenEdges:
     case TargetDefectKind::OpenAndSolid:
     case TargetDefectKind::LargeAngle:

@@ -19,7 +19,7 @@ import zipfile
 PROGRAM, SOURCES, MODULES, PLUGIN = (os.path.abspath(path) for path in sys.argv[1:5])
 PYTHON = sys.executable
 FENCE = re.compile(r"^```(?P<info>[^\n]+)?\n(?P<text>.*?)^```$", re.M | re.S)
-GUIDE = sorted(glob.glob(os.path.join(SOURCES, "docs", "*.md")))
+GUIDE = sorted(glob.glob(os.path.join(SOURCES, "docs", "**", "*.md"), recursive=True))
 PAGES = [os.path.join(SOURCES, name) for name in ("README.md", "CONTRIBUTING.md")] + GUIDE
 
 
@@ -133,10 +133,41 @@ class GuideTest(unittest.TestCase):
     def test_qgis(self):
         self.run_page("qgis.md")
 
+    def run_model(self, model, grid):
+        """The page's commands; a grid of ten to a hundred thousand nodes in the files that the model reads."""
+        folder, ran = self.run_page(f"models/{model}.md")
+        self.assertGreaterEqual(ran, 1)
+        info = json.loads(folder.run(f"coastmesh info --json {grid}"))
+        self.assertTrue(10_000 <= info["nodes"] <= 100_000, info["nodes"])
+        self.assertGreaterEqual(info["step"]["time_step_s"], 5.0)
+        return {name for name in os.listdir(folder.path) if not name.startswith(".")} - {"data"}
+
+    def test_models_adcirc(self):
+        self.run_model("adcirc", "fort.14")
+
+    def test_models_schism(self):
+        self.assertLessEqual({"hgrid.gr3", "hgrid.ll"}, self.run_model("schism", "hgrid.gr3"))
+
+    def test_models_fvcom(self):
+        self.assertLessEqual({f"sea_{part}.dat" for part in ("grd", "dep", "obc", "cor")},
+                             self.run_model("fvcom", "sea_grd.dat"))
+
+    def test_models_telemac(self):
+        self.assertLessEqual({"sea.slf", "sea.cli"}, self.run_model("telemac", "sea.slf"))
+
+    def test_models_dflowfm(self):
+        self.run_model("dflowfm", "sea_net.nc")
+
+    def test_models_swan(self):
+        self.run_model("swan", "fort.14")
+
+    def test_models_ww3(self):
+        self.run_model("ww3", "sea_ww3.msh")
+
     def test_every_page_has_a_test(self):
-        pages = {os.path.basename(path) for path in GUIDE}
-        tested = {name[len("test_"):] + ".md" for name in dir(self) if name.startswith("test_")}
-        self.assertLessEqual(pages - {"README.md", "options.md"}, tested)
+        pages = {os.path.relpath(path, os.path.join(SOURCES, "docs"))[:-len(".md")].replace(os.sep, "_") for path in GUIDE}
+        tested = {name[len("test_"):] for name in dir(self) if name.startswith("test_")}
+        self.assertLessEqual(pages - {"README", "models_README", "options"}, tested)
 
 
 class CommandsTest(unittest.TestCase):

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -426,6 +428,30 @@ TEST(CheckTarget, Orthogonality) {
   grid.nodes[30].y += 760.0;
   ASSERT_TRUE(kindsIn(grid, Target::Dflowfm).contains(TargetDefectKind::NotOrthogonal));
   expectMended(grid, {Target::Dflowfm});
+}
+
+TEST(CheckTarget, OpeningsAreUnderWater) {
+  Grid grid = openGrid();
+  const auto open = std::ranges::find(grid.boundaries, BoundaryRole::Open, &Boundary::role);
+  ASSERT_NE(open, grid.boundaries.end());
+  // At its end, where land is near, two nodes in a row.
+  const std::uint32_t first = open->nodes.at(0), second = open->nodes.at(1);
+  grid.z[first] = 3.0;
+  grid.z[second] = 0.5;
+  for (const Target target : kAll) {
+    const bool minds = target != Target::Swan && target != Target::Dflowfm;
+    EXPECT_EQ(kindsIn(grid, target).contains(TargetDefectKind::DryOpening), minds);
+  }
+  Grid mended = grid;
+  const RepairReport report = repairForTargets(mended, std::array{Target::Adcirc});
+  EXPECT_EQ(report.repairs.size(), 2u);
+  EXPECT_EQ(kindsIn(mended, Target::Adcirc), Kinds{});
+  EXPECT_LT(mended.z[first], 0.0);
+  EXPECT_LT(mended.z[second], 0.0);
+  // Above the water elsewhere is land that may flood.
+  grid.z[first] = grid.z[second] = -5.0;
+  grid.z[40] = 3.0;
+  EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{});
 }
 
 TEST(CheckTarget, Courant) {

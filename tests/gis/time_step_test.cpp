@@ -133,7 +133,7 @@ TEST(TimeStep, SizesGrowTowardsDeepWaterAsFarAsGradingNeeds) {
   for (double x = 2000.0; x < 98000.0; x += 777.0) {
     const double needed = x < 50000.0 ? std::max(shelf, deep - 0.1 * (50500.0 - x)) : deep;
     EXPECT_GE(size->at({x, 25000.0}), needed) << x;
-    EXPECT_LE(size->at({x, 25000.0}), 1.1 * std::max(500.0, deep / 0.6 - 0.1 * std::max(0.0, 49500.0 - x))) << x;
+    EXPECT_LE(size->at({x, 25000.0}), 1.1 * std::max(500.0, deep / 0.6 - 0.097 * std::max(0.0, 49500.0 - x))) << x;
   }
 }
 

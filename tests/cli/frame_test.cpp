@@ -1,0 +1,121 @@
+// Seas in a frame: where their open boundaries are, and how deep.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+class Frame : public ProgramTest {
+ protected:
+  std::string island() const {
+    return write("island.geojson", geoJsonPolygons({{{{1, 61}, {2, 61}, {2.2, 61.4}, {1.4, 61.6}, {1, 61}}}}));
+  }
+  // The nodes of a fort.14 file: x, y, depth; and those of its open boundaries, by boundary.
+  struct Fort14 {
+    std::vector<std::array<double, 3>> nodes;
+    std::vector<std::vector<std::size_t>> open;
+  };
+  Fort14 read(const std::string& path) const {
+    std::istringstream text(readText(path));
+    std::string line;
+    std::getline(text, line);
+    std::size_t triangles = 0, nodes = 0, number = 0;
+    text >> triangles >> nodes;
+    Fort14 grid;
+    grid.nodes.resize(nodes);
+    for (auto& [x, y, depth] : grid.nodes) text >> number >> x >> y >> depth;
+    for (std::size_t t = 0; t <= triangles; ++t) std::getline(text, line);
+    std::size_t boundaries = 0;
+    text >> boundaries;
+    std::getline(text, line);
+    std::getline(text, line);
+    for (std::size_t b = 0; b < boundaries; ++b) {
+      std::size_t count = 0;
+      text >> count;
+      std::getline(text, line);
+      for (grid.open.emplace_back().resize(count); std::size_t & node : grid.open.back()) {
+        text >> node;
+        --node;
+      }
+    }
+    return grid;
+  }
+};
+
+TEST_F(Frame, NothingReachesPastTheBox) {
+  const ProgramRun run = runProgram({"mesh", island(), "--domain", "outside", "--bbox=-9,58,9,64", "--size-shore",
+                                     "10000", "--size-max", "90000", "--coast", "follow", "-o", file("sea.14")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  double north = 0.0;
+  for (const auto& [x, y, depth] : read(file("sea.14")).nodes) {
+    EXPECT_TRUE(x >= -9.0 && x <= 9.0 && y >= 58.0 && y <= 64.0) << x << " " << y;
+    north = std::max(north, y);
+  }
+  EXPECT_EQ(north, 64.0);
+}
+
+TEST_F(Frame, ARingOfOpenBoundaryIsSaidToBeTwo) {
+  const std::vector<std::string> arguments{"mesh",         island(), "--domain", "outside",     "--bbox=-9,58,9,64",
+                                           "--size-shore", "10000",  "-o",       file("sea.14")};
+  const ProgramRun run = runProgram(arguments);
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("1 open boundaries are rings, which fort.14 and hgrid.gr3 hold as two"));
+  const Fort14 grid = read(file("sea.14"));
+  ASSERT_EQ(grid.open.size(), 2u);
+  EXPECT_EQ(grid.open[0].front(), grid.open[1].back());
+  EXPECT_EQ(grid.open[0].back(), grid.open[1].front());
+}
+
+// The frame cuts through land whose heights the raster has, 30 m above the water.
+TEST_F(Frame, OpenNodesAreUnderWater) {
+  const std::string land = write("land.geojson", geoJsonPolygons({{{{-1, -1}, {5, -1}, {5, 1}, {-1, 1}, {-1, -1}}}}));
+  std::string text = "ncols 60\nnrows 60\nxllcorner -1\nyllcorner -1\ncellsize 0.1\n";
+  for (int j = 0; j < 60; ++j) {
+    const double y = 5.0 - 0.1 * (j + 0.5);
+    for (int i = 0; i < 60; ++i) text += std::to_string(y < 1.25 ? 30.0 : -20.0 * y) + " ";
+    text += "\n";
+  }
+  const std::vector<std::string> arguments{
+      "mesh",         land,           "--domain",           "outside", "--bbox=0,0,4,4", "--size-shore",
+      "20000",        "--bathymetry", write("b.asc", text), "-o",      file("sea.14"),   "-o",
+      file("sea.nc"), "--overwrite"};
+  ASSERT_EQ(runProgram(arguments).code, 0);
+  const ProgramRun before = runProgram({"check", file("sea.14"), "--target", "adcirc"});
+  EXPECT_EQ(before.code, 1);
+  EXPECT_THAT(before.output, HasSubstr("adcirc: dry opening: "));
+  std::vector<std::string> mended = arguments;
+  mended.insert(mended.end(), {"--target", "adcirc"});
+  const ProgramRun run = runProgram(mended);
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("dry opening"));
+  const Fort14 grid = read(file("sea.14"));
+  for (const auto& nodes : grid.open)
+    for (const std::size_t node : nodes) EXPECT_GT(grid.nodes.at(node)[2], 0.0);
+  EXPECT_EQ(runProgram({"check", file("sea.14"), "--target", "adcirc"}).code, 0);
+}
+
+// Two capes of land reach out of the box in the west, with 20 km of open water between them.
+TEST_F(Frame, ShortPiecesOfOpenBoundaryGo) {
+  const std::string land =
+      write("capes.geojson", geoJsonPolygons({{{{-1, 1}, {0.3, 1}, {0.3, 1.5}, {-1, 1.5}, {-1, 1}}},
+                                              {{{-1, 1.68}, {0.3, 1.68}, {0.3, 2.2}, {-1, 2.2}, {-1, 1.68}}}}));
+  std::vector<std::string> arguments{"mesh",         land,   "--domain", "outside",      "--bbox=0,0,4,4",
+                                     "--size-shore", "5000", "-o",       file("sea.14"), "--overwrite"};
+  ASSERT_EQ(runProgram(arguments).code, 0);
+  EXPECT_EQ(read(file("sea.14")).open.size(), 2u);
+  arguments.insert(arguments.end(), {"--min-boundary", "30000"});
+  ASSERT_EQ(runProgram(arguments).code, 0);
+  EXPECT_EQ(read(file("sea.14")).open.size(), 1u);
+}
+
+}  // namespace
+}  // namespace coastmesh::test
