@@ -19,6 +19,7 @@
 #include "gis/coast_follow.hpp"
 #include "gis/error.hpp"
 #include "gis/feature_names.hpp"
+#include "gis/guide_lines.hpp"
 #include "gis/node_sizes.hpp"
 #include "gis/poly_io.hpp"
 #include "gis/size_choice.hpp"
@@ -212,14 +213,14 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
 // the shore then, it follows them anew. `sized` is replaced.
 template <typename MakeSizes>
 Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
-                   const Coastline& coastline, CleanReport& report) {
+                   const ShoreGuides& guides, const Coastline& coastline, CleanReport& report) {
   constexpr double kSame = 1.05;
-  Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report);
+  Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides);
   DomainSizes again = makeSizes(followed);
   const auto same = [&](const Point& p) { return again.function->at(p) <= kSame * sized.function->at(p); };
   if (!std::ranges::all_of(followed.pslg.points, same)) {
     report = {};
-    followed = followSizes(std::move(domain), *again.function, options, coastline, report);
+    followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides);
   }
   sized = std::move(again);
   return followed;
@@ -263,8 +264,10 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
       const auto makeSizes = [&](const Domain& followed) {
         return makeSizeFunction(wanted, sizes, followed, mostVertices(room), loop);
       };
+      const ShoreGuides guides{projected(sizes.passages, domain.projection),
+                               projected(sizes.barriers, domain.projection), job.sizes.passage_elements};
       CleanReport coarser;
-      domain = followShore(std::move(domain), sized, makeSizes, follow, input.coastline(), coarser);
+      domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), coarser);
       std::ranges::move(coarser.notes, std::back_inserter(result.notes));
       for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     }

@@ -101,6 +101,15 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
           "boundary (or "
           "else the largest), or all; auto is open with --target, else all")
       .needs({"--coast follow"});
+  line.texts("--passages", sizes.passages, kVectorFile, false,
+             "with --coast follow: lines along which water stays open, made as wide as --passage-elements where it is "
+             "narrower; their attribute 'name' is told")
+      .needs({"--coast follow"});
+  line.number("--passage-elements", sizes.passage_elements, "N", {0.5, 100.0}, "elements across passages")
+      .needs({"--passages"});
+  line.texts("--barriers", sizes.barriers, kVectorFile, false,
+             "with --coast follow: lines along which water is closed, half an element wide")
+      .needs({"--coast follow"});
   line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
               "no element smaller than the Courant number allows with this time step; triangles in which it does not "
               "hold are told, with exit code 1; 0 asks for none");

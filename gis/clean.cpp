@@ -108,6 +108,10 @@ std::string_view toString(EditKind kind) {
       return "cut-off water";
     case EditKind::MovedPoint:
       return "moved point";
+    case EditKind::WidenedPassage:
+      return "widened passage";
+    case EditKind::Barrier:
+      return "barrier";
   }
   assert(false);
   return "";

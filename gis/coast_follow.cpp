@@ -2,112 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
+#include "gis/follow_notes.hpp"
+#include "gis/shore_balance.hpp"
 #include "gis/shore_chains.hpp"
 #include "gis/shore_coarsen.hpp"
 #include "gis/shore_ends.hpp"
 #include "gis/shore_graph.hpp"
 #include "gis/shore_mend.hpp"
-#include "gis/shore_opening.hpp"
 #include "gis/shore_shift.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kNamed = 3;  // cut-off waters
-// Of the area of the water.
-constexpr double kClose = 0.01;   // so near the order of land and water need not be changed for
-constexpr double kNoted = 0.005;  // so near shores need not be moved for
-// Of the narrowest land that stays.
-constexpr double kStep = 0.1, kLeastFirst = 0.45;
-constexpr int kHalvings = 3;
-
-struct Opened {
-  OpenedWater water;
-  WaterAreas gained;
-  std::vector<std::tuple<EditKind, Point, RegionId>> edits;
-  double error = std::numeric_limits<double>::infinity();  // share of the water that there is too much
-};
-
-// Land narrower than `first` times the narrowest that stays goes, then narrow water, then the rest of the land, and again water.
-Opened openBoth(const ShoreGraph& graph, const ShoreSizes& sizes, const FollowOptions& options, double first) {
-  Opened opened;
-  const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
-    opened.edits.emplace_back(kind, place, water);
-  };
-  ShoreGraph land = openLand(graph, sizes, first * options.land_min, edit, opened.gained);
-  if (first < 1.0) {
-    land = openWater(land, sizes, options.channel_min, KeepWater::All, edit, opened.gained).graph;
-    land = openLand(land, sizes, options.land_min, edit, opened.gained);
-  }
-  opened.water = openWater(land, sizes, options.channel_min, options.keep, edit, opened.gained);
-  double gained = 0.0, area = 0.0;
-  for (const auto& [water, more] : opened.gained) gained += more;
-  for (const auto& [water, there] : opened.water.areas) area += there;
-  opened.error = gained / area;
-  return opened;
-}
-
-// Where both land and water are narrow, what goes first leaves room for the other: the less land goes before water is closed, the less
-// water there is in the end. As much goes first as brings the water's area near to what it was.
-Opened openAlike(const ShoreGraph& graph, const ShoreSizes& sizes, const FollowOptions& options) {
-  double high = 1.0, low = 1.0;
-  Opened best = openBoth(graph, sizes, options, high);
-  const auto attempt = [&](double first) {
-    Opened opened = openBoth(graph, sizes, options, first);
-    (opened.error > 0.0 ? high : low) = first;
-    if (std::abs(opened.error) < std::abs(best.error)) best = std::move(opened);
-  };
-  if (options.land_min == 0.0 || best.error < kClose) return best;
-  while (low == 1.0 && high > kLeastFirst && std::abs(best.error) > kClose) attempt(high - kStep);
-  for (int i = 0; i < kHalvings && low < 1.0 && std::abs(best.error) > kClose; ++i) attempt(0.5 * (low + high));
-  return best;
-}
-
-std::string noteOn(std::vector<CutOffWater>&& waters, const FollowOptions& options, const Projection& projection) {
-  std::ranges::stable_sort(waters, std::ranges::greater{}, &CutOffWater::area);
-  std::string note =
-      "closing narrow water cut off " + std::to_string(waters.size()) +
-      (options.keep == KeepWater::All ? " waters, which are meshed apart" : " waters, which are left out");
-  for (std::size_t i = 0; i < std::min(kNamed, waters.size()); ++i) {
-    const Point place = projection.inverse(waters[i].place);
-    char text[120];
-    const double area = waters[i].area;
-    std::snprintf(text, sizeof text,
-                  projection.isIdentity() ? "%s %.3g at (%.6g, %.6g)" : "%s %.3g km² at (%.6g, %.6g)",
-                  i == 0 ? ": the largest" : ",", projection.isIdentity() ? area : 1e-6 * area, place.x, place.y);
-    note += text;
-  }
-  return note + "; a smaller --channel-min keeps what joins them, --keep-water decides what stays";
-}
+constexpr double kNoted = 0.005;  // of the area of the water: so near shores need not be moved for
 
 }  // namespace
 
 Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
-                   CleanReport& report) {
+                   CleanReport& report, const ShoreGuides& guides) {
   labelSegments(domain.pslg);
   const Projection& projection = domain.projection;
   const std::vector<Point> points = domain.pslg.points;
   ShoreGraph graph{std::move(domain.pslg), std::vector<VertexId>(points.size())};
   std::iota(graph.source.begin(), graph.source.end(), VertexId{0});
-  sampleShores(graph, size);
-  Opened opened = openAlike(graph, {size, projection}, options);
-  for (const auto& [kind, place, water] : opened.edits)
+  const ShoreSizes sizes{size, projection};
+  const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
     report.add(kind, projection.inverse(place), coastline.features[static_cast<std::size_t>(water)].fid);
-  if (!opened.water.cut_off.empty())
-    report.notes.push_back(noteOn(std::move(opened.water.cut_off), options, projection));
+  };
+  sampleShores(graph, size, guides.tree());
+  FollowNotes noted;
+  graph = widenPassages(graph, sizes, guides, edit, noted.widened, noted.dry);
+  graph = closeBarriers(graph, sizes, guides, edit);
+  OpenedShores opened = openShores(graph, sizes, guides, options);
+  for (const auto& [kind, place, water] : opened.edits) edit(kind, place, water);
+  noted.straits = std::move(opened.straits);
+  noted.cut_off = std::move(opened.cut_off);
+  for (std::string& text : notesOf(std::move(noted), guides, options, projection))
+    report.notes.push_back(std::move(text));
 
-  ShoreChains chains = chainsOf(std::move(opened.water.graph), size);
+  ShoreChains chains = chainsOf(std::move(opened.graph), size);
   const auto reportAs = [&](EditKind kind, VertexId v) {
     if (chains.source[v] != kNone)
       report.add(kind, projection.inverse(points[chains.source[v]]),
@@ -133,7 +74,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOption
   mendShores(chains, gone, moved);
   WaterAreas missing;
   for (const auto& [water, gained] : opened.gained)
-    if (std::abs(gained) > kNoted * opened.water.areas[water]) missing[water] = -gained;
+    if (std::abs(gained) > kNoted * opened.areas[water]) missing[water] = -gained;
   if (!missing.empty()) shiftShores(chains, missing, projection, moved);
   graph = graphOf(std::move(chains));
 

@@ -3,27 +3,19 @@
 #include "core/size_function.hpp"
 #include "gis/clean.hpp"
 #include "gis/coastline.hpp"
+#include "gis/follow_options.hpp"
+#include "gis/shore_guides.hpp"
 
 namespace coastmesh {
-
-// Of the parts of each region of water, into which closing may have cut it: all of them, the largest, or those at an open boundary, the
-// largest where none is.
-enum class KeepWater { All, Largest, Open };
-
-// What is too narrow to be followed, as a multiple of the size wanted there; 0: nothing is.
-struct FollowOptions {
-  double channel_min = 1.0;  // water
-  double land_min = 1.0;     // land
-  KeepWater keep = KeepWater::All;
-};
 
 // Makes the shore that of a sea seen at the sizes wanted: narrow land that ends in water and small islands go, narrow and small
 // water is closed (`openLand`, `openWater`), shores get segments about as long as the size (`coarsenShores`), and what is still short,
 // sharp or narrow is mended by moving vertices by up to half the size (`mendShores`). Where the area of a water would differ by more than
 // half a percent, its shores are moved by up to a tenth of the size (`shiftShores`). Nothing crosses. Lines inside the water stay as
-// they are, open boundaries keep their corners. What was changed goes to the report, with a note on the largest waters that were cut off. A graph without labels is labelled
+// they are, open boundaries keep their corners. What was changed goes to the report, with notes on the
+// largest waters that were cut off, the longest straits that were closed, and what became of `guides`, which come first of all. A graph without labels is labelled
 // first, by its holes. Throws BadPslg where that cannot be.
 Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
-                   CleanReport& report);
+                   CleanReport& report, const ShoreGuides& guides = {});
 
 }  // namespace coastmesh

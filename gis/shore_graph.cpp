@@ -29,7 +29,7 @@ std::vector<std::uint8_t> usesOf(const Pslg& pslg) {
 
 }  // namespace
 
-void sampleShores(ShoreGraph& graph, const SizeFunction& size) {
+void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines) {
   Pslg& pslg = graph.pslg;
   std::vector<Box> boxes;
   for (const Segment& s : pslg.segments) boxes.push_back(Box::of(pslg.points[s.a], pslg.points[s.b]));
@@ -43,6 +43,7 @@ void sampleShores(ShoreGraph& graph, const SizeFunction& size) {
     bool cut = false;
     if (isBoundary(segment) && count >= 2.0) {
       tree.visit(boxes[s].grownBy(wanted), [&](std::uint32_t other) { cut = cut || other != s; });
+      lines.visit(boxes[s].grownBy(wanted), [&](std::uint32_t) { cut = true; });
     }
     Segment piece = segment;
     for (double i = 1.0; cut && i < count; ++i) {
@@ -237,6 +238,13 @@ ShoreGraph graphOf(const ShoreGraph& before, const ShoreTriangles& triangles) {
   }
   compact(graph, used);
   return graph;
+}
+
+void dropLoosePoints(ShoreGraph& graph) {
+  std::vector<bool> used(graph.pslg.points.size(), false);
+  for (VertexId v = 0; v < used.size(); ++v) used[v] = graph.source[v] != kNone;
+  for (const Segment& s : graph.pslg.segments) used[s.a] = used[s.b] = true;
+  compact(graph, used);
 }
 
 }  // namespace coastmesh

@@ -7,6 +7,8 @@
 
 #include "core/metric.hpp"
 #include "gis/box.hpp"
+#include "gis/shore_guides.hpp"
+#include "gis/shore_patches.hpp"
 
 namespace coastmesh {
 
@@ -14,39 +16,21 @@ namespace {
 
 constexpr double kLongestIsland = 3.0;           // in elements: what is longer stays
 constexpr double kShallow = 0.3;                 // of the size: what reaches no deeper is left to simplifying
+constexpr double kPassage = 0.55;                // of its width: what is nearer to its line is part of a passage
 constexpr double kLeastWater = 6.0;              // triangles of the size wanted
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
-// Triangles that hang together by edges that `passes`.
-struct Patches {
-  std::vector<std::uint32_t> of;  // by triangle; kNone: in none
-  std::vector<std::vector<TriId>> triangles;
-};
-
-template <typename In>
-Patches patchesOf(const TriMesh& mesh, In&& in) {
-  Patches patches;
-  patches.of.assign(mesh.triangles.size(), kNone);
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    if (patches.of[t] != kNone || !in(t)) continue;
-    const auto number = static_cast<std::uint32_t>(patches.triangles.size());
-    std::vector<TriId>& patch = patches.triangles.emplace_back(1, t);
-    patches.of[t] = number;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      for (const EdgeRef e : mesh.triangles[patch[i]].adj) {
-        if (e == kNone || patches.of[triOf(e)] != kNone || !in(triOf(e))) continue;
-        patches.of[triOf(e)] = number;
-        patch.push_back(triOf(e));
-      }
-    }
-  }
-  return patches;
-}
-
 class Opening {
  public:
-  Opening(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreEdit& edit, WaterAreas& gained)
-      : t_(triangulateShores(graph, sizes.wanted)), projection_(sizes.projection), edit_(edit), gained_(gained) {}
+  Opening(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
+          WaterAreas& gained)
+      : t_(triangulateShores(graph, sizes.wanted)),
+        projection_(sizes.projection),
+        passages_(guides.passages),
+        barriers_(guides.barriers),
+        passage_elements_(guides.elements),
+        edit_(edit),
+        gained_(gained) {}
 
   ShoreTriangles& triangles() { return t_; }
 
@@ -76,7 +60,8 @@ class Opening {
       return beside <= 1;
     };
     for (TriId t = 0; t < thin.size(); ++t) {
-      thin[t] = isLand(t) && t_.width[t] < narrowest && !keeps_all_[t] && (usesOf(t) & ~kOnShore) == 0;
+      thin[t] = isLand(t) && t_.width[t] < narrowest && !keeps_all_[t] && (usesOf(t) & ~kOnShore) == 0 &&
+                !isAt(barriers_, t, 0.0);
       if (thin[t] && isEnd(t)) ends.push_back(t), off[t] = true;
     }
     for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -97,7 +82,8 @@ class Opening {
   void openWater(double narrowest) {
     const auto narrow = [&](TriId t) {
       const std::uint8_t use = usesOf(t);
-      return !isLand(t) && t_.width[t] < narrowest && (use & kInWater) == 0 && !allOpen(t);
+      return !isLand(t) && t_.width[t] < narrowest && (use & kInWater) == 0 && !allOpen(t) &&
+             !isAt(passages_, t, kPassage * passage_elements_ * t_.size[t]);
     };
     bool any_wide = false;
     for (TriId t = 0; t < mesh().triangles.size() && !any_wide; ++t) any_wide = !isLand(t) && !narrow(t);
@@ -179,6 +165,10 @@ class Opening {
   double groundAreaOf(TriId t) const {
     const double scale = projection_.scaleAt(centreOf(t));
     return areaOf(t) / scale / scale;
+  }
+  bool isAt(const LineZone& lines, TriId t, double reach) const {
+    const auto& v = mesh().triangles[t].v;
+    return lines.holds(mesh().point(v[0]), mesh().point(v[1]), mesh().point(v[2]), reach);
   }
   // In triangles of the size wanted.
   double elementsIn(const std::vector<TriId>& patch) const {
@@ -273,6 +263,8 @@ class Opening {
 
   ShoreTriangles t_;
   const Projection& projection_;
+  const LineZone passages_, barriers_;
+  const double passage_elements_;
   const ShoreEdit& edit_;
   WaterAreas& gained_;
   double narrowest_ = 0.0;
@@ -281,19 +273,20 @@ class Opening {
 
 }  // namespace
 
-ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, double narrowest, const ShoreEdit& edit,
-                    WaterAreas& gained) {
-  Opening opening(graph, sizes, edit, gained);
+ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                    const ShoreEdit& edit, WaterAreas& gained) {
+  Opening opening(graph, sizes, guides, edit, gained);
   opening.openLand(narrowest);
   return graphOf(graph, opening.triangles());
 }
 
-OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, double narrowest, KeepWater keep,
-                      const ShoreEdit& edit, WaterAreas& gained) {
-  Opening opening(graph, sizes, edit, gained);
+OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                      KeepWater keep, const ShoreEdit& edit, WaterAreas& gained) {
+  Opening opening(graph, sizes, guides, edit, gained);
   OpenedWater opened;
   opening.openWater(narrowest);
   opening.keepWater(keep, opened.cut_off);
+  opened.straits = closedStraits(opening.triangles(), sizes.projection);
   opened.areas = opening.areas();
   opened.graph = graphOf(graph, opening.triangles());
   return opened;

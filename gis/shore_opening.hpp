@@ -4,28 +4,18 @@
 #include <map>
 
 #include "gis/clean.hpp"
-#include "gis/coast_follow.hpp"
-#include "gis/projection.hpp"
+#include "gis/follow_options.hpp"
 #include "gis/shore_graph.hpp"
+#include "gis/shore_guides.hpp"
+#include "gis/shore_straits.hpp"
 
 namespace coastmesh {
-
-// Called with the kind of an edit, a place of the plane and the region of water beside it.
-using ShoreEdit = std::function<void(EditKind, const Point&, RegionId)>;
-
-// Square metres on the ground, by region of water.
-using WaterAreas = std::map<RegionId, double>;
-
-struct ShoreSizes {
-  const SizeFunction& wanted;
-  const Projection& projection;
-};
 
 // A morphological opening of the land, with disks of `narrowest` times the size wanted for diameters: what no disk fits into and ends in
 // water goes (spits, capes); so do islands smaller than a triangle of that size. What joins two lands stays, and so does an island
 // longer than three elements, however thin. 0 leaves all of it. What regions of water gain is added to `gained`, as below.
-ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, double narrowest, const ShoreEdit& edit,
-                    WaterAreas& gained);
+ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                    const ShoreEdit& edit, WaterAreas& gained);
 
 // A part of a region of water that nothing joins to the one that stays, mostly since what did was closed.
 struct CutOffWater {
@@ -36,6 +26,7 @@ struct CutOffWater {
 struct OpenedWater {
   ShoreGraph graph;
   std::vector<CutOffWater> cut_off;
+  std::vector<ClosedStrait> straits;
   WaterAreas areas;
 };
 
@@ -43,7 +34,7 @@ struct OpenedWater {
 // Triangles at lines inside the water and at a corner of an open boundary stay. Where nothing would be left, all stays.
 // Of the parts of each region of water, what `keep` says stays; `cut_off` are those that would not if not all were kept. What is left
 // out so is not taken from `gained`.
-OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, double narrowest, KeepWater keep,
-                      const ShoreEdit& edit, WaterAreas& gained);
+OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                      KeepWater keep, const ShoreEdit& edit, WaterAreas& gained);
 
 }  // namespace coastmesh

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "core/metric.hpp"
 #include "gis/domain_mask.hpp"
 #include "gis/error.hpp"
+#include "gis/guide_lines.hpp"
 #include "gis/plane_table.hpp"
 #include "gis/size_channel.hpp"
 #include "gis/size_distance.hpp"
@@ -237,6 +239,11 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   inputs.crs = crs;
   for (const std::string& path : options.features)
     inputs.features.push_back(readSizedFeatures(path, crs, options.grade));
+  const auto readLines = [&](const std::vector<std::string>& paths, std::vector<ShoreLine>& lines) {
+    for (const std::string& path : paths) std::ranges::move(readGuideLines(path, crs), std::back_inserter(lines));
+  };
+  readLines(options.passages, inputs.passages);
+  readLines(options.barriers, inputs.barriers);
   for (const std::string& path : options.rasters) inputs.rasters.push_back(readRasterGeometry(path));
   if (options.depth.any() || options.time_step_s > 0.0)
     for (const std::string& path : options.bathymetry) inputs.bathymetry.push_back(readRasterGeometry(path));

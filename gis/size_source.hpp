@@ -9,7 +9,8 @@
 #include "core/item_loop.hpp"
 #include "core/size_tree.hpp"
 #include "gis/clean.hpp"
-#include "gis/coast_follow.hpp"
+#include "gis/follow_options.hpp"
+#include "gis/shore_guides.hpp"
 #include "gis/size_depth.hpp"
 #include "gis/size_features.hpp"
 #include "gis/size_field.hpp"
@@ -36,9 +37,11 @@ struct SizeOptions {
   double time_step_s = 0.0;  // 0 asks for nothing
   double courant = 1.0;      // above 0
 
-  CoastDetail coast = CoastDetail::Keep;  // Follow: the shore is made as coarse as the elements beside it
-  FollowOptions follow;                   // how
-  bool keep_water_given = false;          // where not, a model's grid keeps what hangs together with an open boundary
+  CoastDetail coast = CoastDetail::Keep;        // Follow: the shore is made as coarse as the elements beside it
+  FollowOptions follow;                         // how
+  std::vector<std::string> passages, barriers;  // vector files with lines: see `ShoreGuides`
+  double passage_elements = 1.0;
+  bool keep_water_given = false;  // where not, a model's grid keeps what hangs together with an open boundary
 
   bool choose = false;  // sizes are chosen for each domain: `chooseSizes`
 
@@ -53,7 +56,8 @@ struct SizeOptions {
 struct SizeInputs {
   std::vector<SizedFeatures> features;
   std::vector<RasterGeometry> rasters, bathymetry;
-  Crs crs;  // of the input
+  std::vector<ShoreLine> passages, barriers;  // in the input's CRS
+  Crs crs;                                    // of the input
 };
 
 // Throws InputError.

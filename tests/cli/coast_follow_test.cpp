@@ -39,5 +39,43 @@ TEST_F(CoastFollow, WhatIsDroppedLeavesNoFineElementsBehind) {
   EXPECT_NEAR(vertices(with), without, 0.03 * without);
 }
 
+// An island of 30 km along the coast, with a strait of 500 m that goes round it, and a line through that.
+TEST_F(CoastFollow, StraitsAreNamedAndPassagesKeepThemOpen) {
+  const LonLatRing island{{0.3, 0.0545}, {0.6, 0.0545}, {0.6, 0.15}, {0.3, 0.15}};
+  const std::vector<std::string> sizes{"--size-shore", "2000", "--grade", "0.2", "--size-max", "20000"};
+  const auto hasNote = [](const nlohmann::json& report, const std::string& text) {
+    for (const auto& note : report["input"]["notes"])
+      if (note.get<std::string>().find(text) != std::string::npos) return true;
+    return false;
+  };
+  const nlohmann::json closed = sea({{kCoast}, {island}}, sizes);
+  EXPECT_EQ(closed["boundaries"]["island"], 0);
+  EXPECT_TRUE(hasNote(closed, "straits closed, the longest of 1: (0.4")) << closed["input"]["notes"];
+  EXPECT_NE(run_.output.find("--passages"), std::string::npos) << run_.output;
+
+  write("passage.geojson",
+        R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"name": "narrows"}, "geometry":
+        {"type": "LineString", "coordinates": [[0.25, 0.06], [0.3, 0.0522], [0.6, 0.0522], [0.65, 0.06]]}}]})");
+  std::vector<std::string> with = sizes;
+  with.insert(with.end(), {"--passages", file("passage.geojson")});
+  const nlohmann::json open = sea({{kCoast}, {island}}, with);
+  EXPECT_EQ(open["boundaries"]["island"], 1);
+  EXPECT_EQ(open["clean"]["widened_passage"], 1);
+  EXPECT_TRUE(hasNote(open, "passage 'narrows' was widened to 2")) << open["input"]["notes"];
+  EXPECT_FALSE(hasNote(open, "straits closed")) << open["input"]["notes"];
+
+  with.insert(with.end(), {"--barriers", file("passage.geojson")});
+  EXPECT_EQ(sea({{kCoast}, {island}}, with)["boundaries"]["island"], 0);
+}
+
+TEST_F(CoastFollow, GuidesWithoutLinesAreRefused) {
+  const std::string polygons = write("polygons.geojson", geoJsonPolygons({{kCoast}}));
+  const ProgramRun run =
+      runProgram({"mesh", lake(), "-o", file("a.2dm"), "--size", "100", "--coast", "follow", "--passages", polygons});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+  EXPECT_NE(run.errors.find("holds no lines"), std::string::npos) << run.errors;
+}
+
 }  // namespace
 }  // namespace coastmesh::test

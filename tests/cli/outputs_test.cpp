@@ -39,7 +39,7 @@ TEST_F(Outputs, NeverReplaceAFileThatAnyOptionReads) {
   const std::string input = lake();
   const std::string other = write("other.nc", "what it holds does not matter");
   for (const std::string option : {"--bathymetry", "--size-raster", "--size-features", "--regions", "--boundaries",
-                                   "--constraints", "--weirs", "--clip"}) {
+                                   "--constraints", "--weirs", "--clip", "--passages", "--barriers"}) {
     expectRefused({"mesh", input, option, other, "-o", other}, option);
     expectRefused({"mesh", input, option + "=" + other, "-o", file("./other.nc")}, option);
   }

@@ -92,6 +92,7 @@ def write_inputs(folder):
         [[-87.495, 41.605], [-87.49, 41.61], [-87.495, 41.615], [-87.495, 41.605]],
         [[-87.49, 41.61], [-87.485, 41.605], [-87.485, 41.615], [-87.49, 41.61]]])))
     put("clip.geojson", collection(square(-87.497, 41.602, 0.015)))
+    put("passage.geojson", collection(feature("LineString", [[-87.488, 41.61], [-87.472, 41.61]])))
     put("line.geojson", collection(feature("LineString", [[-87.495, 41.613], [-87.482, 41.614]])))
     put("region.geojson", collection(square(-87.496, 41.611, 0.004, {"name": "bay"})))
     put("points.geojson", collection(feature("Point", [-87.48, 41.611], {"size": 30.0})))
@@ -172,6 +173,11 @@ def cases():
         "--channel-min": Case("0", input="notched.geojson", extra=["--size", "150", "--coast", "follow"]),
         "--keep-water": Case("largest", input="straits.geojson", extra=["--size", "150", "--coast", "follow"]),
         "--land-min": Case("0", input="notched.geojson", extra=["--size", "150", "--coast", "follow"]),
+        "--passages": Case("passage.geojson", input="straits.geojson", extra=["--size", "150", "--coast", "follow"]),
+        "--passage-elements": Case("3", input="straits.geojson",
+                                   extra=["--size", "150", "--coast", "follow", "--passages", "passage.geojson"]),
+        "--barriers": Case("passage.geojson", input="straits.geojson",
+                           extra=["--size", "150", "--coast", "follow", "--channel-min", "0"]),
         "--time-step": Case("20", extra=stepped),
         "--courant": Case("0.4", extra=[*stepped, "--time-step", "20"]),
         "--smooth": Case(),
