@@ -8,10 +8,10 @@
 #include <new>
 #include <string>
 
-#include "apps/command_line.hpp"
-#include "apps/exit_codes.hpp"
-#include "apps/interrupt.hpp"
-#include "apps/program.hpp"
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/interrupt.hpp"
+#include "apps/cli/program.hpp"
+#include "apps/usage/command_line.hpp"
 #include "core/delaunay.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
@@ -55,7 +55,7 @@ int guardedMain(int argc, char** argv) {
       std::fputs(asked.text.c_str(), stdout);
     }
     return flushOutput(why) ? code : fail(kExitOutput, why);
-  } catch (const UsageError& error) {
+  } catch (const OptionError& error) {
     return fail(kExitUsage, error.what());
   } catch (const InputError& error) {
     return fail(kExitInput, error.what());

@@ -4,8 +4,11 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The interface of each room; its other headers are its own affair.
-set(core_headers check delaunay ids item_loop metric point pslg quality refine run_control size_function tri_mesh)
-set(gis_headers clean coastline crs error grid grid_io grid_parts output_files poly_io projection read_coastline resolution staged_files)
+set(core_headers delaunay ids item_loop linked_triangles metric point pslg quality run_control size_function tri_mesh
+  refine/check refine/mesh_defect refine/refine refine/refine_options)
+set(gis_headers error clean/clean clean/clean_options clean/clean_report clean/domain coast/coastline crs/crs
+  crs/crs_definition crs/resolution file/output_files file/staged_files format/grid_format format/grid_io format/poly_io
+  grid/grid grid/grid_parts projection/projection read/read_coastline read/read_report read/source)
 set(parallel_headers mesh_regions work_log workers)
 
 set(coastmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/coastmesh)
@@ -16,8 +19,11 @@ foreach(room core gis parallel)
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh)
-  list(TRANSFORM ${room}_headers REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/${room}/\\1.hpp" OUTPUT_VARIABLE headers)
-  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh/${room})
+  foreach(header ${${room}_headers})
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${PROJECT_SOURCE_DIR}/${room}/${header}.hpp
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh/${room}/${folder})
+  endforeach()
 endforeach()
 install(TARGETS coastmesh EXPORT coastmesh-program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(part core gis parallel program)

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <span>
 
-#include "core/tri_mesh.hpp"
+#include "core/linked_triangles.hpp"
 
 namespace coastmesh {
 

@@ -6,10 +6,10 @@
 #include <cassert>
 #include <utility>
 
-#include "core/check.hpp"
 #include "core/flip.hpp"
 #include "core/links.hpp"
 #include "core/predicates.hpp"
+#include "core/refine/check.hpp"
 
 namespace coastmesh {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/submesh.hpp"
+#include "core/refine/submesh.hpp"
 #include "parallel/partition.hpp"
 
 namespace coastmesh {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/delaunay.hpp"
-#include "core/fit.hpp"
 #include "core/label_regions.hpp"
-#include "core/shortfalls.hpp"
+#include "core/refine/fit.hpp"
+#include "core/refine/shortfalls.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/rounds.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "core/pslg.hpp"
-#include "core/refine.hpp"
+#include "core/refine/refine.hpp"
 #include "core/run_control.hpp"
 #include "core/tri_mesh.hpp"
 #include "parallel/work_log.hpp"

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <utility>
 
-#include "core/fit.hpp"
-#include "core/split_segments.hpp"
-#include "core/submesh_runs.hpp"
+#include "core/refine/fit.hpp"
+#include "core/refine/split_segments.hpp"
+#include "core/refine/submesh_runs.hpp"
 #include "parallel/cut.hpp"
 #include "parallel/recorder.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/pslg.hpp"
-#include "core/refine.hpp"
+#include "core/refine/refine.hpp"
 #include "core/run_control.hpp"
 #include "core/tri_mesh.hpp"
 #include "parallel/cut.hpp"

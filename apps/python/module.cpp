@@ -4,14 +4,14 @@
 
 #include <string>
 
-#include "apps/command_line.hpp"
-#include "apps/plot_mesh.hpp"
+#include "apps/plot/plot_mesh.hpp"
 #include "apps/python/arrays.hpp"
 #include "apps/python/pickle.hpp"
 #include "apps/python/run.hpp"
+#include "apps/usage/command_line.hpp"
 #include "gis/error.hpp"
-#include "gis/grid_io.hpp"
-#include "gis/staged_files.hpp"
+#include "gis/file/staged_files.hpp"
+#include "gis/format/grid_io.hpp"
 
 namespace py = pybind11;
 
@@ -74,8 +74,8 @@ void plotFile(const MeshResult& mesh, const std::string& path, const std::string
   constexpr auto kLeast = static_cast<std::int64_t>(PlotOptions::kLeastSize),
                  kMost = static_cast<std::int64_t>(PlotOptions::kMostSize);
   if (size < kLeast || size > kMost) {
-    throw UsageError("size: " + std::to_string(size) + " is not from " + std::to_string(kLeast) + " to " +
-                     std::to_string(kMost) + " pixels");
+    throw OptionError("size: " + std::to_string(size) + " is not from " + std::to_string(kLeast) + " to " +
+                      std::to_string(kMost) + " pixels");
   }
   options.size_px = static_cast<std::uint64_t>(size);
   options.edges = edges;
@@ -112,7 +112,7 @@ PYBIND11_MODULE(_coastmesh, m) {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
-    } catch (const UsageError& error) {
+    } catch (const OptionError& error) {
       PyErr_SetObject(usage_error, textOf(error.what()).ptr());
     } catch (const InputError& error) {
       PyErr_SetObject(input_error, textOf(error.what()).ptr());

@@ -13,10 +13,10 @@
 #include <mutex>
 #include <thread>
 
-#include "apps/mesh_report.hpp"
-#include "apps/mesh_usage.hpp"
-#include "apps/mesh_warnings.hpp"
 #include "apps/python/arrays.hpp"
+#include "apps/report/mesh_report.hpp"
+#include "apps/report/mesh_warnings.hpp"
+#include "apps/usage/mesh_usage.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
 
@@ -129,7 +129,7 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
   } catch (const CLI::ParseError& error) {
     std::string text = error.what();
     std::ranges::replace(text, '\n', ' ');
-    throw UsageError(text);
+    throw OptionError(text);
   }
 }
 

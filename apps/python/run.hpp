@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/mesh_job.hpp"
+#include "apps/job/mesh_job.hpp"
 
 namespace coastmesh {
 
@@ -24,7 +24,7 @@ pybind11::list refusalsOf(const MeshResult& result);
 // `coastmesh mesh` with what it reads from `files`, from `text` (GeoJSON), or from `graph`, a tuple (points, segments,
 // holes), where that is not None. `arguments` are options as on the command line. The work is done on threads of its own, without Python's lock;
 // `progress(phase, share)` is called, and signals are handled, in the caller's thread. What either raises ends the run
-// and is raised again. Throws UsageError, InputError. A result without a triangle says in `refusals` why.
+// and is raised again. Throws OptionError, InputError. A result without a triangle says in `refusals` why.
 MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::string> files,
                          std::optional<std::string> text, const pybind11::object& graph,
                          const pybind11::object& progress);

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/delaunay.hpp"
-#include "core/refine.hpp"
-#include "gis/poly_io.hpp"
+#include "core/refine/refine.hpp"
+#include "gis/format/poly_io.hpp"
 #include "tests/bench/cgal_peers.hpp"
 #include "tests/bench/cpu_clock.hpp"
 #include "tests/bench/peak_memory.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/delaunay.hpp"
-#include "core/refine.hpp"
-#include "gis/poly_io.hpp"
+#include "core/refine/refine.hpp"
+#include "gis/format/poly_io.hpp"
 #include "tests/bench/cpu_clock.hpp"
 #include "tests/fuzz/refine_case.hpp"
 #include "tests/fuzz/unexpected_defects.hpp"

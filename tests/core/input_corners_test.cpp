@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/delaunay.hpp"
-#include "core/refine.hpp"
-#include "core/refiner.hpp"
-#include "core/vertex_notes.hpp"
+#include "core/refine/refine.hpp"
+#include "core/refine/refiner.hpp"
+#include "core/refine/vertex_notes.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/pslgs.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
-#include "core/refine.hpp"
+#include "core/refine/refine.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 

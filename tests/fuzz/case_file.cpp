@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "gis/error.hpp"
-#include "gis/poly_io.hpp"
+#include "gis/format/poly_io.hpp"
 #include "tests/fuzz/case_text.hpp"
 
 namespace coastmesh {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/pslg.hpp"
-#include "core/refine.hpp"
+#include "core/refine/refine.hpp"
 
 namespace coastmesh {
 

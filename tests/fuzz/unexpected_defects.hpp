@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "core/check.hpp"
 #include "core/pslg.hpp"
-#include "core/refine.hpp"
+#include "core/refine/check.hpp"
+#include "core/refine/refine.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {

@@ -3,7 +3,7 @@
 #include <cpl_error.h>
 #include <gtest/gtest.h>
 
-#include "gis/ogr_support.hpp"
+#include "gis/crs/ogr_support.hpp"
 
 namespace coastmesh {
 namespace {

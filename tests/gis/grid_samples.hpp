@@ -15,9 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "gis/geodesy.hpp"
-#include "gis/grid.hpp"
-#include "gis/grid_io.hpp"
+#include "gis/crs/geodesy.hpp"
+#include "gis/format/grid_io.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid.hpp"
 
 namespace coastmesh {
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "core/quality.hpp"
-#include "gis/poly_io.hpp"
+#include "gis/format/poly_io.hpp"
 #include "parallel/mesh_regions.hpp"
 #include "parallel/workers.hpp"
 

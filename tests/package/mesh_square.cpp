@@ -2,10 +2,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/check.hpp"
 #include "core/delaunay.hpp"
 #include "core/quality.hpp"
-#include "core/refine.hpp"
+#include "core/refine/check.hpp"
+#include "core/refine/refine.hpp"
 
 int main() {
   using namespace coastmesh;

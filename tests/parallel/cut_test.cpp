@@ -10,7 +10,7 @@
 
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
-#include "core/refine.hpp"
+#include "core/refine/refine.hpp"
 #include "parallel/workers.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"

@@ -10,7 +10,7 @@
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
-#include "core/shortfalls.hpp"
+#include "core/refine/shortfalls.hpp"
 #include "parallel/workers.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gis/clean.hpp"
+#include "gis/clean/clean.hpp"
 #include "tests/support/gis_shapes.hpp"
 #include "tests/support/pslg_check.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gis/coastline.hpp"
+#include "gis/coast/coastline.hpp"
 
 namespace coastmesh {
 

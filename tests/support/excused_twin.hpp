@@ -6,7 +6,7 @@
 
 #include "core/input_corners.hpp"
 #include "core/pslg.hpp"
-#include "core/refine.hpp"
+#include "core/refine/refine.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {

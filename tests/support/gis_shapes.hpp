@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gis/coastline.hpp"
+#include "gis/coast/coastline.hpp"
 
 namespace coastmesh {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/check.hpp"
 #include "core/pslg.hpp"
+#include "core/refine/check.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "gis/crs.hpp"
+#include "gis/crs/crs.hpp"
 
 namespace coastmesh::testing {
 

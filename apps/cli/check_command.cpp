@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/mesh_file.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/cli/vector_output.hpp"
+#include "apps/job/check_grid.hpp"
+#include "apps/job/places.hpp"
+#include "apps/usage/input_usage.hpp"
+#include "apps/usage/target_usage.hpp"
+#include "gis/model/check_target.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr std::size_t kPlacesShown = 5;
+
+struct CheckUsage {
+  MeshFile mesh;
+  InputOptions input;
+  GridCheckOptions check;
+  std::vector<std::string> targets;
+  TargetCheckOptions target_check;
+  std::string output;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+// A defect as it is told, whichever check found it.
+struct DefectRow {
+  std::string kind;
+  std::string target;  // the model that minds; empty for any
+  Point place;
+  std::int64_t triangle = -1;
+  std::int64_t node = -1;
+  double value = 0.0;
+  std::string detail;
+  bool advice = false;
+};
+
+DefectRow rowOf(const GridDefect& defect) {
+  DefectRow row{std::string(toString(defect.kind)), {}, defect.place, defect.triangle, -1, defect.value, {}};
+  if (defect.kind == DefectKind::AngleBelowBound) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3f degrees", defect.value);
+    row.detail = text;
+  }
+  return row;
+}
+
+DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
+  DefectRow row{std::string(toString(defect.kind)),
+                target,
+                defect.place,
+                defect.triangle,
+                defect.node,
+                defect.value,
+                defect.text,
+                defect.advice};
+  if (row.detail.empty() && defect.value != 0.0) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", defect.value);
+    row.detail = text;
+  }
+  return row;
+}
+
+bool isDefect(const DefectRow& row) { return !row.advice; }
+
+void printDefects(const CheckUsage& usage, const Grid& grid, const std::vector<DefectRow>& defects) {
+  std::printf("%s: %zu nodes, %zu triangles, %td defects\n", usage.mesh.path.c_str(), grid.nodes.size(),
+              grid.triangles.size(), std::ranges::count_if(defects, isDefect));
+  for (std::size_t begin = 0, end = 0; begin < defects.size(); begin = end) {
+    const DefectRow& first = defects[begin];
+    const auto group = [](const DefectRow& row) { return std::tie(row.kind, row.target, row.advice); };
+    for (end = begin; end < defects.size() && group(defects[end]) == group(first);) ++end;
+    std::printf("%s%s%s%s: %zu\n", first.target.c_str(), first.target.empty() ? "" : ": ",
+                first.advice ? "advice, " : "", first.kind.c_str(), end - begin);
+    for (std::size_t i = begin; i < std::min(begin + kPlacesShown, end); ++i) {
+      std::printf("  at %s", pointText(defects[i].place).c_str());
+      if (defects[i].triangle >= 0) std::printf(", triangle %lld", static_cast<long long>(defects[i].triangle + 1));
+      if (defects[i].node >= 0) std::printf(", node %lld", static_cast<long long>(defects[i].node + 1));
+      if (!defects[i].detail.empty()) std::printf(", %s", defects[i].detail.c_str());
+      std::printf("\n");
+    }
+    if (end - begin > kPlacesShown) std::printf("  and %zu more\n", end - begin - kPlacesShown);
+  }
+}
+
+VectorLayer layerOf(const std::vector<DefectRow>& defects) {
+  const auto numberOf = [](std::int64_t index) { return index < 0 ? std::int64_t{-1} : index + 1; };
+  VectorLayer layer;
+  layer.name = "defects";
+  layer.fields = {{"kind", std::string()},   {"triangle", std::int64_t{}}, {"value", 0.0},
+                  {"node", std::int64_t{}},  {"target", std::string()},    {"detail", std::string()},
+                  {"advice", std::int64_t{}}};
+  for (const DefectRow& defect : defects)
+    layer.shapes.push_back({{defect.place},
+                            {defect.kind, numberOf(defect.triangle), defect.value, numberOf(defect.node), defect.target,
+                             defect.detail, std::int64_t{defect.advice}}});
+  return layer;
+}
+
+int runCheck(const CheckUsage& usage, Run& run) {
+  Interrupt& interrupt = run.interrupt;
+  RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
+  StagedFiles* layer = nullptr;
+  if (!usage.output.empty()) {
+    requireVectorFormat(usage.output, 1);
+    layer = &outputs.addFile(usage.output);
+  }
+  const std::vector<Target> targets = targetsNamed(usage.targets);
+  const Grid grid = readMeshFile(usage.mesh, run);
+  interrupt.check();
+  GridCheckOptions options = usage.check;
+  std::vector<GridDefect> defects;
+  if (usage.input.files.empty()) {
+    defects = checkGrid(grid, options);
+  } else {
+    options.delaunay = true;
+    defects = checkGridAgainst(grid, JobInput(usage.input), options);
+  }
+  std::vector<DefectRow> rows;
+  for (const GridDefect& defect : defects) rows.push_back(rowOf(defect));
+  for (const Target target : targets) {
+    interrupt.check();
+    for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check))
+      rows.push_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
+  }
+  if (targets.empty() && usage.target_check.time_step_s > 0.0)
+    for (const TargetDefect& defect : checkTimeStep(grid, usage.target_check.time_step_s))
+      rows.push_back(rowOf(defect, {}));
+  // Advice of all models after all refusals.
+  std::ranges::stable_partition(rows, isDefect);
+  if (layer != nullptr) {
+    layer->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(rows)}); });
+  }
+  outputs.commit();
+  if (!usage.quiet) printDefects(usage, grid, rows);
+  return std::ranges::any_of(rows, isDefect) ? kExitShort : kExitDone;
+}
+
+}  // namespace
+
+Command declareCheck(CLI::App& root) {
+  auto usage = std::make_shared<CheckUsage>();
+  CommandLine line(root, "check", "Look for defects in a mesh; exit code 1 where there are any");
+  declareMeshFile(line, "MESH", "mesh to check", usage->mesh);
+  line.texts("--input", usage->input.files, kVectorFile, false,
+             "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
+  declareTargets(line, usage->targets, "also look for all that makes the model refuse the mesh; repeat it for several");
+  line.number("--time-step", usage->target_check.time_step_s, "S", {0.0, std::numeric_limits<double>::infinity()},
+              "also look for triangles whose Courant number with this time step is above 1, or as --target has it; 0 "
+              "leaves them out");
+  line.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
+  line.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
+  line.flag("--delaunay", usage->check.delaunay,
+            "also look for edges that are not Delaunay; always done with --input, without which edges inside the mesh "
+            "cannot be known as constraints");
+  line.flag("--pinches", usage->check.pinches, "also look for nodes in which the mesh touches itself");
+  line.needing({"--input"}, [&] {
+    declareInputOptions(line, usage->input);
+    line.choice("--input-pinches", usage->input.pinches, {"keep", "open"},
+                "the --pinches that the mesh was made with from the --input");
+  });
+  line.output("-o,--output", usage->output, {}, "write the defects as a layer of points: .gpkg, .geojson or .fgb");
+  line.flag("--overwrite", usage->overwrite, "replace a file that exists").needs({"--output"});
+  line.flag("--quiet", usage->quiet, "print nothing");
+  line.example("coastmesh check lake.nc --input lake.geojson --min-angle 33",
+               "is the mesh sound, does it hold the angle, is all of the input in it?");
+  line.example("coastmesh check grid.2dm -o defects.gpkg", "the defects as a layer of points");
+  return {std::move(line), [usage](Run& run) { return runCheck(*usage, run); }};
+}
+
+}  // namespace coastmesh

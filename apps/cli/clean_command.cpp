@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "apps/cli/cleaned_output.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/cli/vector_output.hpp"
+#include "apps/job/job_input.hpp"
+#include "apps/job/stopwatch.hpp"
+#include "apps/report/report_sections.hpp"
+#include "apps/usage/input_usage.hpp"
+#include "gis/error.hpp"
+#include "gis/format/poly_io.hpp"
+#include "gis/model/assign_boundaries.hpp"
+#include "parallel/workers.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct CleanUsage {
+  InputOptions input;
+  std::string boundary_column;
+  std::string output;
+  std::string report;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+struct Seconds {
+  double read = 0.0, clean = 0.0, write = 0.0, total = 0.0;
+};
+
+struct CleanedInput {
+  std::vector<Domain> domains;
+  CleanReport report;
+  std::vector<std::string> refused;
+  std::string last_unwanted;
+};
+
+struct CleanedGroup {
+  std::optional<Domain> domain;
+  CleanReport report;
+  std::string refused, unwanted;
+};
+
+void cleanGroup(const JobInput& input, std::size_t group, const ItemLoop& loop, CleanedGroup& cleaned) {
+  try {
+    cleaned.domain = input.domain(group, cleaned.report, loop);
+  } catch (const NothingWanted& nothing) {
+    cleaned.unwanted = nothing.what();
+  } catch (const InputError& error) {
+    cleaned.refused = error.what();
+  }
+}
+
+// A vertex on the antimeridian has the longitude of the side that its edges lead to; -180 where they lead to both, whichever
+// ring was read first, so that a cleaned file that is cleaned again comes out the same.
+void putOnOneSide(Domain& domain) {
+  std::vector<char> west(domain.input_points.size(), 0), east = west;
+  for (const Segment& s : domain.pslg.segments) {
+    for (const auto& [v, other] : {std::pair(s.a, s.b), std::pair(s.b, s.a)}) {
+      const double x = domain.input_points[other].x;
+      if (std::abs(x) < 180) (x < 0 ? west : east)[v] = 1;
+    }
+  }
+  for (std::size_t v = 0; v < domain.input_points.size(); ++v) {
+    Point& p = domain.input_points[v];
+    if (std::abs(p.x) == 180 && (west[v] || east[v])) p.x = west[v] ? -180 : 180;
+  }
+}
+
+CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
+  std::vector<CleanedGroup> groups(input.groups());
+  const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
+  const ItemLoop loop = [&control](std::size_t count, const auto& work) { forEachItem(count, control, work); };
+  withThreads({}, [&] { loop(groups.size(), [&](std::size_t g) { cleanGroup(input, g, loop, groups[g]); }); });
+  CleanedInput cleaned;
+  for (CleanedGroup& group : groups) {
+    cleaned.report.append(std::move(group.report));
+    if (group.domain) {
+      if (input.coastline().crs.geographic) putOnOneSide(*group.domain);
+      cleaned.domains.push_back(std::move(*group.domain));
+    }
+    if (!group.unwanted.empty()) cleaned.last_unwanted = group.unwanted;
+    if (!group.refused.empty()) cleaned.refused.push_back(group.refused);
+  }
+  if (cleaned.domains.empty()) {
+    throw InputError(cleaned.refused.empty() ? cleaned.last_unwanted : cleaned.refused.front());
+  }
+  return cleaned;
+}
+
+// What the input's column says of the segments of the rim, by domain; empty where nothing is said.
+RimTypes rimTypes(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned) {
+  RimTypes types;
+  if (usage.boundary_column.empty() && !input.report().boundary_types) return types;
+  for (const Domain& domain : cleaned.domains) {
+    std::vector<NodePair> edges;
+    std::vector<std::size_t> segments;
+    for (std::size_t s = 0; s < domain.pslg.segments.size(); ++s) {
+      const Segment& segment = domain.pslg.segments[s];
+      if ((segment.left < 0) == (segment.right < 0)) continue;
+      edges.push_back({segment.a, segment.b});
+      segments.push_back(s);
+    }
+    const std::vector<std::string> texts =
+        boundaryTexts(input.coastline().crs, domain.input_points, edges, usage.input.files, usage.boundary_column);
+    std::vector<std::string>& of_domain = types.emplace_back(domain.pslg.segments.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) of_domain[segments[i]] = texts[i];
+  }
+  return types;
+}
+
+// All groups in one graph. A .poly knows no projection, so they have to share a plane.
+Pslg joinedPslg(const CleanedInput& cleaned, const CleanUsage& usage, const Crs& crs) {
+  const bool one_plane = cleaned.domains.size() == 1 || usage.input.crs != "auto" || crs.isPlane();
+  if (!one_plane) {
+    throw OutputError("cannot write '" + usage.output + "': the input falls into " +
+                      std::to_string(cleaned.domains.size()) +
+                      " parts, each in a plane of its own; choose one with --crs, or write a .gpkg");
+  }
+  Pslg joined;
+  for (const Domain& domain : cleaned.domains) {
+    const auto shift = static_cast<VertexId>(joined.points.size());
+    joined.points.insert(joined.points.end(), domain.pslg.points.begin(), domain.pslg.points.end());
+    joined.holes.insert(joined.holes.end(), domain.pslg.holes.begin(), domain.pslg.holes.end());
+    for (Segment segment : domain.pslg.segments) {
+      segment.a += shift;
+      segment.b += shift;
+      joined.segments.push_back(segment);
+    }
+  }
+  return joined;
+}
+
+std::string reportOf(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned,
+                     const Seconds& seconds, const std::vector<std::string>& warnings) {
+  std::size_t points = 0, segments = 0;
+  for (const Domain& domain : cleaned.domains) {
+    points += domain.pslg.points.size();
+    segments += domain.pslg.segments.size();
+  }
+  Json read = readSection(usage.input.files, input.report(), input.coastline().crs);
+  read["refused"] = cleaned.refused;
+  for (const std::string& note : cleaned.report.notes) read["notes"].push_back(note);
+  return textOf(
+      {{"coastmesh", COASTMESH_VERSION},
+       {"warnings", warnings},
+       {"input", std::move(read)},
+       {"clean", editsSection(cleaned.report.counts)},
+       {"graph", {{"points", points}, {"segments", segments}, {"regions", cleaned.domains.size()}}},
+       {"time_s",
+        {{"read", seconds.read}, {"clean", seconds.clean}, {"write", seconds.write}, {"total", seconds.total}}},
+       {"peak_memory_mib", peakMemoryMib()}});
+}
+
+void printReport(const CleanUsage& usage, const CleanedInput& cleaned) {
+  std::size_t points = 0;
+  std::size_t segments = 0;
+  for (const Domain& domain : cleaned.domains) {
+    points += domain.pslg.points.size();
+    segments += domain.pslg.segments.size();
+  }
+  std::printf("%zu points, %zu segments in %zu regions\n", points, segments, cleaned.domains.size());
+  for (std::size_t kind = 0; kind < kEditKinds; ++kind) {
+    if (cleaned.report.counts[kind] == 0) continue;
+    std::printf("%s: %llu\n", std::string(toString(static_cast<EditKind>(kind))).c_str(),
+                static_cast<unsigned long long>(cleaned.report.counts[kind]));
+  }
+  std::printf("wrote %s\n", usage.output.c_str());
+  if (!usage.report.empty()) std::printf("wrote %s\n", usage.report.c_str());
+}
+
+int runClean(const CleanUsage& usage, Run& run) {
+  const bool poly = std::filesystem::path(usage.output).extension() == ".poly";
+  if (poly && !usage.boundary_column.empty())
+    throw OptionError("--boundary-column: '" + usage.output + "' cannot hold types of boundaries; write a .gpkg");
+  if (!poly) requireVectorFormat(usage.output, 2);
+  RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
+  StagedFiles& output = outputs.addFile(usage.output);
+  outputs.addReport(usage.report);
+  const Stopwatch watch;
+  Seconds seconds;
+  const JobInput input(usage.input);
+  seconds.read = watch.seconds();
+  const CleanedInput cleaned = cleanAll(input, run.interrupt);
+  seconds.clean = watch.seconds() - seconds.read;
+  if (poly) {
+    const Pslg pslg = joinedPslg(cleaned, usage, input.coastline().crs);
+    output.make([&pslg](const std::string& path) { writePoly(pslg, path); });
+  } else {
+    output.make([&](const std::string& path) {
+      writeVectorLayers(path, input.coastline().crs,
+                        cleanedLayers(cleaned.domains, cleaned.report, input.coastline(), input.report(),
+                                      rimTypes(usage, input, cleaned)));
+    });
+  }
+  seconds.total = watch.seconds();
+  seconds.write = seconds.total - seconds.read - seconds.clean;
+  for (const std::string& warning : input.report().warnings) run.warn(warning);
+  for (const std::string& reason : cleaned.refused) run.warn("left out: " + reason);
+  outputs.writeReport(reportOf(usage, input, cleaned, seconds, run.warnings));
+  outputs.commit();
+  if (!usage.quiet && usage.report != "-") printReport(usage, cleaned);
+  return cleaned.refused.empty() ? kExitDone : kExitShort;
+}
+
+}  // namespace
+
+Command declareClean(CLI::App& root) {
+  auto usage = std::make_shared<CleanUsage>();
+  CommandLine line(root, "clean", "Write the plane graph that would be meshed, and what was changed for it");
+  line.arguments("INPUT", usage->input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
+  line.output("-o,--output", usage->output, {.required = true},
+              "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
+  declareInputOptions(line, usage->input);
+  declarePinches(line, usage->input);
+  line.text(
+      "--boundary-column", usage->boundary_column, "NAME",
+      "the column of INPUT with the types of boundaries, which go into the layer pslg and from there into a mesh");
+  line.output("--report", usage->report, {.standard_output = true},
+              "write what was read and mended, and the time it took, as JSON; - prints it in place of the summary");
+  line.flag("--overwrite", usage->overwrite, "replace a file that exists");
+  line.flag("--quiet", usage->quiet, "print no summary");
+  line.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");
+  return {std::move(line), [usage](Run& run) { return runClean(*usage, run); }};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,64 @@
+#include <cstdio>
+#include <memory>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/mesh_file.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/job/finish_grid.hpp"
+#include "apps/usage/finish_usage.hpp"
+#include "apps/usage/grid_usage.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct ConvertUsage {
+  MeshFile mesh;
+  std::vector<std::string> outputs;
+  std::string format;
+  FinishOptions finish;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+int runConvert(const ConvertUsage& usage, Run& run) {
+  Interrupt& interrupt = run.interrupt;
+  RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
+  outputs.addGrids(usage.outputs, usage.format);
+  Grid grid = readMeshFile(usage.mesh, run);
+  if (grid.boundaries.empty()) {
+    // The file tells none: the rim of the mesh does.
+    std::vector<EdgeConflict> conflicts;
+    grid.boundaries = findBoundaries(toTriMesh(grid, Projection::plane(), conflicts));
+  }
+  const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
+  const FinishReport report = finishGrid(grid, usage.finish, control);
+  for (const std::string& warning : report.warnings()) run.warn(warning);
+  if (const std::string warning = outputs.depthWarning(grid); !warning.empty()) run.warn(warning);
+  for (const std::string& warning : outputs.lossWarnings(grid, LossesOf::Grid)) run.warn(warning);
+  for (std::size_t i = 0; i < outputs.grids(); ++i) {
+    interrupt.check();
+    outputs.writeGrid(i, grid);
+  }
+  outputs.commit();
+  if (!usage.quiet) std::fputs(finishSummary(usage.finish, report).c_str(), stdout);
+  return report.repairs.left.empty() ? kExitDone : kExitShort;
+}
+
+}  // namespace
+
+Command declareConvert(CLI::App& root) {
+  auto usage = std::make_shared<ConvertUsage>();
+  CommandLine line(root, "convert", "Write a mesh in other formats");
+  declareMeshFile(line, "MESH", "mesh to read", usage->mesh);
+  declareGridOutputs(line, usage->outputs, usage->format);
+  declareFinishOptions(line, usage->finish);
+  line.option("--boundary-column").needs({"--boundaries"});
+  line.flag("--overwrite", usage->overwrite, "replace files that exist");
+  line.flag("--quiet", usage->quiet, "print no summary");
+  line.example("coastmesh convert lake.nc -o lake.2dm -o lake.msh", "a grid in two other formats");
+  return {std::move(line), [usage](Run& run) { return runConvert(*usage, run); }};
+}
+
+}  // namespace coastmesh

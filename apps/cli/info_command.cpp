@@ -1,0 +1,77 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/mesh_file.hpp"
+#include "apps/report/file_info.hpp"
+#include "gis/error.hpp"
+#include "gis/format/grid_io.hpp"
+#include "gis/format/poly_io.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct InfoUsage {
+  MeshFile file;
+  bool json = false;
+};
+
+// Endings of GIS layers, which may hold a mesh or a coastline: only a look inside can tell.
+bool mayHoldCoastline(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  for (const GridFormat& format : gridFormats()) {
+    for (std::string_view known : format.endings) {
+      if (ending != known) continue;
+      return ending == ".gpkg" || ending == ".geojson" || ending == ".shp" || ending == ".fgb";
+    }
+  }
+  return true;
+}
+
+std::optional<Grid> tryMesh(const MeshFile& file, Run& run) {
+  if (!mayHoldCoastline(file.path)) return readMeshFile(file, run);
+  try {
+    return readMeshFile(file, run);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+template <typename Info>
+std::string inForm(const Info& info, bool json) {
+  return json ? toJson(info) : toText(info);
+}
+
+std::string describe(const InfoUsage& usage, Run& run) {
+  const std::string& path = usage.file.path;
+  if (std::filesystem::path(path).extension() == ".poly") {
+    warnOfCrs(usage.file, "a .poly lies in a plane", run);
+    return inForm(describePoly(readPoly(path)), usage.json);
+  }
+  if (const std::optional<Grid> grid = tryMesh(usage.file, run)) return inForm(describeMesh(*grid), usage.json);
+  warnOfCrs(usage.file, "'" + path + "' holds no mesh", run);
+  InputOptions options;
+  options.files = {path};
+  return inForm(describeCoastline(JobInput(options)), usage.json);
+}
+
+}  // namespace
+
+Command declareInfo(CLI::App& root) {
+  auto usage = std::make_shared<InfoUsage>();
+  CommandLine line(root, "info", "Tell what a mesh, a vector file or a .poly holds");
+  declareMeshFile(line, "FILE", "mesh, vector file or .poly", usage->file);
+  line.flag("--json", usage->json, "print it as JSON");
+  line.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");
+  line.example("coastmesh info lakes.shp", "what there is to mesh");
+  return {std::move(line), [usage](Run& run) {
+            std::fputs(describe(*usage, run).c_str(), stdout);
+            return static_cast<int>(kExitDone);
+          }};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,45 @@
+#include "apps/cli/mesh_file.hpp"
+
+#include "gis/crs/geodesy.hpp"
+#include "gis/error.hpp"
+#include "gis/format/grid_io.hpp"
+
+namespace coastmesh {
+
+void declareMeshFile(CommandLine& line, const std::string& name, const std::string& help, MeshFile& file) {
+  line.argument(name, file.path, help);
+  line.text("--assume-crs", file.crs, "CRS",
+            "CRS of the mesh where its file does not say one; without this option a plane is assumed then");
+}
+
+namespace {
+
+Crs parseAssumed(const std::string& text) {
+  try {
+    return parseCrs(text);
+  } catch (const InputError& error) {
+    throw OptionError(std::string("--assume-crs: ") + error.what());
+  }
+}
+
+}  // namespace
+
+Grid readMeshFile(const MeshFile& file, Run& run) {
+  Grid grid = readGrid(file.path);
+  if (grid.triangles.empty()) throw InputError("'" + file.path + "' holds no triangle");
+  if (file.crs.empty()) return grid;
+  Crs assumed = parseAssumed(file.crs);
+  if (grid.crs.isPlane()) {
+    grid.crs = std::move(assumed);
+    requirePlaces(grid.nodes, grid.crs, file.path);
+  } else {
+    warnOfCrs(file, "'" + file.path + "' says its CRS", run);
+  }
+  return grid;
+}
+
+void warnOfCrs(const MeshFile& file, const std::string& why, Run& run) {
+  if (!file.crs.empty()) run.warn("--assume-crs has no effect: " + why);
+}
+
+}  // namespace coastmesh

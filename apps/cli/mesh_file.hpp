@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "apps/cli/commands.hpp"
+#include "gis/grid/grid.hpp"
+
+namespace coastmesh {
+
+// A mesh file named on the command line.
+struct MeshFile {
+  std::string path;
+  std::string crs;  // taken where the file does not say its own; empty then means a plane
+};
+
+// Declares the argument `name` and the option --assume-crs.
+void declareMeshFile(CommandLine& line, const std::string& name, const std::string& help, MeshFile& file);
+
+// Throws InputError, also for a mesh without triangles.
+Grid readMeshFile(const MeshFile& file, Run& run);
+
+// Warns that --assume-crs has no effect, where it was given.
+void warnOfCrs(const MeshFile& file, const std::string& why, Run& run);
+
+}  // namespace coastmesh

@@ -1,0 +1,120 @@
+#include "apps/cli/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/usage/config_file.hpp"
+#include "apps/usage/usage_pages.hpp"
+#include "gis/error.hpp"
+#include "gis/format/grid_io.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+std::string wholeUsage(const std::vector<Command>& commands) {
+  using Json = nlohmann::ordered_json;
+  Json usage{{"coastmesh", COASTMESH_VERSION}, {"formats", Json::array()}, {"commands", Json::array()}};
+  for (const GridFormat& format : gridFormats()) {
+    usage["formats"].push_back({{"name", format.name},
+                                {"endings", format.endings},
+                                {"description", format.description},
+                                {"readable", format.readable},
+                                {"writable", format.writable}});
+  }
+  for (const Command& command : commands) usage["commands"].push_back(Json::parse(command.line.jsonUsage()));
+  return usage.dump(2) + "\n";
+}
+
+// For somebody who typed the program's name to see what it is.
+std::string welcome(const std::vector<Command>& commands) {
+  using Json = nlohmann::ordered_json;
+  std::string text =
+      "coastmesh turns coastlines and lakes into triangle meshes for ocean and lake models.\n\n"
+      "Mesh the polygons of any vector file that GDAL reads, and look at the result:\n"
+      "  coastmesh mesh lake.geojson -o lake.gpkg -o lake.nc\n"
+      "  coastmesh info lake.nc\n"
+      "  coastmesh plot lake.nc -o lake.png --color angle\n\n"
+      "Commands:\n";
+  for (const Command& command : commands) {
+    const Json usage = Json::parse(command.line.jsonUsage());
+    const std::string name = usage["command"];
+    text += "  " + name + std::string(10 - std::min<std::size_t>(9, name.size()), ' ') +
+            usage["help"].get<std::string>() + "\n";
+  }
+  return text + "\ncoastmesh COMMAND --help shows the options of a command, with examples; man coastmesh has it all.\n";
+}
+
+}  // namespace
+
+void Run::warn(const std::string& text) {
+  std::fprintf(stderr, "coastmesh: warning: %s\n", text.c_str());
+  warnings.push_back(text);
+}
+
+int runProgram(int argc, char** argv, Interrupt& interrupt) {
+  CLI::App app("Turns coastlines and lakes into triangle meshes for ocean and lake models", "coastmesh");
+  app.set_version_flag("--version", std::string("coastmesh ") + COASTMESH_VERSION);
+  app.footer(
+      "coastmesh COMMAND --help shows the options of a command, with examples. Start with:\n"
+      "  coastmesh mesh lake.geojson -o lake.gpkg\n");
+  std::vector<Command> commands;
+  app.add_flag_callback(
+         "--json-usage", [&commands] { throw UsageText{wholeUsage(commands)}; }, "print all commands' usage as JSON")
+      ->trigger_on_parse();
+  app.add_option_function<std::string>(
+         "--usage-as", [&commands](const std::string& asked) { throw UsageText{usageAs(asked, wholeUsage(commands))}; },
+         "print usage for other programs: bash, zsh, fish (completion), man, man:COMMAND, markdown")
+      ->type_name("FORM")
+      ->trigger_on_parse();
+  for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareClean}) {
+    commands.push_back(declare(app));
+  }
+  if (argc < 2) {
+    std::fputs(welcome(commands).c_str(), stdout);
+    std::fflush(stdout);
+    throw OptionError("no command was given; start with one of those above");
+  }
+  const auto isNamed = [&](const Command& command) { return command.line.name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, isNamed)) {
+    throw OptionError("there is no command '" + std::string(argv[1]) + "'; coastmesh --help lists them");
+  }
+  try {
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    const auto command = std::ranges::find_if(commands, isNamed);
+    if (command != commands.end()) {
+      std::set<std::string> names;
+      for (const Command& other : commands) names.insert(other.line.name());
+      arguments = expandConfig({arguments.begin() + 1, arguments.end()}, command->line.jsonUsage(), names);
+      arguments.insert(arguments.begin(), argv[1]);
+    }
+    std::ranges::reverse(arguments);  // as CLI11 wants them
+    app.parse(std::move(arguments));
+  } catch (const CLI::Success& asked) {  // --help, --version
+    std::ostringstream text, errors;
+    app.exit(asked, text, errors);
+    throw UsageText{text.str()};
+  } catch (const CLI::ParseError& error) {
+    throw OptionError(oneLine(error.what()) + "; coastmesh COMMAND --help shows what there is");
+  }
+  for (Command& command : commands) {
+    if (!command.line.chosen()) continue;
+    requireOutputsApart(command.line);
+    Run run{interrupt, {}, {}};
+    for (const auto& [option, path] : command.line.inputs()) run.inputs.push_back(path);
+    for (const std::string& sentence : command.line.withoutEffect()) run.warn(sentence);
+    return command.run(run);
+  }
+  throw std::logic_error("a command was parsed that was never declared");
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,217 @@
+#include "apps/cli/run_outputs.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A file whatever way leads to it: what is there by its device and number, what is not by its path without links.
+std::string identityOf(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ':' + std::to_string(status.st_ino);
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? path : real.string();
+}
+
+bool isThere(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+// The files on the disk in what an option names: the path, or what a name of GDAL's has of paths in it, as
+// "GPKG:file:layer", "/vsizip/file.zip/inside.shp" and "file|layer" do.
+std::vector<std::string> filesNamed(const std::string& name) {
+  std::vector<std::string> files{name};
+  std::string part;
+  const auto take = [&] {
+    if (isThere(part)) files.push_back(part);
+    part.clear();
+  };
+  for (const char c : name) {
+    if (c == ':' || c == '|' || c == '"') {
+      take();
+    } else {
+      part += c;
+    }
+  }
+  take();
+  if (name.starts_with("/vsi") || !isThere(name)) {
+    const std::size_t begin = name.starts_with("/vsi") ? name.find('/', 1) : 0;
+    for (std::size_t end = begin; end != std::string::npos && begin != std::string::npos;) {
+      end = name.find('/', end + 1);
+      const std::string outer = name.substr(begin + (begin > 0 ? 1 : 0), end - begin - (begin > 0 ? 1 : 0));
+      std::error_code error;
+      if (fs::is_regular_file(outer, error)) files.push_back(outer);
+    }
+  }
+  return files;
+}
+
+struct Owner {
+  std::string option, path;
+};
+
+class Inputs {
+ public:
+  explicit Inputs(const std::vector<CommandLine::NamedFile>& named) {
+    for (const auto& [option, path] : named) {
+      for (const std::string& file : filesNamed(path)) {
+        files_.try_emplace(identityOf(file), Owner{option, path});
+        for (const std::string& companion : companionsOf(file))
+          if (isThere(companion)) companions_.try_emplace(identityOf(companion), Owner{option, path});
+      }
+    }
+  }
+
+  void requireApart(const CommandLine::NamedOutput& output, const std::string& file, bool written) const {
+    const std::string subject = output.option + " " + output.path + ": ";
+    const std::string what = file == output.path ? "" : "'" + file + "', which it writes too, ";
+    const auto input = files_.find(identityOf(file));
+    if (input != files_.end())
+      throw OptionError(subject + what + (what.empty() ? "it " : "") + "is input and output at once: " +
+                        input->second.option + " reads it; give the output another name");
+    const auto companion = companions_.find(identityOf(file));
+    if (written && companion != companions_.end())
+      throw OptionError(subject + what + (what.empty() ? "it " : "") + "belongs to '" + companion->second.path +
+                        "', which " + companion->second.option + " reads; give the output another name");
+  }
+
+ private:
+  std::map<std::string, Owner> files_, companions_;
+};
+
+// Which outputs write a file, and which take one away or keep it as it is.
+class Claims {
+ public:
+  void add(const CommandLine::NamedOutput& output) {
+    std::set<std::string> own;
+    for (const std::string& file : output.files.targets) {
+      const std::string key = identityOf(file);
+      if (!own.insert(key).second) continue;
+      for (const auto* taken : {&written_, &touched_}) {
+        if (const auto other = taken->find(key); other != taken->end()) refuse(output, other->second, file);
+      }
+    }
+    std::vector<std::string> others = output.files.stale;
+    if (!output.files.prj.empty()) others.push_back(output.files.prj);
+    for (const std::string& file : others) {
+      const auto other = written_.find(identityOf(file));
+      if (other != written_.end()) refuse(output, other->second, file);
+    }
+    for (const std::string& key : own) written_.try_emplace(key, Owner{output.option, output.path});
+    for (const std::string& file : others) touched_.try_emplace(identityOf(file), Owner{output.option, output.path});
+  }
+
+ private:
+  [[noreturn]] static void refuse(const CommandLine::NamedOutput& output, const Owner& other, const std::string& file) {
+    if (output.option == other.option && identityOf(output.path) == identityOf(other.path))
+      throw OptionError("'" + output.path + "' is given as an output twice");
+    throw OptionError(output.option + " " + output.path + " and " + other.option + " " + other.path +
+                      " would both write '" + file + "'; give one of them another name");
+  }
+
+  std::map<std::string, Owner> written_, touched_;
+};
+
+}  // namespace
+
+void requireOutputsApart(const CommandLine& line) {
+  const std::vector<CommandLine::NamedOutput> outputs = line.outputs();
+  if (outputs.empty()) return;
+  const Inputs inputs(line.inputs());
+  Claims claims;
+  for (const CommandLine::NamedOutput& output : outputs) {
+    for (const std::string& file : output.files.targets) inputs.requireApart(output, file, true);
+    for (const std::string& file : output.files.stale) inputs.requireApart(output, file, false);
+    if (!output.files.prj.empty()) inputs.requireApart(output, output.files.prj, false);
+    claims.add(output);
+  }
+}
+
+RunOutputs::~RunOutputs() {
+  grids_.clear();
+  files_.clear();
+  for (const std::string& folder : guarded_) interrupt_.release(folder);
+}
+
+void RunOutputs::guard(const StagedFiles& files) {
+  guarded_.push_back(files.stagingFolder());
+  interrupt_.guard(guarded_.back());
+}
+
+void RunOutputs::addGrids(const std::vector<std::string>& paths, const std::string& format) {
+  if (!format.empty() && paths.size() > 1) {
+    throw OptionError("--format goes with one output; choose the formats of several by their endings");
+  }
+  for (const std::string& path : paths) {
+    const GridFormat& known = gridFormatFor(path, format);
+    grids_.emplace_back(path, known, overwrite_);
+    grids_.back().protect(inputs_);
+    formats_.push_back(&known);
+    if (known.says_depth) depth_paths_.push_back(path);
+    guard(grids_.back().files());
+  }
+}
+
+StagedFiles& RunOutputs::addFile(const std::string& path) {
+  files_.push_back(std::make_unique<StagedFiles>(path, overwrite_));
+  guard(*files_.back());
+  return *files_.back();
+}
+
+void RunOutputs::addReport(const std::string& path) {
+  report_to_stdout_ = path == "-";
+  if (path.empty() || report_to_stdout_) return;
+  try {
+    report_ = &addFile(path);
+  } catch (const OutputError& error) {
+    std::error_code ignored;
+    const bool special =
+        fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored);
+    throw OutputError(std::string(error.what()) + (special ? "; '--report -' prints the report" : ""));
+  }
+}
+
+void RunOutputs::writeReport(const std::string& text) {
+  if (report_ != nullptr) report_->write(text);
+  if (report_to_stdout_) report_text_ = text;
+}
+
+std::string RunOutputs::depthWarning(const Grid& grid) const {
+  if (!grid.z.empty() || depth_paths_.empty()) return {};
+  return "the mesh has no depths: '" + depth_paths_.front() + "' says 0 everywhere; give --bathymetry";
+}
+
+std::vector<std::string> RunOutputs::lossWarnings(const Grid& grid, LossesOf of) const {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < grids_.size(); ++i) {
+    const std::string losses = lossesIn(grid, *formats_[i], of);
+    if (!losses.empty()) warnings.push_back("'" + grids_[i].path() + "' cannot hold " + losses);
+  }
+  return warnings;
+}
+
+void RunOutputs::commit() {
+  interrupt_.close();
+  std::vector<StagedFiles*> made;
+  for (StagedOutput& grid : grids_)
+    if (grid.files().made()) made.push_back(&grid.files());
+  for (const auto& file : files_)
+    if (file->made()) made.push_back(file.get());
+  commitTogether(made);
+  std::fputs(report_text_.c_str(), stdout);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/cli/interrupt.hpp"
+#include "apps/usage/command_line.hpp"
+#include "gis/file/staged_files.hpp"
+#include "gis/format/grid_io.hpp"
+#include "gis/format/grid_losses.hpp"
+
+namespace coastmesh {
+
+// Throws OptionError where outputs of the run that `line` asks for share a file, or one would replace what the run
+// reads: any file that an option or an argument names, and those that belong to it. To be called before anything is
+// read or written.
+void requireOutputsApart(const CommandLine& line);
+
+// All outputs of a run: none comes into place before all are written, and then all do or none.
+class RunOutputs {
+ public:
+  RunOutputs(bool overwrite, std::vector<std::string> inputs, Interrupt& interrupt)
+      : overwrite_(overwrite), inputs_(std::move(inputs)), interrupt_(interrupt) {}
+  ~RunOutputs();
+  RunOutputs(const RunOutputs&) = delete;
+  RunOutputs& operator=(const RunOutputs&) = delete;
+
+  // Mesh files. `format` names the format of the one path there is then; empty takes every path's ending. Throws
+  // OptionError, OutputError.
+  void addGrids(const std::vector<std::string>& paths, const std::string& format);
+  // Any other file.
+  StagedFiles& addFile(const std::string& path);
+  // A text for programs: a file, or "-" for standard output. Nothing where `path` is empty.
+  void addReport(const std::string& path);
+
+  std::size_t grids() const { return grids_.size(); }
+  void writeGrid(std::size_t index, const Grid& grid) { grids_[index].write(grid); }
+  void writeReport(const std::string& text);
+  // Empty, or a warning: an output says depths, and the grid has none.
+  std::string depthWarning(const Grid& grid) const;
+  // A warning for each output that cannot hold all of the grid.
+  std::vector<std::string> lossWarnings(const Grid& grid, LossesOf of) const;
+
+  // Moves all that was written into place, after Interrupt::close(). Throws OutputError, Cancelled.
+  void commit();
+
+ private:
+  void guard(const StagedFiles& files);
+
+  bool overwrite_;
+  std::vector<std::string> inputs_;
+  Interrupt& interrupt_;
+  std::vector<StagedOutput> grids_;
+  std::vector<const GridFormat*> formats_;  // one a grid
+  std::vector<std::unique_ptr<StagedFiles>> files_;
+  StagedFiles* report_ = nullptr;
+  bool report_to_stdout_ = false;
+  std::string report_text_;
+  std::vector<std::string> depth_paths_;  // of formats that say a depth at each node
+  std::vector<std::string> guarded_;
+};
+
+}  // namespace coastmesh

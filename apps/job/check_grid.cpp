@@ -1,0 +1,162 @@
+#include "apps/job/check_grid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "apps/job/grid_pieces.hpp"
+#include "core/quality.hpp"
+#include "gis/crs/geodesy.hpp"
+#include "gis/error.hpp"
+#include "gis/grid/ground_orientation.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct PointHash {
+  std::size_t operator()(const Point& p) const {
+    const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value == 0.0 ? 0.0 : value); };
+    return std::rotl((bits(p.x) * 0x9E3779B97F4A7C15ull) ^ bits(p.y), 32) * 0xC90FDAA22168C235ull;
+  }
+};
+
+struct InputVertex {
+  std::size_t group = 0;
+  VertexId vertex = 0;
+};
+using InputVertices = std::unordered_map<Point, InputVertex, PointHash>;
+
+// By how many degrees the angles opposite an inner edge exceed 180 together.
+double delaunayExcess(const TriMesh& mesh, EdgeRef e) {
+  const auto angleAtApex = [&mesh](EdgeRef edge) {
+    return anglesDeg(mesh.points[mesh.apex(edge)], mesh.points[mesh.origin(edge)], mesh.points[mesh.target(edge)])[0];
+  };
+  return angleAtApex(e) + angleAtApex(mesh.twin(e)) - 180.0;
+}
+
+// The triangle's edge whose middle lies at `place`.
+EdgeRef edgeAt(const TriMesh& mesh, TriId t, const Point& place) {
+  const auto distanceTo = [&](unsigned i) {
+    const Point& a = mesh.points[mesh.origin(edgeRef(t, i))];
+    const Point& b = mesh.points[mesh.target(edgeRef(t, i))];
+    return std::hypot((a.x + b.x) / 2 - place.x, (a.y + b.y) / 2 - place.y);
+  };
+  unsigned nearest = 0;
+  for (unsigned i : {1u, 2u}) {
+    if (distanceTo(i) < distanceTo(nearest)) nearest = i;
+  }
+  return edgeRef(t, nearest);
+}
+
+// Rounding does not account for it.
+bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
+  const EdgeRef e = edgeAt(mesh, defect.triangle, defect.place);
+  return mesh.twin(e) != kNone && delaunayExcess(mesh, e) > kAngleSlackDeg;
+}
+
+void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options,
+                std::vector<GridDefect>& defects) {
+  const auto inverse = [&piece](const Point& place) { return piece.projection.inverse(place); };
+  for (const EdgeConflict& conflict : piece.conflicts) {
+    const Point& a = piece.mesh.points[conflict.a];
+    const Point& b = piece.mesh.points[conflict.b];
+    defects.push_back({DefectKind::BrokenTopology, inverse({(a.x + b.x) / 2, (a.y + b.y) / 2})});
+  }
+  CheckOptions check;
+  check.min_angle_deg = std::max(0.0, options.min_angle_deg - kAngleSlackDeg);
+  check.max_angle_deg = std::min(180.0, options.max_angle_deg + kAngleSlackDeg);
+  check.delaunay = options.delaunay;
+  check.pinches = options.pinches;
+  for (const MeshDefect& defect : checkMesh(piece.mesh, pslg, check)) {
+    if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, defect)) continue;
+    if (defect.kind == DefectKind::NotCounterClockwise) continue;  // what counts is the ground, not this plane
+    const std::int64_t triangle = defect.triangle == kNone ? -1 : std::int64_t{piece.triangles[defect.triangle]};
+    defects.push_back({defect.kind, inverse(defect.place), triangle, defect.value});
+  }
+}
+
+// As `mesh` judges what it made: the plane that a piece is put into may be another than that.
+void checkOrientation(const Grid& grid, std::vector<GridDefect>& defects) {
+  for (const std::uint32_t t : turnedTriangles(grid, triangleAreas(grid.nodes, grid.triangles, grid.crs)))
+    defects.push_back({DefectKind::NotCounterClockwise, middleOf(grid, t), std::int64_t{t}});
+}
+
+void sortByKind(std::vector<GridDefect>& defects) {
+  std::ranges::stable_sort(defects, {}, [](const GridDefect& defect) { return static_cast<int>(defect.kind); });
+}
+
+// The input's group that most nodes of the triangles are vertices of.
+std::optional<std::size_t> groupOf(const Grid& grid, const std::vector<std::uint32_t>& triangles,
+                                   const InputVertices& vertices) {
+  std::map<std::size_t, std::size_t> votes;
+  for (std::uint32_t t : triangles) {
+    for (std::uint32_t node : grid.triangles[t]) {
+      const auto found = vertices.find(grid.nodes[node]);
+      if (found != vertices.end()) ++votes[found->second.group];
+    }
+  }
+  if (votes.empty()) return std::nullopt;
+  return std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; })->first;
+}
+
+}  // namespace
+
+std::vector<GridDefect> checkGrid(const Grid& grid, const GridCheckOptions& options) {
+  std::vector<GridDefect> defects;
+  for (const GridPiece& piece : splitGrid(grid)) checkPiece(piece, nullptr, options, defects);
+  checkOrientation(grid, defects);
+  sortByKind(defects);
+  return defects;
+}
+
+std::vector<GridDefect> checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options) {
+  std::vector<std::optional<Domain>> domains(input.groups());
+  InputVertices vertices;
+  for (std::size_t g = 0; g < domains.size(); ++g) {
+    CleanReport ignored;
+    try {
+      domains[g] = input.domain(g, ignored);
+    } catch (const InputError&) {
+      continue;  // `mesh` leaves such a group out
+    }
+    for (VertexId v = 0; v < domains[g]->input_points.size(); ++v) vertices[domains[g]->input_points[v]] = {g, v};
+  }
+
+  std::vector<GridDefect> defects;
+  std::vector<std::vector<std::uint32_t>> triangles_of(domains.size());
+  for (const std::vector<std::uint32_t>& triangles : connectedTriangles(grid)) {
+    if (const auto g = groupOf(grid, triangles, vertices)) {
+      triangles_of[*g].insert(triangles_of[*g].end(), triangles.begin(), triangles.end());
+    } else {
+      const Point& place = grid.nodes[grid.triangles[triangles.front()][0]];
+      defects.push_back({DefectKind::WrongArea, place, std::int64_t{triangles.front()}, 1.0});
+    }
+  }
+  for (std::size_t g = 0; g < domains.size(); ++g) {
+    if (!domains[g]) continue;
+    if (triangles_of[g].empty()) {
+      defects.push_back({DefectKind::MissingVertex, domains[g]->input_points.front()});
+      continue;
+    }
+    std::ranges::sort(triangles_of[g]);
+    GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection);
+    // A vertex that cleaning made has no coordinates of the input to be projected from: its place in the plane is told.
+    for (std::size_t v = 0; v < piece.nodes.size(); ++v) {
+      const auto found = vertices.find(grid.nodes[piece.nodes[v]]);
+      if (found != vertices.end() && found->second.group == g) {
+        piece.mesh.points[v] = domains[g]->pslg.points[found->second.vertex];
+      }
+    }
+    checkPiece(piece, &domains[g]->pslg, options, defects);
+  }
+  checkOrientation(grid, defects);
+  sortByKind(defects);
+  return defects;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/job/job_input.hpp"
+#include "core/refine/check.hpp"
+#include "gis/grid/grid.hpp"
+
+namespace coastmesh {
+
+// A defect of a grid that was read from a file.
+struct GridDefect {
+  DefectKind kind;
+  Point place;                 // in the grid's CRS
+  std::int64_t triangle = -1;  // the grid's, -1 where it has none
+  double value = 0.0;          // as in MeshDefect
+};
+
+struct GridCheckOptions {
+  double min_angle_deg = 0.0;    // degrees; 0 asks nothing
+  double max_angle_deg = 180.0;  // degrees; 180 asks nothing
+  bool delaunay = false;
+  bool pinches = false;
+};
+
+// What coordinates that went through a file, and a plane that was fitted anew, may cost: an angle counts as short, and
+// an edge as not Delaunay, only by more than this.
+inline constexpr double kAngleSlackDeg = 0.01;
+
+// Every defect of the grid, each of its connected pieces in a plane of its own; a border between features counts as a
+// constraint.
+std::vector<GridDefect> checkGrid(const Grid& grid, const GridCheckOptions& options);
+
+// The same against the input that the grid was made from, with the input's own planes: vertices and segments have to be
+// there, and small angles of the input explain those of the mesh. Nodes are matched with vertices bit for bit.
+std::vector<GridDefect> checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options);
+
+}  // namespace coastmesh

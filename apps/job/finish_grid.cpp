@@ -1,0 +1,121 @@
+#include "apps/job/finish_grid.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/job/places.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string nameOf(Target target) { return kTargetNames[static_cast<std::size_t>(target)]; }
+
+}  // namespace
+
+std::vector<std::string> FinishReport::warnings() const {
+  std::vector<std::string> all = depth.warnings;
+  std::map<std::pair<Target, TargetDefectKind>, std::pair<std::size_t, Point>> left;
+  for (const auto& [target, defect] : repairs.left)
+    ++left.try_emplace({target, defect.kind}, 0, defect.place).first->second.first;
+  for (const auto& [which, count] : left)
+    all.push_back("could not be mended for " + nameOf(which.first) + ": " + std::string(toString(which.second)) + ", " +
+                  std::to_string(count.first) + " in all, the first at " + pointText(count.second));
+  return all;
+}
+
+FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control) {
+  FinishReport report;
+  const std::vector<Target> targets = targetsNamed(options.targets);
+  if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control);
+  if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
+  if (!grid.triangles.empty() && !targets.empty()) report.repairs = repairForTargets(grid, targets);
+  // Nodes that repairs made or moved get a depth of their own; openings may be above the water then.
+  const auto ofDepths = [](const Repair& repair) { return repair.kind == TargetDefectKind::DryOpening; };
+  if (!std::ranges::all_of(report.repairs.repairs, ofDepths) && !options.depth.files.empty()) {
+    const std::vector<std::string> warnings = std::move(report.depth.warnings);
+    report.depth = setDepths(grid, options.depth, control);
+    report.depth.warnings = warnings;
+    std::erase_if(report.repairs.repairs, ofDepths);
+    RepairReport again = repairForTargets(grid, targets);
+    std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
+    report.repairs.left = std::move(again.left);
+  }
+  return report;
+}
+
+std::string finishSummary(const FinishOptions& options, const FinishReport& report) {
+  std::string text;
+  if (!options.depth.files.empty()) {
+    char line[160];
+    std::snprintf(line, sizeof line, "depths from %.6g to %.6g m; %zu nodes filled, %zu unknown, %zu above the water\n",
+                  report.depth.least_m, report.depth.greatest_m, report.depth.filled, report.depth.unknown,
+                  report.depth.above_water);
+    text += line;
+  }
+  constexpr std::size_t kRepairsShown = 20;
+  const std::vector<Repair>& repairs = report.repairs.repairs;
+  for (std::size_t i = 0; i < std::min(kRepairsShown, repairs.size()); ++i)
+    text += nameOf(repairs[i].target) + ": " + std::string(toString(repairs[i].kind)) + " at " +
+            pointText(repairs[i].place) + ": " + repairs[i].what + "\n";
+  if (repairs.size() > kRepairsShown)
+    text += "and " + std::to_string(repairs.size() - kRepairsShown) + " more repairs\n";
+  return text;
+}
+
+std::string repairSection(const FinishOptions& options, const FinishReport& report) {
+  if (options.targets.empty()) return "null";
+  Json done = Json::array(), left = Json::array();
+  for (const Repair& repair : report.repairs.repairs)
+    done.push_back({{"target", nameOf(repair.target)},
+                    {"defect", toString(repair.kind)},
+                    {"x", repair.place.x},
+                    {"y", repair.place.y},
+                    {"repair", repair.what}});
+  for (const auto& [target, defect] : report.repairs.left)
+    left.push_back(
+        {{"target", nameOf(target)}, {"defect", toString(defect.kind)}, {"x", defect.place.x}, {"y", defect.place.y}});
+  return Json{{"done", std::move(done)}, {"left", std::move(left)}}.dump();
+}
+
+std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid) {
+  Json section = Json::object();
+  for (const BoundaryRole role : kBoundaryRoles) {
+    const auto isOfRole = [role](const Boundary& boundary) { return boundary.role == role; };
+    section[std::string(toString(role))] = std::ranges::count_if(grid.boundaries, isOfRole);
+  }
+  if (options.boundaries.any()) {
+    section["edges_told"] = report.boundaries.edges_told;
+    section["edges_by_depth"] = report.boundaries.edges_by_depth;
+    section["merged"] = report.boundaries.merged;
+  }
+  return section.dump();
+}
+
+std::string depthSection(const FinishOptions& options, const FinishReport& report) {
+  if (options.depth.files.empty()) return "null";
+  const DepthReport& depth = report.depth;
+  Json files = Json::array();
+  for (std::size_t i = 0; i < depth.nodes_of_file.size(); ++i)
+    files.push_back({{"file", options.depth.files[i]}, {"nodes", depth.nodes_of_file[i]}});
+  return Json{{"method", kDepthMethodNames[static_cast<std::size_t>(options.depth.method)]},
+              {"positive", options.depth.positive_down ? "down" : "up"},
+              {"files", std::move(files)},
+              {"averaged", depth.averaged},
+              {"partial", depth.partial},
+              {"filled", depth.filled},
+              {"unknown", depth.unknown},
+              {"lowered", depth.lowered},
+              {"above_water", depth.above_water},
+              {"least_m", depth.least_m},
+              {"greatest_m", depth.greatest_m}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace coastmesh

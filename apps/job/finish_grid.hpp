@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/run_control.hpp"
+#include "gis/grid/grid.hpp"
+#include "gis/model/assign_boundaries.hpp"
+#include "gis/model/depth.hpp"
+#include "gis/model/repair_target.hpp"
+
+namespace coastmesh {
+
+// What is done to a mesh before it is written: depths, boundaries, and what a model needs.
+struct FinishOptions {
+  DepthOptions depth;
+  BoundaryOptions boundaries;
+  std::vector<std::string> targets;  // names of models that the grid is mended for
+
+  bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty(); }
+};
+
+struct FinishReport {
+  DepthReport depth;
+  BoundaryReport boundaries;
+  RepairReport repairs;
+
+  std::vector<std::string> warnings() const;
+};
+
+// Throws OptionError, InputError, Cancelled.
+FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control = {});
+
+// For people: a line each on what was done; empty where nothing was asked for.
+std::string finishSummary(const FinishOptions& options, const FinishReport& report);
+
+// Sections of the report as JSON text; "depth" and "repairs" are null where they were not asked for.
+std::string depthSection(const FinishOptions& options, const FinishReport& report);
+std::string repairSection(const FinishOptions& options, const FinishReport& report);
+std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid);
+
+}  // namespace coastmesh

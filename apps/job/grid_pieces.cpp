@@ -1,0 +1,123 @@
+#include "apps/job/grid_pieces.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "gis/coast/coastline.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t node) {
+  while (parent[node] != node) {
+    parent[node] = parent[parent[node]];
+    node = parent[node];
+  }
+  return node;
+}
+
+std::vector<std::uint32_t> nodesOf(const Grid& grid, const std::vector<std::uint32_t>& triangles) {
+  std::vector<std::uint32_t> nodes;
+  nodes.reserve(3 * triangles.size());
+  for (std::uint32_t t : triangles) nodes.insert(nodes.end(), grid.triangles[t].begin(), grid.triangles[t].end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+// The piece as a grid of its own, its nodes numbered by their place in `nodes`.
+Grid partOf(const Grid& grid, const std::vector<std::uint32_t>& nodes, const std::vector<std::uint32_t>& triangles) {
+  Grid part;
+  part.crs = grid.crs;
+  for (std::uint32_t node : nodes) part.nodes.push_back(grid.nodes[node]);
+  const auto numberOf = [&nodes](std::uint32_t node) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
+  };
+  for (std::uint32_t t : triangles) {
+    const auto& corners = grid.triangles[t];
+    part.triangles.push_back({numberOf(corners[0]), numberOf(corners[1]), numberOf(corners[2])});
+  }
+  return part;
+}
+
+// A border between features was a constraint, of which segment cannot be told any more.
+void markBorders(TriMesh& mesh) {
+  constexpr SegmentId kSomeSegment = 0;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef twin = mesh.triangles[t].adj[i];
+      if (twin != kNone && mesh.regions[t] != mesh.regions[triOf(twin)]) mesh.triangles[t].seg[i] = kSomeSegment;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid) {
+  std::vector<std::uint32_t> parent(grid.nodes.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const auto& corners : grid.triangles) {
+    for (int i : {1, 2}) {
+      const std::uint32_t a = findRoot(parent, corners[0]);
+      const std::uint32_t b = findRoot(parent, corners[i]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<std::vector<std::uint32_t>> pieces;
+  std::vector<std::uint32_t> piece_of(grid.nodes.size(), kNone);
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+    std::uint32_t& piece = piece_of[findRoot(parent, grid.triangles[t][0])];
+    if (piece == kNone) {
+      piece = static_cast<std::uint32_t>(pieces.size());
+      pieces.emplace_back();
+    }
+    pieces[piece].push_back(t);
+  }
+  return pieces;
+}
+
+Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles) {
+  if (grid.crs.isPlane()) return Projection::plane();
+  const std::vector<std::uint32_t> nodes = nodesOf(grid, triangles);
+  Grid part = partOf(grid, nodes, triangles);
+  std::vector<EdgeConflict> conflicts;
+  const TriMesh linked = linkTriangles(part.nodes, part.triangles, conflicts);
+  Coastline rim;
+  rim.crs = grid.crs;
+  rim.features.emplace_back().source = "the mesh";
+  for (const auto& loop : rimLoops(linked)) {
+    Polygon& polygon = rim.features[0].polygons.emplace_back();
+    for (VertexId v : loop) polygon.outer.push_back(part.nodes[v]);
+  }
+  // A broken grid may have no rim at all.
+  if (rim.features[0].polygons.empty()) rim.features[0].polygons.push_back({part.nodes, {}});
+  return Projection::fitted(rim, {0});
+}
+
+GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection) {
+  GridPiece piece;
+  piece.projection = projection;
+  piece.nodes = nodesOf(grid, triangles);
+  piece.triangles = std::move(triangles);
+  piece.mesh = toTriMesh(partOf(grid, piece.nodes, piece.triangles), projection, piece.conflicts);
+  if (!grid.feature_of.empty()) {
+    for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
+      piece.mesh.regions[t] = static_cast<RegionId>(grid.feature_of[piece.triangles[t]]);
+    }
+    markBorders(piece.mesh);
+  }
+  return piece;
+}
+
+std::vector<GridPiece> splitGrid(const Grid& grid) {
+  std::vector<GridPiece> pieces;
+  for (std::vector<std::uint32_t>& triangles : connectedTriangles(grid)) {
+    const Projection projection = fitProjection(grid, triangles);
+    pieces.push_back(makePiece(grid, std::move(triangles), projection));
+  }
+  return pieces;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/tri_mesh.hpp"
+#include "gis/grid/grid.hpp"
+#include "gis/projection/projection.hpp"
+
+namespace coastmesh {
+
+// A part of a grid as a mesh in a working plane.
+struct GridPiece {
+  Projection projection = Projection::plane();
+  TriMesh mesh;  // regions are the grid's `feature_of`, 0 where it has none; borders between them are constraints
+  std::vector<std::uint32_t> nodes;      // one a point of the mesh: the grid's node
+  std::vector<std::uint32_t> triangles;  // one a triangle of the mesh: the grid's triangle
+  std::vector<EdgeConflict> conflicts;   // in points of the mesh
+};
+
+// The grid's triangles in pieces that share no node; pieces and the triangles in them ascend.
+std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid);
+
+// A conformal projection fitted to the given triangles, or the identity for a grid without a place on Earth.
+Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles);
+
+GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection);
+
+// Every connected piece in a projection of its own, as `mesh` would have chosen it.
+std::vector<GridPiece> splitGrid(const Grid& grid);
+
+}  // namespace coastmesh

@@ -1,0 +1,214 @@
+#include "apps/job/job_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <locale>
+#include <sstream>
+
+#include "apps/job/places.hpp"
+#include "gis/clean/geodesic_area.hpp"
+#include "gis/coast/group_features.hpp"
+#include "gis/crs/geodesy.hpp"
+#include "gis/error.hpp"
+#include "gis/format/poly_io.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+bool isPolyFile(const std::string& path) { return std::filesystem::path(path).extension() == ".poly"; }
+
+std::size_t countPoints(const Feature& feature) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : feature.polygons) {
+    count += polygon.outer.size();
+    for (const Ring& hole : polygon.holes) count += hole.size();
+  }
+  for (const auto& line : feature.lines) count += line.size();
+  return count;
+}
+
+Crs parseWorkingCrs(const std::string& text) {
+  try {
+    return parseCrs(text);
+  } catch (const InputError& error) {
+    throw OptionError(std::string("--crs: ") + error.what());
+  }
+}
+
+// "1,2.5" as so many numbers.
+std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t count,
+                                 const std::string& form) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  for (double number; stream >> number;) {
+    if (!(std::abs(number) <= kLargestCoordinate)) break;
+    numbers.push_back(number);
+    char comma = 0;
+    if (numbers.size() < count && !(stream >> comma && comma == ',')) break;
+    if (numbers.size() == count) break;
+  }
+  std::string rest;
+  if (numbers.size() == count && !(stream >> rest)) return numbers;
+  throw OptionError(option + ": '" + text + "' is not " + form);
+}
+
+FrameOptions frameOptions(const InputOptions& options) {
+  FrameOptions frame;
+  if (options.domain == "inside") frame.side = DomainSide::Inside;
+  if (options.domain == "outside") frame.side = DomainSide::Outside;
+  if (!options.bbox.empty()) {
+    const std::vector<double> n = parseNumbers("--bbox", options.bbox, 4, "four numbers W,S,E,N");
+    frame.box = Box{n[0], n[1], n[2], n[3]};
+  }
+  if (!options.water_at.empty()) {
+    const std::vector<double> n = parseNumbers("--water-at", options.water_at, 2, "two numbers LON,LAT");
+    frame.water_at = Point{n[0], n[1]};
+  }
+  if (frame.box && !options.clip.empty())
+    throw OptionError("--bbox and --clip both bound the domain: give one of them");
+  if (frame.side == DomainSide::Outside && !frame.box && options.clip.empty() && !frame.water_at)
+    throw OptionError(
+        "--domain outside: water outside of land has to end somewhere: give --bbox W,S,E,N or --clip FILE");
+  return frame;
+}
+
+std::vector<Source> sourcesOf(const InputOptions& options) {
+  std::vector<Source> sources;
+  const auto add = [&sources](const std::vector<std::string>& files, FeatureUse use) {
+    for (const std::string& file : files) sources.push_back({file, use});
+  };
+  add(options.files, FeatureUse::Area);
+  if (!options.clip.empty()) add({options.clip}, FeatureUse::Frame);
+  add(options.constraints, FeatureUse::Constraint);
+  add(options.weirs, FeatureUse::Weir);
+  add(options.regions, FeatureUse::Region);
+  return sources;
+}
+
+// GeoJSON says longitudes and latitudes whatever it holds: where what is to be taken as a plane is none of these, it has
+// no place on Earth, and nor has the mesh.
+void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
+  if (!coastline.crs.geographic) return;
+  const Feature* odd = nullptr;
+  const auto look = [&](const Feature& feature, const std::vector<Point>& chain) {
+    const auto isOdd = [](const Point& p) { return !isLonLat(p); };
+    if (odd == nullptr && std::ranges::any_of(chain, isOdd)) odd = &feature;
+  };
+  for (const Feature& feature : coastline.features) {
+    for (const Polygon& polygon : feature.polygons) {
+      look(feature, polygon.outer);
+      for (const Ring& hole : polygon.holes) look(feature, hole);
+    }
+    for (const auto& line : feature.lines) look(feature, line);
+  }
+  if (odd == nullptr) return;
+  report.warnings.push_back(featureText(*odd) + ": has coordinates that are no longitudes and latitudes of " +
+                            nameOf(coastline.crs) + ": all are taken as metres in a plane");
+  coastline.crs = {};
+}
+
+}  // namespace
+
+JobInput::JobInput(const InputOptions& options) : options_(options) {
+  if (options_.pslg) {
+    takePlaneGraph(*options_.pslg, "the plane graph given");
+    return;
+  }
+  for (const std::string& file : options_.files) {
+    if (isPolyFile(file) && options_.files.size() > 1) {
+      throw OptionError("'" + file + "' is a ready plane graph and cannot be joined with other inputs; mesh it alone");
+    }
+  }
+  if (isPolyFile(options_.files.front())) {
+    readPolyFile(options_.files.front());
+    return;
+  }
+  std::optional<Crs> working;
+  if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
+  const FrameOptions frame = frameOptions(options_);
+  coastline_ = readCoastline(sourcesOf(options_), options_.filter, report_);
+  if (options_.crs == "plane") forgetImpossibleCrs(coastline_, report_);
+  FrameReport framed = frameCoastline(coastline_, frame);
+  report_.beyond_frame = framed.beyond_frame;
+  std::ranges::move(framed.notes, std::back_inserter(report_.notes));
+  if (working) chosen_ = Projection::to(coastline_.crs, *working);
+  groups_ = groupFeatures(coastline_);
+}
+
+void JobInput::readPolyFile(const std::string& path) {
+  if (sourcesOf(options_).size() > 1 || options_.domain != "auto" || !options_.bbox.empty() ||
+      !options_.water_at.empty()) {
+    throw OptionError("'" + path +
+                      "' says itself what is meshed; leave out --domain, --bbox, --clip, --water-at, --constraints, "
+                      "--weirs and --regions");
+  }
+  if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
+    throw OptionError("'" + path + "' has neither layers nor attributes; leave out --layer and --where");
+  }
+  if (options_.pinches == "open" || options_.dissolve || options_.simplify_m > 0.0 ||
+      options_.min_island_area_m2 > 0.0 || options_.snap_in_plane) {
+    throw OptionError("'" + path +
+                      "' is a ready plane graph and is not cleaned; leave out --pinches open, --dissolve, --simplify, "
+                      "--min-island-area and --snap");
+  }
+  if (options_.crs != "auto" && options_.crs != "plane") {
+    throw OptionError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
+  }
+  takePlaneGraph(readPoly(path), path);
+}
+
+void JobInput::takePlaneGraph(Pslg pslg, const std::string& source) {
+  poly_ = std::move(pslg);
+  Feature feature;
+  feature.fid = -1;
+  feature.source = source;
+  coastline_.features.push_back(feature);
+  groups_ = {{0}};
+  report_.features = 1;
+  report_.points = poly_->points.size();
+}
+
+std::size_t JobInput::pointsOf(std::size_t group) const {
+  if (poly_) return poly_->points.size();
+  std::size_t count = 0;
+  for (std::size_t member : groups_[group]) count += countPoints(coastline_.features[member]);
+  return count;
+}
+
+Projection JobInput::projectionOf(std::size_t group) const {
+  if (chosen_) return *chosen_;
+  if (options_.crs == "plane" || coastline_.crs.isPlane()) return Projection::plane();
+  return Projection::fitted(coastline_, groups_[group]);
+}
+
+Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& loop) const {
+  if (poly_) return {.pslg = *poly_, .input_points = poly_->points, .resolution = resolutionOf(poly_->points)};
+  const bool in_plane = options_.crs == "plane" || coastline_.crs.isPlane();
+  CleanOptions clean;
+  clean.snap_m = in_plane && !options_.snap_in_plane ? 0.0 : options_.snap_m;
+  clean.simplify_m = options_.simplify_m;
+  clean.min_island_area_m2 = options_.min_island_area_m2;
+  clean.dissolve = options_.dissolve;
+  clean.pinches = options_.pinches == "open" ? Pinches::Open : Pinches::Keep;
+  return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report, loop);
+}
+
+std::optional<double> JobInput::area(std::size_t group) const {
+  if (poly_) return std::nullopt;
+  return geodesicArea(coastline_, groups_[group]);
+}
+
+std::optional<double> JobInput::area(std::size_t group, const Domain& domain, const ItemLoop& loop) const {
+  if (poly_) return std::nullopt;
+  const auto plain = [&](std::size_t member) {
+    const FeatureUse use = coastline_.features[member].use;
+    return use != FeatureUse::Frame && use != FeatureUse::Coast;
+  };
+  if (std::ranges::all_of(groups_[group], plain)) return geodesicArea(coastline_, groups_[group], loop);
+  return geodesicArea(domain, coastline_.crs);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gis/clean/clean.hpp"
+#include "gis/coast/coastline.hpp"
+#include "gis/coast/frame.hpp"
+#include "gis/projection/projection.hpp"
+#include "gis/read/read_coastline.hpp"
+
+namespace coastmesh {
+
+// What to read, and how it becomes domains of the plane.
+struct InputOptions {
+  std::vector<std::string> files;        // vector files, or one .poly
+  std::shared_ptr<const Pslg> pslg;      // in place of files: a ready plane graph; cleaning it is the caller's
+  ReadFilter filter;                     // what of the files is read
+  std::string domain = "auto";           // "auto", "inside" or "outside": see DomainSide
+  std::string bbox;                      // "W,S,E,N" in the input's CRS; empty: none
+  std::string clip;                      // polygons that bound the domain; empty: none
+  std::string water_at;                  // "LON,LAT" in the input's CRS; empty: none
+  std::vector<std::string> constraints;  // files of lines and points that become edges and vertices
+  std::vector<std::string> weirs;        // files of lines
+  std::vector<std::string> regions;      // files of polygons
+  std::string crs = "auto";              // the working plane: "auto", "plane" or anything that PROJ knows
+  double snap_m = 0.001;                 // metres, 0 or more
+  bool snap_in_plane = false;            // `snap_m` holds for a plane input too, where else nothing is snapped
+  double simplify_m = 0.0;               // metres, 0 or more
+  bool dissolve = false;                 // features that share an edge become one
+  std::string pinches = "keep";          // "keep" or "open": see Pinches
+  double min_island_area_m2 = 0.0;       // square metres, 0 or more
+};
+
+// An input that was read and split into groups of features, each of which is meshed apart. A .poly is one group.
+class JobInput {
+ public:
+  explicit JobInput(const InputOptions& options);  // reads; throws OptionError, InputError
+
+  const Coastline& coastline() const { return coastline_; }
+  const ReadReport& report() const { return report_; }
+  bool isPoly() const { return poly_.has_value(); }
+  std::size_t groups() const { return groups_.size(); }
+  const std::vector<std::size_t>& members(std::size_t group) const { return groups_[group]; }
+  std::size_t pointsOf(std::size_t group) const;
+
+  // Projects and cleans a group. Throws InputError where nothing of it can be meshed. May be called from several
+  // threads at once. Throws NothingWanted for one that lies outside of the frame or apart from the water asked for.
+  Domain domain(std::size_t group, CleanReport& report, const ItemLoop& loop = inOrder) const;
+  // Square metres on the ellipsoid; none for a .poly, which says only with its holes what is inside.
+  std::optional<double> area(std::size_t group) const;
+  // The same of what was made of a group, where frames and coasts leave but a part of it.
+  std::optional<double> area(std::size_t group, const Domain& domain, const ItemLoop& loop = inOrder) const;
+
+ private:
+  void readPolyFile(const std::string& path);
+  void takePlaneGraph(Pslg pslg, const std::string& source);
+  Projection projectionOf(std::size_t group) const;
+
+  InputOptions options_;
+  Coastline coastline_;
+  ReadReport report_;
+  std::vector<std::vector<std::size_t>> groups_;
+  std::optional<Pslg> poly_;
+  std::optional<Projection> chosen_;  // where the user chose one; the same for all groups
+};
+
+}  // namespace coastmesh

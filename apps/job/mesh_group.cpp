@@ -1,0 +1,359 @@
+#include "apps/job/mesh_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <tuple>
+
+#include "apps/job/places.hpp"
+#include "apps/job/stopwatch.hpp"
+#include "core/delaunay.hpp"
+#include "core/refine/check.hpp"
+#include "core/size/estimate_vertices.hpp"
+#include "gis/clean/geodesic_area.hpp"
+#include "gis/coast/feature_names.hpp"
+#include "gis/error.hpp"
+#include "gis/follow/coast_follow.hpp"
+#include "gis/format/poly_io.hpp"
+#include "gis/geometry/chain_index.hpp"
+#include "gis/model/make_grid.hpp"
+#include "gis/size/guide_lines.hpp"
+#include "gis/size/node_sizes.hpp"
+#include "gis/size/size_choice.hpp"
+#include "parallel/recorder.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+Point centreOf(const Pslg& pslg) {
+  Point low = pslg.points.front();
+  Point high = low;
+  for (const Point& p : pslg.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
+}
+
+// Least and greatest scale at (a sample of) the points: a scale has its greatest on the rim of what is mapped.
+std::pair<double, double> scaleRange(const Domain& domain) {
+  constexpr std::size_t kLeastSample = 16, kMostSample = 1024, kPointsForOne = 16;
+  const std::size_t count = domain.pslg.points.size();
+  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  const std::size_t step =
+      std::max<std::size_t>(1, count / std::clamp(count / kPointsForOne, kLeastSample, kMostSample));
+  for (std::size_t i = 0; i < count; i += step) {
+    const double scale = domain.projection.scaleAt(domain.pslg.points[i]);
+    least = std::min(least, scale);
+    greatest = std::max(greatest, scale);
+  }
+  return {least, greatest};
+}
+
+// At its peak, of the whole program, with what GIS layers take besides: measured.
+constexpr double kBytesPerVertex = 600.0;
+// Estimates are right to half as much; what asks for more than this many times the budget is not begun.
+constexpr double kClearlyMore = 2.0;
+constexpr double kMostTold = 1e18;
+
+double mostVertices(const GroupRoom& room) {
+  return std::min(kClearlyMore * static_cast<double>(room.vertices), room.memory / kBytesPerVertex);
+}
+
+std::string amount(const char* format, double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool over_budget, bool shared) {
+  const VertexDemand& demand = error.demand;
+  std::string text = "these sizes ";
+  if (demand.map_too_large) {
+    text += "change so much that a map of them takes more than the mesh may, most of all near ";
+  } else {
+    text += demand.vertices > kMostTold ? "ask for more than " : "ask for about ";
+    text += amount("%.2g", std::min(demand.vertices, kMostTold)) + " vertices, most of them near ";
+  }
+  text += pointText(demand.place);
+  if (std::isfinite(demand.size_m)) text += ", where " + demand.option + amount(" asks for %.3g m", demand.size_m);
+  text += "; ";
+  if (over_budget) {
+    text += "--max-vertices allows " + std::to_string(room.vertices);
+    if (shared) text += " here, this feature's share by points";
+  } else {
+    text += "there is memory for about " + amount("%.2g", room.memory / kBytesPerVertex);
+  }
+  text += ": ask for larger ones, or give a larger --size-min";
+  return over_budget ? text + " or --max-vertices" : text;
+}
+
+MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t budget) {
+  MeshOptions options = job.mesh;
+  options.refine.max_vertices = budget;
+  if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
+    options.refine.size_max = job.sizes.most_m;
+    options.refine.size_max *= domain.projection.scaleAt(centreOf(domain.pslg));
+  }
+  return options;
+}
+
+// Where `--size-max` is only a bound there is no map of sizes, but no mesh has fewer vertices than equilateral triangles of that size.
+void requireMemory(const MeshJob& job, const Domain& domain, const GroupRoom& room, std::optional<double> area_m2) {
+  if (job.sizes.any() || !area_m2 || !std::isfinite(job.sizes.most_m)) return;
+  // In a plane lengths are in its units, whatever area a CRS would give its coordinates.
+  const double area = domain.projection.isIdentity() ? geodesicArea(domain, Crs{}) : *area_m2;
+  const double least = 2.0 / std::sqrt(3.0) * area / job.sizes.most_m / job.sizes.most_m;
+  if (std::min(least, static_cast<double>(room.vertices)) * kBytesPerVertex <= room.memory) return;
+  throw TooManyVertices({least, domain.projection.inverse(centreOf(domain.pslg)), job.sizes.most_m, "--size-max"});
+}
+
+// Leaves the failing region where its finder can send it from.
+std::string dumpRegion(const Pslg& pslg, std::uint64_t digest) {
+  std::ostringstream name;
+  name << "coastmesh-bug-" << std::hex << digest << ".poly";
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / name.str();
+  writePoly(pslg, path.string());
+  return path.string();
+}
+
+void requireSound(const TriMesh& mesh, const Domain& domain, const Feature& first, const ItemLoop& loop) {
+  const std::vector<MeshDefect> defects = checkMesh(mesh, &domain.pslg, CheckOptions{}, loop);
+  if (defects.empty()) return;
+  const MeshDefect& defect = defects.front();
+  throw BadMesh("the mesh of " + featureText(first) + " has " + std::to_string(defects.size()) +
+                " defects, the first one " + std::string(toString(defect.kind)) + " at " +
+                pointText(domain.projection.inverse(defect.place)) + "; the region was kept in '" +
+                dumpRegion(domain.pslg, digestOf(mesh)) + "'");
+}
+
+void placeShortfalls(const RefineStats& stats, const Projection& projection, GroupResult& result) {
+  result.unresolved = stats.unresolved.size();
+  const std::size_t listed = std::min(stats.unresolved.size(), kShortfallPlaces);
+  for (std::size_t i = 0; i < listed; ++i) {
+    const Shortfall& shortfall = stats.unresolved[i];
+    result.unresolved_places.push_back(
+        {projection.inverse(shortfall.place), shortfall.min_angle_deg, shortfall.max_angle_deg});
+  }
+}
+
+// Triangles in a region belong to a part of their feature that says so. Borders of regions are edges of the mesh, so that
+// each triangle lies in one as a whole; of several regions the first counts.
+void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
+                 TriMesh& mesh, Coastline& names) {
+  std::vector<std::pair<std::size_t, ChainIndex>> regions;
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    if (feature.use != FeatureUse::Region) continue;
+    ChainIndex index(ChainIndex::Kind::Rings);
+    const auto add = [&](Ring ring) {
+      for (Point& p : ring) p = projection.forward(p);
+      index.add(ring);
+    };
+    for (const Polygon& polygon : feature.polygons) {
+      add(polygon.outer);
+      for (const Ring& hole : polygon.holes) add(hole);
+    }
+    index.build();
+    if (index.edgeCount() > 0) regions.emplace_back(member, std::move(index));
+  }
+  std::map<std::pair<RegionId, std::size_t>, RegionId> parts;
+  for (std::size_t t = 0; t < mesh.triangles.size() && !regions.empty(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t].v;
+    const Point centre{(mesh.points[a].x + mesh.points[b].x + mesh.points[c].x) / 3,
+                       (mesh.points[a].y + mesh.points[b].y + mesh.points[c].y) / 3};
+    const auto holds = [&](const auto& region) {
+      return region.second.bounds().contains(Box::of(centre, centre)) &&
+             region.second.locate(centre) == Location::Inside;
+    };
+    const auto region = std::ranges::find_if(regions, holds);
+    if (region == regions.end()) continue;
+    const auto [part, made] =
+        parts.try_emplace({mesh.regions[t], region->first}, static_cast<RegionId>(names.features.size()));
+    if (made) {
+      Feature name = names.features[static_cast<std::size_t>(mesh.regions[t])];
+      name.region = regionNameOf(coastline.features[region->first]);
+      names.features.push_back(std::move(name));
+    }
+    mesh.regions[t] = part->second;
+  }
+}
+
+// The group's part of the grid. It is given its own features alone, so that the work does not grow with the square of
+// their number.
+Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh,
+               const std::vector<double>* size_m, const ItemLoop& loop) {
+  Coastline names;
+  names.crs = input.coastline().crs;
+  if (!input.isPoly()) {
+    const std::vector<std::size_t>& members = input.members(group);
+    for (std::size_t member : members) {
+      const Feature& feature = input.coastline().features[member];
+      Feature& name = names.features.emplace_back();
+      name.fid = feature.fid;
+      name.source = feature.source;
+      name.attributes = feature.attributes;
+    }
+    for (RegionId& region : mesh.regions) {
+      region =
+          static_cast<RegionId>(std::ranges::lower_bound(members, static_cast<std::size_t>(region)) - members.begin());
+    }
+    markRegions(input.coastline(), members, domain.projection, mesh, names);
+  }
+  Grid grid = makeGrid({{&domain, &mesh, size_m}}, names, loop);
+  grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
+  return grid;
+}
+
+// Sizes of shores that are dropped or closed would stay behind: they are made again from what is left, and where they are other ones at
+// the shore then, it follows them anew. `sized` is replaced.
+template <typename MakeSizes>
+Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
+                   const ShoreGuides& guides, const Coastline& coastline, CleanReport& report) {
+  constexpr double kSame = 1.05;
+  Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides);
+  DomainSizes again = makeSizes(followed);
+  const auto same = [&](const Point& p) { return again.function->at(p) <= kSame * sized.function->at(p); };
+  if (!std::ranges::all_of(followed.pslg.points, same)) {
+    report = {};
+    followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides);
+  }
+  sized = std::move(again);
+  return followed;
+}
+
+void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
+               const GroupRoom& room, const RunControl& control, GroupResult& result) {
+  const Stopwatch cleaning;
+  Recorder clean_recorder;
+  CleanReport clean;
+  // Small regions go without the clock, which would cost them more than the work.
+  constexpr std::size_t kWorthThreads = 10000;
+  const bool many_points = input.pointsOf(group) >= kWorthThreads;
+  const ItemLoop clean_loop = many_points ? clean_recorder.loop("clean", control) : ItemLoop(inOrder);
+  Domain domain = input.domain(group, clean, clean_loop);
+  result.edits = clean.counts;
+  result.notes = std::move(clean.notes);
+  clean = {};
+  result.projection = domain.projection.description();
+  result.projection_reason = domain.projection.reason();
+  std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain);
+  result.input_area_m2 = input.area(group, domain, clean_loop);
+  result.clean_s = cleaning.seconds();
+  result.log.append(clean_recorder.finish("clean"));
+
+  requireMemory(job, domain, room, result.input_area_m2);
+  MeshOptions options = optionsFor(job, domain, room.vertices);
+  std::unique_ptr<SizeFunction> size;
+  if (job.sizes.any()) {
+    Recorder recorder;
+    const Stopwatch sizing;
+    const ItemLoop loop = recorder.loop("size", control);
+    const SizeOptions wanted = job.sizes.choose ? chooseSizes(job.sizes, sizes, domain, loop) : job.sizes;
+    if (job.sizes.choose)
+      result.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(wanted) +
+                             "; give --size-shore or any other size to choose them yourself");
+    DomainSizes sized = makeSizeFunction(wanted, sizes, domain, mostVertices(room), loop);
+    if (job.sizes.coast == CoastDetail::Follow) {
+      FollowOptions follow = job.sizes.follow;
+      if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Open;
+      const auto makeSizes = [&](const Domain& followed) {
+        return makeSizeFunction(wanted, sizes, followed, mostVertices(room), loop);
+      };
+      const ShoreGuides guides{projected(sizes.passages, domain.projection),
+                               projected(sizes.barriers, domain.projection), job.sizes.passage_elements};
+      CleanReport coarser;
+      domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), coarser);
+      std::ranges::move(coarser.notes, std::back_inserter(result.notes));
+      for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
+    }
+    size = std::move(sized.function);
+    VertexDemand& demand = sized.demand;
+    options.refine.size = size.get();
+    demand.vertices +=
+        verticesOfSegments(domain.pslg, *size, std::max(0.0, 2.0 * mostVertices(room) - demand.vertices));
+    result.estimated_vertices = demand.vertices;
+    if (demand.vertices > mostVertices(room)) throw TooManyVertices(demand);
+    result.size_s = sizing.seconds();
+    result.log.append(recorder.finish());
+  }
+  MeshedRegion region = meshRegion(domain.pslg, options, control);
+  result.mesh_s = region.seconds;
+  result.refine = std::move(region.stats);
+  placeShortfalls(result.refine, domain.projection, result);
+  result.refine.unresolved = {};
+
+  result.pieces = region.pieces;
+  result.log.append(std::move(region.log));
+
+  Recorder recorder;
+  const bool large = region.pieces > 1;
+  const auto loop = [&](std::string_view stage) { return large ? recorder.loop(stage, control) : ItemLoop(inOrder); };
+  const Stopwatch checking;
+  requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()], loop("check"));
+  result.quality =
+      measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg, loop("check"));
+  result.digest = digestOf(region.mesh, 0, loop("check"));
+  result.check_s = checking.seconds();
+  std::vector<double> size_m;
+  if (size) {
+    const auto scale = [&](const Point& x) { return domain.projection.scaleAt(x); };
+    size_m = nodeSizes(region.mesh, *size, job.sizes.grade, scale);
+  }
+  result.grid = groupGrid(input, group, domain, region.mesh, size ? &size_m : nullptr, loop("grid"));
+  result.grid.piece_of = std::move(region.piece_of);
+  result.log.append(recorder.finish());
+}
+
+// Of a plane graph, whose segments the user knows by their order.
+std::string segmentsOf(const PslgDefect& defect) {
+  if (defect.segment == kNone) return "";
+  const std::string first = std::to_string(std::uint64_t{defect.segment} + 1);
+  if (defect.other == kNone) return " (segment " + first + ", counted from 1)";
+  return " (segments " + first + " and " + std::to_string(std::uint64_t{defect.other} + 1) + ", counted from 1)";
+}
+
+void refuse(const BadPslg& error, const JobInput& input, std::size_t group, GroupResult& result) {
+  const Feature& first = input.coastline().features[input.members(group).front()];
+  CleanReport ignored;
+  const Projection projection = input.domain(group, ignored).projection;
+  result.refusal_place = projection.inverse(error.defect.place);
+  result.refusal = featureText(first) + ": " + error.what() + " at " + pointText(*result.refusal_place);
+  if (input.isPoly()) result.refusal += segmentsOf(error.defect);
+}
+
+void refuse(const TooManyVertices& error, const GroupRoom& room, std::uint64_t whole_budget, const Feature& first,
+            GroupResult& result) {
+  result.estimated_vertices = std::min(error.demand.vertices, kMostTold);
+  result.over_budget = kClearlyMore * static_cast<double>(room.vertices) <= room.memory / kBytesPerVertex;
+  result.refusal_place = error.demand.place;
+  result.refusal =
+      featureText(first) + ": " + demandText(error, room, result.over_budget, room.vertices < whole_budget);
+}
+
+}  // namespace
+
+GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
+                      const GroupRoom& room, const RunControl& control) {
+  GroupResult result;
+  try {
+    fillGroup(job, input, sizes, group, room, control, result);
+  } catch (const TooManyVertices& error) {
+    refuse(error, room, job.mesh.refine.max_vertices, input.coastline().features[input.members(group).front()], result);
+  } catch (const NothingWanted& nothing) {
+    result.unwanted = nothing.what();
+  } catch (const InputError& error) {
+    result.refusal = error.what();
+  } catch (const BadPslg& error) {
+    refuse(error, input, group, result);
+  }
+  return result;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,247 @@
+#include "apps/job/mesh_job.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <numeric>
+
+#include "apps/job/available_memory.hpp"
+#include "apps/job/grid_pieces.hpp"
+#include "apps/job/mesh_group.hpp"
+#include "apps/job/stopwatch.hpp"
+#include "gis/grid/frame_box.hpp"
+#include "gis/grid/grid_edit.hpp"
+#include "gis/grid/ground_orientation.hpp"
+#include "parallel/recorder.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Groups up to so many points are taken in their order, so that their results are put together as they come.
+constexpr std::size_t kSmallGroup = 1024;
+
+// What the whole may hold, shared out by the groups' points, so that no group waits for what another leaves over.
+std::uint64_t vertexBudget(std::uint64_t whole, std::size_t points, std::size_t all_points) {
+  if (points == all_points || whole == std::numeric_limits<std::uint64_t>::max()) return whole;
+  return static_cast<std::uint64_t>(static_cast<double>(whole) * static_cast<double>(points) /
+                                    static_cast<double>(all_points));
+}
+
+// The groups' shares of the work put together, weighed by their points.
+class GroupProgress {
+ public:
+  GroupProgress(const std::vector<std::size_t>& weights, const JobControl& control)
+      : weights_(weights), shares_(weights.size(), 0.0), control_(control) {
+    total_ = std::max(1.0, static_cast<double>(std::accumulate(weights.begin(), weights.end(), std::size_t{0})));
+  }
+
+  void report(std::size_t group, double share) {
+    if (!control_.progress) return;
+    const std::lock_guard lock(mutex_);
+    const double gained = share - shares_[group];
+    if (!(gained > 0.0)) return;
+    shares_[group] = share;
+    done_ += gained * static_cast<double>(weights_[group]);
+    control_.progress("refine", std::min(1.0, done_ / total_));
+  }
+
+ private:
+  const std::vector<std::size_t>& weights_;
+  std::vector<double> shares_;
+  const JobControl& control_;
+  std::mutex mutex_;
+  double total_ = 1.0;
+  double done_ = 0.0;
+};
+
+std::uint64_t combineDigests(std::uint64_t digest, std::uint64_t next) {
+  return std::rotl((digest ^ next) * 0x9E3779B97F4A7C15ull, 31);
+}
+
+void addRefusal(const JobInput& input, std::size_t group, GroupResult&& part, MeshJobResult& result) {
+  Refusal refusal;
+  for (std::size_t member : input.members(group)) {
+    refusal.fids.push_back(input.coastline().features[member].fid);
+  }
+  refusal.source = input.coastline().features[input.members(group).front()].source;
+  refusal.reason = std::move(part.refusal);
+  refusal.place = part.refusal_place;
+  refusal.over_budget = part.over_budget;
+  result.refusals.push_back(std::move(refusal));
+}
+
+void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, MeshJobResult& result,
+              Stage& small_groups) {
+  for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += part.edits[kind];
+  result.seconds.clean += part.clean_s;
+  result.estimated_vertices += part.estimated_vertices;
+  std::ranges::move(part.notes, std::back_inserter(result.read.notes));
+  if (!part.unwanted.empty()) {
+    ++result.read.beyond_frame;
+    result.last_unwanted = part.unwanted;
+    return;
+  }
+  if (!part.refusal.empty()) {
+    addRefusal(input, group, std::move(part), result);
+    return;
+  }
+  ++result.regions;
+  result.pieces += part.pieces;
+  if (part.pieces > 1) {
+    result.log.append(std::move(part.log));
+  } else {
+    small_groups.items.push_back(part.log.work());
+  }
+  ++result.projections[part.projection.substr(0, part.projection.find(','))];
+  if (result.regions == 1) {
+    result.first_projection = part.projection;
+    result.first_projection_reason = part.projection_reason;
+  }
+  result.least_scale = std::min(result.least_scale, part.least_scale);
+  result.greatest_scale = std::max(result.greatest_scale, part.greatest_scale);
+  result.refine.add(part.refine);
+  result.unresolved += part.unresolved;
+  for (const ShortfallPlace& place : part.unresolved_places) {
+    if (result.unresolved_places.size() < kShortfallPlaces) result.unresolved_places.push_back(place);
+  }
+  result.quality.add(part.quality);
+  if (part.input_area_m2) result.input_area_m2 = result.input_area_m2.value_or(0.0) + *part.input_area_m2;
+  result.digest = result.regions == 1 ? part.digest : combineDigests(result.digest, part.digest);
+  result.seconds.triangulate += part.mesh_s.triangulate;
+  result.seconds.size += part.size_s;
+  result.seconds.refine += part.mesh_s.refine;
+  result.seconds.shrink += part.mesh_s.shrink;
+  result.seconds.fit += part.mesh_s.fit;
+  result.seconds.stitch += part.mesh_s.stitch;
+  result.seconds.check += part.check_s;
+  appendGrid(result.grid, std::move(part.grid));
+}
+
+// Puts the groups' results together in the groups' order, each as soon as those before it are there.
+class OrderedMerge {
+ public:
+  OrderedMerge(const JobInput& input, MeshJobResult& result)
+      : input_(input), result_(result), waiting_(input.groups()) {}
+
+  void add(std::size_t group, GroupResult&& part) {
+    const std::lock_guard lock(mutex_);
+    waiting_[group] = std::make_unique<GroupResult>(std::move(part));
+    const double before = threadSeconds();
+    for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
+      addGroup(input_, next_, std::move(*waiting_[next_]), result_, small_groups_);
+      waiting_[next_].reset();
+    }
+    merging_s_ += threadSeconds() - before;
+  }
+
+  void finish() {
+    std::ranges::sort(small_groups_.items, std::greater());
+    if (!small_groups_.items.empty()) result_.log.stages.push_back(std::move(small_groups_));
+    result_.log.addAlone("stitch", merging_s_);
+    result_.seconds.stitch += merging_s_;
+  }
+
+ private:
+  const JobInput& input_;
+  MeshJobResult& result_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<GroupResult>> waiting_;
+  Stage small_groups_{"regions", 0.0, {}};
+  std::size_t next_ = 0;
+  double merging_s_ = 0.0;
+};
+
+// Large groups first, lest one of them be left for the end, when all other threads have nothing to do.
+std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&points](std::size_t g) { return std::max(points[g], kSmallGroup); };
+  std::ranges::stable_sort(order, [&rank](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
+  return order;
+}
+
+}  // namespace
+
+namespace {
+
+// After repairs: the grid as it is now.
+void measureAgain(const MeshJob& job, MeshJobResult& result) {
+  result.quality = {};
+  bool first = true;
+  for (const GridPiece& piece : splitGrid(result.grid)) {
+    result.quality.add(measureQuality(piece.mesh, job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg));
+    result.digest = first ? digestOf(piece.mesh) : combineDigests(result.digest, digestOf(piece.mesh));
+    first = false;
+  }
+  result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+}
+
+// In the coordinates that are written: what is right in the working plane need not be so there.
+void findTurned(MeshJobResult& result) {
+  for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2)) {
+    ++result.turned;
+    if (result.turned_places.size() < kShortfallPlaces) result.turned_places.push_back(middleOf(result.grid, t));
+  }
+}
+
+MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
+  const Stopwatch whole;
+  MeshJobResult result;
+  if (control.progress) control.progress("read", 0.0);
+  const JobInput input(job.input);
+  result.read = input.report();
+  result.crs = input.coastline().crs;
+  const SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
+  result.seconds.read = whole.seconds();
+  result.log.addAlone("read", result.seconds.read);
+  if (control.cancelled && control.cancelled()) throw Cancelled();
+  if (control.progress) control.progress("read", 1.0);
+
+  std::vector<std::size_t> points(input.groups());
+  for (std::size_t g = 0; g < points.size(); ++g) points[g] = input.pointsOf(g);
+  const std::size_t all_points = std::accumulate(points.begin(), points.end(), std::size_t{0});
+  const std::vector<std::size_t> order = workOrder(points);
+  GroupProgress progress(points, control);
+  OrderedMerge merge(input, result);
+  const double memory = availableMemory();
+  forEachItem(order.size(), RunControl{control.cancelled, {}}, [&](std::size_t i) {
+    const std::size_t g = order[i];
+    const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
+    const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
+    merge.add(g, meshGroup(job, input, sizes, g, {budget, memory}, inner));
+    progress.report(g, 1.0);
+  });
+  merge.finish();
+  result.grid.crs = result.crs;
+  if (!input.isPoly()) keepInFrame(result.grid, input.coastline());
+  result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+  FinishOptions finish = job.finish;
+  if (result.read.boundary_types) finish.boundaries.inputs = job.input.files;
+  if (finish.any()) {
+    const Stopwatch finishing;
+    RunControl inner{control.cancelled, {}};
+    if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
+    result.finish = finishGrid(result.grid, finish, inner);
+    if (!result.finish.repairs.repairs.empty()) measureAgain(job, result);
+    result.seconds.finish = finishing.seconds();
+    result.log.addAlone("finish", result.seconds.finish);
+  }
+  findTurned(result);
+  result.step = measureOutcome(result.grid, job.sizes);
+  result.seconds.total = whole.seconds();
+  return result;
+}
+
+}  // namespace
+
+MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control) {
+  MeshJobResult result;
+  withThreads(job.parallel, [&] { result = runOnThreads(job, control); });
+  return result;
+}
+
+}  // namespace coastmesh

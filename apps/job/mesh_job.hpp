@@ -1,0 +1,12 @@
+#pragma once
+
+#include "apps/job/mesh_job_options.hpp"
+#include "apps/job/mesh_job_result.hpp"
+
+namespace coastmesh {
+
+// Reads, projects, cleans, meshes, checks and finishes. Nothing but `seconds` depends on the number of threads. Throws
+// InputError, Cancelled, BadMesh.
+MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control = {});
+
+}  // namespace coastmesh

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/job/finish_grid.hpp"
+#include "apps/job/job_input.hpp"
+#include "apps/job/step_outcome.hpp"
+#include "core/quality.hpp"
+#include "core/refine/refine_options.hpp"
+#include "gis/clean/clean_report.hpp"
+#include "gis/grid/grid.hpp"
+#include "gis/read/read_report.hpp"
+#include "parallel/work_log.hpp"
+
+namespace coastmesh {
+
+// A group of features that could not be meshed; the others were.
+struct Refusal {
+  std::string source;
+  std::vector<std::int64_t> fids;
+  std::string reason;
+  std::optional<Point> place;  // in the input's CRS, where one is known
+  bool over_budget = false;    // its sizes ask for clearly more than `max_vertices`
+};
+
+// A triangle short of the bounds that no input angle explains.
+struct ShortfallPlace {
+  Point place;  // in the input's CRS
+  double min_angle_deg = 0.0;
+  double max_angle_deg = 0.0;
+};
+inline constexpr std::size_t kShortfallPlaces = 1000;  // those past it are counted, not listed
+
+// Seconds by the clock; all but read, finish, write and total are summed over groups, several of which may be meshed at
+// once.
+struct PhaseSeconds {
+  double read = 0.0;
+  double clean = 0.0;
+  double size = 0.0;
+  double triangulate = 0.0;
+  double refine = 0.0;
+  double shrink = 0.0;
+  double fit = 0.0;
+  double stitch = 0.0;
+  double check = 0.0;
+  double finish = 0.0;
+  double write = 0.0;
+  double total = 0.0;
+};
+
+struct MeshJobResult {
+  Grid grid;  // without a triangle where every feature was refused
+  ReadReport read;
+  Crs crs;
+  std::array<std::uint64_t, kEditKinds> edits{};
+  std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
+  std::string first_projection;                      // of the first region, with its parameters
+  std::string first_projection_reason;
+  double least_scale = std::numeric_limits<double>::infinity(), greatest_scale = 0.0;  // plane over true length
+  std::uint64_t regions = 0;        // groups of features that were meshed
+  std::uint64_t pieces = 0;         // that they were cut into
+  WorkLog log;                      // groups that were cut, one after another, then the others
+  double estimated_vertices = 0.0;  // from the sizes asked for, of what was refused too; 0 where there are none
+  RefineStats refine;               // `unresolved` is empty: see below
+  std::uint64_t unresolved = 0;
+  std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them
+  std::uint64_t turned = 0;          // triangles that are not counter-clockwise on the ground: see `turnedTriangles`
+  std::vector<Point> turned_places;  // the first kShortfallPlaces of them, in the input's CRS
+  std::vector<Refusal> refusals;
+  std::string last_unwanted;  // why a group was passed over that lies outside of what was asked for
+  MeshQuality quality;
+  std::optional<double> input_area_m2;  // of what was meshed; none for a .poly
+  double mesh_area_m2 = 0.0;
+  std::uint64_t digest = 0;
+  PhaseSeconds seconds;
+  FinishReport finish;                       // depths, boundaries and repairs
+  StepOutcome step;                          // of the finished grid
+  std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
+
+  bool complete() const {
+    return unresolved == 0 && turned == 0 && !refine.budget_reached && refusals.empty() &&
+           finish.repairs.left.empty() && step.held();
+  }
+};
+
+// A mesh failed its own check: a bug of coastmesh.
+struct BadMesh : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+}  // namespace coastmesh

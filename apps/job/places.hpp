@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "core/point.hpp"
+#include "gis/coast/coastline.hpp"
+
+namespace coastmesh {
+
+// Places and features as messages name them.
+std::string pointText(const Point& point);        // "(-87.5, 41.25)"
+std::string featureText(const Feature& feature);  // "'lakes.gpkg', feature 12"
+
+}  // namespace coastmesh

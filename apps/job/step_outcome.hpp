@@ -1,0 +1,36 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "gis/model/time_step.hpp"
+#include "gis/size/size_source.hpp"
+
+namespace coastmesh {
+
+// What a finished grid is for a model's time step, and whether --time-step and --size-min hold in it.
+struct StepOutcome {
+  // An edge shorter than this share of --size-min misses it: edges come out between 0.7 and 1.4 of the size wanted.
+  static constexpr double kShareOfLeast = 0.5;
+
+  StepReport step;
+  std::vector<ShortStep> below_step;   // triangles in which --time-step does not hold, the worst first
+  std::vector<ShortEdge> below_least;  // edges shorter than --size-min, the shortest first
+  bool least_missed = false;           // one of them by far, and not because --coast keep keeps what the data have
+
+  std::vector<std::string> warnings;
+
+  bool held() const { return below_step.empty() && !least_missed; }
+};
+
+StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes);
+
+// A line for people: the shortest edge and the time step, with their places.
+std::string stepText(const StepReport& step, bool plane);
+
+// Sections of reports.
+nlohmann::ordered_json stepJson(const StepReport& step);
+nlohmann::ordered_json outcomeJson(const StepOutcome& outcome, const SizeOptions& sizes);
+
+}  // namespace coastmesh

@@ -1,0 +1,541 @@
+#include "apps/plot/plot_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "apps/job/check_grid.hpp"
+#include "apps/job/grid_pieces.hpp"
+#include "apps/plot/plot_canvas.hpp"
+#include "core/quality.hpp"
+#include "gis/error.hpp"
+#include "gis/format/grid_names.hpp"
+#include "gis/model/time_step.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr Color kLand{0.955, 0.950, 0.935};
+constexpr Color kWater{0.865, 0.925, 0.965};
+constexpr Color kEdge{0.32, 0.52, 0.68};
+constexpr Color kEdgeOnColor{0.16, 0.27, 0.36};
+constexpr Color kShore{0.10, 0.20, 0.32};
+constexpr Color kBad{0.88, 0.10, 0.10};
+constexpr Color kPaper{1.0, 1.0, 1.0};
+constexpr Color kInk{0.15, 0.15, 0.15};
+
+constexpr Color kOpen{0.84, 0.15, 0.56};
+constexpr Color kIsland{0.65, 0.45, 0.04};
+constexpr Color kUnknown{0.80, 0.80, 0.80};
+
+constexpr std::size_t kMostVectorTriangles = 100'000;  // in an .svg; more come as an image in it
+constexpr double kRolePx = 2.2;
+
+constexpr double kMargin = 0.03;      // of the window, around what is drawn
+constexpr double kStripPx = 44.0;     // below the map: scale bar and legend
+constexpr double kEdgeShare = 0.075;  // an edge's width over its length, up to the widest
+constexpr double kWidestEdgePx = 0.8;
+constexpr double kShorePx = 1.1;
+constexpr double kBlurPx = 3.0;  // triangles smaller than this show as a tint, not as lines
+// Lines of kEdgeShare of the length of an equilateral triangle's edges cover this share of it.
+constexpr double kEdgeCover = 3.46 * kEdgeShare;
+
+struct Window {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void add(const Point& p) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) return;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  double longerSide() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
+Window windowOf(const GridPiece& piece, const PlotOptions& options) {
+  Window window;
+  if (options.bbox) {
+    // The box's sides are curves in the plane.
+    const auto& [west, south, east, north] = *options.bbox;
+    constexpr int kSteps = 32;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double share = static_cast<double>(i) / kSteps;
+      const double x = west + (east - west) * share;
+      const double y = south + (north - south) * share;
+      for (const Point& p : {Point{x, south}, Point{x, north}, Point{west, y}, Point{east, y}}) {
+        window.add(piece.projection.forward(p));
+      }
+    }
+  } else {
+    for (const Point& p : piece.mesh.points) window.add(p);
+  }
+  const double margin = options.bbox ? 0.0 : kMargin * window.longerSide();
+  window.low = {window.low.x - margin, window.low.y - margin};
+  window.high = {window.high.x + margin, window.high.y + margin};
+  if (!(window.longerSide() > 0.0) || !std::isfinite(window.longerSide())) {
+    throw InputError("there is nothing to draw in the box asked for");
+  }
+  return window;
+}
+
+// The triangles that the picture may show: the plane is fitted to them alone. The box is one of longitudes and
+// latitudes, the picture one of the plane, which reaches further at its corners.
+std::vector<std::uint32_t> trianglesIn(const Grid& grid, const PlotOptions& options) {
+  constexpr double kReach = 0.3;  // of the box's sides
+  std::vector<std::uint32_t> shown;
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+    Window extent;
+    for (std::uint32_t node : grid.triangles[t]) extent.add(grid.nodes[node]);
+    if (options.bbox) {
+      const auto& [west, south, east, north] = *options.bbox;
+      const double reach_x = kReach * (east - west);
+      const double reach_y = kReach * (north - south);
+      if (extent.high.x < west - reach_x || extent.low.x > east + reach_x) continue;
+      if (extent.high.y < south - reach_y || extent.low.y > north + reach_y) continue;
+    }
+    shown.push_back(t);
+  }
+  return shown;
+}
+
+// The colour at a share of the way along four that lie evenly.
+Color between(const std::array<Color, 4>& stops, double share) {
+  const double at = std::clamp(share, 0.0, 1.0) * 3.0;
+  const auto stop = std::min<std::size_t>(2, static_cast<std::size_t>(at));
+  return mix(stops[stop], stops[stop + 1], at - static_cast<double>(stop));
+}
+
+// From bad to good: red, sand, pale green, blue.
+Color rampColor(double share) {
+  return between({{{0.80, 0.25, 0.18}, {0.97, 0.78, 0.47}, {0.90, 0.94, 0.80}, {0.18, 0.49, 0.66}}}, share);
+}
+
+// From deep to shallow: dark blue, blue, pale green, sand.
+Color depthColor(double share) {
+  return between({{{0.06, 0.16, 0.42}, {0.15, 0.47, 0.73}, {0.60, 0.83, 0.79}, {0.97, 0.92, 0.72}}}, share);
+}
+
+// Colours far apart for neighbours in number: hues turned by the golden section.
+Color featureColor(std::size_t feature) {
+  const double hue = std::fmod(static_cast<double>(feature) * 0.6180339887498949, 1.0);
+  const auto channel = [hue](double shift) { return 0.80 + 0.14 * std::cos(2.0 * std::numbers::pi * (hue + shift)); };
+  return {channel(0.0), channel(1.0 / 3.0), channel(2.0 / 3.0)};
+}
+
+// "12.5 km" of a length in metres; bare numbers in a plane without a place on Earth.
+std::string lengthText(double length, bool plane) {
+  char text[40];
+  if (plane) {
+    std::snprintf(text, sizeof text, "%g", length);
+  } else if (length >= 1000.0) {
+    std::snprintf(text, sizeof text, "%g km", length / 1000.0);
+  } else {
+    std::snprintf(text, sizeof text, "%g m", length);
+  }
+  return text;
+}
+
+class MeshPlot {
+ public:
+  MeshPlot(const Grid& grid, const GridPiece& piece, const PlotOptions& options, const Window& window,
+           const std::string& path)
+      : grid_(grid),
+        piece_(piece),
+        mesh_(piece.mesh),
+        options_(options),
+        canvas_(path, window.low, window.high, static_cast<double>(options.size_px), kStripPx) {
+    pixels_.reserve(mesh_.points.size());
+    for (const Point& p : mesh_.points) pixels_.push_back(canvas_.toPixel(p));
+    centre_ = {(window.low.x + window.high.x) / 2, (window.low.y + window.high.y) / 2};
+  }
+
+  void draw() {
+    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight() + kStripPx, kPaper);
+    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight(), kLand);
+    canvas_.clipToMap();
+    drawWater();
+    const bool many = mesh_.triangles.size() > kMostVectorTriangles;
+    if (many) canvas_.beginPixels();
+    drawTriangles();
+    if (options_.edges) drawEdges();
+    if (many) canvas_.endPixels();
+    drawShore();
+    drawRoles();
+    markBad();
+    canvas_.unclip();
+    drawScaleBar();
+    drawLegend();
+    canvas_.finish();
+  }
+
+ private:
+  std::array<Point, 3> corners(TriId t) const {
+    const auto& v = mesh_.triangles[t].v;
+    return {pixels_[v[0]], pixels_[v[1]], pixels_[v[2]]};
+  }
+  bool shows(TriId t) const { return canvas_.showsAny(corners(t).data(), 3); }
+  double smallestAngle(TriId t) const {
+    const auto& v = mesh_.triangles[t].v;
+    return std::ranges::min(anglesDeg(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
+  }
+  bool isBad(TriId t) const { return smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg; }
+  double area(TriId t) const {
+    const auto& v = mesh_.triangles[t].v;
+    return std::abs(signedArea(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
+  }
+  double longestEdgePx(TriId t) const {
+    const std::array<Point, 3> c = corners(t);
+    const auto length = [](const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); };
+    return std::max({length(c[0], c[1]), length(c[1], c[2]), length(c[2], c[0])});
+  }
+
+  Color edgeColor() const { return options_.color == PlotColor::None ? kEdge : kEdgeOnColor; }
+
+  void drawWater() {
+    for (const auto& loop : rimLoops(mesh_)) {
+      std::vector<Point>& drawn = loops_.emplace_back();
+      for (VertexId v : loop) drawn.push_back(pixels_[v]);
+    }
+    canvas_.fillLoops(loops_, kWater);
+  }
+
+  Color colorOf(TriId t) const {
+    switch (options_.color) {
+      case PlotColor::Angle:
+        return rampColor(smallestAngle(t) / 60.0);
+      case PlotColor::Feature:
+      case PlotColor::Piece:  // in place of the features: see `plotMesh`
+        return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
+      case PlotColor::Size:
+        return rampColor((std::log(area(t)) - least_log_area_) / std::max(1e-12, most_log_area_ - least_log_area_));
+      case PlotColor::Region:
+        return featureColor(parts_[t]);
+      case PlotColor::Depth: {
+        const double z = heightOf(t);
+        if (!std::isfinite(z)) return kUnknown;
+        return depthColor((z - lowest_z_) / std::max(1e-12, highest_z_ - lowest_z_));
+      }
+      case PlotColor::TimeStep: {
+        const double step = steps_[piece_.triangles[t]];
+        if (!std::isfinite(step)) return kUnknown;
+        return rampColor(std::log(step / least_step_s_) / std::max(1e-12, std::log(most_step_s_ / least_step_s_)));
+      }
+      case PlotColor::None:
+        break;
+    }
+    return kWater;
+  }
+
+  // Metres, positive up; NaN where a corner has none.
+  double heightOf(TriId t) const {
+    double sum = 0.0;
+    for (VertexId v : mesh_.triangles[t].v) sum += grid_.z[piece_.nodes[v]];
+    return sum / 3.0;
+  }
+
+  void findHeights() {
+    if (grid_.z.empty()) throw InputError("the mesh has no depth to colour it by");
+    lowest_z_ = std::numeric_limits<double>::infinity();
+    highest_z_ = -lowest_z_;
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      const double z = heightOf(t);
+      if (!std::isfinite(z) || !shows(t)) continue;
+      lowest_z_ = std::min(lowest_z_, z);
+      highest_z_ = std::max(highest_z_, z);
+    }
+    if (lowest_z_ > highest_z_) throw InputError("the mesh has no depth to colour it by");
+  }
+
+  void findSteps() {
+    steps_ = timeSteps(grid_);
+    least_step_s_ = std::numeric_limits<double>::infinity();
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      const double step = steps_[piece_.triangles[t]];
+      if (!std::isfinite(step) || !shows(t)) continue;
+      least_step_s_ = std::min(least_step_s_, step);
+      most_step_s_ = std::max(most_step_s_, step);
+    }
+    if (!(most_step_s_ > 0.0)) throw InputError("the mesh has no depth below water, so no time step to colour it by");
+  }
+
+  // Numbers the regions by their names where there are any, else the parts that hang together by edges and lie in one
+  // feature.
+  void findParts() {
+    if (const std::vector<std::string> names = regionNames(grid_); !names.empty()) {
+      const std::vector<int> numbers = regionNumbers(grid_, names);
+      for (const RegionId feature : mesh_.regions)
+        parts_.push_back(static_cast<std::uint32_t>(numbers[static_cast<std::size_t>(feature)]));
+      return;
+    }
+    constexpr std::uint32_t kNoPart = std::numeric_limits<std::uint32_t>::max();
+    parts_.assign(mesh_.triangles.size(), kNoPart);
+    std::uint32_t count = 0;
+    std::vector<TriId> waiting;
+    for (TriId first = 0; first < mesh_.triangles.size(); ++first) {
+      if (parts_[first] != kNoPart) continue;
+      parts_[first] = count;
+      waiting.push_back(first);
+      while (!waiting.empty()) {
+        const TriId t = waiting.back();
+        waiting.pop_back();
+        for (EdgeRef twin : mesh_.triangles[t].adj) {
+          if (twin == kNone) continue;
+          const TriId next = triOf(twin);
+          if (parts_[next] != kNoPart || mesh_.regions[next] != mesh_.regions[t]) continue;
+          parts_[next] = count;
+          waiting.push_back(next);
+        }
+      }
+      ++count;
+    }
+  }
+
+  // The range that colours tell: of the triangles shown, less the few smallest.
+  void findAreas() {
+    std::vector<double> shown;
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      if (area(t) > 0.0 && shows(t)) shown.push_back(std::log(area(t)));
+    }
+    if (shown.empty()) return;
+    std::ranges::sort(shown);
+    least_log_area_ = shown[shown.size() / 50];
+    most_log_area_ = shown.back();
+  }
+
+  void drawTriangles() {
+    if (options_.color == PlotColor::Size) findAreas();
+    if (options_.color == PlotColor::Depth) findHeights();
+    if (options_.color == PlotColor::Region) findParts();
+    if (options_.color == PlotColor::TimeStep) findSteps();
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      const bool blurred = options_.edges && longestEdgePx(t) < kBlurPx;
+      const bool bad = isBad(t);
+      if (!blurred && !bad && options_.color == PlotColor::None) continue;
+      if (!shows(t)) continue;
+      const Color color = bad ? kBad : colorOf(t);
+      canvas_.fillTriangle(corners(t), blurred && !bad ? mix(color, edgeColor(), kEdgeCover) : color);
+    }
+  }
+
+  // Lines get thinner with the triangles, so that dense places keep the tint of the others.
+  void drawEdges() {
+    std::map<int, std::vector<std::array<Point, 2>>> by_width;  // in quarter octaves below the widest
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      if (longestEdgePx(t) < kBlurPx || !shows(t)) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        const EdgeRef twin = mesh_.twin(e);
+        if (twin == kNone || (twin < e && longestEdgePx(triOf(twin)) >= kBlurPx)) continue;
+        const Point& a = pixels_[mesh_.origin(e)];
+        const Point& b = pixels_[mesh_.target(e)];
+        const double width = std::min(kWidestEdgePx, kEdgeShare * std::hypot(b.x - a.x, b.y - a.y));
+        const int level = static_cast<int>(std::floor(4.0 * std::log2(kWidestEdgePx / std::max(width, 1e-3))));
+        by_width[level].push_back({a, b});
+      }
+    }
+    for (const auto& [level, lines] : by_width) {
+      canvas_.strokeLines(lines, kWidestEdgePx * std::exp2(-level / 4.0), edgeColor());
+    }
+  }
+
+  void drawShore() {
+    std::vector<std::array<Point, 2>> borders;
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        const EdgeRef twin = mesh_.twin(e);
+        if (twin == kNone || twin < e || mesh_.regions[t] == mesh_.regions[triOf(twin)]) continue;
+        borders.push_back({pixels_[mesh_.origin(e)], pixels_[mesh_.target(e)]});
+      }
+    }
+    canvas_.strokeLines(borders, 0.9, mix(kShore, edgeColor(), 0.5));
+
+    std::map<int, std::vector<std::array<Point, 2>>> by_width;  // in eighths of the widest
+    for (const std::vector<Point>& loop : loops_) {
+      if (!canvas_.showsAny(loop.data(), loop.size())) continue;
+      std::vector<std::array<Point, 2>>& lines = by_width[shoreLevel(loop)];
+      for (std::size_t i = 0; i < loop.size(); ++i) lines.push_back({loop[i], loop[i + 1 == loop.size() ? 0 : i + 1]});
+    }
+    for (const auto& [level, lines] : by_width) canvas_.strokeLines(lines, kShorePx * level / 8.0, kShore);
+  }
+
+  // Open boundaries always, islands where the picture tells boundaries apart by colour: where there is an open one.
+  void drawRoles() {
+    const auto has_role = [this](BoundaryRole role) {
+      return std::ranges::any_of(grid_.boundaries, [role](const Boundary& b) { return b.role == role; });
+    };
+    if (!has_role(BoundaryRole::Open)) return;
+    drawRole(BoundaryRole::Island, kRolePx / 2, kIsland);
+    drawRole(BoundaryRole::Open, kRolePx, kOpen);
+    shows_roles_ = true;
+  }
+
+  void drawRole(BoundaryRole role, double width, const Color& color) {
+    std::vector<std::array<Point, 2>> lines;
+    for (const Boundary& boundary : grid_.boundaries) {
+      if (boundary.role != role) continue;
+      for (std::size_t i = 0; i < boundary.nodes.size(); ++i) {
+        const bool last = i + 1 == boundary.nodes.size();
+        if (last && !boundary.closed) break;
+        const auto at = [this](std::uint32_t node) {
+          return canvas_.toPixel(piece_.projection.forward(grid_.nodes[node]));
+        };
+        const std::array<Point, 2> line{at(boundary.nodes[i]), at(boundary.nodes[last ? 0 : i + 1])};
+        if (canvas_.showsAny(line.data(), 2)) lines.push_back(line);
+      }
+    }
+    canvas_.strokeLines(lines, width, color);
+  }
+
+  // The shore of a lake or an island of a few pixels is thin, lest ink be all that is seen of it.
+  static int shoreLevel(const std::vector<Point>& loop) {
+    Window extent;
+    for (const Point& p : loop) extent.add(p);
+    return static_cast<int>(std::clamp(extent.longerSide() / 2.0, 1.0, 8.0));
+  }
+
+  // A bad triangle of a pixel would go unseen: a circle tells where it is.
+  void markBad() {
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!isBad(t) || longestEdgePx(t) > 8.0 || !shows(t)) continue;
+      const std::array<Point, 3> c = corners(t);
+      canvas_.strokeCircle({(c[0].x + c[1].x + c[2].x) / 3, (c[0].y + c[1].y + c[2].y) / 3}, 5.0, 1.2, kBad);
+    }
+  }
+
+  void drawScaleBar() {
+    const double units_per_metre = piece_.projection.scaleAt(centre_);
+    const double pixels_per_metre = canvas_.pixelsPerUnit() * units_per_metre;
+    const double wanted = 0.2 * canvas_.width() / pixels_per_metre;
+    const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+    double length = power;
+    for (double digit : {2.0, 5.0}) {
+      if (digit * power <= wanted) length = digit * power;
+    }
+    const double y = canvas_.mapHeight() + 20.0;
+    const double end = 12.0 + length * pixels_per_metre;
+    canvas_.strokeLine({12.0, y}, {end, y}, 1.5, kInk);
+    canvas_.strokeLine({12.0, y - 4.0}, {12.0, y + 4.0}, 1.5, kInk);
+    canvas_.strokeLine({end, y - 4.0}, {end, y + 4.0}, 1.5, kInk);
+    canvas_.text({12.0, y + 18.0}, lengthText(length, grid_.crs.isPlane()), 13.0, kInk);
+  }
+
+  void drawRoleLegend() {
+    double x = 0.32 * canvas_.width();
+    const double y = canvas_.mapHeight() + 20.0;
+    for (const auto& [name, color] :
+         {std::pair{"open", kOpen}, std::pair{"island", kIsland}, std::pair{"land", kShore}}) {
+      canvas_.strokeLine({x, y}, {x + 18.0, y}, kRolePx, color);
+      canvas_.text({x + 22.0, y + 4.0}, name, 13.0, kInk);
+      x += 75.0;
+    }
+  }
+
+  void drawLegend() {
+    if (shows_roles_) drawRoleLegend();
+    constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep};
+    if (std::ranges::count(kWithScale, options_.color) == 0) return;
+    constexpr int kSteps = 60;
+    constexpr double kStep = 3.0;
+    const double left = canvas_.width() - kSteps * kStep - 12.0;
+    if (left < canvas_.width() / 2) return;  // no room for it beside the scale bar
+    const double top = canvas_.mapHeight() + 12.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double share = (i + 0.5) / kSteps;
+      const Color color = options_.color == PlotColor::Depth ? depthColor(share) : rampColor(share);
+      canvas_.fillRectangle({left + i * kStep, top}, kStep + 0.5, 10.0, color);
+    }
+    std::string low = "0\u00b0";
+    std::string high = "60\u00b0 smallest angle";
+    if (options_.color == PlotColor::Size) {
+      const double scale = piece_.projection.scaleAt(centre_);
+      const auto sideOf = [scale](double log_area) { return std::sqrt(std::exp(log_area) * 2.309) / scale; };
+      const auto rounded = [](double value) {
+        const double power = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+        return std::round(value / power) * power;
+      };
+      low = lengthText(rounded(sideOf(least_log_area_)), grid_.crs.isPlane());
+      high = lengthText(rounded(sideOf(most_log_area_)), grid_.crs.isPlane()) + " edge";
+    }
+    if (options_.color == PlotColor::Depth) {
+      char text[40];
+      std::snprintf(text, sizeof text, "%.4g m", lowest_z_);
+      low = text;
+      std::snprintf(text, sizeof text, "%.4g m up", highest_z_);
+      high = text;
+    }
+    if (options_.color == PlotColor::TimeStep) {
+      char text[40];
+      std::snprintf(text, sizeof text, "%.3g s", least_step_s_);
+      low = text;
+      std::snprintf(text, sizeof text, "%.3g s by CFL", most_step_s_);
+      high = text;
+    }
+    canvas_.text({left, top + 26.0}, low, 13.0, kInk);
+    canvas_.textEndingAt({left + kSteps * kStep, top + 26.0}, high, 13.0, kInk);
+  }
+
+  const Grid& grid_;
+  const GridPiece& piece_;
+  const TriMesh& mesh_;
+  const PlotOptions& options_;
+  PlotCanvas canvas_;
+  std::vector<Point> pixels_;              // one a point of the mesh
+  std::vector<std::vector<Point>> loops_;  // the rim
+  Point centre_;                           // of the window, in the plane
+  double least_log_area_ = 0.0;
+  double most_log_area_ = 0.0;
+  double lowest_z_ = 0.0;  // metres, of the triangles shown
+  double highest_z_ = 0.0;
+  std::vector<double> steps_;  // one a triangle of the grid, where they are shown
+  double least_step_s_ = 0.0;  // of the triangles shown
+  double most_step_s_ = 0.0;
+  std::vector<std::uint32_t> parts_;  // one a triangle, where parts are shown
+  bool shows_roles_ = false;
+};
+
+}  // namespace
+
+const std::vector<std::string>& plotColorNames() {
+  static const std::vector<std::string> kNames = {"none", "angle", "feature", "region",
+                                                  "size", "depth", "piece",   "timestep"};  // as in PlotColor
+  return kNames;
+}
+
+PlotColor plotColorNamed(const std::string& name) {
+  const auto at = std::ranges::find(plotColorNames(), name);
+  if (at == plotColorNames().end()) throw OptionError("there is no colouring '" + name + "'");
+  return static_cast<PlotColor>(at - plotColorNames().begin());
+}
+
+void requirePlotFormat(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".svg" && ending != ".png") {
+    throw OutputError("cannot draw '" + path + "': give it one of the endings .svg, .png");
+  }
+}
+
+void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path) {
+  requirePlotFormat(path);
+  if (options.color == PlotColor::Piece && grid.piece_of.empty())
+    throw OptionError("the mesh does not say its pieces, to be coloured by: make it with --mark-pieces, as .nc");
+  std::vector<std::uint32_t> shown = trianglesIn(grid, options);
+  if (shown.empty()) throw InputError("the mesh has no triangle in the box asked for");
+  const Projection projection = fitProjection(grid, shown);
+  GridPiece piece = makePiece(grid, std::move(shown), projection);
+  if (options.color == PlotColor::Piece) {
+    for (std::size_t t = 0; t < piece.triangles.size(); ++t)
+      piece.mesh.regions[t] = static_cast<RegionId>(grid.piece_of[piece.triangles[t]]);
+  }
+  const Window window = windowOf(piece, options);
+  MeshPlot(grid, piece, options, window, path).draw();
+}
+
+}  // namespace coastmesh

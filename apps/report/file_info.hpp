@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/job/job_input.hpp"
+#include "core/quality.hpp"
+#include "gis/grid/grid.hpp"
+#include "gis/model/time_step.hpp"
+
+namespace coastmesh {
+
+// The least box round coordinates, as they stand in the file.
+struct Extent {
+  Point low;
+  Point high;
+};
+
+struct MeshInfo {
+  std::string crs;
+  std::uint64_t nodes = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t pieces = 0;  // parts that share no node
+  std::uint64_t features = 0;
+  std::map<std::string, std::uint64_t> boundaries;  // by role
+  Extent extent;
+  bool has_z = false;
+  double lowest_z = 0.0;  // metres
+  double highest_z = 0.0;
+  double area_m2 = 0.0;
+  MeshQuality quality;  // lengths and areas in it are the working plane's
+  StepReport step;      // the shortest edge, on the ellipsoid, and the time step
+  double longest_edge_m = 0.0;
+  bool plane = false;
+};
+
+struct CoastlineInfo {
+  std::string crs;
+  std::uint64_t features = 0;
+  std::uint64_t groups = 0;  // of features that touch one another
+  std::uint64_t rings = 0;
+  std::uint64_t holes = 0;
+  std::uint64_t lines = 0;  // open ones
+  std::uint64_t points = 0;
+  std::uint64_t skipped_empty = 0;
+  std::uint64_t skipped_points = 0;
+  Extent extent;
+  double shortest_edge_m = 0.0;  // longer than 0
+  double longest_edge_m = 0.0;
+  std::uint64_t zero_edges = 0;  // between two equal points
+  double area_m2 = 0.0;
+  std::vector<std::string> warnings;
+};
+
+struct PolyInfo {
+  std::uint64_t points = 0;
+  std::uint64_t segments = 0;
+  std::uint64_t holes = 0;
+  Extent extent;
+  double shortest_edge = 0.0;  // plane units
+  double longest_edge = 0.0;
+};
+
+MeshInfo describeMesh(const Grid& grid);
+CoastlineInfo describeCoastline(const JobInput& input);
+PolyInfo describePoly(const Pslg& pslg);
+
+// As JSON text, and as lines for people.
+std::string toJson(const MeshInfo& info);
+std::string toJson(const CoastlineInfo& info);
+std::string toJson(const PolyInfo& info);
+std::string toText(const MeshInfo& info);
+std::string toText(const CoastlineInfo& info);
+std::string toText(const PolyInfo& info);
+
+}  // namespace coastmesh

@@ -1,0 +1,149 @@
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/job/step_outcome.hpp"
+#include "apps/report/file_info.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kHistogramWidth = 50;
+
+Json extentJson(const Extent& extent) { return {extent.low.x, extent.low.y, extent.high.x, extent.high.y}; }
+
+std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+[[gnu::format(printf, 2, 3)]] void addLine(std::string& text, const char* format, ...) {
+  char line[600];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+  text += '\n';
+}
+
+unsigned long long big(std::uint64_t number) { return number; }
+
+void addExtent(std::string& text, const Extent& extent) {
+  addLine(text, "extent          %.10g %.10g to %.10g %.10g", extent.low.x, extent.low.y, extent.high.x, extent.high.y);
+}
+
+// The classes that hold anything, and those between them.
+void addHistogram(std::string& text, const MeshQuality& quality) {
+  const auto& counts = quality.angle_histogram;
+  std::size_t first = 0;
+  std::size_t last = counts.size();
+  while (first < last && counts[first] == 0) ++first;
+  while (last > first && counts[last - 1] == 0) --last;
+  std::uint64_t most = 1;
+  for (std::uint64_t count : counts) most = std::max(most, count);
+  addLine(text, "angles");
+  for (std::size_t i = first; i < last; ++i) {
+    const double share = static_cast<double>(counts[i]) / static_cast<double>(most);
+    const std::string bar(static_cast<std::size_t>(std::lround(share * kHistogramWidth)), '#');
+    addLine(text, "  %3zu to %3zu  %10llu  %s", 5 * i, 5 * (i + 1), big(counts[i]), bar.c_str());
+  }
+}
+
+}  // namespace
+
+std::string toJson(const MeshInfo& info) {
+  Json json{{"kind", "mesh"},
+            {"crs", info.crs},
+            {"nodes", info.nodes},
+            {"triangles", info.triangles},
+            {"pieces", info.pieces},
+            {"features", info.features},
+            {"boundaries", info.boundaries},
+            {"extent", extentJson(info.extent)},
+            {"area_m2", info.area_m2},
+            {"min_angle_deg", info.quality.min_angle_deg},
+            {"max_angle_deg", info.quality.max_angle_deg},
+            {"shortest_edge_m", info.step.shortest_edge_m},
+            {"longest_edge_m", info.longest_edge_m},
+            {"step", stepJson(info.step)},
+            {"angle_histogram", info.quality.angle_histogram}};
+  if (info.has_z) json["z"] = {info.lowest_z, info.highest_z};
+  return dump(json);
+}
+
+std::string toJson(const CoastlineInfo& info) {
+  return dump({{"kind", "coastline"},
+               {"crs", info.crs},
+               {"features", info.features},
+               {"groups", info.groups},
+               {"rings", info.rings},
+               {"holes", info.holes},
+               {"lines", info.lines},
+               {"points", info.points},
+               {"skipped_empty", info.skipped_empty},
+               {"skipped_points", info.skipped_points},
+               {"extent", extentJson(info.extent)},
+               {"area_m2", info.area_m2},
+               {"shortest_edge_m", info.shortest_edge_m},
+               {"longest_edge_m", info.longest_edge_m},
+               {"zero_edges", info.zero_edges},
+               {"warnings", info.warnings}});
+}
+
+std::string toJson(const PolyInfo& info) {
+  return dump({{"kind", "poly"},
+               {"points", info.points},
+               {"segments", info.segments},
+               {"holes", info.holes},
+               {"extent", extentJson(info.extent)},
+               {"shortest_edge", info.shortest_edge},
+               {"longest_edge", info.longest_edge}});
+}
+
+std::string toText(const MeshInfo& info) {
+  std::string text;
+  addLine(text, "mesh            %llu nodes, %llu triangles", big(info.nodes), big(info.triangles));
+  addLine(text, "pieces          %llu", big(info.pieces));
+  if (info.features > 0) addLine(text, "features        %llu", big(info.features));
+  for (const auto& [role, count] : info.boundaries) addLine(text, "boundaries      %llu %s", big(count), role.c_str());
+  text += "crs             " + info.crs + "\n";
+  addExtent(text, info.extent);
+  if (info.has_z) addLine(text, "z               %.10g to %.10g m", info.lowest_z, info.highest_z);
+  addLine(text, "area            %.10g m2", info.area_m2);
+  addLine(text, "edges           %.6g to %.6g m", info.step.shortest_edge_m, info.longest_edge_m);
+  text += "step            " + stepText(info.step, info.plane) + "\n";
+  addLine(text, "smallest angle  %.3f degrees", info.quality.min_angle_deg);
+  addLine(text, "largest angle   %.3f degrees", info.quality.max_angle_deg);
+  addHistogram(text, info.quality);
+  return text;
+}
+
+std::string toText(const CoastlineInfo& info) {
+  std::string text;
+  addLine(text, "features        %llu in %llu groups that touch", big(info.features), big(info.groups));
+  addLine(text, "rings           %llu, %llu of them holes", big(info.rings), big(info.holes));
+  if (info.lines > 0) addLine(text, "open lines      %llu", big(info.lines));
+  addLine(text, "points          %llu", big(info.points));
+  if (info.skipped_empty > 0) addLine(text, "empty features  %llu", big(info.skipped_empty));
+  if (info.skipped_points > 0) addLine(text, "point features  %llu", big(info.skipped_points));
+  text += "crs             " + info.crs + "\n";
+  addExtent(text, info.extent);
+  addLine(text, "area            %.10g m2", info.area_m2);
+  addLine(text, "edges           %.6g to %.6g m", info.shortest_edge_m, info.longest_edge_m);
+  if (info.zero_edges > 0) addLine(text, "zero edges      %llu", big(info.zero_edges));
+  for (const std::string& warning : info.warnings) text += "warning         " + warning + "\n";
+  return text;
+}
+
+std::string toText(const PolyInfo& info) {
+  std::string text;
+  addLine(text, "plane graph     %llu points, %llu segments, %llu holes", big(info.points), big(info.segments),
+          big(info.holes));
+  addExtent(text, info.extent);
+  addLine(text, "segments        %.6g to %.6g long", info.shortest_edge, info.longest_edge);
+  return text;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,221 @@
+#include "apps/report/mesh_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "apps/report/report_sections.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json finiteOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json inputSection(const MeshJob& job, const MeshJobResult& result) {
+  Json projections = Json::object();
+  for (const auto& [description, count] : result.projections) projections[description] = count;
+  Json refused = Json::array();
+  for (const Refusal& refusal : result.refusals) {
+    refused.push_back({{"source", refusal.source}, {"fids", refusal.fids}, {"reason", refusal.reason}});
+  }
+  Json section = readSection(job.input.files, result.read, result.crs);
+  section.update(
+      {{"projection", result.regions == 1 ? Json(result.first_projection) : Json(nullptr)},
+       {"projection_reason", result.regions == 1 ? Json(result.first_projection_reason) : Json(nullptr)},
+       {"scale", {{"least", finiteOrNull(result.least_scale)}, {"greatest", finiteOrNull(result.greatest_scale)}}},
+       {"projections", std::move(projections)},
+       {"area_m2", orNull(result.input_area_m2)},
+       {"refused", std::move(refused)}});
+  return section;
+}
+
+const char* xName(const Crs& crs) { return crs.geographic ? "lon" : "x"; }
+const char* yName(const Crs& crs) { return crs.geographic ? "lat" : "y"; }
+
+Json unresolvedSection(const MeshJobResult& result) {
+  Json places = Json::array();
+  for (const ShortfallPlace& shortfall : result.unresolved_places) {
+    places.push_back({{xName(result.crs), shortfall.place.x},
+                      {yName(result.crs), shortfall.place.y},
+                      {"min_angle_deg", shortfall.min_angle_deg},
+                      {"max_angle_deg", shortfall.max_angle_deg}});
+  }
+  return {{"count", result.unresolved}, {"places", std::move(places)}};
+}
+
+Json refineSection(const MeshJob& job, const MeshJobResult& result) {
+  const RefineOptions& options = job.mesh.refine;
+  const RefineStats& stats = result.refine;
+  return {{"algorithm", kAlgorithmNames[static_cast<std::size_t>(options.algorithm)]},
+          {"min_angle_deg", options.min_angle_deg},
+          {"max_angle_deg", options.max_angle_deg},
+          {"size_max_m", finiteOrNull(job.sizes.most_m)},
+          {"sized", job.sizes.any()},
+          {"grade", job.sizes.grade},
+          {"estimated_vertices", job.sizes.any() ? finiteOrNull(std::round(result.estimated_vertices)) : Json(nullptr)},
+          {"shrink", job.mesh.shrink},
+          {"smooth", job.mesh.smooth},
+          {"steiner_points", stats.steiner_points},
+          {"by_type",
+           {{"I", stats.by_type[0]}, {"II", stats.by_type[1]}, {"III", stats.by_type[2]}, {"IV", stats.by_type[3]}}},
+          {"segment_splits", stats.segment_splits},
+          {"relocations", stats.relocations},
+          {"removals", stats.removals},
+          {"merges", stats.merges},
+          {"regions", result.pieces},
+          {"budget_reached", stats.budget_reached},
+          {"unresolved", unresolvedSection(result)}};
+}
+
+Json turnedSection(const MeshJobResult& result) {
+  Json places = Json::array();
+  for (const Point& place : result.turned_places)
+    places.push_back({{xName(result.crs), place.x}, {yName(result.crs), place.y}});
+  return {{"count", result.turned}, {"places", std::move(places)}};
+}
+
+Json meshSection(const MeshJobResult& result) {
+  const MeshQuality& quality = result.quality;
+  const bool any = quality.triangles > 0;
+  return {{"vertices", quality.vertices},
+          {"triangles", quality.triangles},
+          {"area_m2", result.mesh_area_m2},
+          {"min_angle_deg", any ? Json(quality.min_angle_deg) : Json(nullptr)},
+          {"max_angle_deg", any ? Json(quality.max_angle_deg) : Json(nullptr)},
+          {"below_bound", quality.below_bound},
+          {"below_bound_explained", quality.excused()},
+          {"excused", {{"corner", quality.excused_corner}, {"near", quality.excused_near}}},
+          {"angle_histogram", quality.angle_histogram},
+          {"turned", turnedSection(result)},
+          {"digest", digestText(result.digest)}};
+}
+
+// Lines by their kinds.
+Json lineSection(const Grid& grid) {
+  Json section = Json::object();
+  for (const LineKind kind : kLineKinds) {
+    std::string key(toString(kind));
+    std::ranges::replace(key, ' ', '_');
+    section[key] = std::ranges::count(grid.lines, kind, &GridLine::kind);
+  }
+  return section;
+}
+
+Json timeSection(const PhaseSeconds& seconds) {
+  return {{"read", seconds.read},     {"clean", seconds.clean},
+          {"size", seconds.size},     {"triangulate", seconds.triangulate},
+          {"refine", seconds.refine}, {"shrink", seconds.shrink},
+          {"fit", seconds.fit},       {"stitch", seconds.stitch},
+          {"check", seconds.check},   {"finish", seconds.finish},
+          {"write", seconds.write},   {"total", seconds.total}};
+}
+
+// What more cores would give.
+Json speedupSection(const WorkLog& log) {
+  const double work = log.work();
+  Json speedup = Json::object();
+  for (const std::size_t cores : {2, 8, 64})
+    speedup[std::to_string(cores)] = work > 0.0 ? work / log.timeOn(cores) : 1.0;
+  return {{"work_s", work}, {"critical_path_s", log.criticalPath()}, {"speedup", std::move(speedup)}};
+}
+
+// How the work was shared out: the whole run, and what is between cleaning and checking.
+Json parallelSection(const WorkLog& log) {
+  Json stages = Json::array();
+  for (const Stage& stage : log.stages) {
+    const double sum = std::accumulate(stage.items.begin(), stage.items.end(), 0.0);
+    const double longest = stage.items.empty() ? 0.0 : *std::ranges::max_element(stage.items);
+    stages.push_back({{"name", stage.name},
+                      {"alone_s", stage.alone},
+                      {"items", stage.items.size()},
+                      {"work_s", sum},
+                      {"longest_s", longest}});
+    constexpr std::size_t kMostListed = 1000;
+    const bool listed =
+        stage.name == "refine" || stage.name == "shrink" || stage.name == "fit" || stage.name == "regions";
+    if (listed && stage.items.size() <= kMostListed) stages.back()["item_s"] = stage.items;
+  }
+  Json section = speedupSection(log);
+  section["meshing"] =
+      speedupSection(log.only({"triangulate", "cut", "refine", "stitch", "shrink", "fit", "rest", "label", "regions"}));
+  section["stages"] = std::move(stages);
+  return section;
+}
+
+// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3;) {
+    at -= 3;
+    text.insert(at, ",");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string digestText(std::uint64_t digest) {
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(digest));
+  return text;
+}
+
+std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads,
+                       const std::vector<std::string>& warnings) {
+  const Json report{{"coastmesh", COASTMESH_VERSION},
+                    {"warnings", warnings},
+                    {"input", inputSection(job, result)},
+                    {"clean", editsSection(result.edits)},
+                    {"refine", refineSection(job, result)},
+                    {"mesh", meshSection(result)},
+                    {"depth", Json::parse(depthSection(job.finish, result.finish))},
+                    {"boundaries", Json::parse(boundarySection(job.finish, result.finish, result.grid))},
+                    {"step", outcomeJson(result.step, job.sizes)},
+                    {"lines", lineSection(result.grid)},
+                    {"repairs", Json::parse(repairSection(job.finish, result.finish))},
+                    {"output_warnings", result.output_warnings},
+                    {"time_s", timeSection(result.seconds)},
+                    {"parallel", parallelSection(result.log)},
+                    {"peak_memory_mib", peakMemoryMib()},
+                    {"threads", threads}};
+  return textOf(report);
+}
+
+std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
+  const MeshQuality& quality = result.quality;
+  char figures[200];
+  std::snprintf(figures, sizeof figures, "smallest angle %.2f, largest %.2f degrees; %.2f s, %.0f MiB",
+                quality.min_angle_deg, quality.max_angle_deg, result.seconds.total, peakMemoryMib());
+  std::string text = grouped(quality.vertices) + " vertices, " + grouped(quality.triangles) + " triangles, " +
+                     grouped(result.refine.steiner_points) + " Steiner points\n" + figures + "\n";
+  if (job.sizes.any())
+    text += "about " + grouped(static_cast<std::uint64_t>(std::min(result.estimated_vertices, 1e18))) +
+            " vertices were to be expected of these sizes\n";
+  if (quality.excused() > 0) {
+    text += grouped(quality.excused()) +
+            " triangles at input angles too small for the bound: " + grouped(quality.excused_corner) + " in them, " +
+            grouped(quality.excused_near) + " near to them\n";
+  }
+  if (result.unresolved > 0) {
+    char bound[40];
+    std::snprintf(bound, sizeof bound, "%g", job.mesh.refine.min_angle_deg);
+    text += grouped(result.unresolved) + " triangles fall short of what was asked (at least " + bound + " degrees)\n";
+  }
+  text += stepText(result.step.step, result.crs.isPlane()) + "\n";
+  const auto isOpenRing = [](const Boundary& boundary) {
+    return boundary.closed && boundary.role == BoundaryRole::Open;
+  };
+  if (const auto rings = std::ranges::count_if(result.grid.boundaries, isOpenRing); rings > 0)
+    text += grouped(static_cast<std::uint64_t>(rings)) +
+            " open boundaries are rings, which fort.14 and hgrid.gr3 hold as two that share their ends\n";
+  text += finishSummary(job.finish, result.finish);
+  if (result.refine.budget_reached) text += "the vertex budget was reached before all angles were good\n";
+  return text;
+}
+
+}  // namespace coastmesh

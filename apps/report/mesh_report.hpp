@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/job/mesh_job.hpp"
+
+namespace coastmesh {
+
+// The names that --algorithm takes, in the order of `Algorithm`.
+inline constexpr const char* kAlgorithmNames[] = {"circumcenter", "offcenter", "optimal", "relocate"};
+
+// The report of a job as JSON text, its keys as apps/README.md documents them. `threads` is what the job ran on,
+// `warnings` all that the run gave.
+std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads,
+                       const std::vector<std::string>& warnings);
+
+// A few lines for people.
+std::string meshSummary(const MeshJob& job, const MeshJobResult& result);
+
+std::string digestText(std::uint64_t digest);  // 16 hexadecimal digits
+
+}  // namespace coastmesh

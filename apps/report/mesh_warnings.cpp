@@ -1,0 +1,29 @@
+#include "apps/report/mesh_warnings.hpp"
+
+#include <algorithm>
+
+#include "apps/job/places.hpp"
+
+namespace coastmesh {
+
+std::vector<std::string> warningsOf(const MeshJobResult& result) {
+  constexpr std::size_t kRefusalsShown = 20;
+  std::vector<std::string> all = result.read.warnings;
+  const std::vector<std::string> of_finish = result.finish.warnings();
+  all.insert(all.end(), of_finish.begin(), of_finish.end());
+  all.insert(all.end(), result.step.warnings.begin(), result.step.warnings.end());
+  if (result.turned > 0) {
+    all.push_back("triangles that are not counter-clockwise on the ground: " + std::to_string(result.turned) +
+                  ", the first at " + pointText(result.turned_places.front()) +
+                  ": sides that are straight in the working plane are not so there; cut the long edges of the input at "
+                  "that place (ogr2ogr -segmentize), or widen its angle");
+  }
+  if (result.regions == 0 && result.refusals.size() == 1) return all;
+  const std::size_t shown = std::min(kRefusalsShown, result.refusals.size());
+  for (std::size_t i = 0; i < shown; ++i) all.push_back("left out: " + result.refusals[i].reason);
+  if (result.refusals.size() > shown)
+    all.push_back("left out: " + std::to_string(result.refusals.size() - shown) + " more, which the report lists");
+  return all;
+}
+
+}  // namespace coastmesh

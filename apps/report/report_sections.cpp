@@ -1,0 +1,52 @@
+#include "apps/report/report_sections.hpp"
+
+#include <sys/resource.h>
+
+#include <string_view>
+
+namespace coastmesh {
+
+namespace {
+
+// "touching ring" as "touching_ring".
+std::string keyOf(std::string_view words) {
+  std::string key(words);
+  for (char& c : key) {
+    if (c == ' ' || c == '-') c = '_';
+  }
+  return key;
+}
+
+}  // namespace
+
+Json readSection(const std::vector<std::string>& files, const ReadReport& read, const Crs& crs) {
+  return {{"files", files},
+          {"features", read.features},
+          {"rings", read.rings},
+          {"points", read.points},
+          {"skipped_empty", read.skipped_empty},
+          {"skipped_points", read.skipped_points},
+          {"filtered", read.filtered},
+          {"beyond_frame", read.beyond_frame},
+          {"notes", read.notes},
+          {"warnings", read.warnings},
+          {"crs", nameOf(crs)}};
+}
+
+Json editsSection(const std::array<std::uint64_t, kEditKinds>& counts) {
+  Json section = Json::object();
+  for (std::size_t kind = 0; kind < kEditKinds; ++kind) {
+    section[keyOf(toString(static_cast<EditKind>(kind)))] = counts[kind];
+  }
+  return section;
+}
+
+std::string textOf(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+double peakMemoryMib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,153 @@
+#include "apps/usage/sizing_usage.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// "10,200,500" or "200,inf,500".
+DepthBand parseBand(const std::string& text) {
+  double numbers[3];
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (int i = 0; i < 3; ++i) {
+    const auto [next, error] = std::from_chars(at, end, numbers[i]);
+    const bool last = i == 2;
+    if (error != std::errc() || std::isnan(numbers[i]) || (last ? next != end : next == end || *next != ','))
+      throw OptionError("--depth-band: '" + text + "' is not FROM,TO,SIZE, three numbers in metres");
+    at = next + 1;
+  }
+  const DepthBand band{numbers[0], numbers[1], numbers[2]};
+  if (!(band.from_m < band.to_m)) throw OptionError("--depth-band: '" + text + "' ends before it begins");
+  if (!(band.size_m > 0.0) || std::isinf(band.size_m))
+    throw OptionError("--depth-band: the size in '" + text + "' has to be a length above 0");
+  return band;
+}
+
+// Options that ask for sizes.
+const std::vector<std::string> kSizes = {"--size",           "--size-shore",       "--size-features",
+                                         "--size-raster",    "--channel-elements", "--wave-elements",
+                                         "--slope-elements", "--depth-band"};
+
+}  // namespace
+
+void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
+  constexpr NumberRange kAboveZero{0.0, kInfinity, true};
+  constexpr NumberRange kNotNegative{0.0, kInfinity};
+  line.number("--size", sizes.size_m, "M", kAboveZero,
+              "length that edges should have everywhere, where nothing else asks for less");
+  line.number("--size-min", sizes.least_m, "M", kNotNegative,
+              "no size is less; edges shorter than it are told, with exit code 1 where --coast follow leaves one "
+              "shorter than half")
+      .needs(kSizes);
+  line.number("--size-max", sizes.most_m, "M", kAboveZero,
+              "no size is more; given without any other size, no edge is longer");
+  line.number("--grade", sizes.grade, "G", {0.0, 1.0, true},
+              "sizes at two places differ by at most this times their distance", &usage.grade_given)
+      .needs(kSizes);
+  line.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
+  line.number("--shore-rate", sizes.shore_rate, "R", kNotNegative,
+              "how fast that grows with the distance from the shore")
+      .needs({"--size-shore"});
+  line.number("--channel-elements", sizes.channel_elements, "N", kNotNegative,
+              "elements across channels and straits; 0 asks for none");
+  line.texts("--size-features", sizes.features, kVectorFile, false,
+             "points, lines and polygons with a size in metres on them as the attribute 'size', and how fast it grows "
+             "with the "
+             "distance as 'rate', else --grade");
+  line.texts("--size-raster", sizes.rasters, kRasterFile, false,
+             "raster of sizes in metres; of several the first that covers a place counts");
+  line.number("--wave-elements", sizes.depth.wave_elements, "N", kNotNegative,
+              "elements a wavelength; 0 asks for none");
+  line.number("--wave-period", sizes.depth.period_s, "S", {0.1, 1e8},
+              "period of that wave; the default is that of the M2 tide")
+      .needs({"--wave-elements"});
+  line.number("--slope-elements", sizes.depth.slope_elements, "N", kNotNegative,
+              "elements on 2 pi times the depth over its slope; 0 asks for none");
+  line.number("--slope-filter", sizes.depth.slope_filter_m, "M", kNotNegative,
+              "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given)
+      .needs({"--slope-elements"});
+  line.texts("--depth-band", usage.bands, "FROM,TO,SIZE", false,
+             "size where the depth is FROM or more and less than TO, all in metres, depths positive");
+  line.choice(
+      "--coast", "keep", {"keep", "follow"},
+      [&sizes, &usage](const std::string& chosen) {
+        usage.coast_given = true;
+        sizes.coast = chosen == "follow" ? CoastDetail::Follow : CoastDetail::Keep;
+      },
+      "whether the coast keeps its detail, or follows the sizes: its edges become about as long as they are, water and "
+      "land narrower than elements go, and so do islands smaller than one");
+  line.number("--channel-min", sizes.follow.channel_min, "N", {0.0, 100.0},
+              "with --coast follow: water narrower than N times the size there is closed; 0 closes none")
+      .needs({"--coast follow"});
+  line.number("--land-min", sizes.follow.land_min, "N", {0.0, 100.0},
+              "with --coast follow: spits and capes narrower than N times the size there go; 0 keeps them")
+      .needs({"--coast follow"});
+  line.choice(
+          "--keep-water", "auto", {"auto", "largest", "open", "all"},
+          [&sizes](const std::string& chosen) {
+            sizes.keep_water_given = chosen != "auto";
+            sizes.follow.keep = chosen == "largest" ? KeepWater::Largest
+                                : chosen == "open"  ? KeepWater::Open
+                                                    : KeepWater::All;
+          },
+          "with --coast follow: of water that closing cuts into parts, the largest stays, what reaches an open "
+          "boundary (or "
+          "else the largest), or all; auto is open with --target, else all")
+      .needs({"--coast follow"});
+  line.texts("--passages", sizes.passages, kVectorFile, false,
+             "with --coast follow: lines along which water stays open, made as wide as --passage-elements where it is "
+             "narrower; their attribute 'name' is told")
+      .needs({"--coast follow"});
+  line.number("--passage-elements", sizes.passage_elements, "N", {0.5, 100.0}, "elements across passages")
+      .needs({"--passages"});
+  line.texts("--barriers", sizes.barriers, kVectorFile, false,
+             "with --coast follow: lines along which water is closed, half an element wide")
+      .needs({"--coast follow"});
+  line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
+              "no element smaller than the Courant number allows with this time step; triangles in which it does not "
+              "hold are told, with exit code 1; 0 asks for none");
+  line.number(
+          "--courant", sizes.courant, "C", {1e-3, 1e3},
+          "largest Courant number: sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the "
+          "depth of its deepest corner")
+      .needs({"--time-step"});
+}
+
+void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may_choose, SizeOptions& sizes) {
+  sizes.bathymetry = depths.files;
+  sizes.depth.positive_down = depths.positive_down;
+  sizes.depth.water_level_m = depths.water_level_m;
+  sizes.depth.least_depth_m = std::max(sizes.depth.least_depth_m, depths.min_depth_m);
+  sizes.depth.bands.clear();
+  for (const std::string& band : usage.bands) sizes.depth.bands.push_back(parseBand(band));
+  if (may_choose && !depths.files.empty() && !sizes.any() && sizes.most_m == SizeOptions::kNone) {
+    constexpr double kGrade = 0.2, kWaveElements = 100.0, kTimeStep = 5.0;
+    sizes.choose = true;
+    sizes.grade = usage.grade_given ? sizes.grade : kGrade;
+    sizes.depth.wave_elements = kWaveElements;
+    if (sizes.time_step_s == 0.0) sizes.time_step_s = kTimeStep;
+    if (!usage.coast_given) sizes.coast = CoastDetail::Follow;
+  }
+  if (!usage.filter_given) sizes.depth.slope_filter_m = sizes.least_m;
+  if (sizes.least_m > sizes.most_m) throw OptionError("--size-min is more than --size-max");
+  if ((sizes.depth.any() || sizes.time_step_s > 0.0) && sizes.bathymetry.empty()) {
+    throw OptionError(
+        "--wave-elements, --slope-elements, --depth-band and --time-step need depths: give a raster with "
+        "--bathymetry");
+  }
+  if (sizes.time_step_s > 0.0 && !sizes.any())
+    throw OptionError("--time-step only keeps sizes from being too small: ask for some size besides, such as --size");
+  if (sizes.coast == CoastDetail::Follow && !sizes.any())
+    throw OptionError("--coast follow needs sizes to follow: give --size, or others");
+  if (sizes.least_m == 0.0 && (sizes.depth.slope_elements > 0.0 || sizes.channel_elements > 0.0))
+    throw OptionError("--slope-elements and --channel-elements can ask for lengths near 0: give --size-min");
+}
+
+}  // namespace coastmesh

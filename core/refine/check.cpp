@@ -1,0 +1,147 @@
+#include "core/refine/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+#include "core/refine/check_input.hpp"
+#include "core/refine/shortfalls.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+Point centroid(const TriMesh& mesh, TriId t) {
+  const auto& v = mesh.triangles[t].v;
+  return (1.0 / 3.0) * (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]);
+}
+
+bool hasValidCorners(const TriMesh& mesh, TriId t) {
+  const auto& v = mesh.triangles[t].v;
+  return std::ranges::all_of(v, [&](VertexId c) { return c < mesh.points.size(); }) && v[0] != v[1] && v[1] != v[2] &&
+         v[2] != v[0];
+}
+
+bool hasValidNeighbours(const TriMesh& mesh, TriId t) {
+  for (unsigned i = 0; i < 3; ++i) {
+    const EdgeRef e = edgeRef(t, i), twin = mesh.triangles[t].adj[i];
+    if (twin == kNone) continue;
+    if (triOf(twin) >= mesh.triangles.size() || indexOf(twin) > 2) return false;
+    if (mesh.twin(twin) != e || mesh.origin(twin) != mesh.target(e) || mesh.target(twin) != mesh.origin(e))
+      return false;
+    if (mesh.segment(twin) != mesh.segment(e)) return false;
+  }
+  return true;
+}
+
+using Defects = std::vector<MeshDefect>;
+
+// Appends what `find(i, defects)` finds for every i below `count`, in that order.
+template <typename Find>
+void findDefects(std::size_t count, const ItemLoop& loop, Defects& defects, const Find& find) {
+  const Defects found = joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    Defects here;
+    for (std::size_t i = first; i < last; ++i) find(static_cast<std::uint32_t>(i), here);
+    return here;
+  }));
+  defects.insert(defects.end(), found.begin(), found.end());
+}
+
+void checkTopology(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
+  findDefects(mesh.triangles.size(), loop, defects, [&](TriId t, Defects& found) {
+    if (!hasValidCorners(mesh, t)) {
+      found.push_back({DefectKind::BrokenTopology, {}, t});
+    } else if (!hasValidNeighbours(mesh, t)) {
+      found.push_back({DefectKind::BrokenTopology, centroid(mesh, t), t});
+    }
+  });
+}
+
+void checkOrientation(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
+  findDefects(mesh.triangles.size(), loop, defects, [&](TriId t, Defects& found) {
+    const auto& v = mesh.triangles[t].v;
+    if (orient2d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= 0)
+      found.push_back({DefectKind::NotCounterClockwise, centroid(mesh, t), t});
+  });
+}
+
+// A vertex has more than one fan where more rim edges leave it than one, or one fan and others that close.
+void checkPinches(const TriMesh& mesh, std::vector<MeshDefect>& defects) {
+  const std::vector<EdgeRef> out = outgoingEdges(mesh);
+  std::vector<std::uint32_t> triangles_at(mesh.points.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const VertexId v : t.v) ++triangles_at[v];
+  for (VertexId v = 0; v < mesh.points.size(); ++v) {
+    if (out[v] == kNone) continue;
+    std::uint32_t seen = 0;
+    for (EdgeRef e = out[v];;) {
+      ++seen;
+      const EdgeRef in = edgeRef(triOf(e), prev3(indexOf(e)));
+      e = mesh.twin(in);
+      if (e == kNone || e == out[v] || seen > triangles_at[v]) break;
+    }
+    if (seen != triangles_at[v]) defects.push_back({DefectKind::PinchedVertex, mesh.points[v], triOf(out[v])});
+  }
+}
+
+void checkDelaunay(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
+  // Coordinates that went through a file and a projection are rounded: then cocircular points need room.
+  const bool exact = mesh.input_vertices != 0;
+  constexpr double kRoundingRad = 1e-7;
+  findDefects(mesh.triangles.size(), loop, defects, [&](TriId t, Defects& found) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i), twin = mesh.twin(e);
+      if (twin == kNone || twin < e || mesh.segment(e) != kNone) continue;
+      const Point &a = mesh.points[mesh.apex(e)], &b = mesh.points[mesh.origin(e)], &c = mesh.points[mesh.target(e)],
+                  &d = mesh.points[mesh.apex(twin)];
+      if (inCircle(a, b, c, d) <= 0) continue;
+      if (!exact && angleAt(a, b, c) + angleAt(d, b, c) < std::numbers::pi + kRoundingRad) continue;
+      found.push_back({DefectKind::NotDelaunay, midpoint(b, c), t});
+    }
+  });
+}
+
+void checkUnused(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  for (VertexId v = mesh.input_vertices; v < mesh.points.size(); ++v)
+    if (!used[v]) defects.push_back({DefectKind::UnusedVertex, mesh.points[v]});
+}
+
+void checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
+  // The refinement aims a hair above the bound; here the bound itself counts. Corners are the same
+  // in both: one of exactly the bound cannot be divided at a hair above it.
+  constexpr double kHair = 2.0 * TriangleBound::kMarginDeg;
+  constexpr double kAnySize = std::numeric_limits<double>::infinity();
+  const double least = options.min_angle_deg, most = options.max_angle_deg;
+  const TriangleBound asked(std::max(0.0, least - kHair), std::min(180.0, most + kHair), kAnySize);
+  const TriangleBound in_reach(least, most, kAnySize);
+  for (const Shortfall& s : findShortfalls(mesh, asked, in_reach, loop))
+    defects.push_back({DefectKind::AngleBelowBound, s.place, kNone, s.min_angle_deg});
+}
+
+}  // namespace
+
+std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const CheckOptions& options,
+                                  const ItemLoop& loop) {
+  Defects defects;
+  checkTopology(mesh, loop, defects);
+  if (!defects.empty()) return defects;  // nothing else can be told of a mesh that does not hold together
+  checkOrientation(mesh, loop, defects);
+  checkUnused(mesh, loop, defects);
+  if (options.pinches) checkPinches(mesh, defects);
+  if (pslg != nullptr && mesh.input_vertices == 0) {
+    TriMesh marked = mesh;
+    checkAgainstInputByPlace(marked, *pslg, defects);
+    if (options.delaunay) checkDelaunay(marked, loop, defects);
+    checkBounds(marked, options, loop, defects);
+    return defects;
+  }
+  if (pslg != nullptr) checkAgainstInput(mesh, *pslg, loop, defects);
+  if (options.delaunay) checkDelaunay(mesh, loop, defects);
+  checkBounds(mesh, options, loop, defects);
+  return defects;
+}
+
+}  // namespace coastmesh

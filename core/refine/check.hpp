@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "core/pslg.hpp"
+#include "core/refine/mesh_defect.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+struct CheckOptions {
+  double min_angle_deg = 0.0;    // degrees; 0 asks nothing
+  double max_angle_deg = 180.0;  // degrees; 180 asks nothing
+  bool delaunay = true;
+  bool pinches = false;  // report pinched vertices; the core allows them where the input has them
+};
+
+// Every defect of the mesh, by kind and then in order of triangles. `pslg` may be null: then the mesh is checked for
+// itself. With it, a mesh of ours (`input_vertices` set) is compared by index; one that was read from a file by
+// coordinates.
+std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const CheckOptions& options,
+                                  const ItemLoop& loop = inOrder);
+
+}  // namespace coastmesh

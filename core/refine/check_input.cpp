@@ -1,0 +1,250 @@
+#include "core/refine/check_input.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <unordered_map>
+
+#include "core/delaunay.hpp"
+#include "core/links.hpp"
+#include "core/metric.hpp"
+#include "core/quality.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// What of the PSLG has to be in the mesh.
+struct Expected {
+  std::vector<bool> vertices;
+  std::vector<bool> segments;
+  double area = 0.0;
+};
+
+// Labels on segments say what the domain is, but not whether a point without segments lies in it.
+bool labelsTellAll(const Pslg& pslg) {
+  bool labelled = false;
+  std::vector<bool> on_segment(pslg.points.size(), false);
+  for (const Segment& s : pslg.segments) {
+    labelled |= s.left != kUnlabelled || s.right != kUnlabelled;
+    on_segment[s.a] = on_segment[s.b] = true;
+  }
+  return labelled && std::ranges::find(on_segment, false) == on_segment.end();
+}
+
+Expected expectFromLabels(const Pslg& pslg) {
+  Expected expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
+  // Relative to a point of the input, lest large coordinates drown the area.
+  const Point o = pslg.points.front();
+  for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
+    const Segment& seg = pslg.segments[s];
+    // A segment without labels is an open line inside the domain.
+    const bool inside = seg.left >= 0 || seg.right >= 0 || (seg.left == kUnlabelled && seg.right == kUnlabelled);
+    if (!inside) continue;
+    expected.segments[s] = expected.vertices[seg.a] = expected.vertices[seg.b] = true;
+    const double swept = 0.5 * cross(pslg.points[seg.a] - o, pslg.points[seg.b] - pslg.points[seg.a]);
+    if (seg.left >= 0) expected.area += swept;
+    if (seg.right >= 0) expected.area -= swept;
+  }
+  return expected;
+}
+
+double totalArea(const TriMesh& mesh, const ItemLoop& loop) {
+  const std::vector<double> areas =
+      overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        double area = 0.0;
+        for (const Triangle& t : std::span(mesh.triangles).subspan(first, last - first))
+          area += signedArea(mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]);
+        return area;
+      });
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+Expected expectFromTriangulation(const Pslg& pslg) {
+  Expected expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
+  const TriMesh coarse = constrainedDelaunay(pslg);
+  for (const Triangle& t : coarse.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      expected.vertices[t.v[i]] = true;
+      if (t.seg[i] != kNone) expected.segments[t.seg[i]] = true;
+    }
+  }
+  expected.area = totalArea(coarse, inOrder);
+  return expected;
+}
+
+// How much area points on the rim may have moved it by, rounded as they are to the last place of a coordinate.
+double roundingOfRim(const TriMesh& mesh, const ItemLoop& loop) {
+  constexpr double kPlaces = 4.0;
+  struct Rim {
+    double magnitude = 0.0;
+    double length = 0.0;
+  };
+  Rim whole;
+  for (const Rim& part : overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+         Rim rim;
+         for (const Triangle& t : std::span(mesh.triangles).subspan(first, last - first)) {
+           for (unsigned i = 0; i < 3; ++i) {
+             if (t.adj[i] != kNone) continue;
+             const Point &a = mesh.points[t.v[next3(i)]], &b = mesh.points[t.v[prev3(i)]];
+             rim.magnitude = std::max({rim.magnitude, std::abs(a.x), std::abs(a.y)});
+             rim.length += distance(a, b);
+           }
+         }
+         return rim;
+       })) {
+    whole.magnitude = std::max(whole.magnitude, part.magnitude);
+    whole.length += part.length;
+  }
+  return kPlaces * std::numeric_limits<double>::epsilon() * whole.magnitude * whole.length;
+}
+
+void checkArea(const TriMesh& mesh, double expected, double tolerance, const ItemLoop& loop,
+               std::vector<MeshDefect>& defects) {
+  const double difference = std::abs(totalArea(mesh, loop) - expected);
+  if (difference <= tolerance * expected + roundingOfRim(mesh, loop)) return;
+  const double error = difference / expected;
+  defects.push_back({DefectKind::WrongArea, mesh.points.empty() ? Point{} : mesh.points.front(), kNone, error});
+}
+
+// The edges that carry a segment's number, each as two half-edges.
+struct HalfEdge {
+  VertexId from;
+  VertexId to;
+};
+
+// The edges are one chain from one end to the other that does not leave the segment, nor turn back, but for rounding.
+bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::vector<HalfEdge>& halves) {
+  std::ranges::sort(halves, {}, &HalfEdge::from);
+  const Point &a = pslg.points[seg.a], &b = pslg.points[seg.b];
+  const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+  const double room = 8.0 * std::numeric_limits<double>::epsilon() * magnitude * distance(a, b);
+  // Every edge is met once on the way, and none is left.
+  VertexId before = kNone, at = seg.a;
+  for (std::size_t left = halves.size() / 2; left > 0; --left) {
+    auto [out, end] = std::ranges::equal_range(halves, at, {}, &HalfEdge::from);
+    if (end - out != (left == halves.size() / 2 ? 1 : 2)) return false;
+    if (out->to == before) ++out;
+    const Point step = mesh.points[out->to] - mesh.points[at];
+    if (dot(b - a, step) < -room || std::abs(cross(b - a, mesh.points[out->to] - a)) > room) return false;
+    before = at;
+    at = out->to;
+  }
+  return at == seg.b;
+}
+
+}  // namespace
+
+void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop, std::vector<MeshDefect>& defects) {
+  const Expected expected = labelsTellAll(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  const std::vector<EdgeRef> constrained =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<EdgeRef> edges;
+        for (auto t = static_cast<TriId>(first); t < last; ++t)
+          for (unsigned i = 0; i < 3; ++i)
+            if (const EdgeRef e = edgeRef(t, i);
+                mesh.segment(e) != kNone && (mesh.twin(e) == kNone || mesh.twin(e) > e))
+              edges.push_back(e);
+        return edges;
+      }));
+  std::vector<std::vector<HalfEdge>> halves(pslg.segments.size());
+  for (const EdgeRef e : constrained) {
+    const SegmentId s = mesh.segment(e);
+    if (s >= pslg.segments.size()) {
+      defects.push_back({DefectKind::BrokenTopology, mesh.points[mesh.origin(e)], triOf(e)});
+      continue;
+    }
+    halves[s].push_back({mesh.origin(e), mesh.target(e)});
+    halves[s].push_back({mesh.target(e), mesh.origin(e)});
+  }
+  for (VertexId v = 0; v < pslg.points.size(); ++v) {
+    const bool same =
+        v < mesh.points.size() &&
+        std::bit_cast<std::uint64_t>(mesh.points[v].x) == std::bit_cast<std::uint64_t>(pslg.points[v].x) &&
+        std::bit_cast<std::uint64_t>(mesh.points[v].y) == std::bit_cast<std::uint64_t>(pslg.points[v].y);
+    if (expected.vertices[v] && !(same && used[v])) defects.push_back({DefectKind::MissingVertex, pslg.points[v]});
+  }
+  for (SegmentId s = 0; s < pslg.segments.size(); ++s)
+    if (expected.segments[s] && !isChain(mesh, pslg, pslg.segments[s], halves[s]))
+      defects.push_back(
+          {DefectKind::MissingSegment, midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b])});
+  checkArea(mesh, expected.area, 1e-9, loop, defects);
+}
+
+namespace {
+
+struct PointHash {
+  std::size_t operator()(const Point& p) const {
+    const std::uint64_t x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
+    return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15ull) ^ std::rotl(y * 0xC90FDAA22168C235ull, 31));
+  }
+};
+
+// Marks the edges on the way from one vertex straight to another. Returns false where the edges leave the straight way.
+bool markChain(TriMesh& mesh, const std::vector<std::vector<EdgeRef>>& around, VertexId from, VertexId to,
+               SegmentId seg) {
+  constexpr double kDirectionRounding = 1e-6;
+  VertexId at = from;
+  // Every step comes nearer to the end, so no vertex is met twice.
+  while (at != to) {
+    const Point way = mesh.points[to] - mesh.points[at];
+    const double left = std::sqrt(squaredLength(way));
+    EdgeRef best = kNone;
+    double best_sine = kDirectionRounding;
+    for (const EdgeRef e : around[at]) {
+      const VertexId other = mesh.origin(e) == at ? mesh.target(e) : mesh.origin(e);
+      const Point step = mesh.points[other] - mesh.points[at];
+      const double length = std::sqrt(squaredLength(step));
+      if (dot(step, way) <= 0.0 || (other != to && length >= left)) continue;
+      const double sine = other == to ? 0.0 : std::abs(cross(step, way)) / (length * left);
+      if (sine > best_sine || (best != kNone && sine == best_sine)) continue;
+      best_sine = sine;
+      best = e;
+    }
+    if (best == kNone) return false;
+    setSegment(mesh.triangles, best, seg);
+    at = mesh.origin(best) == at ? mesh.target(best) : mesh.origin(best);
+  }
+  return true;
+}
+
+}  // namespace
+
+void checkAgainstInputByPlace(TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects) {
+  const Expected expected = labelsTellAll(pslg) ? expectFromLabels(pslg) : expectFromTriangulation(pslg);
+  std::unordered_map<Point, VertexId, PointHash> at;
+  for (VertexId v = 0; v < mesh.points.size(); ++v) at.emplace(mesh.points[v], v);
+  std::vector<VertexId> vertex(pslg.points.size(), kNone);
+  for (VertexId v = 0; v < pslg.points.size(); ++v) {
+    if (!expected.vertices[v]) continue;
+    const auto found = at.find(pslg.points[v]);
+    if (found != at.end()) {
+      vertex[v] = found->second;
+    } else {
+      defects.push_back({DefectKind::MissingVertex, pslg.points[v]});
+    }
+  }
+  std::vector<std::vector<EdgeRef>> around(mesh.points.size());
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;
+      around[mesh.origin(e)].push_back(e);
+      around[mesh.target(e)].push_back(e);
+    }
+  }
+  for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
+    if (!expected.segments[s]) continue;
+    const VertexId a = vertex[pslg.segments[s].a], b = vertex[pslg.segments[s].b];
+    if (a == kNone || b == kNone || !markChain(mesh, around, a, b, s))
+      defects.push_back(
+          {DefectKind::MissingSegment, midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b])});
+  }
+  checkArea(mesh, expected.area, 1e-6, inOrder, defects);
+}
+
+}  // namespace coastmesh

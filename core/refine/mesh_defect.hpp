@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/ids.hpp"
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+enum class DefectKind {
+  BrokenTopology,  // neighbours that do not point back, an edge of three triangles, a corner out of range
+  NotCounterClockwise,
+  PinchedVertex,    // two fans of triangles meet in a vertex
+  MissingVertex,    // an input vertex that bounds the domain is not in the mesh, bit for bit
+  MissingSegment,   // an input segment is not a chain of edges
+  NotDelaunay,      // an unconstrained edge that is not locally Delaunay
+  AngleBelowBound,  // a triangle short of the bound that no corner of the input excuses
+  WrongArea,        // the triangles do not cover the domain just once
+  UnusedVertex,     // a Steiner point without triangles
+};
+
+std::string_view toString(DefectKind kind);
+
+struct MeshDefect {
+  DefectKind kind;
+  Point place;
+  TriId triangle = kNone;
+  double value = 0.0;  // degrees for AngleBelowBound, relative error for WrongArea
+};
+
+}  // namespace coastmesh

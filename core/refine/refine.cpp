@@ -1,0 +1,80 @@
+#include "core/refine/refine.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "core/label_regions.hpp"
+#include "core/refine/refiner.hpp"
+#include "core/refine/repair.hpp"
+#include "core/refine/shortfalls.hpp"
+#include "core/refine/split_segments.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RefineVariant& variant,
+                       const RunControl& control) {
+  VertexNotes notes = noteInput(mesh, boundOf(options));
+  if (options.size != nullptr) splitSegments(mesh, pslg, notes, options);
+  Refiner refiner(std::move(mesh), pslg, options, std::move(notes), variant);
+  refiner.run(control);
+  if (options.algorithm == Algorithm::Relocate) {
+    refiner.growFans(Refiner::Beyond::StaysGood, control);
+    repair(refiner, pslg, options, control);
+  }
+  mesh = refiner.release();
+  labelRegions(mesh, pslg);
+  RefineStats stats = std::move(refiner.stats());
+  stats.unresolved = findShortfalls(mesh, options);
+  return stats;
+}
+
+// Up to so many points it costs next to nothing to refine in several ways and to keep what shrinks to the smallest mesh.
+constexpr VertexId kFewPoints = 64;
+
+std::vector<RefineVariant> furtherVariants(const RefineOptions& options) {
+  std::vector<RefineVariant> variants;
+  for (const double aim_deg : {0.0, 0.25, 0.5, 1.0, 2.0, 3.0}) {
+    for (const bool worst_first : {false, true}) {
+      variants.push_back(usualVariant(options));
+      variants.back().aim_deg += aim_deg;
+      variants.back().worst_first = worst_first;
+    }
+  }
+  variants.erase(variants.begin());  // the usual one
+  return variants;
+}
+
+std::size_t shrunkSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  shrink(mesh, pslg, options, control);
+  return mesh.points.size();
+}
+
+}  // namespace
+
+RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  requireInRange(options);
+  const bool few =
+      mesh.input_vertices <= kFewPoints && options.algorithm == Algorithm::Relocate && options.size == nullptr;
+  const TriMesh unrefined = few ? mesh : TriMesh();
+  RefineStats stats = refineOnce(mesh, pslg, options, usualVariant(options), control);
+  if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;
+  std::size_t smallest = shrunkSize(mesh, pslg, options, control);
+  for (const RefineVariant& variant : furtherVariants(options)) {
+    TriMesh other = unrefined;
+    RefineStats other_stats = refineOnce(other, pslg, options, variant, control);
+    if (!other_stats.unresolved.empty() || other_stats.budget_reached) continue;
+    const std::size_t size = shrunkSize(other, pslg, options, control);
+    if (size >= smallest) continue;
+    smallest = size;
+    mesh = std::move(other);
+    stats = std::move(other_stats);
+  }
+  return stats;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,41 @@
+#include "core/refine/shortfalls.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/input_corners.hpp"
+#include "core/quality.hpp"
+
+namespace coastmesh {
+
+std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
+  const TriangleBound bound = strictBoundOf(options);
+  return findShortfalls(mesh, bound, bound, loop);
+}
+
+std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
+                                      const ItemLoop& loop) {
+  const auto cornersOf = [&](TriId t) -> std::array<Point, 3> {
+    const auto& v = mesh.triangles[t].v;
+    return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
+  };
+  const std::vector<TriId> bad =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<TriId> some;
+        for (auto t = static_cast<TriId>(first); t < last; ++t)
+          if (const auto [a, b, c] = cornersOf(t); isBad(a, b, c, asked)) some.push_back(t);
+        return some;
+      }));
+  if (bad.empty()) return {};
+  const InputCorners corners(mesh, in_reach, loop);
+  std::vector<Shortfall> shortfalls;
+  for (const TriId t : bad) {
+    const auto [a, b, c] = cornersOf(t);
+    if (corners.excuseOf(a, b, c) != Excuse::None) continue;
+    const auto [low, high] = std::ranges::minmax(anglesDeg(a, b, c));
+    shortfalls.push_back({(1.0 / 3.0) * (a + b + c), low, high});
+  }
+  return shortfalls;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/label_regions.hpp"
+#include "core/metric.hpp"
+#include "core/refine/refine.hpp"
+#include "core/refine/shortfalls.hpp"
+#include "core/refine/submesh_runs.hpp"
+#include "core/refine/vertex_ops.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Vertices that may be superfluous, each waiting once.
+class Waiting {
+ public:
+  explicit Waiting(std::size_t vertices) : waits_(vertices, false) {}
+
+  void push(VertexId v) {
+    if (waits_[v]) return;
+    waits_[v] = true;
+    queue_.push_back(v);
+  }
+  VertexId pop() {
+    const VertexId v = queue_.front();
+    queue_.pop_front();
+    waits_[v] = false;
+    return v;
+  }
+  std::size_t size() const { return queue_.size(); }
+
+ private:
+  std::deque<VertexId> queue_;
+  std::vector<bool> waits_;
+};
+
+// How often every vertex gets its turn. A sweep shakes the mesh, so that the next finds more; where angles are large, dense
+// places are many, and sweeps pay for longer. Small meshes can afford more, up to as many visits of vertices as `work`.
+int sweepsFor(double min_angle_deg, std::size_t vertices) {
+  const auto between = [&](double fewest, double most, double work) {
+    return static_cast<int>(std::clamp(work / static_cast<double>(std::max<std::size_t>(1, vertices)), fewest, most));
+  };
+  if (min_angle_deg < 32.0) return between(2.0, 5.0, 5000.0);
+  if (min_angle_deg < 37.0) return between(3.0, 6.0, 10000.0);
+  if (min_angle_deg <= 43.0) return between(16.0, 64.0, 800000.0);
+  return between(3.0, 16.0, 20000.0);
+}
+
+// Round a vertex that shrinking looks at all edges are shorter than this share of the length wanted: merging two makes the edges there
+// longer by a half at most.
+constexpr double kFineShare = 0.75;
+
+class Shrinker {
+ public:
+  Shrinker(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
+      : size_(options.size),
+        bound_(strictBoundOf(options)),
+        mesh_(std::move(mesh)),
+        ops_(mesh_, pslg, bound_),
+        waiting_(mesh_.vertexSlots()) {
+    ops_.keepBadInPlace();
+  }
+
+  // Of a part of a larger mesh: only the due vertices, and clear of frozen edges.
+  Shrinker(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
+      : Shrinker(std::move(state.mesh), pslg, options) {
+    ops_.keepClearOfFrozen();
+    due_ = std::move(state.due_vertices);
+  }
+
+  void run(int sweeps, const RunControl& control) {
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      for (VertexId v = mesh_.inputVertices(); v < mesh_.vertexSlots(); ++v)
+        if (mesh_.isLiveVertex(v) && isDue(v)) waiting_.push(v);
+      const double first = static_cast<double>(std::max<std::size_t>(1, waiting_.size()));
+      // Only a success lets vertices wait again, and takes one out for good.
+      for (std::uint64_t steps = 1; waiting_.size() > 0; ++steps) {
+        if (steps % 1024 == 0) {
+          const double left = std::min(1.0, static_cast<double>(waiting_.size()) / first);
+          control.checkpoint((sweep + 1.0 - left) / sweeps);
+        }
+        const VertexId v = waiting_.pop();
+        if (mesh_.isLiveVertex(v) && (size_ == nullptr || isFinerThanWanted(v))) handle(v, sweep + 1 == sweeps);
+      }
+    }
+  }
+
+  TriMesh release() { return mesh_.release(); }
+  MeshState releaseState() { return releaseDue(mesh_, std::move(due_)); }
+  RefineStats& stats() { return stats_; }
+
+ private:
+  bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
+  bool isFinerThanWanted(VertexId v);
+  // The last sweep only merges: it removes next to nothing, and moving pays while more sweeps follow.
+  void handle(VertexId v, bool is_last) {
+    touched_.clear();
+    if (!is_last && ops_.remove(v, touched_)) {
+      ++stats_.removals;
+    } else if (ops_.mergeWithNeighbour(v, true, touched_)) {
+      ++stats_.merges;
+    } else {
+      // To the middle of where it may be: that leaves room for its neighbours to go.
+      if (!is_last && ops_.relocate(v, touched_)) ++stats_.relocations;
+      return;
+    }
+    for (const TriId t : touched_) {
+      if (!mesh_.isLive(t)) continue;
+      for (const VertexId w : mesh_.triangle(t).v)
+        if (w >= mesh_.inputVertices()) waiting_.push(w);
+    }
+  }
+
+  const SizeFunction* size_;  // may be null
+  TriangleBound bound_;
+  EditMesh mesh_;
+  VertexOps ops_;
+  Waiting waiting_;
+  RefineStats stats_;
+  std::vector<TriId> touched_;
+  std::vector<EdgeRef> star_;
+  std::vector<std::uint8_t> due_;  // one a vertex; empty where all are
+};
+
+// Where edges are about as long as wanted nothing is to be taken out.
+bool Shrinker::isFinerThanWanted(VertexId v) {
+  const Point here = mesh_.point(v);
+  mesh_.star(v, star_);
+  double longest = 0.0;
+  for (const EdgeRef e : star_)
+    longest = std::max({longest, squaredDistance(here, mesh_.point(mesh_.origin(e))),
+                        squaredDistance(here, mesh_.point(mesh_.target(e)))});
+  const double most = kFineShare * size_->at(here);
+  return longest < most * most;
+}
+
+}  // namespace
+
+RefineStats shrinkSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  Shrinker shrinker(std::move(state), pslg, options);
+  // As many as of the large mesh that it is a part of.
+  shrinker.run(sweepsFor(options.min_angle_deg, std::numeric_limits<std::size_t>::max()), control);
+  state = shrinker.releaseState();
+  return std::move(shrinker.stats());
+}
+
+RefineStats shrink(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  requireInRange(options);
+  const std::size_t vertices = mesh.points.size();
+  Shrinker shrinker(std::move(mesh), pslg, options);
+  shrinker.run(sweepsFor(options.min_angle_deg, vertices), control);
+  mesh = shrinker.release();
+  labelRegions(mesh, pslg);
+  RefineStats stats = std::move(shrinker.stats());
+  stats.unresolved = findShortfalls(mesh, options);
+  return stats;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,120 @@
+#include "core/refine/split_segments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/metric.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A subsegment before it is cut, and where: shares of its length, ascending.
+struct Cut {
+  VertexId a = kNone;
+  VertexId b = kNone;
+  SegmentId seg = kNone;
+};
+
+// Steps along a segment in which lengths are added up, a wanted length: enough where it changes by a third from one edge to the next.
+constexpr double kStepsALength = 4.0;
+
+// Shares of the way from a to b that lie one wanted length apart, stretched to fit. What needs clearly more than `most` of them is looked
+// at as far as these go.
+void evenShares(const Point& a, const Point& b, const SizeFunction& size, std::uint64_t most,
+                std::vector<double>& shares) {
+  shares.clear();
+  const double length = distance(a, b);
+  // How many wanted lengths there are up to each step, by the trapezoid rule; steps follow the wanted length.
+  std::vector<std::pair<double, double>> marks{{0.0, 0.0}};
+  double along = 0.0, count = 0.0, here = size.at(a);
+  const double most_steps = 2.0 * kStepsALength * (static_cast<double>(most) + 1.0);
+  while (along < length && static_cast<double>(marks.size()) < most_steps) {
+    const double step = std::min(here / kStepsALength, length - along);
+    const double next = step >= length - along ? length : along + step;
+    if (!(next > along)) break;  // lengths below what coordinates resolve
+    const double there = size.at(a + (next / length) * (b - a));
+    count += 0.5 * (next - along) * (1.0 / here + 1.0 / there);
+    along = next;
+    here = there;
+    marks.push_back({along, count});
+  }
+  // As many as make the pieces' ratio to what is wanted nearest to 1, either way.
+  double pieces = std::max(1.0, std::floor(count));
+  if (count * count > pieces * (pieces + 1.0)) pieces += 1.0;
+  std::size_t i = 0;
+  for (double k = 1.0; k < pieces; k += 1.0) {
+    const double target = count * k / pieces;
+    while (i + 2 < marks.size() && marks[i + 1].second < target) ++i;
+    const auto [from, before] = marks[i];
+    const auto [to, after] = marks[i + 1];
+    shares.push_back((from + (to - from) * (target - before) / (after - before)) / length);
+  }
+}
+
+EdgeRef findEdge(const EditMesh& mesh, const std::vector<TriId>& among, VertexId a, VertexId b) {
+  for (const TriId t : among) {
+    if (!mesh.isLive(t)) continue;
+    for (unsigned i = 0; i < 3; ++i) {
+      const VertexId from = mesh.origin(edgeRef(t, i)), to = mesh.target(edgeRef(t, i));
+      if ((from == a && to == b) || (from == b && to == a)) return edgeRef(t, i);
+    }
+  }
+  return kNone;
+}
+
+}  // namespace
+
+std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes, const RefineOptions& options) {
+  std::vector<Cut> cuts;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (mesh.segment(e) >= pslg.segments.size()) continue;
+      if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;
+      cuts.push_back({mesh.origin(e), mesh.target(e), mesh.segment(e)});
+    }
+  }
+  const VertexId before = static_cast<VertexId>(mesh.points.size());
+  const std::uint64_t most = std::min<std::uint64_t>(options.max_vertices, kNone);
+  EditMesh edit(std::move(mesh));
+  std::vector<double> shares;
+  std::vector<TriId> touched, star;
+  std::vector<EdgeRef> opposite;
+  for (const Cut& cut : cuts) {
+    if (edit.vertexCount() >= most) break;
+    const Point a = edit.point(cut.a), b = edit.point(cut.b);
+    evenShares(a, b, *options.size, most - edit.vertexCount(), shares);
+    VertexId from = cut.a;
+    for (const double share : shares) {
+      if (edit.vertexCount() >= most) break;
+      edit.star(from, opposite);
+      star.clear();
+      for (const EdgeRef e : opposite) star.push_back(triOf(e));
+      const EdgeRef edge = findEdge(edit, star, from, cut.b);
+      if (edge == kNone) break;
+      const Segment& seg = pslg.segments[cut.seg];
+      const Point &sa = pslg.points[seg.a], &sb = pslg.points[seg.b];
+      const Point on = projectedOnLine(a + share * (b - a), sa, sb);
+      touched.clear();
+      const VertexId v = edit.splitSegment(edge, on, touched);
+      if (v == kNone) break;
+      notes.spacing.resize(edit.vertexSlots());
+      notes.spacing[v] = std::min(
+          {distance(on, a) + notes.spacing[cut.a], distance(on, b) + notes.spacing[cut.b], options.size->at(on)});
+      from = v;
+    }
+  }
+  Renumbering by;
+  mesh = edit.release(by, false);
+  std::vector<double> spacing(mesh.points.size());
+  for (VertexId v = 0; v < by.vertex.size(); ++v)
+    if (by.vertex[v] != kNone) spacing[by.vertex[v]] = notes.spacing[v];
+  notes.spacing = std::move(spacing);
+  return mesh.points.size() - before;
+}
+
+}  // namespace coastmesh

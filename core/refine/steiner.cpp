@@ -1,0 +1,92 @@
+#include "core/refine/steiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace coastmesh {
+
+namespace {
+
+// Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where the
+// triangle is bad for its size, the disk in which an equilateral triangle of that size fits. Never more than the triangle's own
+// circumcircle, which no vertex lies in. Where lengths are wanted, the equilateral triangle's of that length in either case: the new
+// edges come out near it.
+double petalRadius(double length, double circumradius, double wanted, const TriangleBound& bound, double sin_place,
+                   bool bad_angle) {
+  double radius = circumradius;
+  if (bound.min_angle > 0.0) radius = std::min(radius, 0.5 * length / sin_place);
+  constexpr double kInverseRoot3 = 0.57735026918962576;
+  if (bound.size != nullptr) {
+    radius = std::min(radius, kInverseRoot3 * wanted);
+  } else if (!bad_angle) {
+    radius = std::min(radius, kInverseRoot3 * std::sqrt(bound.squared_size));
+  }
+  return std::max(radius, 0.5 * length);
+}
+
+// Far more Voronoi edges than a petal has; a bound for meshes that rounding has bent.
+constexpr int kMostSteps = 10000;
+
+}  // namespace
+
+SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
+  // All geometry relative to p.
+  const Triangle& bad = mesh.triangle(t);
+  const Point& p = mesh.point(bad.v[next3(apex)]);
+  const Point q = mesh.point(bad.v[prev3(apex)]) - p;
+  const Point r = mesh.point(bad.v[apex]) - p;
+  const Point own = circumcenterOffset({}, q, r);
+  const double own_clearance = squaredLength(own);
+  if (algorithm_ == Algorithm::Circumcenter) return {p + own, SteinerType::OwnCircumcenter, t, own_clearance};
+
+  const double length = std::sqrt(squaredLength(q));
+  const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cot_min);
+  const Point normal{-q.y / length, q.x / length};
+  const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(p + 0.5 * q);
+  const double radius = petalRadius(length, std::sqrt(own_clearance), wanted, bound_, sin_place_, bad_angle);
+  const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
+  // Type I where the circumcentre lies outside the petal; both are on the bisector of pq.
+  if (dot(normal, own) > height + radius) {
+    const Point tip = 0.5 * q + (height + radius) * normal;
+    return {p + tip, SteinerType::DualOfShortestEdge, t, squaredLength(tip)};
+  }
+  SteinerPoint best{own, SteinerType::OwnCircumcenter, t, own_clearance};
+  if (algorithm_ != Algorithm::Offcenter) {
+    // The Voronoi edges inside the petal, from the bad triangle's circumcentre on. No vertex lies in the petal, so they
+    // make a tree: a cycle would hold a whole Voronoi cell with its vertex.
+    const Point centre = 0.5 * q + height * normal;
+    const double squared_radius = radius * radius;
+    const auto offer = [&](const Point& place, SteinerType type, TriId near, double squared_clearance) {
+      if (squared_clearance > best.squared_clearance) best = {place, type, near, squared_clearance};
+    };
+    steps_.clear();
+    steps_.push_back({edgeRef(t, prev3(apex)), own});
+    steps_.push_back({edgeRef(t, next3(apex)), own});
+    for (int steps = 0; !steps_.empty() && steps < kMostSteps; ++steps) {
+      const auto [edge, from] = steps_.back();
+      steps_.pop_back();
+      // Towards a constraint the way leads to places that are nearer to its ends, or behind it.
+      if (mesh.isConstrained(edge)) continue;
+      const EdgeRef beyond = mesh.twin(edge);
+      const Point u = mesh.point(mesh.origin(edge)) - p, w = mesh.point(mesh.target(edge)) - p;
+      const Point apex_point = mesh.point(mesh.apex(beyond)) - p;
+      const Point to = u + circumcenterOffset(u, apex_point, w);
+      if (squaredDistance(to, centre) <= squared_radius) {
+        offer(to, SteinerType::OtherCircumcenter, triOf(beyond), squaredDistance(to, u));
+        steps_.push_back({edgeRef(triOf(beyond), prev3(indexOf(beyond))), to});
+        steps_.push_back({edgeRef(triOf(beyond), next3(indexOf(beyond))), to});
+      } else {
+        // Where the Voronoi edge leaves the petal.
+        const Point offset = from - centre, along = to - from;
+        const double a = squaredLength(along), b = dot(along, offset), c = squaredLength(offset) - squared_radius;
+        const Point exit = from + ((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a) * along;
+        if (!std::isfinite(exit.x) || !std::isfinite(exit.y)) continue;
+        offer(exit, SteinerType::OtherVoronoiEdge, triOf(beyond), squaredDistance(exit, u));
+      }
+    }
+  }
+  best.place = p + best.place;
+  return best;
+}
+
+}  // namespace coastmesh

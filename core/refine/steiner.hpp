@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/metric.hpp"
+#include "core/refine/refine_options.hpp"
+
+namespace coastmesh {
+
+// The paper's four types, Section 3.
+enum class SteinerType : unsigned {
+  DualOfShortestEdge = 0,  // I: the off-centre
+  OtherVoronoiEdge = 1,    // II
+  OtherCircumcenter = 2,   // III
+  OwnCircumcenter = 3,     // IV
+};
+
+struct SteinerPoint {
+  Point place;
+  SteinerType type = SteinerType::OwnCircumcenter;
+  TriId near = kNone;              // a triangle whose circumcircle holds the place
+  double squared_clearance = 0.0;  // to the nearest visible vertex
+};
+
+// Finds the place where a vertex mends a bad triangle.
+class SteinerSearch {
+ public:
+  // Points aim at an angle that is `aim` (radians) above the bound.
+  SteinerSearch(Algorithm algorithm, const TriangleBound& bound, double aim, double scale = 1.0)
+      : algorithm_(algorithm),
+        bound_(bound),
+        // A little more than the bound: rounding finds a triangle bad whose apex is on the petal's boundary.
+        sin_place_(std::sin(bound.min_angle + toRadians(AngleBound::kMarginDeg) + aim)),
+        scale_(scale) {}
+
+  // `t` is bad and its shortest edge is opposite its corner `apex`.
+  SteinerPoint find(const EditMesh& mesh, TriId t, unsigned apex);
+
+ private:
+  struct Step {
+    EdgeRef edge;  // the Voronoi edge to follow is dual to it
+    Point from;    // where that edge starts: a circumcentre inside the petal, relative to the origin
+  };
+
+  Algorithm algorithm_;
+  const TriangleBound& bound_;
+  double sin_place_;  // of the smallest angle that points aim at
+  double scale_;      // wanted lengths are aimed at times this
+  std::vector<Step> steps_;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,102 @@
+#include "core/refine/submesh.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace coastmesh {
+
+std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings) {
+  std::vector<TriId> patch(centre.begin(), centre.end());
+  std::vector<EdgeRef> star;
+  std::size_t done = 0;
+  for (unsigned ring = 0; ring < rings; ++ring) {
+    const std::size_t end = patch.size();
+    for (; done < end; ++done) {
+      for (const VertexId v : mesh.triangle(patch[done]).v) {
+        mesh.star(v, star);
+        for (const EdgeRef e : star) patch.push_back(triOf(e));
+      }
+    }
+    // Keep those that are new, in order.
+    std::sort(patch.begin() + static_cast<std::ptrdiff_t>(end), patch.end());
+    patch.erase(std::unique(patch.begin() + static_cast<std::ptrdiff_t>(end), patch.end()), patch.end());
+    std::vector<TriId> known(patch.begin(), patch.begin() + static_cast<std::ptrdiff_t>(end));
+    std::ranges::sort(known);
+    const auto fresh = std::remove_if(patch.begin() + static_cast<std::ptrdiff_t>(end), patch.end(),
+                                      [&](TriId t) { return std::ranges::binary_search(known, t); });
+    patch.erase(fresh, patch.end());
+  }
+  return patch;
+}
+
+VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId parent_inputs,
+                    const VertexNotes& notes) {
+  VertexNotes some;
+  some.corners = notes.corners;
+  if (!notes.spacing.empty()) {
+    some.spacing.reserve(vertices.size());
+    for (const VertexId v : vertices) some.spacing.push_back(notes.spacing[v]);
+  }
+  // What only input vertices have; the others that are fixed now have none.
+  for (const VertexId v : vertices.first(fixed)) {
+    const bool input = v < parent_inputs;
+    if (notes.shell_unit.size() == parent_inputs) some.shell_unit.push_back(input ? notes.shell_unit[v] : 0.0);
+    if (notes.small_angle.size() == parent_inputs) some.small_angle.push_back(input && notes.small_angle[v]);
+  }
+  return some;
+}
+
+Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings) {
+  const std::vector<TriId> triangles = trianglesAround(parent, centre, rings);
+  std::unordered_map<TriId, TriId> slots;
+  for (TriId i = 0; i < triangles.size(); ++i) slots.emplace(triangles[i], i);
+  const auto slotOf = [&](TriId t) {
+    const auto slot = slots.find(t);
+    return slot == slots.end() ? kNone : slot->second;
+  };
+  std::unordered_map<VertexId, VertexId> numbers;
+  const auto numberOf = [&](VertexId v) -> VertexId& { return numbers.try_emplace(v, kNone).first->second; };
+  return extractSubmesh(parent, parent.inputVertices(), notes, triangles, slotOf, numberOf);
+}
+
+void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std::vector<VertexId>& added,
+             std::vector<TriId>& touched) {
+  std::vector<bool> on_segment(solved.points.size(), false);
+  for (TriId t = 0; t < solved.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      if (solved.triangles[t].seg[i] == kNone) continue;
+      on_segment[solved.origin(edgeRef(t, i))] = on_segment[solved.target(edgeRef(t, i))] = true;
+    }
+  }
+  const auto fixed_end = patch.parent.begin() + patch.mesh.input_vertices;
+  std::vector<VertexId> number(patch.parent.begin(), fixed_end);
+  const std::vector<VertexId> gone(fixed_end, patch.parent.end());
+  for (VertexId v = patch.mesh.input_vertices; v < solved.points.size(); ++v) {
+    number.push_back(parent.addVertex(solved.points[v], on_segment[v] ? VertexKind::Segment : VertexKind::Free));
+    added.push_back(number.back());
+  }
+
+  Patch hole{patch.triangles, {}};
+  for (const EdgeRef e : patch.frozen)
+    hole.rim.push_back({parent.origin(e), parent.target(e), parent.twin(e), parent.segment(e)});
+  std::vector<RimEdge> inner;
+  std::vector<Corners> fresh;
+  for (TriId t = 0; t < solved.triangles.size(); ++t) {
+    const Triangle& tri = solved.triangles[t];
+    fresh.push_back({number[tri.v[0]], number[tri.v[1]], number[tri.v[2]]});
+    for (unsigned i = 0; i < 3; ++i) {
+      // A boundary without segments is that of a mesh of points alone.
+      if (tri.seg[i] == kFrozen || (tri.seg[i] == kNone && tri.adj[i] != kNone)) continue;
+      const EdgeRef e = edgeRef(t, i);
+      const RimEdge edge{number[solved.origin(e)], number[solved.target(e)], kNone, tri.seg[i]};
+      if (tri.adj[i] == kNone) {
+        hole.rim.push_back(edge);
+      } else {
+        inner.push_back(edge);
+      }
+    }
+  }
+  parent.replace(hole, fresh, gone, touched, inner);
+}
+
+}  // namespace coastmesh

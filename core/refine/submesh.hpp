@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/links.hpp"
+#include "core/refine/vertex_notes.hpp"
+#include "core/tri_mesh.hpp"
+
+namespace coastmesh {
+
+// A mesh and what is known of it between runs: the whole between two rounds, or a submesh of it that is worked on.
+struct MeshState {
+  TriMesh mesh;                             // no regions
+  VertexNotes notes;                        // each list empty where no one needs it
+  std::vector<std::uint8_t> due_triangles;  // one a triangle, or empty: to be looked at by refinement
+  std::vector<std::uint8_t> due_vertices;   // one a vertex, or empty: to be looked at by shrinking and fitting
+};
+
+// Some triangles of a mesh, its parent, as a mesh of their own. The edges that they share with the parent's other triangles are frozen:
+// they carry kFrozen in place of a segment, and what works on the submesh keeps them. The boundary of the domain stays as it is.
+struct Submesh {
+  TriMesh mesh;  // the first `input_vertices` are fixed: input vertices and those on frozen edges
+  VertexNotes notes;
+  std::vector<TriId> triangles;  // the parent's number of each triangle
+  std::vector<VertexId> parent;  // the parent's number of each vertex
+  std::vector<EdgeRef> frozen;   // the frozen edges, in the parent's numbers, as seen from inside
+};
+
+// What a parent knows of some of its vertices, of which the first `fixed` are a submesh's fixed ones, as notes on these.
+VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId parent_inputs,
+                    const VertexNotes& notes);
+
+// Those triangles of a TriMesh or EditMesh, whose first `parent_inputs` vertices are input vertices.
+//   slotOf(t)    the place of one of the parent's triangles among `triangles`, kNone of others
+//   numberOf(v)  room for the new number of one of the parent's vertices, by reference; kNone before, filled after
+template <typename Mesh, typename SlotOf, typename NumberOf>
+Submesh extractSubmesh(const Mesh& parent, VertexId parent_inputs, const VertexNotes& notes,
+                       std::span<const TriId> triangles, const SlotOf& slotOf, const NumberOf& numberOf) {
+  Submesh sub;
+  sub.triangles.assign(triangles.begin(), triangles.end());
+  const auto number = [&](VertexId v) {
+    VertexId& own = numberOf(v);
+    if (own != kNone) return;
+    own = static_cast<VertexId>(sub.parent.size());
+    sub.parent.push_back(v);
+  };
+  // Vertices that must not change come first.
+  for (const TriId t : triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i), twin = parent.twin(e);
+      if (const VertexId v = parent.apex(e); v < parent_inputs) number(v);
+      if (twin == kNone || slotOf(triOf(twin)) != kNone) continue;
+      number(parent.origin(e));
+      number(parent.target(e));
+      sub.frozen.push_back(e);
+    }
+  }
+  sub.mesh.input_vertices = static_cast<VertexId>(sub.parent.size());
+  for (const TriId t : triangles)
+    for (const VertexId v : parent.triangle(t).v) number(v);
+
+  sub.mesh.points.reserve(sub.parent.size());
+  for (const VertexId v : sub.parent) sub.mesh.points.push_back(parent.point(v));
+  sub.notes = notesOn(sub.parent, sub.mesh.input_vertices, parent_inputs, notes);
+  sub.mesh.triangles.reserve(triangles.size());
+  for (const TriId t : triangles)
+    sub.mesh.triangles.push_back(renumbered(parent.triangle(t), slotOf, numberOf, kFrozen));
+  assert(findBrokenLink(sub.mesh.triangles) == kNone);
+  return sub;
+}
+
+// Some triangles, those that touch them, those that touch these, and so on for `rings` rings.
+std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings);
+
+// Those triangles as a mesh.
+Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings);
+
+// Puts another mesh of the same submesh (fixed vertices and frozen edges unchanged) into the parent's mesh. Appends the vertices and
+// the triangles that are new there. Does not restore the Delaunay property. REQUIRES: the parent is as it was at the extraction.
+void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std::vector<VertexId>& added,
+             std::vector<TriId>& touched);
+
+}  // namespace coastmesh

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/metric.hpp"
+#include "core/pslg.hpp"
+#include "core/refine/feasible_region.hpp"
+
+namespace coastmesh {
+
+// Changes round a vertex or two that leave only good triangles there: moving a vertex, taking it out, merging two into
+// one. Each is tested on the link alone and done only where it succeeds; then the Delaunay property is restored by
+// flips, which never lower the smallest angle. Changed triangles are appended to `touched`.
+class VertexOps {
+ public:
+  VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound);
+
+  // From now on leaves alone what a frozen edge is next to: it is another's to change too.
+  void keepClearOfFrozen() { clear_of_frozen_ = true; }
+
+  // From now on rejects any flip that involves a bad triangle: an input angle may excuse that triangle but not the one that the flip
+  // would make.
+  void keepBadInPlace() { bad_stays_ = true; }
+
+  // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
+  // differ: the region of good places is found exactly, and a vertex on a segment slides along it.
+  bool relocate(VertexId v, std::vector<TriId>& touched);
+
+  // Takes out a vertex where the hole that it leaves triangulates without a bad triangle. On a segment the two
+  // subsegments become one.
+  bool remove(VertexId v, std::vector<TriId>& touched);
+
+  // The same where one triangle, its corners in any order, need not be good.
+  bool removeInto(const Corners& excused, VertexId v, std::vector<TriId>& touched);
+
+  // The same whatever triangles it leaves.
+  bool removeAnyway(VertexId v, std::vector<TriId>& touched);
+
+  // Replaces the two ends of an edge by one vertex in the feasible region of both stars together; `stays` moves there
+  // and keeps its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
+  bool merge(VertexId goes, VertexId stays, std::vector<TriId>& touched);
+
+  // Tries merge with each neighbour of v that is no input vertex; of two free vertices only with the later, where each gets its
+  // turn.
+  bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
+
+  // Whether beyond an edge, given as seen from there (kNone: nothing), lies a bad triangle.
+  bool isBadBeyond(EdgeRef e) const;
+
+ private:
+  // What is to be replaced round a vertex, or round two that become one.
+  struct Star {
+    Patch patch;                  // the triangles, and their boundary without the edges below that end at the vertex
+    std::vector<RimEdge> spokes;  // subsegments that end at the vertex, as edges from it
+    std::vector<RimEdge> sides;   // of them, those on the boundary of the mesh, the mesh to their left
+
+    void clear();
+  };
+  // Whether the flips that follow a change may make triangles that no one has tested.
+  enum class Flips { Watched, Any };
+
+  bool gather(VertexId v, Star& star);
+  bool gatherBoth(VertexId goes, VertexId stays, Star& star);
+  bool appendStar(VertexId v, VertexId other, VertexId stays, Star& star);
+  void appendLink(const Ring& ring, VertexId other);
+  Point meanOfLink() const;
+  bool relocateFree(VertexId v, std::vector<TriId>& touched);
+  bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
+  bool cannotMerge(VertexId v, VertexId w, TriId beside);
+  template <typename Accept>
+  bool removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
+  template <typename Accept>
+  bool fillHole(std::span<const RimEdge> side, const Accept& accept);
+  std::optional<Point> findPlace(VertexId v, const Star& star);
+  bool fits(const Point& place) const;
+  bool isGood(const Corners& c) const;
+  bool fanFlips(const Star& star, const Point& place) const;
+  bool holeFlips(const Star& star) const;
+  bool isBarred(const Star& star) const;
+  bool mayNotFlip(const Star& star) const;
+  EdgeRef spokeBefore(EdgeRef opposite) const { return edgeRef(triOf(opposite), prev3(indexOf(opposite))); }
+  EdgeRef spokeAfter(EdgeRef opposite) const { return edgeRef(triOf(opposite), next3(indexOf(opposite))); }
+
+  EditMesh& mesh_;
+  const Pslg& pslg_;
+  const TriangleBound& bound_;
+  bool clear_of_frozen_ = false;
+  bool bad_stays_ = false;
+  std::size_t most_triangles_;  // no vertex can have more round it without a bad one among them
+  bool flips_may_harm_;         // they keep the smallest angle, but not the largest, nor the longest edge
+
+  // Scratch.
+  FeasibleRegion region_;
+  Ring ring_;        // of the vertex whose turn it is
+  Ring other_ring_;  // of its neighbour
+  Star star_;
+  std::vector<EdgeRef> opposite_;
+  std::vector<VertexId> neighbours_;
+  std::vector<VertexId> polygon_;
+  std::vector<Corners> fresh_, all_fresh_;
+  std::vector<LinkEdge> link_;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,228 @@
+#include "core/size/size_grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/ids.hpp"
+#include "core/metric.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Steeper than this share of the grade sizes are graded by distance; below it, it is cheaper to flatten triangles.
+constexpr double kMuchTooSteep = 1.1;
+// So much of the way from a place to its neighbours sizes stay as they are there: grown all the way to two neighbours at a right angle
+// they would be too steep between these, and lowering them there would make the next cells too steep, without end.
+constexpr double kFlatFoot = 0.3;
+// Triangles are flattened to a little less than what is still left alone, so that each time something is gained.
+constexpr double kFlattened = 1.0 - 1e-5;
+// Visits of a cell, in the mean, before the sure way is taken.
+constexpr std::size_t kMostVisits = 64;
+
+// What is kept of sizes is rounded; only what is rounded before it is compared is sure to be no steeper afterwards.
+double roundedDown(double size) {
+  const auto rounded = static_cast<float>(size);
+  return rounded <= size ? rounded : std::nextafter(rounded, 0.0F);
+}
+
+}  // namespace
+
+SizeGrading::SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit,
+                         std::span<const LeafVertices> leaves, std::function<LeavesRound(std::uint32_t)> leaves_round,
+                         double grade, const ItemLoop& loop)
+    : sizes_(sizes),
+      places_(places),
+      unit_(unit),
+      leaves_(leaves),
+      leaves_round_(std::move(leaves_round)),
+      grade_(grade),
+      loop_(loop) {}
+
+// Of sizes on a triangle.
+Point SizeGrading::gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  const Point ab = placeOf(b) - placeOf(a), ac = placeOf(c) - placeOf(a);
+  const double hb = sizes_.size[b] - sizes_.size[a], hc = sizes_.size[c] - sizes_.size[a];
+  return (1.0 / cross(ab, ac)) * (hb * Point{ac.y, -ac.x} + hc * Point{-ab.y, ab.x});
+}
+
+bool SizeGrading::isSteeper(std::uint32_t leaf, double slope) const {
+  bool is = false;
+  forEachTriangle(leaves_[leaf],
+                  [&](auto a, auto b, auto c) { is = is || !(squaredLength(gradient(a, b, c)) <= slope * slope); });
+  return is;
+}
+
+std::vector<std::uint32_t> SizeGrading::findSteep() const {
+  return joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> steep;
+    for (std::size_t l = first; l < last; ++l)
+      if (isSteeper(static_cast<std::uint32_t>(l), grade_)) steep.push_back(static_cast<std::uint32_t>(l));
+    return steep;
+  }));
+}
+
+double SizeGrading::lowestOf(std::uint32_t leaf) const {
+  double low = sizes_.size[leaves_[leaf][4]];
+  for (const std::uint32_t v : leaves_[leaf])
+    if (v != kNone) low = std::min(low, sizes_.size[v]);
+  return low;
+}
+
+void SizeGrading::spread() {
+  // First to where nothing is wanted, from the rim of that.
+  const auto isFree = [&](std::uint32_t v) { return v != kNone && !std::isfinite(sizes_.size[v]); };
+  grow(joined(overStretches(loop_, leaves_.size(),
+                            [&](std::size_t first, std::size_t last) {
+                              std::vector<std::uint32_t> rim;
+                              for (const LeafVertices& leaf : leaves_.subspan(first, last - first)) {
+                                if (std::ranges::none_of(leaf, isFree)) continue;
+                                for (const std::uint32_t v : leaf)
+                                  if (v != kNone && !isFree(v)) rim.push_back(v);
+                              }
+                              return rim;
+                            })),
+       [&](std::uint32_t v) { return !std::isfinite(sizes_.own[v]); });
+
+  // Then to where more is.
+  const double limit = kMuchTooSteep * grade_;
+  std::vector<std::uint32_t> low =
+      joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> lowest;
+        for (const LeafVertices& leaf : leaves_.subspan(first, last - first)) {
+          forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            if (squaredLength(gradient(a, b, c)) > limit * limit)
+              lowest.push_back(std::min({a, b, c}, [&](auto v, auto w) { return sizes_.size[v] < sizes_.size[w]; }));
+          });
+        }
+        return lowest;
+      }));
+  for (std::uint32_t v = 0; v < places_.size(); ++v)
+    if (sizes_.source[v] != kNone && std::isfinite(sizes_.own[v])) low.push_back(v);
+  grow(std::move(low), [](std::uint32_t) { return true; });
+}
+
+// The longest leg of the triangles round a vertex.
+double SizeGrading::legAt(std::uint32_t v) const {
+  double leg = 0.0;
+  forLeavesRound(
+      v, [&](std::uint32_t l) { leg = std::max(leg, distance(placeOf(leaves_[l][4]), placeOf(leaves_[l][0]))); });
+  return leg;
+}
+
+// From each place sizes grow with the straight distance from it, not with that along edges: every vertex knows the place that decides.
+template <typename F>
+void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
+  std::ranges::sort(from);
+  from.erase(std::unique(from.begin(), from.end()), from.end());
+  Queue queue;
+  for (const std::uint32_t v : from)
+    if (std::isfinite(sizes_.size[v])) queue.push({sizes_.size[v], v});
+  while (!queue.empty()) {
+    const auto [size, v] = queue.top();
+    queue.pop();
+    if (size != sizes_.size[v]) continue;
+    const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
+    const Point place = placeOf(origin);
+    const double flat = kFlatFoot * legAt(origin);
+    forLeavesRound(v, [&](std::uint32_t l) {
+      for (const std::uint32_t w : leaves_[l]) {
+        if (w == kNone || !mayLower(w)) continue;
+        const double way = std::max(distance(place, placeOf(w)) - flat, 0.0);
+        const double allowed = sizes_.own[origin] + kSizeGrowth * grade_ * way;
+        if (!(allowed < sizes_.size[w] * (1.0 - 1e-9))) continue;
+        sizes_.size[w] = allowed;
+        sizes_.source[w] = origin;
+        queue.push({allowed, w});
+      }
+    });
+  }
+}
+
+void SizeGrading::flatten() {
+  forEachByStretches(loop_, sizes_.size.size(), [&](std::size_t v) { sizes_.size[v] = roundedDown(sizes_.size[v]); });
+  // From below: what is low decides on what is high.
+  Queue queue;
+  for (const std::uint32_t l : findSteep()) queue.push({lowestOf(l), l});
+  std::vector<std::uint32_t> lowered;
+  for (std::size_t visits = kMostVisits * leaves_.size(); !queue.empty(); --visits) {
+    if (visits == 0) return flattenLegs();
+    const std::uint32_t leaf = queue.top().number;
+    queue.pop();
+    lowered.clear();
+    flattenLeaf(leaf, lowered);
+    for (const std::uint32_t v : lowered) {
+      forLeavesRound(v, [&](std::uint32_t l) {
+        if (isSteeper(l, grade_)) queue.push({lowestOf(l), l});
+      });
+    }
+  }
+}
+
+// The nearest sizes, in the sense of least squares, that make a triangle as steep as allowed: those of its corners go down that lie on
+// the upper side. To tilt it about its lowest corner instead lowers more, and makes its neighbours steep in turn, on and on.
+void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lowered) {
+  forEachTriangle(leaves_[leaf], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const std::array<std::uint32_t, 3> corners = {a, b, c};
+    const Point slope = gradient(a, b, c);
+    if (squaredLength(slope) <= grade_ * grade_) return;
+    // How the gradient changes while each corner goes down as fast as the square of the slope falls with it.
+    std::array<double, 3> down;
+    Point change;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point p = placeOf(corners[i]), q = placeOf(corners[(i + 1) % 3]), r = placeOf(corners[(i + 2) % 3]);
+      const Point normal{q.y - r.y, r.x - q.x};
+      const Point with = (1.0 / dot(normal, p - q)) * normal;  // the gradient of what is 1 here and 0 at the others
+      down[i] = std::max(0.0, dot(with, slope));
+      change = change + down[i] * with;
+    }
+    // Until |slope - way * change| is what is allowed, or as near as it comes this way.
+    const double allowed = kFlattened * grade_;
+    const double aa = squaredLength(change), ab = dot(slope, change);
+    const double inside = ab * ab - aa * (squaredLength(slope) - allowed * allowed);
+    const double way = (ab - std::sqrt(std::max(inside, 0.0))) / aa;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (down[i] == 0.0) continue;
+      sizes_.size[corners[i]] = roundedDown(sizes_.size[corners[i]] - way * down[i]);
+      lowered.push_back(corners[i]);
+    }
+  });
+  std::ranges::sort(lowered);
+  lowered.erase(std::unique(lowered.begin(), lowered.end()), lowered.end());
+}
+
+// Where flattening takes too long: along both legs of a right angle sizes differ by at most the grade over the square root of 2, in every
+// cell that has a lowered vertex. That ends: a cell is taken in once, and in those that are in, sizes are lengths of shortest paths.
+void SizeGrading::flattenLegs() {
+  std::vector<bool> is_strict(leaves_.size(), false);
+  Queue queue;
+  const auto takeIn = [&](std::uint32_t l) {
+    if (is_strict[l]) return;
+    is_strict[l] = true;
+    for (const std::uint32_t v : leaves_[l])
+      if (v != kNone) queue.push({sizes_.size[v], v});
+  };
+  for (const std::uint32_t l : findSteep()) takeIn(l);
+  while (!queue.empty()) {
+    const auto [size, v] = queue.top();
+    queue.pop();
+    if (size != sizes_.size[v]) continue;
+    forLeavesRound(v, [&](std::uint32_t l) {
+      if (!is_strict[l]) return;
+      forEachTriangle(leaves_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (v != a && v != b && v != c) return;
+        for (const std::uint32_t w : {a, b, c}) {
+          const double growth = kFlattened * std::sqrt(0.5) * grade_ * distance(placeOf(v), placeOf(w));
+          const double allowed = std::max(size, roundedDown(size + growth));
+          if (!(allowed < sizes_.size[w])) continue;
+          sizes_.size[w] = allowed;
+          queue.push({allowed, w});
+          forLeavesRound(w, takeIn);
+        }
+      });
+    });
+  }
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <queue>
+#include <span>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/item_loop.hpp"
+#include "core/point.hpp"
+#include "core/size/size_places.hpp"
+
+namespace coastmesh {
+
+// The vertices of a square cell, in rows from below: corners, middles of sides, centre. The middle of a side is kNone where
+// sizes are linear along it. The cell's triangles lie between its centre and the edges of its rim: all are right-angled, with legs of
+// the same length. Cells meet in whole edges.
+using LeafVertices = std::array<std::uint32_t, 9>;
+
+// From where they are graded, sizes grow by this share of the grade: between vertices a cone is steeper than it is.
+inline constexpr double kSizeGrowth = 0.94;
+
+// At vertices: the size wanted there (infinite: none), the size allowed, and the vertex from which that grows (kNone where nothing
+// smaller lies near).
+struct GradedSizes {
+  std::vector<double> own, size;
+  std::vector<std::uint32_t> source;
+};
+
+// The cells round a vertex, four at most.
+struct LeavesRound {
+  std::array<std::uint32_t, 4> leaves;
+  std::size_t count = 0;
+};
+
+// Lowers sizes at the vertices of such cells until they grow no faster than `grade` anywhere, in two steps. Places are in multiples of `unit`.
+class SizeGrading {
+ public:
+  SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit, std::span<const LeafVertices> leaves,
+              std::function<LeavesRound(std::uint32_t)> leaves_round, double grade, const ItemLoop& loop);
+
+  // From the feet of triangles that are much too steep, and from what grew before, sizes grow with the straight distance; where none
+  // are wanted, they grow from those round it.
+  void spread();
+  // Lowers what is steeper than `grade` as little as each triangle needs, and rounds to single precision. Afterwards no triangle is.
+  void flatten();
+
+ private:
+  struct Entry {
+    double size;
+    std::uint32_t number;
+    bool operator<(const Entry& other) const { return size != other.size ? size > other.size : number > other.number; }
+  };
+  using Queue = std::priority_queue<Entry>;
+
+  Point placeOf(std::uint32_t v) const { return {unit_ * places_[v].x, unit_ * places_[v].y}; }
+  Point gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  bool isSteeper(std::uint32_t leaf, double slope) const;
+  std::vector<std::uint32_t> findSteep() const;
+  double lowestOf(std::uint32_t leaf) const;
+  double legAt(std::uint32_t v) const;
+  template <typename F>
+  void grow(std::vector<std::uint32_t>&& from, const F& mayLower);
+  void flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lowered);
+  void flattenLegs();
+  template <typename F>
+  void forLeavesRound(std::uint32_t v, F&& f) const {
+    const LeavesRound round = leaves_round_(v);
+    for (std::size_t k = 0; k < round.count; ++k) f(round.leaves[k]);
+  }
+
+  GradedSizes& sizes_;
+  const SizePlaces& places_;
+  double unit_;
+  std::span<const LeafVertices> leaves_;
+  std::function<LeavesRound(std::uint32_t)> leaves_round_;
+  double grade_;
+  const ItemLoop& loop_;
+};
+
+// The rim of a cell counter-clockwise.
+inline constexpr std::array<unsigned, 8> kLeafRim = {0, 1, 2, 5, 8, 7, 6, 3};
+
+// The triangles of a cell: its centre, and an edge of the rim.
+template <typename F>
+void forEachTriangle(const LeafVertices& leaf, F&& triangle) {
+  std::uint32_t last = leaf[0];
+  for (std::size_t k = 1; k <= kLeafRim.size(); ++k) {
+    const std::uint32_t next = leaf[kLeafRim[k % kLeafRim.size()]];
+    if (next == kNone) continue;
+    triangle(leaf[4], last, next);
+    last = next;
+  }
+}
+
+}  // namespace coastmesh

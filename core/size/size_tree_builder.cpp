@@ -1,0 +1,482 @@
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "core/ids.hpp"
+#include "core/metric.hpp"
+#include "core/size/size_grading.hpp"
+#include "core/size/size_places.hpp"
+#include "core/size/size_tree.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Where the least size in a cell is known to be less than that at its corners, sides and centre by this factor, something small lies
+// between them. Bounds of what grows with a distance are off by less.
+constexpr double kHidden = 1.5;
+constexpr int kLevels = 24;
+constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // of the root's side: a leaf of the last level has a centre
+// Vertices of equilateral triangles with edges of length 1, on an area of 1.
+const double kVerticesPerArea = 2.0 / std::sqrt(3.0);
+// Where slopes are compared, rounding counts.
+constexpr double kSafely = 1.0 - 1e-6;
+
+struct Square {
+  std::uint32_t x = 0, y = 0;  // of the lower left corner, in units
+  int level = 0;
+  std::uint32_t side() const { return kUnits >> level; }
+};
+
+}  // namespace
+
+class SizeTreeBuilder {
+ public:
+  SizeTreeBuilder(SizeTree& tree, const SizeSource& source, const SizeTreeOptions& options, const ItemLoop& loop)
+      : tree_(tree), source_(source), options_(options), loop_(loop) {}
+
+  void build() {
+    tree_.cells_.push_back({});
+    squares_.push_back({});
+    known_.push_back(kNone);
+    refine();
+    if (!tree_.complete_) return;
+    balance();
+    number();
+    grade();
+    tree_.demand_ = demandOfLeaves();
+    if (!tree_.complete_) return;
+    fill();
+    makeStart();
+  }
+
+ private:
+  // Of a cell's vertices those that it always has.
+  static constexpr std::array<unsigned, 5> kOwn = {0, 2, 4, 6, 8};
+  static constexpr std::array<unsigned, 4> kMiddles = {1, 3, 5, 7};
+
+  double unit() const { return tree_.side_ / kUnits; }
+  SizeBox boxOf(std::uint32_t c) const {
+    const Square& s = squares_[c];
+    const double half = 0.5 * unit() * s.side();
+    return {tree_.origin_ + Point{unit() * s.x + half, unit() * s.y + half}, half};
+  }
+  // Where vertex i of a cell is, as `LeafVertices` counts them.
+  SizePlaces::Place vertexOf(std::uint32_t c, unsigned i) const {
+    const Square& s = squares_[c];
+    return {s.x + (i % 3) * (s.side() / 2), s.y + (i / 3) * (s.side() / 2)};
+  }
+  void addOwnVertices(std::uint32_t c) {
+    if (known_[c] != kNone) return;
+    known_[c] = static_cast<std::uint32_t>(own_vertices_.size());
+    std::array<std::uint32_t, 5>& numbers = own_vertices_.emplace_back();
+    for (std::size_t k = 0; k < kOwn.size(); ++k) numbers[k] = vertices_.add(vertexOf(c, kOwn[k]));
+  }
+
+  void split(std::uint32_t c) {
+    const Square square = squares_[c];
+    const std::uint32_t half = square.side() / 2;
+    tree_.cells_[c] = {static_cast<std::uint32_t>(tree_.cells_.size()), false};
+    for (unsigned k = 0; k < 4; ++k) {
+      tree_.cells_.push_back({});
+      squares_.push_back({square.x + (k % 2) * half, square.y + (k / 2) * half, square.level + 1});
+      known_.push_back(kNone);
+    }
+  }
+
+  bool isFull() {
+    if (tree_.cells_.size() + 4 > options_.most_cells) tree_.complete_ = false;
+    return !tree_.complete_;
+  }
+
+  // What cells ask for whose lengths lie in these ranges: surely, and probably.
+  struct Demand {
+    double least = 0.0, likely = 0.0;
+    double most_here = -1.0;  // of `likely`, in one cell
+    SizeBox most_in;
+    double size = 0.0;
+
+    void add(const Demand& other) {
+      least += other.least;
+      likely += other.likely;
+      if (!(other.most_here > most_here)) return;
+      most_here = other.most_here;
+      most_in = other.most_in;
+      size = other.size;
+    }
+  };
+
+  Demand demandOf(std::uint32_t c, const SizeRange& range) const {
+    const SizeBox box = boxOf(c);
+    const double area = source_.share(box) * 4.0 * box.half * box.half;
+    if (!(area > 0.0) || range.low == kInfinity) return {};
+    // Graded, lengths grow no faster from the least one; the mean of 1 / h² of what grows evenly is that of both ends' product.
+    const double high = std::min(range.high, range.low + options_.grade * std::sqrt(8.0) * box.half);
+    const double low = range.low > 0.0 ? range.low : high;
+    const double likely = kVerticesPerArea * area / low / high;
+    return {kVerticesPerArea * area / range.high / range.high, likely, likely, box, low};
+  }
+
+  // Whether what is likely is far too much and has hardly become less over some levels: what small places seem to ask for halves from
+  // one level to the next, and what lines and areas ask for stays.
+  bool isSurelyTooMuch(double likely) {
+    constexpr std::size_t kLevelsAlike = 3;
+    constexpr double kAlike = 0.8, kFarTooMuch = 1.5;
+    likely_.push_back(likely);
+    if (likely_.size() <= kLevelsAlike || !(likely > kFarTooMuch * options_.most_vertices)) return false;
+    return std::all_of(likely_.end() - kLevelsAlike - 1, likely_.end() - 1,
+                       [&](double before) { return likely >= kAlike * before; });
+  }
+
+  // Gives up: what is asked for is more than what is allowed.
+  void abandon(const Demand& demand) {
+    tree_.complete_ = false;
+    tree_.demand_ = {std::max(demand.likely, demand.least), demand.most_in, demand.size};
+  }
+
+  // Of graded lengths.
+  SizeDemand demandOfLeaves() const {
+    const std::vector<Demand> parts =
+        overStretches(loop_, leaf_cells_.size(), [&](std::size_t first, std::size_t last) {
+          Demand sum;
+          for (std::size_t l = first; l < last; ++l) {
+            if (!is_wanted_[l]) continue;
+            const SizeBox box = boxOf(leaf_cells_[l]);
+            const double share = source_.share(box);
+            if (!(share > 0.0)) continue;
+            Demand here{0.0, 0.0, 0.0, box, kInfinity};
+            forEachTriangle(leaf_vertices_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+              const double x = sizes_.size[a], y = sizes_.size[b], z = sizes_.size[c];
+              const auto atMiddle = [](double p, double q) { return 4.0 / (p + q) / (p + q); };
+              const double area =
+                  0.5 * unit() * unit() * std::abs(cross(gridPoint(b) - gridPoint(a), gridPoint(c) - gridPoint(a)));
+              here.likely += kVerticesPerArea * share * area * (atMiddle(x, y) + atMiddle(y, z) + atMiddle(z, x)) / 3.0;
+              here.size = std::min({here.size, x, y, z});
+            });
+            here.most_here = here.likely;
+            sum.add(here);
+          }
+          return sum;
+        });
+    Demand all;
+    for (const Demand& part : parts) all.add(part);
+    return {all.likely, all.most_in, all.size};
+  }
+  Point gridPoint(std::uint32_t v) const { return {1.0 * vertices_[v].x, 1.0 * vertices_[v].y}; }
+
+  // Level by level, so that many places are asked for at once.
+  void refine() {
+    std::uint32_t first = 0;
+    std::vector<SizeBox> boxes;
+    std::vector<SizeRange> ranges;
+    std::vector<std::uint32_t> unsure;
+    std::vector<double> lows;  // of the unsure ones
+    Demand settled;            // by cells that stay as they are
+    bool too_much = false;
+    for (int level = 0; level < kLevels; ++level) {
+      const auto end = static_cast<std::uint32_t>(tree_.cells_.size());
+      const std::vector<std::uint32_t> wanted =
+          joined(overStretches(loop_, end - first, [&](std::size_t from, std::size_t to) {
+            std::vector<std::uint32_t> here;
+            for (auto c = static_cast<std::uint32_t>(first + from); c < first + to; ++c)
+              if (source_.isWanted(boxOf(c))) here.push_back(c);
+            return here;
+          }));
+      if (wanted.empty()) break;
+      boxes.clear();
+      for (const std::uint32_t c : wanted) boxes.push_back(boxOf(c));
+      ranges.resize(boxes.size());
+      source_.bound(boxes, ranges);
+      Demand pending = settled;
+      for (std::size_t k = 0; k < wanted.size(); ++k) pending.add(demandOf(wanted[k], ranges[k]));
+      // A few cells more cost nothing and make the estimate better.
+      constexpr std::uint32_t kFewCells = 20'000;
+      too_much |= isSurelyTooMuch(pending.likely) || pending.least > options_.most_vertices;
+      if (too_much && end >= kFewCells) return abandon(pending);
+      unsure.clear();
+      lows.clear();
+      for (std::size_t k = 0; k < wanted.size() && !isFull(); ++k) {
+        const auto [low, high] = ranges[k];
+        if (!(high > low * (1.0 + options_.tolerance))) continue;
+        const double side = 2.0 * boxes[k].half;
+        if (side > options_.coarsest * low) {
+          split(wanted[k]);
+        } else if (side > options_.finest * low) {
+          unsure.push_back(wanted[k]);
+          lows.push_back(low);
+        }
+      }
+      splitWhereBent(unsure, lows);
+      if (!tree_.complete_) return abandon(pending);
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        if (tree_.cells_[wanted[k]].is_leaf) settled.add(demandOf(wanted[k], ranges[k]));
+      first = end;
+    }
+    if (too_much) abandon(settled);
+  }
+
+  // Splits cells whose centre or sides differ from what the corners give, or that hold something much smaller than all of these.
+  void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<double>& lows) {
+    std::vector<std::array<std::uint32_t, 4>> middles(cells.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      addOwnVertices(cells[k]);
+      for (std::size_t i = 0; i < kMiddles.size(); ++i) middles[k][i] = vertices_.add(vertexOf(cells[k], kMiddles[i]));
+    }
+    sample();
+    const auto isBent = [&](std::size_t k) {
+      std::array<double, 9> v;
+      for (std::size_t i = 0; i < kOwn.size(); ++i) v[kOwn[i]] = sizes_.own[own_vertices_[known_[cells[k]]][i]];
+      for (std::size_t i = 0; i < kMiddles.size(); ++i) v[kMiddles[i]] = sizes_.own[middles[k][i]];
+      // How far off four triangles would be; eight of them are about half as far off.
+      double off = std::abs(0.25 * (v[0] + v[2] + v[6] + v[8]) - v[4]);
+      off = 0.5 * std::max({off, std::abs(0.5 * (v[0] + v[2]) - v[1]), std::abs(0.5 * (v[0] + v[6]) - v[3]),
+                            std::abs(0.5 * (v[2] + v[8]) - v[5]), std::abs(0.5 * (v[6] + v[8]) - v[7])});
+      const double least = std::ranges::min(v), side = unit() * squares_[cells[k]].side();
+      if (least > kHidden * lows[k]) return true;
+      return std::isfinite(off) ? off * side > options_.tolerance * least * least : std::isfinite(least);
+    };
+    const std::vector<std::uint32_t> bent =
+        joined(overStretches(loop_, cells.size(), [&](std::size_t first, std::size_t last) {
+          std::vector<std::uint32_t> here;
+          for (std::size_t k = first; k < last; ++k)
+            if (isBent(k)) here.push_back(static_cast<std::uint32_t>(k));
+          return here;
+        }));
+    for (const std::uint32_t k : bent) {
+      if (isFull()) return;
+      LeafVertices around;
+      for (std::size_t i = 0; i < kOwn.size(); ++i) around[kOwn[i]] = own_vertices_[known_[cells[k]]][i];
+      for (std::size_t i = 0; i < kMiddles.size(); ++i) around[kMiddles[i]] = middles[k][i];
+      split(cells[k]);
+      // Four of each child's vertices have a number.
+      for (std::uint32_t child = 0; child < 4; ++child) {
+        const std::uint32_t c = tree_.cells_[cells[k]].below + child, first = child % 2 + 3 * (child / 2);
+        known_[c] = static_cast<std::uint32_t>(own_vertices_.size());
+        own_vertices_.push_back(
+            {around[first], around[first + 1], vertices_.add(vertexOf(c, 4)), around[first + 3], around[first + 4]});
+      }
+    }
+  }
+
+  // Asks for the sizes at vertices that are new.
+  void sample() {
+    const std::size_t known = sizes_.own.size();
+    std::vector<Point> places(vertices_.size() - known);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto [x, y] = vertices_[static_cast<std::uint32_t>(known + k)];
+      places[k] = tree_.origin_ + Point{unit() * x, unit() * y};
+    }
+    sizes_.own.resize(vertices_.size());
+    source_.sample(places, std::span(sizes_.own).subspan(known));
+  }
+
+  // The cell that holds the unit square with this lower left corner, no deeper than `level`.
+  std::uint32_t find(std::uint32_t x, std::uint32_t y, int level) const {
+    std::uint32_t c = 0;
+    for (int l = 1; l <= level && !tree_.cells_[c].is_leaf; ++l) {
+      const std::uint32_t half = kUnits >> l;
+      c = tree_.cells_[c].below + ((x & half) != 0) + 2 * ((y & half) != 0);
+    }
+    return c;
+  }
+
+  // A leaf beside this one, two levels coarser or more; kNone where there is none.
+  std::uint32_t tooLargeBeside(std::uint32_t c) const {
+    const Square s = squares_[c];
+    for (int k = 0; k < 4; ++k) {
+      const std::int64_t x = std::int64_t{s.x} + (k == 0 ? -1 : k == 1 ? std::int64_t{s.side()} : 0);
+      const std::int64_t y = std::int64_t{s.y} + (k == 2 ? -1 : k == 3 ? std::int64_t{s.side()} : 0);
+      if (x < 0 || y < 0 || x >= kUnits || y >= kUnits) continue;
+      const std::uint32_t beside = find(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), s.level);
+      if (tree_.cells_[beside].is_leaf && squares_[beside].level + 1 < s.level) return beside;
+    }
+    return kNone;
+  }
+
+  // Splits leaves until those side by side differ by one level at most.
+  void balance() {
+    std::vector<std::uint32_t> waiting =
+        joined(overStretches(loop_, tree_.cells_.size(), [&](std::size_t first, std::size_t last) {
+          std::vector<std::uint32_t> here;
+          for (auto c = static_cast<std::uint32_t>(first); c < last; ++c)
+            if (tree_.cells_[c].is_leaf && tooLargeBeside(c) != kNone) here.push_back(c);
+          return here;
+        }));
+    while (!waiting.empty()) {
+      const std::uint32_t c = waiting.back();
+      const std::uint32_t beside = tree_.cells_[c].is_leaf ? tooLargeBeside(c) : kNone;
+      if (beside == kNone) {
+        waiting.pop_back();
+        continue;
+      }
+      split(beside);
+      for (std::uint32_t child = 0; child < 4; ++child) waiting.push_back(tree_.cells_[beside].below + child);
+    }
+  }
+
+  // Numbers leaves, their corners, centres and middles of sides; asks for the sizes at those that are new.
+  void number() {
+    leaf_cells_.clear();
+    for (std::uint32_t c = 0; c < tree_.cells_.size(); ++c) {
+      if (!tree_.cells_[c].is_leaf) continue;
+      tree_.cells_[c].below = static_cast<std::uint32_t>(leaf_cells_.size());
+      leaf_cells_.push_back(c);
+    }
+    is_wanted_.assign(leaf_cells_.size(), 0);
+    forEachByStretches(loop_, leaf_cells_.size(),
+                       [&](std::size_t l) { is_wanted_[l] = source_.isWanted(boxOf(leaf_cells_[l])); });
+    for (const std::uint32_t c : leaf_cells_) addOwnVertices(c);
+    sample();
+
+    // The middle of a side where smaller leaves meet it, or where that on the other side is as large and knows of it.
+    constexpr std::uint8_t kMeeting = 2;
+    leaf_vertices_.resize(leaf_cells_.size());
+    forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
+      for (std::size_t k = 0; k < kOwn.size(); ++k)
+        leaf_vertices_[l][kOwn[k]] = own_vertices_[known_[leaf_cells_[l]]][k];
+      for (const unsigned i : kMiddles) leaf_vertices_[l][i] = vertices_.find(vertexOf(leaf_cells_[l], i));
+    });
+    std::vector<std::uint8_t> sides(vertices_.size(), 0);
+    for (const LeafVertices& leaf : leaf_vertices_) {
+      for (const unsigned i : {0u, 2u, 6u, 8u}) sides[leaf[i]] = kMeeting;
+      for (const unsigned i : kMiddles) {
+        if (leaf[i] == kNone || sides[leaf[i]] == kMeeting) continue;
+        const auto [x, y] = vertices_[leaf[i]];
+        const bool at_rim = x == 0 || y == 0 || x == kUnits || y == kUnits;
+        sides[leaf[i]] = at_rim || sides[leaf[i]] > 0 ? kMeeting : std::uint8_t{1};
+      }
+    }
+    forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
+      for (const unsigned i : kMiddles) {
+        std::uint32_t& v = leaf_vertices_[l][i];
+        if (v != kNone && sides[v] < kMeeting) v = kNone;
+      }
+    });
+    sizes_.size.insert(sizes_.size.end(), sizes_.own.begin() + static_cast<std::ptrdiff_t>(sizes_.size.size()),
+                       sizes_.own.end());
+    sizes_.source.resize(vertices_.size(), kNone);
+  }
+
+  LeavesRound leavesRound(std::uint32_t v) const {
+    LeavesRound round;
+    const auto [x, y] = vertices_[v];
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t left = k % 2, below = k / 2;
+      if (x < left || y < below || x - left >= kUnits || y - below >= kUnits) continue;
+      const std::uint32_t leaf = tree_.cells_[find(x - left, y - below, kLevels)].below;
+      const auto end = round.leaves.begin() + static_cast<std::ptrdiff_t>(round.count);
+      if (std::find(round.leaves.begin(), end, leaf) == end) round.leaves[round.count++] = leaf;
+    }
+    return round;
+  }
+
+  void grade() {
+    const auto grading = [&] {
+      return SizeGrading(
+          sizes_, vertices_, unit(), leaf_vertices_, [this](std::uint32_t v) { return leavesRound(v); },
+          kSafely * options_.grade, loop_);
+    };
+    for (int round = 0; round < kLevels; ++round) {
+      grading().spread();
+      if (!splitGraded()) break;
+      balance();
+      number();
+    }
+    // Where nothing is wanted anywhere: as large as the whole.
+    for (double& size : sizes_.size) size = std::min(size, tree_.side_);
+    grading().flatten();
+  }
+
+  // Splits leaves that are too large for what grows into them.
+  bool splitGraded() {
+    const std::size_t before = tree_.cells_.size();
+    for (std::size_t l = 0; l < leaf_cells_.size(); ++l) {
+      if (!is_wanted_[l]) continue;
+      std::array<std::uint32_t, 9> sources;
+      std::size_t count = 0;
+      for (const std::uint32_t v : leaf_vertices_[l])
+        if (v != kNone && sizes_.source[v] != kNone) sources[count++] = sizes_.source[v];
+      if (count > 0) splitBelow(leaf_cells_[l], std::span(sources).first(count));
+    }
+    return tree_.cells_.size() > before;
+  }
+
+  void splitBelow(std::uint32_t c, std::span<const std::uint32_t> sources) {
+    const Square square = squares_[c];
+    if (square.level == kLevels || isFull()) return;
+    const double half = 0.5 * unit() * square.side();
+    const Point centre{unit() * square.x + half, unit() * square.y + half};
+    double low = kInfinity;
+    for (const std::uint32_t s : sources) {
+      const Point off = Point{unit() * vertices_[s].x, unit() * vertices_[s].y} - centre;
+      const Point beyond{std::max(std::abs(off.x) - half, 0.0), std::max(std::abs(off.y) - half, 0.0)};
+      low = std::min(low, sizes_.own[s] + kSizeGrowth * options_.grade * std::sqrt(squaredLength(beyond)));
+    }
+    if (2.0 * half <= options_.coarsest * low) return;
+    split(c);
+    for (std::uint32_t k = 0; k < 4; ++k) splitBelow(tree_.cells_[c].below + k, sources);
+  }
+
+  void fill() {
+    tree_.leaves_.resize(leaf_vertices_.size());
+    double least = kInfinity, most = 0.0;
+    for (std::size_t l = 0; l < leaf_vertices_.size(); ++l) {
+      for (unsigned i = 0; i < 9; ++i) {
+        const std::uint32_t v = leaf_vertices_[l][i];
+        tree_.leaves_[l][i] = v == kNone ? std::nanf("") : static_cast<float>(sizes_.size[v]);
+        if (v == kNone) continue;
+        least = std::min(least, sizes_.size[v]);
+        most = std::max(most, sizes_.size[v]);
+      }
+    }
+    tree_.least_ = least;
+    tree_.most_ = most;
+  }
+
+  void makeStart() {
+    constexpr std::uint32_t kStarts = 1u << SizeTree::kStartLevels;
+    tree_.start_.resize(std::size_t{kStarts} * kStarts);
+    tree_.start_level_.resize(tree_.start_.size());
+    for (std::uint32_t j = 0; j < kStarts; ++j) {
+      for (std::uint32_t i = 0; i < kStarts; ++i) {
+        std::uint32_t c = 0;
+        std::uint8_t level = 0;
+        for (; level < SizeTree::kStartLevels && !tree_.cells_[c].is_leaf; ++level) {
+          const std::uint32_t half = kStarts >> (level + 1);
+          c = tree_.cells_[c].below + ((i & half) != 0) + 2 * ((j & half) != 0);
+        }
+        tree_.start_[(std::size_t{j} << SizeTree::kStartLevels) + i] = c;
+        tree_.start_level_[(std::size_t{j} << SizeTree::kStartLevels) + i] = level;
+      }
+    }
+  }
+
+  SizeTree& tree_;
+  const SizeSource& source_;
+  const SizeTreeOptions& options_;
+  const ItemLoop& loop_;
+  std::vector<Square> squares_;                             // one a cell
+  std::vector<std::uint32_t> known_;                        // one a cell: where its vertices stand, if it has some
+  std::vector<std::array<std::uint32_t, 5>> own_vertices_;  // numbers, in the order of kOwn
+  SizePlaces vertices_;                                     // in units; some are of cells that were split
+  GradedSizes sizes_;                                       // at the vertices
+  std::vector<std::uint32_t> leaf_cells_;
+  std::vector<LeafVertices> leaf_vertices_;
+  std::vector<char> is_wanted_;  // leaves
+  std::vector<double> likely_;   // demand as estimated at each level of cells
+};
+
+SizeTree::SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,
+                   const ItemLoop& loop) {
+  // A little larger, so that nothing lies on the root's own sides.
+  const double extent = std::max(high.x - low.x, high.y - low.y);
+  side_ = 1.01 * (extent > 0.0 ? extent : 1.0);
+  origin_ = midpoint(low, high) - Point{0.5 * side_, 0.5 * side_};
+  SizeTreeBuilder(*this, source, options, loop).build();
+}
+
+}  // namespace coastmesh

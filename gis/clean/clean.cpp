@@ -1,0 +1,96 @@
+#include "gis/clean/clean.hpp"
+
+#include <algorithm>
+
+#include "gis/clean/clean_faces.hpp"
+#include "gis/clean/clean_pinches.hpp"
+#include "gis/clean/clean_simplify.hpp"
+#include "gis/clean/domain_of_edges.hpp"
+#include "gis/error.hpp"
+#include "gis/geometry/chain_index.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+std::string namesOf(const Coastline& coastline, const std::vector<std::size_t>& members) {
+  if (members.empty()) return "no feature";
+  const Feature& first = coastline.features[members.front()];
+  std::string names = first.source + ", feature " + std::to_string(first.fid);
+  if (members.size() > 1) names += " and " + std::to_string(members.size() - 1) + " that touch it";
+  return names;
+}
+
+void refuseEmpty(const Coastline& coastline, const std::vector<std::size_t>& members,
+                 const std::vector<Segment>& segments) {
+  for (const Segment& segment : segments) {
+    if (segment.left >= 0 || segment.right >= 0) return;
+  }
+  bool has_polygon = false, has_frame = false, has_land = false;
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    has_frame = has_frame || feature.use == FeatureUse::Frame;
+    has_polygon = has_polygon || !feature.polygons.empty();
+    has_land = has_land || feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
+  }
+  if (has_frame && !has_land) throw NothingWanted(namesOf(coastline, members) + ": lies outside of the frame");
+  if (has_frame) throw InputError("the frame holds no water: all of it is land");
+  throw InputError(namesOf(coastline, members) + ": " +
+                   (has_polygon ? "the polygons enclose no area"
+                                : "the lines close no ring, so there is nothing to mesh: join their ends, or close "
+                                  "them with --bbox W,S,E,N or --clip FILE"));
+}
+
+// Edits beyond the frame tell of what is not meshed anyway.
+void keepFramedEdits(const Coastline& coastline, const std::vector<std::size_t>& members, std::size_t first,
+                     CleanReport& report) {
+  ChainIndex frame(ChainIndex::Kind::Rings);
+  for (const std::size_t member : members) {
+    if (coastline.features[member].use != FeatureUse::Frame) continue;
+    for (const Polygon& polygon : coastline.features[member].polygons) {
+      frame.add(polygon.outer);
+      for (const Ring& hole : polygon.holes) frame.add(hole);
+    }
+  }
+  frame.build();
+  if (frame.edgeCount() == 0) return;
+  const auto beyond = [&](const Edit& edit) {
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (frame.locate({edit.place.x + turn, edit.place.y}) != Location::Outside) return false;
+      if (!coastline.crs.geographic) break;
+    }
+    return edit.kind != EditKind::OutsideWater;
+  };
+  const auto from = report.edits.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto kept = std::stable_partition(from, report.edits.end(), [&](const Edit& edit) { return !beyond(edit); });
+  for (auto edit = kept; edit != report.edits.end(); ++edit) --report.counts[static_cast<std::size_t>(edit->kind)];
+  report.edits.erase(kept, report.edits.end());
+}
+
+}  // namespace
+
+Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
+                     const CleanOptions& options, CleanReport& report, const ItemLoop& loop) {
+  const std::size_t edits_before = report.edits.size();
+  CleanChains chains = makeChains(coastline, members, projection, options, report, loop);
+  const NodedEdges edges = nodeChains(chains, coastline, projection, report, loop);
+  LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report, loop);
+  if (options.pinches == Pinches::Keep) tellPinches(chains.vertices, labelled.segments, coastline, report);
+  refuseEmpty(coastline, members, labelled.segments);
+  keepFramedEdits(coastline, members, edits_before, report);
+  const Resolution& resolution = chains.resolution;
+  if (options.dissolve) {
+    labelled.segments = dropTraces(chains.vertices, labelled, coastline, projection, resolution, report);
+  }
+  if (options.simplify_m > 0) {
+    labelled.segments =
+        simplifyEdges(chains.vertices, labelled, coastline, projection, resolution, options.simplify_m, report);
+  }
+  if (options.pinches == Pinches::Open) {
+    labelled.segments =
+        openPinches(chains.vertices, std::move(labelled.segments), coastline, projection, resolution, report);
+  }
+  return domainOf(chains.vertices, std::move(labelled), projection, resolution);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,278 @@
+#include "gis/clean/clean_simplify.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+#include "gis/coast/segment_tags.hpp"
+#include "gis/geometry/box_tree.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A vertex with exactly two segments of the same labels, in a doubly linked chain.
+struct Link {
+  std::array<std::uint32_t, 2> segment{kNone, kNone};
+  std::uint32_t degree = 0;
+  std::uint32_t version = 0;  // grows whenever a neighbour changes: older queue entries are stale
+};
+
+// A living segment, with the vertices dropped from it, in order from a to b.
+struct Piece {
+  Segment segment;
+  std::vector<VertexId> dropped;
+  bool alive = true;
+};
+
+class Simplifier {
+ public:
+  Simplifier(const CleanVertices& vertices, const LabelledEdges& edges, const Resolution& resolution,
+             const std::function<double(VertexId)>& tolerance)
+      : vertices_(vertices),
+        lines_(edges.lines),
+        resolution_(resolution),
+        tolerance_(tolerance),
+        links_(vertices.plane.size()) {
+    pieces_.reserve(edges.segments.size());
+    for (const VertexId v : edges.points) links_[v].degree = 3;  // not to be taken, but in the way
+    for (const Segment& s : edges.segments) {
+      for (const VertexId v : {s.a, s.b}) {
+        Link& link = links_[v];
+        if (link.degree < 2) link.segment[link.degree] = static_cast<std::uint32_t>(pieces_.size());
+        ++link.degree;
+      }
+      pieces_.push_back({s, {}, true});
+      ends_.insert(keyOf(s.a, s.b));
+    }
+    for (const Segment& s : edges.segments) {
+      for (const auto& [v, w] : {std::pair(s.a, s.b), std::pair(s.b, s.a)}) {
+        if (links_[v].degree > 2) junctions_[v].push_back(w);
+      }
+    }
+    std::vector<Box> boxes(links_.size());
+    for (VertexId v = 0; v < links_.size(); ++v) {
+      if (links_[v].degree > 0) boxes[v].add(at(v));
+    }
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  }
+
+  // Lets only those go for which `may(v, p, q)` holds, with its neighbours p and q.
+  template <typename May>
+  void restrictTo(May&& may) {
+    for (VertexId v = 0; v < links_.size(); ++v) {
+      if (!removable(v) || !may(v, other(links_[v].segment[0], v), other(links_[v].segment[1], v))) kept_.insert(v);
+    }
+  }
+
+  template <typename Dropped>
+  std::vector<Segment> run(Dropped&& dropped) {
+    for (VertexId v = 0; v < links_.size(); ++v) enqueue(v);
+    // Every entry that is not stale drops a vertex or is never renewed but by one that does.
+    while (!queue_.empty()) {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (entry.version != links_[entry.vertex].version || !removable(entry.vertex)) continue;
+      if (blocked(entry.vertex) || pointed(entry.vertex)) continue;
+      dropped(entry.vertex, pieces_[links_[entry.vertex].segment[0]].segment);
+      drop(entry.vertex);
+    }
+    std::vector<Segment> kept;
+    for (const Piece& piece : pieces_) {
+      if (piece.alive) kept.push_back(piece.segment);
+    }
+    return kept;
+  }
+
+ private:
+  struct Entry {
+    double cost;
+    VertexId vertex;
+    std::uint32_t version;
+
+    bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : vertex > other.vertex; }
+  };
+
+  const Point& at(VertexId v) const { return vertices_.plane[v]; }
+
+  VertexId other(std::uint32_t segment, VertexId v) const {
+    const Segment& s = pieces_[segment].segment;
+    return s.a == v ? s.b : s.a;
+  }
+
+  // Labels to the left and to the right on the way out of v.
+  std::pair<RegionId, RegionId> labelsFrom(std::uint32_t segment, VertexId v) const {
+    const Segment& s = pieces_[segment].segment;
+    return s.a == v ? std::pair(s.left, s.right) : std::pair(s.right, s.left);
+  }
+
+  bool removable(VertexId v) const {
+    if (links_[v].degree != 2 || kept_.contains(v)) return false;
+    const auto [first, second] = links_[v].segment;
+    const std::int32_t tag = pieces_[first].segment.tag;
+    if (tag != pieces_[second].segment.tag || (isLineTag(tag) && lines_[lineOfTag(tag)].borders_region)) return false;
+    const auto [left, right] = labelsFrom(first, v);
+    if (labelsFrom(second, v) != std::pair(right, left)) return false;
+    const VertexId p = other(first, v), q = other(second, v);
+    return p != q && !joined(p, q);
+  }
+
+  // Whether a segment between p and q is there already: the ring is a triangle, or two chains run between them.
+  bool joined(VertexId p, VertexId q) const { return ends_.contains(keyOf(p, q)); }
+
+  static std::uint64_t keyOf(VertexId p, VertexId q) {
+    return (static_cast<std::uint64_t>(std::min(p, q)) << 32) | std::max(p, q);
+  }
+
+  // The largest distance, squared, of v and what was dropped beside it from the segment that would replace it.
+  double costOf(VertexId v) const {
+    const auto [first, second] = links_[v].segment;
+    const Point &a = at(other(first, v)), &b = at(other(second, v));
+    double cost = squaredDistanceToSegment(at(v), a, b);
+    for (const std::uint32_t s : {first, second}) {
+      for (const VertexId d : pieces_[s].dropped) cost = std::max(cost, squaredDistanceToSegment(at(d), a, b));
+    }
+    return cost;
+  }
+
+  void enqueue(VertexId v) {
+    if (!removable(v)) return;
+    const double cost = costOf(v), tolerance = tolerance_(v);
+    if (tolerance >= 0.0 && cost <= tolerance * tolerance) queue_.push({cost, v, links_[v].version});
+  }
+
+  // Whether the triangle of v and its neighbours holds another living vertex, on its boundary included, or the segment that
+  // would replace v comes too near to one.
+  bool blocked(VertexId v) const {
+    const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
+    const int turn = orient2d(at(p), at(v), at(q));
+    Box box = Box::of(at(p), at(q));
+    box.add(at(v));
+    bool found = false;
+    const double gap = resolution_.gap;
+    tree_.visit(box.grownBy(gap), [&](std::uint32_t w) {
+      if (found || w == v || w == p || w == q || links_[w].degree == 0) return;
+      found = squaredDistanceToSegment(at(w), at(p), at(q)) < gap * gap;
+      if (found) return;
+      if (turn == 0) {  // v lies on pq, or the chain turns back: nothing may lie on the way
+        found = orient2d(at(p), at(q), at(w)) == 0;
+        return;
+      }
+      found = orient2d(at(p), at(v), at(w)) * turn >= 0 && orient2d(at(v), at(q), at(w)) * turn >= 0 &&
+              orient2d(at(q), at(p), at(w)) * turn >= 0;
+    });
+    return found;
+  }
+
+  // Whether the segment that would replace v makes too small an angle with another at one of its ends.
+  bool pointed(VertexId v) const {
+    const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
+    return pointedAt(p, v, q) || pointedAt(q, v, p);
+  }
+
+  // The same at p, where the segment to v would go to q instead.
+  bool pointedAt(VertexId p, VertexId v, VertexId q) const {
+    const Point out = at(q) - at(p);
+    const double length = std::sqrt(squaredLength(out));
+    double shortest = length, least_apart = std::numeric_limits<double>::infinity();
+    const auto take = [&](VertexId r) {
+      if (r == v) return;
+      const Point beside = at(r) - at(p);
+      const double beside_length = std::sqrt(squaredLength(beside));
+      shortest = std::min(shortest, beside_length);
+      if (dot(out, beside) > 0) least_apart = std::min(least_apart, std::abs(cross(out, beside)) / beside_length);
+    };
+    if (links_[p].degree <= 2) {
+      for (std::uint32_t i = 0; i < links_[p].degree; ++i) take(other(links_[p].segment[i], p));
+    } else if (const auto junction = junctions_.find(p); junction != junctions_.end()) {
+      for (const VertexId r : junction->second) take(r);
+    }
+    return least_apart / length * shortest < resolution_.grain;
+  }
+
+  void drop(VertexId v) {
+    const auto [first, second] = links_[v].segment;
+    const VertexId p = other(first, v), q = other(second, v);
+    const auto [left, right] = labelsFrom(second, v);
+    Piece joined{{p, q, pieces_[first].segment.tag, left, right}, {}, true};
+    for (const std::uint32_t s : {first, second}) {
+      std::vector<VertexId> dropped = std::move(pieces_[s].dropped);
+      const bool along = pieces_[s].segment.b == (s == first ? v : q);
+      if (!along) std::reverse(dropped.begin(), dropped.end());
+      joined.dropped.insert(joined.dropped.end(), dropped.begin(), dropped.end());
+      if (s == first) joined.dropped.push_back(v);
+      pieces_[s].alive = false;
+    }
+    const auto number = static_cast<std::uint32_t>(pieces_.size());
+    pieces_.push_back(std::move(joined));
+    links_[v].degree = 0;
+    ends_.erase(keyOf(p, v));
+    ends_.erase(keyOf(v, q));
+    ends_.insert(keyOf(p, q));
+    for (const VertexId end : {p, q}) {
+      Link& link = links_[end];
+      for (std::uint32_t& s : link.segment) {
+        if (s == first || s == second) s = number;
+      }
+      if (link.degree > 2) std::ranges::replace(junctions_[end], v, end == p ? q : p);
+      ++link.version;
+    }
+    enqueue(p);
+    enqueue(q);
+  }
+
+  const CleanVertices& vertices_;
+  const std::vector<DomainLine>& lines_;
+  const Resolution& resolution_;
+  const std::function<double(VertexId)>& tolerance_;  // in the plane
+  std::vector<Link> links_;
+  std::vector<Piece> pieces_;
+  std::unordered_map<VertexId, std::vector<VertexId>> junctions_;  // their neighbours, where there are more than two
+  std::unordered_set<std::uint64_t> ends_;                         // of living pieces
+  std::unordered_set<VertexId> kept_;                              // not to be dropped whatever their place
+  BoxTree tree_;
+  std::priority_queue<Entry> queue_;
+};
+
+}  // namespace
+
+std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,
+                                   const Coastline& coastline, const Projection& projection,
+                                   const Resolution& resolution, double tolerance_m, CleanReport& report) {
+  const std::function<double(VertexId)> tolerance = [&](VertexId v) {
+    return tolerance_m * projection.scaleAt(vertices.plane[v]);
+  };
+  Simplifier simplifier(vertices, edges, resolution, tolerance);
+  return simplifier.run([&](VertexId v, const Segment& segment) {
+    const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
+    report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline.features[feature].fid);
+  });
+}
+
+std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
+                                const Projection& projection, const Resolution& resolution, CleanReport& report) {
+  constexpr double kFarthest = 1000;                            // metres; the input's coordinates decide
+  const double grain = coastline.crs.geographic ? 1e-7 : 0.01;  // degrees, metres
+  const std::function<double(VertexId)> farthest = [&](VertexId v) {
+    return kFarthest * projection.scaleAt(vertices.plane[v]);
+  };
+  Simplifier simplifier(vertices, edges, resolution, farthest);
+  simplifier.restrictTo([&](VertexId v, VertexId p, VertexId q) {
+    if (!std::ranges::binary_search(edges.traces, v)) return false;
+    const Point &a = vertices.input[p], &b = vertices.input[q];
+    return std::abs(a.x - b.x) < 180 && squaredDistanceToSegment(vertices.input[v], a, b) <= grain * grain;
+  });
+  return simplifier.run([&](VertexId v, const Segment& segment) {
+    const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
+    report.add(EditKind::DissolvedEdge, vertices.input[v], coastline.features[feature].fid);
+  });
+}
+
+}  // namespace coastmesh

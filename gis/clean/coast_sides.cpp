@@ -1,0 +1,196 @@
+#include "gis/clean/coast_sides.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Lines that agree on the rule by less than this share of their length do not follow it.
+constexpr double kAgreement = 0.9;
+
+std::string placeInWords(const Point& p) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.10g, %.10g", p.x, p.y);
+  return text;
+}
+
+class WaterFinder {
+ public:
+  WaterFinder(const CoastMap& coast, const CleanVertices& vertices, const Coastline& coastline,
+              const Projection& projection, CleanReport& report)
+      : coast_(coast), vertices_(vertices), coastline_(coastline), projection_(projection), report_(report) {}
+
+  std::vector<char> run() {
+    refuseGaps();
+    water_.assign(coast_.map.faceCount(), 0);
+    if (coast_.seed) {
+      flood(*coast_.seed, true, [](std::uint32_t, bool) {});
+    } else {
+      byTheRule();
+    }
+    return std::move(water_);
+  }
+
+ private:
+  // Goes over all faces that may be water and hang together, and tells on which side of the coasts each lies.
+  template <typename Found>
+  void flood(std::uint32_t first, bool water, Found&& found) {
+    if (seen_.empty()) seen_.assign(coast_.map.faceCount(), 0);
+    std::vector<std::uint32_t> queue{first};
+    seen_[first] = 1;
+    water_[first] = water;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const std::uint32_t face = queue[i];
+      found(face, water_[face] != 0);
+      for (const PlanarMap::HalfEdge h : coast_.map.around(face)) {
+        const std::uint32_t beyond = coast_.map.faceOf(h ^ 1u);
+        if (seen_[beyond] || !coast_.framed[beyond]) continue;
+        seen_[beyond] = 1;
+        water_[beyond] = (water_[face] != 0) != coast_.edges[h / 2].parts;
+        queue.push_back(beyond);
+      }
+    }
+  }
+
+  void byTheRule() {
+    double agreeing = 0, all = 0;
+    std::vector<std::uint32_t> bare;
+    for (std::uint32_t face = 0; face < coast_.map.faceCount(); ++face) {
+      if (!coast_.framed[face] || (!seen_.empty() && seen_[face])) continue;
+      std::vector<std::uint32_t> members;
+      double for_water = 0, length = 0;
+      flood(face, true, [&](std::uint32_t member, bool water) {
+        members.push_back(member);
+        for (const PlanarMap::HalfEdge h : coast_.map.around(member)) {
+          const CoastEdge& edge = coast_.edges[h / 2];
+          if (!edge.parts || edge.direction == 0 || coast_.map.faceOf(h) == coast_.map.faceOf(h ^ 1u)) continue;
+          // The half-edge has the face on its left; a coast that runs the other way has it on its right.
+          const bool on_right = (h % 2 == 0) != (edge.direction > 0);
+          const double weight = lengthOf(edge);
+          length += weight;
+          for_water += on_right == water ? weight : -weight;
+        }
+      });
+      if (length == 0) {
+        bare.insert(bare.end(), members.begin(), members.end());
+        continue;
+      }
+      if (for_water < 0) {
+        for (const std::uint32_t member : members) water_[member] = water_[member] == 0;
+      }
+      agreeing += (length + std::abs(for_water)) / 2;
+      all += length;
+    }
+    if (all == 0) {
+      throw InputError(
+          "no coastline lies within the frame, so that nobody can tell whether there is water: give "
+          "--water-at LON,LAT, or another frame");
+    }
+    if (agreeing < kAgreement * all) {
+      char text[256];
+      std::snprintf(text, sizeof text,
+                    "only %.0f %% of the coastlines' length has water on its right, as OpenStreetMap has it, so that "
+                    "their directions tell nothing: give --water-at LON,LAT",
+                    100 * agreeing / all);
+      throw InputError(text);
+    }
+    for (const std::uint32_t member : bare) water_[member] = 0;
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "meshed the side to the right of the coastlines, where OpenStreetMap has the water (%.4g %% of their "
+                  "length agree); --water-at LON,LAT tells otherwise",
+                  100 * agreeing / all);
+    report_.notes.emplace_back(text);
+  }
+
+  double lengthOf(const CoastEdge& edge) const {
+    const Point &a = vertices_.plane[edge.low], &b = vertices_.plane[edge.high];
+    return std::hypot(b.x - a.x, b.y - a.y);
+  }
+
+  // Follows each line from where it ends within the frame: where it comes to the frame's rim, or ends again, it should
+  // have parted water from land. A line that ends at another coast is a pier.
+  void refuseGaps() const {
+    const std::size_t n = vertices_.plane.size();
+    std::vector<std::uint32_t> degree(n, 0), lines(n, 0);
+    std::vector<char> on_frame(n, 0);
+    std::vector<std::array<std::uint32_t, 2>> at(n, {kNone, kNone});
+    for (std::uint32_t e = 0; e < coast_.edges.size(); ++e) {
+      const CoastEdge& edge = coast_.edges[e];
+      if (!edge.parts && !edge.of_frame) continue;
+      for (const VertexId v : {edge.low, edge.high}) {
+        if (degree[v] < 2) at[v][degree[v]] = e;
+        ++degree[v];
+        on_frame[v] |= edge.of_frame;
+      }
+    }
+    std::vector<VertexId> loose;
+    for (VertexId v = 0; v < n; ++v) {
+      if (degree[v] == 1 && coast_.edges[at[v][0]].line && framedBeside(at[v][0])) loose.push_back(v);
+    }
+    for (const VertexId start : loose) {
+      std::uint32_t e = at[start][0];
+      VertexId v = start;
+      // No vertex comes twice: all between the ends have two edges.
+      while (true) {
+        v = coast_.edges[e].low == v ? coast_.edges[e].high : coast_.edges[e].low;
+        if (degree[v] != 2 || on_frame[v]) break;
+        e = at[v][0] == e ? at[v][1] : at[v][0];
+      }
+      if (on_frame[v] || degree[v] == 1) refuseGap(start, loose);
+    }
+  }
+
+  bool framedBeside(std::uint32_t e) const {
+    return coast_.framed[coast_.map.faceOf(2 * e)] || coast_.framed[coast_.map.faceOf(2 * e + 1)];
+  }
+
+  [[noreturn]] void refuseGap(VertexId end, const std::vector<VertexId>& loose) const {
+    const Point& place = vertices_.plane[end];
+    double nearest = -1;
+    for (const VertexId v : loose) {
+      if (v == end) continue;
+      const double distance = std::hypot(vertices_.plane[v].x - place.x, vertices_.plane[v].y - place.y);
+      if (nearest < 0 || distance < nearest) nearest = distance;
+    }
+    std::uint32_t feature = 0;
+    for (const CoastEdge& edge : coast_.edges) {
+      if (edge.parts && (edge.low == end || edge.high == end)) feature = edge.feature;
+    }
+    std::string text = coastline_.features[feature].source + ", feature " +
+                       std::to_string(coastline_.features[feature].fid) + ": the coastline ends at " +
+                       placeInWords(vertices_.input[end]) + ", inside of the frame, without meeting another";
+    if (nearest >= 0) {
+      const double metres = nearest / projection_.scaleAt(place);
+      char more[160];
+      std::snprintf(more, sizeof more, "; the next loose end is %.4g m away: join them, or give --snap %.2g", metres,
+                    std::ceil(metres * 1.1 * 1000) / 1000);
+      text += more;
+    } else {
+      text += ": carry it on, or give a frame that it reaches";
+    }
+    throw InputError(text);
+  }
+
+  const CoastMap& coast_;
+  const CleanVertices& vertices_;
+  const Coastline& coastline_;
+  const Projection& projection_;
+  CleanReport& report_;
+  std::vector<char> water_, seen_;
+};
+
+}  // namespace
+
+std::vector<char> findWater(const CoastMap& coast, const CleanVertices& vertices, const Coastline& coastline,
+                            const Projection& projection, CleanReport& report) {
+  return WaterFinder(coast, vertices, coastline, projection, report).run();
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gis/clean/clean_nodes.hpp"
+#include "gis/geometry/planar_map.hpp"
+
+namespace coastmesh {
+
+// One edge of the map as a coast sees it.
+struct CoastEdge {
+  VertexId low = kNone, high = kNone;
+  bool parts = false;  // a coast runs along it: water on one side, land on the other
+  // By how much coasts run upwards along it (from low to high) rather than downwards: 0, 1 or -1 as a rule.
+  int direction = 0;
+  bool line = false;          // an open line of a coast
+  bool of_frame = false;      // the frame's rim runs along it
+  std::uint32_t feature = 0;  // of the coast
+};
+
+struct CoastMap {
+  const PlanarMap& map;
+  std::vector<CoastEdge> edges;       // as numbered in the map
+  std::vector<char> framed;           // by face: whether water may lie there; all but the unbounded one without a frame
+  std::optional<std::uint32_t> seed;  // a face that is water
+};
+
+// By face: whether it is water. Crossing a coast leads from water to land or back; which is which is told by
+// the seed, else by OpenStreetMap's rule: water lies to the right of a coast.
+// What was decided goes to `report.notes`. Throws InputError for a coast that ends without meeting another or the
+// frame, for lines that do not agree on the rule, and for a frame without a coast.
+std::vector<char> findWater(const CoastMap& coast, const CleanVertices& vertices, const Coastline& coastline,
+                            const Projection& projection, CleanReport& report);
+
+}  // namespace coastmesh

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gis/coast/coastline.hpp"
+#include "gis/projection/projection.hpp"
+
+namespace coastmesh {
+
+// Two meridians 360 degrees apart.
+struct Seam {
+  double west, east;
+
+  bool holds(const Point& p) const { return p.x == west || p.x == east; }
+};
+
+// Where the rings' longitudes span exactly 360 degrees (data cut at the antimeridian, say) and `projection` brings the
+// first and the last meridian together, edges that run along either of the two get the points that lie on the other as
+// well, so that the two sides of the cut agree. Points are only added. Private to gis.
+std::optional<Seam> healSeam(const std::vector<Ring*>& rings, const Crs& crs, const Projection& projection);
+
+}  // namespace coastmesh

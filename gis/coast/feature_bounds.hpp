@@ -1,0 +1,11 @@
+#pragma once
+
+#include "gis/coast/coastline.hpp"
+#include "gis/geometry/box.hpp"
+
+namespace coastmesh {
+
+// The box of all that a feature holds: rings, lines and points, in the input's CRS.
+Box boundsOf(const Feature& feature);
+
+}  // namespace coastmesh

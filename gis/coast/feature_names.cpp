@@ -1,0 +1,42 @@
+#include "gis/coast/feature_names.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace coastmesh {
+namespace {
+
+std::string lowerCase(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace
+
+std::string_view nameOf(const std::vector<std::pair<std::string, std::string>>& attributes) {
+  for (const bool exactly : {true, false}) {
+    for (const auto& [key, value] : attributes) {
+      if (exactly ? lowerCase(key) == "name" : isNameAttribute(key)) return value;
+    }
+  }
+  return {};
+}
+
+bool isNameAttribute(std::string_view attribute) {
+  return lowerCase(std::string(attribute)).find("name") != std::string::npos;
+}
+
+std::string regionNameOf(const Feature& feature) {
+  for (const std::string_view wanted : {"tag", "region", "name"}) {
+    for (const auto& [key, value] : feature.attributes) {
+      if (lowerCase(key) == wanted) return value;
+    }
+  }
+  return std::to_string(feature.fid);
+}
+
+std::string lineNameOf(const Feature& feature) {
+  return feature.use == FeatureUse::Region ? regionNameOf(feature) : std::string(nameOf(feature.attributes));
+}
+
+}  // namespace coastmesh

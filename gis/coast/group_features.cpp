@@ -1,0 +1,233 @@
+#include "gis/coast/group_features.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "gis/coast/feature_bounds.hpp"
+#include "gis/geometry/chain_index.hpp"
+#include "gis/geometry/union_find.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A feature's rings and lines with an index each.
+struct FeatureIndex {
+  ChainIndex rings{ChainIndex::Kind::Rings};
+  ChainIndex lines{ChainIndex::Kind::OpenLines};
+
+  explicit FeatureIndex(const Feature& feature) {
+    for (const Polygon& polygon : feature.polygons) {
+      rings.add(polygon.outer);
+      for (const Ring& hole : polygon.holes) rings.add(hole);
+    }
+    for (const auto& line : feature.lines) lines.add(line);
+    rings.build();
+    lines.build();
+  }
+  std::size_t edgeCount() const { return rings.edgeCount() + lines.edgeCount(); }
+};
+
+// True iff an edge of `a` and one of `b` share a point.
+bool edgesMeet(const ChainIndex& a, const ChainIndex& b) {
+  bool meet = false;
+  const Box common = b.bounds();
+  a.visit(common, [&](std::uint32_t i) {
+    if (meet) return;
+    const Point &p = a.start(i), &q = a.end(i);
+    b.visit(Box::of(p, q), [&](std::uint32_t j) { meet = meet || segmentsMeet(p, q, b.start(j), b.end(j)); });
+  });
+  return meet;
+}
+
+// True iff a chain of `chains` lies inside `rings`. REQUIRES: no edge of the two meets another.
+bool liesIn(const ChainIndex& chains, const ChainIndex& rings) {
+  if (rings.edgeCount() == 0) return false;
+  for (std::size_t chain = 0; chain < chains.chainCount(); ++chain) {
+    if (rings.locate(chains.chainStart(chain)) == Location::Inside) return true;
+  }
+  return false;
+}
+
+// True iff `small` and `large` touch, cross, or one holds a part of the other.
+bool belongTogether(const FeatureIndex& small, const FeatureIndex& large) {
+  Box box = small.rings.bounds();
+  box.add(small.lines.bounds());
+  bool near = false;
+  const auto found = [&](std::uint32_t) { near = true; };
+  large.rings.visit(box, found);
+  large.lines.visit(box, found);
+  if (!near) {  // the whole of `small` lies in one face of `large`: any of its points tells
+    if (large.rings.edgeCount() == 0) return false;
+    const ChainIndex& any = small.rings.edgeCount() > 0 ? small.rings : small.lines;
+    return large.rings.locate(any.chainStart(0)) == Location::Inside;
+  }
+  return edgesMeet(small.rings, large.rings) || edgesMeet(small.rings, large.lines) ||
+         edgesMeet(small.lines, large.rings) || edgesMeet(small.lines, large.lines) ||
+         liesIn(small.rings, large.rings) || liesIn(small.lines, large.rings) || liesIn(large.rings, small.rings) ||
+         liesIn(large.lines, small.rings);
+}
+
+bool isGuest(const Feature& feature) {
+  return feature.use == FeatureUse::Frame || feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
+         feature.use == FeatureUse::Region;
+}
+
+// Where longitudes span exactly 360 degrees, the data are cut along a meridian (the antimeridian, as a rule): features
+// that meet there, from either side, touch.
+void uniteAcrossCut(const Coastline& coastline, const std::vector<Box>& boxes, UnionFind& sets) {
+  Box extent;
+  for (const Box& box : boxes) extent.add(box);
+  if (!coastline.crs.geographic || extent.xmax - extent.xmin != 360) return;
+  struct OnCut {
+    double south, north;
+    std::uint32_t feature;
+  };
+  std::vector<OnCut> on_cut;
+  const auto isOnCut = [&](const Point& p) { return p.x == extent.xmin || p.x == extent.xmax; };
+  const auto collect = [&](const std::vector<Point>& chain, bool closed, std::uint32_t feature) {
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const Point& p = chain[i];
+      if (!isOnCut(p)) continue;
+      const bool last = i + 1 == chain.size();
+      const Point& q = last && !closed ? p : chain[last ? 0 : i + 1];
+      const double other = q.x == p.x ? q.y : p.y;
+      on_cut.push_back({std::min(p.y, other), std::max(p.y, other), feature});
+    }
+  };
+  for (std::uint32_t f = 0; f < boxes.size(); ++f) {
+    if (isGuest(coastline.features[f])) continue;
+    if (boxes[f].xmin != extent.xmin && boxes[f].xmax != extent.xmax) continue;
+    for (const Polygon& polygon : coastline.features[f].polygons) {
+      collect(polygon.outer, true, f);
+      for (const Ring& hole : polygon.holes) collect(hole, true, f);
+    }
+    for (const auto& line : coastline.features[f].lines) collect(line, false, f);
+  }
+  std::sort(on_cut.begin(), on_cut.end(), [](const OnCut& a, const OnCut& b) {
+    return a.south != b.south ? a.south < b.south : a.feature < b.feature;
+  });
+  for (std::size_t i = 0, reaching = 0; i < on_cut.size(); ++i) {
+    if (on_cut[i].south <= on_cut[reaching].north) sets.unite(on_cut[reaching].feature, on_cut[i].feature);
+    if (on_cut[i].north > on_cut[reaching].north) reaching = i;
+  }
+}
+
+// Water between land or coasts and a frame: one whatever lies in it.
+bool isFramedWater(const Coastline& coastline) {
+  bool framed = false, shores = false;
+  for (const Feature& feature : coastline.features) {
+    framed = framed || feature.use == FeatureUse::Frame;
+    shores = shores || feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
+  }
+  return framed && shores;
+}
+
+// True iff the frame is one box in the input's coordinates, and `box` lies inside of it.
+bool framedWhole(const Feature& frame, const Box& box) {
+  for (const Polygon& polygon : frame.polygons) {
+    Box rim;
+    for (const Point& p : polygon.outer) rim.add(p);
+    const bool on_rim = std::ranges::all_of(polygon.outer, [&](const Point& p) {
+      return p.x == rim.xmin || p.x == rim.xmax || p.y == rim.ymin || p.y == rim.ymax;
+    });
+    int corners = 0;
+    for (const Point& p : polygon.outer) {
+      corners += (p.x == rim.xmin || p.x == rim.xmax) && (p.y == rim.ymin || p.y == rim.ymax);
+    }
+    const bool inside = rim.xmin < box.xmin && box.xmax < rim.xmax && rim.ymin < box.ymin && box.ymax < rim.ymax;
+    if (on_rim && corners == 4 && polygon.holes.empty() && inside) return true;
+  }
+  return false;
+}
+
+// Frames, constraints and regions join each group that their extent meets, in whichever turn round the globe.
+void addGuests(const Coastline& coastline, const std::vector<Box>& boxes,
+               std::vector<std::vector<std::size_t>>& groups) {
+  if (std::ranges::none_of(coastline.features, isGuest)) return;
+  std::vector<Box> extents(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const std::size_t member : groups[g]) extents[g].add(boxes[member]);
+  }
+  const BoxTree tree(extents, BoxTree::Order::Hilbert);
+  for (std::size_t f = 0; f < boxes.size(); ++f) {
+    const Feature& feature = coastline.features[f];
+    if (!isGuest(feature)) continue;
+    const bool frame = feature.use == FeatureUse::Frame;
+    const auto join = [&](std::uint32_t g) {
+      if (groups[g].back() != f && !(frame && framedWhole(feature, extents[g]))) groups[g].push_back(f);
+    };
+    if (frame) {
+      for (std::uint32_t g = 0; g < groups.size(); ++g) join(g);
+      continue;
+    }
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (turn != 0 && !coastline.crs.geographic) continue;
+      Box box = boxes[f];
+      box.xmin += turn, box.xmax += turn;
+      tree.visit(box, join);
+    }
+  }
+  for (auto& group : groups) std::ranges::sort(group);
+}
+
+std::vector<std::vector<std::size_t>> setsOf(UnionFind& sets, const Coastline& coastline) {
+  const std::size_t n = coastline.features.size();
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<std::uint32_t> group_of(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (isGuest(coastline.features[i])) continue;
+    const std::uint32_t root = sets.find(i);  // never above i: its group is there already
+    if (root == i) {
+      group_of[i] = static_cast<std::uint32_t>(groups.size());
+      groups.emplace_back();
+    }
+    groups[group_of[root]].push_back(i);
+  }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline) {
+  // Indices of features of this many edges are kept; those of smaller ones are made when needed.
+  constexpr std::size_t kLarge = 64;
+  const auto& features = coastline.features;
+  std::vector<Box> boxes(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) boxes[i] = boundsOf(features[i]);
+  if (isFramedWater(coastline)) {
+    std::vector<std::size_t> all(features.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return {all};
+  }
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+
+  UnionFind sets(features.size());
+  std::vector<std::unique_ptr<FeatureIndex>> kept(features.size());
+  for (std::uint32_t i = 0; i < features.size(); ++i) {
+    if (isGuest(features[i])) continue;
+    std::unique_ptr<FeatureIndex> own;
+    const auto indexOf = [&](std::size_t f, std::unique_ptr<FeatureIndex>& scratch) -> const FeatureIndex& {
+      if (kept[f]) return *kept[f];
+      if (!scratch) scratch = std::make_unique<FeatureIndex>(features[f]);
+      if (scratch->edgeCount() < kLarge) return *scratch;
+      kept[f] = std::move(scratch);
+      return *kept[f];
+    };
+    tree.visit(boxes[i], [&](std::uint32_t j) {
+      if (j <= i || isGuest(features[j]) || sets.find(i) == sets.find(j)) return;
+      std::unique_ptr<FeatureIndex> other;
+      const FeatureIndex& a = indexOf(i, own);
+      const FeatureIndex& b = indexOf(j, other);
+      const bool a_smaller = a.edgeCount() <= b.edgeCount();
+      if (belongTogether(a_smaller ? a : b, a_smaller ? b : a)) sets.unite(i, j);
+    });
+  }
+  uniteAcrossCut(coastline, boxes, sets);
+  std::vector<std::vector<std::size_t>> groups = setsOf(sets, coastline);
+  addGuests(coastline, boxes, groups);
+  return groups;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,79 @@
+#include "gis/coast/nest_rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "gis/geometry/chain_index.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr std::size_t kNoRing = static_cast<std::size_t>(-1);
+
+double areaOf(const Ring& ring) {
+  double twice = 0.0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Point &o = ring[0], &a = ring[i], &b = ring[i + 1];
+    twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+  }
+  return std::abs(twice) / 2;
+}
+
+bool liesInside(const Ring& ring, const ChainIndex& other) {
+  for (const Point& p : ring) {
+    const Location location = other.locate(p);
+    if (location != Location::Boundary) return location == Location::Inside;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<NestedRing> nestRings(const std::vector<Ring>& rings) {
+  std::vector<Box> boxes(rings.size());
+  std::vector<double> areas(rings.size());
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    for (const Point& p : rings[i]) boxes[i].add(p);
+    areas[i] = areaOf(rings[i]);
+  }
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+
+  // Every ring is asked for what it holds, so that only one index is needed at a time.
+  std::vector<std::size_t> parent(rings.size(), kNoRing);
+  for (std::size_t around = 0; around < rings.size(); ++around) {
+    std::optional<ChainIndex> index;
+    tree.visit(boxes[around], [&](std::uint32_t i) {
+      const bool smaller = areas[i] < areas[around] || (areas[i] == areas[around] && i > around);
+      if (i == around || !smaller || !boxes[around].contains(boxes[i])) return;
+      if (parent[i] != kNoRing && areas[parent[i]] <= areas[around]) return;
+      if (!index) {
+        index.emplace(ChainIndex::Kind::Rings);
+        index->add(rings[around]);
+        index->build();
+      }
+      if (liesInside(rings[i], *index)) parent[i] = around;
+    });
+  }
+
+  std::vector<std::size_t> by_area(rings.size());
+  std::iota(by_area.begin(), by_area.end(), std::size_t{0});
+  std::stable_sort(by_area.begin(), by_area.end(), [&](std::size_t i, std::size_t j) { return areas[i] > areas[j]; });
+  std::vector<char> is_hole(rings.size(), 0);
+  for (const std::size_t i : by_area) is_hole[i] = parent[i] != kNoRing && !is_hole[parent[i]];
+  std::vector<NestedRing> nested;
+  std::vector<std::size_t> place(rings.size(), kNoRing);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    if (is_hole[i]) continue;
+    place[i] = nested.size();
+    nested.push_back({i, {}});
+  }
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    if (is_hole[i]) nested[place[parent[i]]].holes.push_back(i);
+  }
+  return nested;
+}
+
+}  // namespace coastmesh

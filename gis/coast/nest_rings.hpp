@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gis/coast/coastline.hpp"
+
+namespace coastmesh {
+
+// A ring and those directly inside it, as indices.
+struct NestedRing {
+  std::size_t outer = 0;
+  std::vector<std::size_t> holes;
+};
+
+// Even-odd nesting: a ring in no other is an outer ring, one directly inside an outer ring is its hole, one directly
+// inside a hole is an outer ring again. Rings may touch; of rings that cross, one lies in the other where its first
+// vertex does. Outer rings come in the order given.
+std::vector<NestedRing> nestRings(const std::vector<Ring>& rings);
+
+}  // namespace coastmesh

@@ -1,0 +1,128 @@
+#include "gis/crs/crs_map.hpp"
+
+#include <cpl_conv.h>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+Point transform(OGRCoordinateTransformation& by, const Point& p) {
+  double x = p.x, y = p.y;
+  if (by.Transform(1, &x, &y)) return {x, y};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  return {nan, nan};
+}
+
+std::string named(const OGRSpatialReference& srs) { return srs.GetName() ? srs.GetName() : "unnamed"; }
+
+std::string wktOf(const OGRSpatialReference& srs) {
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  srs.exportToWkt(&text, options);
+  std::string wkt = text ? text : "";
+  CPLFree(text);
+  return wkt;
+}
+
+OGRSpatialReference fromWkt(const std::string& wkt, bool traditional) {
+  OGRSpatialReference srs;
+  srs.importFromWkt(wkt.c_str());
+  if (traditional) srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return srs;
+}
+
+using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
+
+struct Pair {
+  Transformation forward, inverse;
+};
+
+}  // namespace
+
+// What a thread needs to make its own transformation.
+struct CrsMap::Ends {
+  std::string from, to;
+  bool from_traditional = false, to_traditional = false;
+};
+
+namespace {
+
+Pair makePair(const CrsMap::Ends& ends) {
+  const OGRSpatialReference from = fromWkt(ends.from, ends.from_traditional),
+                            to = fromWkt(ends.to, ends.to_traditional);
+  Pair pair{Transformation(OGRCreateCoordinateTransformation(&from, &to)),
+            Transformation(OGRCreateCoordinateTransformation(&to, &from))};
+  for (const Transformation* t : {&pair.forward, &pair.inverse})
+    if (*t) (*t)->SetEmitErrors(false);
+  return pair;
+}
+
+// The transformations of one thread. A few are kept, since a run uses few by turns.
+class Kept {
+ public:
+  // Makes the thread's PROJ context first, so that it outlives the transformations: destroyed later, they would make a new one
+  // that nobody frees.
+  Kept() { OGRSpatialReference().SetWellKnownGeogCS("WGS84"); }
+
+  const Pair& get(const std::shared_ptr<const CrsMap::Ends>& ends) {
+    for (const Entry& entry : entries_)
+      if (entry.ends == ends) return entry.pair;
+    Entry& entry = entries_[oldest_];
+    oldest_ = (oldest_ + 1) % entries_.size();
+    entry = {ends, makePair(*ends)};
+    return entry.pair;
+  }
+
+ private:
+  struct Entry {
+    std::shared_ptr<const CrsMap::Ends> ends;
+    Pair pair;
+  };
+  std::array<Entry, 4> entries_;
+  std::size_t oldest_ = 0;
+};
+
+const Pair& pairOfThread(const std::shared_ptr<const CrsMap::Ends>& ends) {
+  thread_local Kept kept;
+  return kept.get(ends);
+}
+
+}  // namespace
+
+CrsMap::CrsMap(const OGRSpatialReference& from, const OGRSpatialReference& to) {
+  const auto isTraditional = [](const OGRSpatialReference& srs) {
+    return srs.GetAxisMappingStrategy() == OAMS_TRADITIONAL_GIS_ORDER;
+  };
+  ends_ = std::make_shared<const Ends>(Ends{wktOf(from), wktOf(to), isTraditional(from), isTraditional(to)});
+  const OgrErrors errors;
+  const Pair& pair = pairOfThread(ends_);
+  if (!pair.forward || !pair.inverse) {
+    throw InputError("PROJ knows no way from the CRS " + named(from) + " to " + named(to) +
+                     (errors.text().empty() ? "" : " (" + errors.text() + ")"));
+  }
+}
+
+Point CrsMap::forward(const Point& p) const { return transform(*pairOfThread(ends_).forward, p); }
+
+Point CrsMap::inverse(const Point& p) const { return transform(*pairOfThread(ends_).inverse, p); }
+
+OGRSpatialReference geographicBase(const Crs& crs) {
+  const OGRSpatialReference srs = toOgr(crs);
+  const std::unique_ptr<OGRSpatialReference> base(srs.CloneGeogCS());
+  if (!base) throw InputError("the CRS " + nameOf(crs) + " has no longitudes and latitudes");
+  OGRSpatialReference result(*base);
+  // Degrees, whatever the base of the projected CRS measures in (grads, for some French ones).
+  result.SetAngularUnits(SRS_UA_DEGREE, CPLAtof(SRS_UA_DEGREE_CONV));
+  result.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return result;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,197 @@
+#include "gis/crs/geodesy.hpp"
+
+#include <ogr_spatialref.h>
+
+#include <GeographicLib/Geodesic.hpp>
+#include <GeographicLib/PolygonArea.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "core/quality.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+namespace {
+
+// Points as degrees of longitude and latitude on an ellipsoid.
+struct Geodetic {
+  std::vector<Point> lonlat;
+  double a = 0.0;  // semi-major axis, metres
+  double f = 0.0;  // flattening
+};
+
+[[noreturn]] void refuseNode(std::span<const Point> nodes, std::size_t node, const Crs& crs, const std::string& path) {
+  throw InputError((path.empty() ? "" : "'" + path + "': ") + "node " + std::to_string(node + 1) + " at " +
+                   std::to_string(nodes[node].x) + ", " + std::to_string(nodes[node].y) +
+                   " has no longitude and latitude in " + nameOf(crs) + "; check that the CRS is the right one");
+}
+
+// `path` is for errors; it may be empty.
+Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoop& loop = inOrder,
+                    const std::string& path = {}) {
+  const OgrErrors errors;
+  const OGRSpatialReference srs = toOgr(crs);
+  Geodetic out;
+  reserveOn(loop, out.lonlat, points.size());
+  out.lonlat.assign(points.begin(), points.end());
+  out.a = crs.semi_major_m;
+  out.f = crs.flattening;
+  const std::unique_ptr<OGRSpatialReference> base(srs.CloneGeogCS());
+  if (!base) throw InputError("the CRS " + nameOf(crs) + " has no longitude and latitude, so areas are unknown");
+  base->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (!srs.IsGeographic()) {
+    const std::unique_ptr<OGRCoordinateTransformation> to_base(OGRCreateCoordinateTransformation(&srs, base.get()));
+    if (!to_base)
+      throw InputError("no way from the CRS " + nameOf(crs) + " to longitude and latitude: " + errors.text());
+    std::vector<double> x(points.size()), y(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      x[i] = points[i].x;
+      y[i] = points[i].y;
+    }
+    std::vector<int> ok(points.size());
+    to_base->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, nullptr, ok.data());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!ok[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) refuseNode(points, i, crs, path);
+      out.lonlat[i] = {x[i], y[i]};
+    }
+  }
+  return out;
+}
+
+using Vector = std::array<double, 3>;
+
+Vector operator-(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
+double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+Vector cross(const Vector& u, const Vector& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+Vector toEarthCentred(const Point& lonlat, double a, double e2) {
+  const double lon = lonlat.x * std::numbers::pi / 180.0, lat = lonlat.y * std::numbers::pi / 180.0;
+  const double n = a / std::sqrt(1.0 - e2 * std::sin(lat) * std::sin(lat));
+  return {n * std::cos(lat) * std::cos(lon), n * std::cos(lat) * std::sin(lon), n * (1.0 - e2) * std::sin(lat)};
+}
+
+constexpr double kSmallEdge = 20000.0;  // metres
+
+// Area of a triangle with edges below `kSmallEdge`: the flat triangle through its corners, seen along the normal of the
+// ellipsoid at its centroid, with the first term of the series in the Gaussian curvature K. On a sphere the flat area A
+// with circumradius r, at the distance d from its circumcentre to its centroid, makes A (1 + K (sum l^2 / 8 - r^2 /
+// 2)), its projection A (1 - K d^2 / 2), and d^2 = r^2 - sum l^2 / 9; the quotient is 1 + K sum l^2 5/72. What is left
+// out is below 1e-7 for 20 km. The difference of two large areas, as PolygonArea takes it, would be worse here.
+double smallTriangleArea(const Vector& u, const Vector& v, const Vector& w, double a, double e2) {
+  const Vector uv = v - u, uw = w - u, vw = w - v;
+  Vector normal{u[0] + v[0] + w[0], u[1] + v[1] + w[1], (u[2] + v[2] + w[2]) / (1.0 - e2)};
+  const double norm = std::sqrt(dot(normal, normal));
+  const double sin_lat = normal[2] / norm;
+  const double t = 1.0 - e2 * sin_lat * sin_lat;
+  const double curvature = t * t / (a * a * (1.0 - e2));
+  const double projected = dot(cross(uv, uw), normal) / norm / 2.0;
+  return projected * (1.0 + curvature * (dot(uv, uv) + dot(uw, uw) + dot(vw, vw)) * 5.0 / 72.0);
+}
+
+}  // namespace
+
+bool isLonLat(const Point& p) { return std::abs(p.x) <= 540.0 && std::abs(p.y) <= 90.0; }
+
+void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::string& path) {
+  if (crs.isPlane()) return;
+  if (!crs.geographic) {
+    toGeodetic(nodes, crs, inOrder, path);
+    return;
+  }
+  const auto odd = std::ranges::find_if_not(nodes, isLonLat);
+  if (odd != nodes.end()) refuseNode(nodes, static_cast<std::size_t>(odd - nodes.begin()), crs, path);
+}
+
+std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
+                                  const Crs& crs, const ItemLoop& loop) {
+  std::vector<double> areas;
+  reserveOn(loop, areas, triangles.size());
+  areas.resize(triangles.size());
+  if (crs.isPlane()) {
+    forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
+      const auto& [a, b, c] = triangles[t];
+      areas[t] = signedArea(nodes[a], nodes[b], nodes[c]);
+    });
+    return areas;
+  }
+  const Geodetic geodetic = toGeodetic(nodes, crs, loop);
+  const double e2 = geodetic.f * (2.0 - geodetic.f);
+  std::vector<Vector> places;
+  reserveOn(loop, places, nodes.size());
+  places.resize(nodes.size());
+  forEachByStretches(loop, nodes.size(),
+                     [&](std::size_t i) { places[i] = toEarthCentred(geodetic.lonlat[i], geodetic.a, e2); });
+  const GeographicLib::Geodesic geodesic(geodetic.a, geodetic.f);
+  forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
+    const Vector &u = places[triangles[t][0]], &v = places[triangles[t][1]], &w = places[triangles[t][2]];
+    const double longest = std::sqrt(std::max({dot(v - u, v - u), dot(w - u, w - u), dot(w - v, w - v)}));
+    if (longest < kSmallEdge) {
+      areas[t] = smallTriangleArea(u, v, w, geodetic.a, e2);
+      return;
+    }
+    GeographicLib::PolygonArea polygon(geodesic);
+    for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.lonlat[n].y, geodetic.lonlat[n].x);
+    double perimeter = 0.0;
+    polygon.Compute(false, true, perimeter, areas[t]);
+  });
+  return areas;
+}
+
+std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
+                                               std::span<const std::array<std::uint32_t, 3>> triangles,
+                                               const Crs& crs) {
+  std::vector<std::array<double, 3>> lengths(triangles.size());
+  const auto measure = [&](const auto& lengthBetween) {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) lengths[t][i] = lengthBetween(triangles[t][i], triangles[t][(i + 1) % 3]);
+  };
+  if (crs.isPlane()) {
+    measure(
+        [&](std::uint32_t a, std::uint32_t b) { return std::hypot(nodes[b].x - nodes[a].x, nodes[b].y - nodes[a].y); });
+    return lengths;
+  }
+  const Geodetic geodetic = toGeodetic(nodes, crs);
+  const double e2 = geodetic.f * (2.0 - geodetic.f);
+  std::vector<Vector> places;
+  for (const Point& p : geodetic.lonlat) places.push_back(toEarthCentred(p, geodetic.a, e2));
+  measure([&](std::uint32_t a, std::uint32_t b) {
+    const Vector along = places[b] - places[a];
+    const double chord = std::sqrt(dot(along, along));
+    // The arc over the chord, on a sphere about as large.
+    return 2.0 * geodetic.a * std::asin(std::min(1.0, chord / (2.0 * geodetic.a)));
+  });
+  return lengths;
+}
+
+std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, const Crs& crs) {
+  std::vector<double> lengths(chains.size(), 0.0);
+  if (crs.isPlane()) {
+    for (std::size_t c = 0; c < chains.size(); ++c)
+      for (std::size_t i = 1; i < chains[c].size(); ++i)
+        lengths[c] += std::hypot(chains[c][i].x - chains[c][i - 1].x, chains[c][i].y - chains[c][i - 1].y);
+    return lengths;
+  }
+  std::vector<Point> points;
+  for (const std::vector<Point>& chain : chains) points.insert(points.end(), chain.begin(), chain.end());
+  const Geodetic geodetic = toGeodetic(points, crs);
+  const GeographicLib::Geodesic geodesic(geodetic.a, geodetic.f);
+  std::size_t at = 0;
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    for (std::size_t i = 1; i < chains[c].size(); ++i) {
+      const Point &p = geodetic.lonlat[at + i - 1], &q = geodetic.lonlat[at + i];
+      double piece = 0.0;
+      geodesic.Inverse(p.y, p.x, q.y, q.x, piece);
+      lengths[c] += piece;
+    }
+    at += chains[c].size();
+  }
+  return lengths;
+}
+
+}  // namespace coastmesh

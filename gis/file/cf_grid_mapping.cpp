@@ -1,0 +1,85 @@
+#include "gis/file/cf_grid_mapping.hpp"
+
+#include <ogr_srs_api.h>
+
+#include <string_view>
+
+#include "gis/crs/ogr_support.hpp"
+
+namespace coastmesh {
+namespace {
+
+struct Parameter {
+  const char* ogr;
+  const char* cf;
+};
+
+constexpr Parameter kFalseOrigin[] = {{SRS_PP_FALSE_EASTING, "false_easting"},
+                                      {SRS_PP_FALSE_NORTHING, "false_northing"}};
+
+struct Method {
+  const char* ogr;
+  const char* cf;
+  std::vector<Parameter> parameters;  // less the false origin
+};
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> known = {
+      {SRS_PT_TRANSVERSE_MERCATOR,
+       "transverse_mercator",
+       {{SRS_PP_CENTRAL_MERIDIAN, "longitude_of_central_meridian"},
+        {SRS_PP_LATITUDE_OF_ORIGIN, "latitude_of_projection_origin"},
+        {SRS_PP_SCALE_FACTOR, "scale_factor_at_central_meridian"}}},
+      {SRS_PT_MERCATOR_1SP,
+       "mercator",
+       {{SRS_PP_CENTRAL_MERIDIAN, "longitude_of_projection_origin"},
+        {SRS_PP_SCALE_FACTOR, "scale_factor_at_projection_origin"}}},
+      {SRS_PT_MERCATOR_2SP,
+       "mercator",
+       {{SRS_PP_CENTRAL_MERIDIAN, "longitude_of_projection_origin"},
+        {SRS_PP_STANDARD_PARALLEL_1, "standard_parallel"}}},
+      {SRS_PT_LAMBERT_AZIMUTHAL_EQUAL_AREA,
+       "lambert_azimuthal_equal_area",
+       {{SRS_PP_LONGITUDE_OF_CENTER, "longitude_of_projection_origin"},
+        {SRS_PP_LATITUDE_OF_CENTER, "latitude_of_projection_origin"}}},
+      {SRS_PT_POLAR_STEREOGRAPHIC,
+       "polar_stereographic",
+       {{SRS_PP_CENTRAL_MERIDIAN, "straight_vertical_longitude_from_pole"},
+        {SRS_PP_LATITUDE_OF_ORIGIN, "standard_parallel"},
+        {SRS_PP_SCALE_FACTOR, "scale_factor_at_projection_origin"}}},
+      {SRS_PT_OBLIQUE_STEREOGRAPHIC,
+       "stereographic",
+       {{SRS_PP_CENTRAL_MERIDIAN, "longitude_of_projection_origin"},
+        {SRS_PP_LATITUDE_OF_ORIGIN, "latitude_of_projection_origin"},
+        {SRS_PP_SCALE_FACTOR, "scale_factor_at_projection_origin"}}},
+  };
+  return known;
+}
+
+}  // namespace
+
+CfGridMapping cfGridMapping(const Crs& crs) {
+  const OGRSpatialReference srs = toOgr(crs);
+  CfGridMapping mapping;
+  const auto add = [&](const Parameter& parameter) {
+    mapping.parameters.emplace_back(parameter.cf, srs.GetNormProjParm(parameter.ogr, 0.0));
+  };
+  if (crs.geographic) {
+    mapping.name = "latitude_longitude";
+  } else {
+    mapping.name = "Unknown projected";
+    const char* const name = srs.GetAttrValue("PROJECTION");
+    for (const Method& method : methods()) {
+      if (name == nullptr || std::string_view(name) != method.ogr) continue;
+      mapping.name = method.cf;
+      for (const Parameter& parameter : method.parameters) add(parameter);
+      for (const Parameter& parameter : kFalseOrigin) add(parameter);
+    }
+  }
+  mapping.parameters.emplace_back("semi_major_axis", srs.GetSemiMajor());
+  mapping.parameters.emplace_back("inverse_flattening", srs.GetInvFlattening());
+  mapping.parameters.emplace_back("longitude_of_prime_meridian", srs.GetPrimeMeridian());
+  return mapping;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gis/crs/crs.hpp"
+
+namespace coastmesh {
+
+// What the CF conventions say of a CRS beside its WKT (CF 1.8, Appendix F).
+struct CfGridMapping {
+  std::string name;  // grid_mapping_name; "Unknown projected" as D-FlowFM has it where CF knows no name
+  std::vector<std::pair<std::string, double>> parameters;
+};
+
+// REQUIRES: not a plane.
+CfGridMapping cfGridMapping(const Crs& crs);
+
+}  // namespace coastmesh

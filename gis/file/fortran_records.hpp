@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gis/file/text_writer.hpp"
+
+namespace coastmesh {
+
+// A Fortran sequential unformatted file, big-endian: each record between two copies of its length in bytes.
+class FortranWriter {
+ public:
+  explicit FortranWriter(std::string path) : path_(path), file_(std::move(path)) {}
+
+  // Each writes one record; throws OutputError, also for one past the 2 GiB that its length can tell.
+  void text(std::string_view value);
+  void integers(std::span<const std::int32_t> values);
+  void doubles(std::span<const double> values);
+  void close() { file_.close(); }
+
+ private:
+  void length(std::uint64_t bytes);
+
+  std::string path_;
+  TextWriter file_;
+};
+
+// Throws InputError where a record is not of the size that is asked for.
+class FortranReader {
+ public:
+  explicit FortranReader(const std::string& path);
+
+  bool atEnd() const { return at_ >= bytes_.size(); }
+  std::size_t nextSize() const;  // bytes of the record to come
+  std::string text();
+  std::vector<std::int32_t> integers(std::size_t count);
+  std::vector<double> reals(std::size_t count, std::size_t bytes_each);  // of 4 or 8 bytes
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  std::string_view record();
+  std::string_view record(std::size_t bytes);
+
+  std::string path_;
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,50 @@
+#include "gis/file/prj_file.hpp"
+
+#include <cpl_conv.h>
+#include <ogr_spatialref.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "gis/crs/crs_from_ogr.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/file/text_reader.hpp"
+#include "gis/file/text_writer.hpp"
+
+namespace coastmesh {
+
+std::string prjBeside(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".prj").string();
+}
+
+void writePrjBeside(const std::string& path, const Crs& crs) {
+  if (crs.isPlane()) return;
+  const OgrErrors errors;
+  const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
+  char* wkt = nullptr;
+  const OGRErr result = toOgr(crs).exportToWkt(&wkt, options);
+  const std::unique_ptr<char, void (*)(void*)> owner(wkt, CPLFree);
+  if (result != OGRERR_NONE || wkt == nullptr || *wkt == '\0')
+    throw OutputError("cannot write '" + prjBeside(path) + "': the CRS has no form for a .prj file (" + errors.text() +
+                      "); choose .gpkg or .nc");
+  TextWriter file(prjBeside(path));
+  file << std::string_view(wkt);
+  file.close();
+}
+
+Crs readPrjBeside(const std::string& path) {
+  const std::string prj = prjBeside(path);
+  if (!std::filesystem::exists(prj)) return {};
+  TextReader file(prj);
+  std::string wkt;
+  while (file.nextLine()) wkt += file.line();
+  const OgrErrors errors;
+  OGRSpatialReference srs;
+  const char* text = wkt.c_str();
+  if (srs.importFromWkt(&text) != OGRERR_NONE) throw InputError("'" + prj + "' does not hold a CRS as WKT");
+  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return fromOgr(&srs);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,129 @@
+#include "gis/file/text_reader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "core/ids.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr std::string_view kBetweenWords = " \t\r,";
+
+std::string readWhole(const std::string& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             [](std::FILE* f) { return f ? std::fclose(f) : 0; });
+  if (!file) throw InputError("cannot read '" + path + "': " + std::strerror(errno));
+  std::string text;
+  std::vector<char> chunk(1 << 20);
+  while (const std::size_t got = std::fread(chunk.data(), 1, chunk.size(), file.get())) text.append(chunk.data(), got);
+  if (std::ferror(file.get())) throw InputError("cannot read '" + path + "': " + std::strerror(errno));
+  if (text.empty()) throw InputError("'" + path + "' is empty");
+  return text;
+}
+
+}  // namespace
+
+TextReader::TextReader(std::string path, char comment)
+    : path_(std::move(path)), comment_(comment), text_(readWhole(path_)) {}
+
+bool TextReader::nextLine() {
+  while (next_ < text_.size()) {
+    const std::size_t end = std::min(text_.find('\n', next_), text_.size());
+    line_ = std::string_view(text_).substr(next_, end - next_);
+    next_ = end + 1;
+    ++line_number_;
+    if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
+    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+    at_ = 0;
+    if (hasWord()) return true;
+  }
+  line_ = {};
+  at_ = 0;
+  return false;
+}
+
+void TextReader::needLine() {
+  if (!nextLine()) throw InputError("'" + path_ + "' ends too early, after line " + std::to_string(line_number_));
+}
+
+bool TextReader::hasWord() {
+  at_ = std::min(line_.find_first_not_of(kBetweenWords, at_), line_.size());
+  return at_ < line_.size();
+}
+
+std::string_view TextReader::word() {
+  if (!hasWord()) return {};
+  const std::size_t end = std::min(line_.find_first_of(kBetweenWords, at_), line_.size());
+  const std::string_view found = line_.substr(at_, end - at_);
+  at_ = end;
+  return found;
+}
+
+namespace {
+
+template <typename Number>
+bool parse(std::string_view word, Number& value) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+}  // namespace
+
+double TextReader::number() {
+  const std::string_view text = word();
+  double value = 0.0;
+  if (!parse(text, value)) fail("a number is expected, not \"" + std::string(text) + "\"");
+  if (!std::isfinite(value)) fail("\"" + std::string(text) + "\" is not a finite number");
+  return value;
+}
+
+std::int64_t TextReader::integer() {
+  const std::string_view text = word();
+  std::int64_t value = 0;
+  if (!parse(text, value)) fail("a whole number is expected, not \"" + std::string(text) + "\"");
+  return value;
+}
+
+std::uint64_t TextReader::count() {
+  const std::int64_t value = integer();
+  if (value < 0) fail("a count cannot be negative");
+  return static_cast<std::uint64_t>(value);
+}
+
+void TextReader::fail(const std::string& what) const {
+  throw InputError("'" + path_ + "', line " + std::to_string(line_number_) + ": " + what);
+}
+
+IdMap::IdMap(std::vector<std::int64_t> ids, const TextReader& file, std::string_view what) : count_(ids.size()) {
+  if (ids.empty()) return;
+  base_ = ids.front();
+  bool ascending = true;
+  for (std::size_t i = 0; i < ids.size() && ascending; ++i) ascending = fromBase(ids[i]) == i;
+  if (ascending) return;
+  sorted_.reserve(ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) sorted_.emplace_back(ids[i], static_cast<std::uint32_t>(i));
+  std::ranges::sort(sorted_);
+  const auto twice =
+      std::ranges::adjacent_find(sorted_, [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (twice != sorted_.end())
+    throw InputError("'" + file.path() + "': the number of " + std::string(what) + " " + std::to_string(twice->first) +
+                     " stands there twice");
+}
+
+std::uint32_t IdMap::indexOf(std::int64_t id) const {
+  if (sorted_.empty()) {
+    return fromBase(id) < count_ ? static_cast<std::uint32_t>(fromBase(id)) : kNone;
+  }
+  const auto at = std::ranges::lower_bound(sorted_, id, {}, &std::pair<std::int64_t, std::uint32_t>::first);
+  return at != sorted_.end() && at->first == id ? at->second : kNone;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,60 @@
+#include "gis/follow/shore_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kClose = 0.01;  // of the area of the water: so near the order need not be changed for
+// Of the narrowest land that stays.
+constexpr double kStep = 0.1, kLeastFirst = 0.45;
+constexpr int kHalvings = 3;
+
+// Land narrower than `first` times the narrowest that stays goes, then narrow water, then the rest of the land, and again water.
+OpenedShores openBoth(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
+                      const FollowOptions& options, double first) {
+  OpenedShores opened;
+  const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
+    opened.edits.emplace_back(kind, place, water);
+  };
+  ShoreGraph land = openLand(graph, sizes, guides, first * options.land_min, edit, opened.gained);
+  if (first < 1.0) {
+    OpenedWater water = openWater(land, sizes, guides, options.channel_min, KeepWater::All, edit, opened.gained);
+    land = std::move(water.graph);
+    opened.straits = std::move(water.straits);
+    land = openLand(land, sizes, guides, options.land_min, edit, opened.gained);
+  }
+  OpenedWater water = openWater(land, sizes, guides, options.channel_min, options.keep, edit, opened.gained);
+  opened.graph = std::move(water.graph);
+  opened.cut_off = std::move(water.cut_off);
+  opened.areas = std::move(water.areas);
+  std::ranges::move(water.straits, std::back_inserter(opened.straits));
+  double gained = 0.0, area = 0.0;
+  for (const auto& [region, more] : opened.gained) gained += more;
+  for (const auto& [region, there] : opened.areas) area += there;
+  opened.error = gained / area;
+  return opened;
+}
+
+}  // namespace
+
+OpenedShores openShores(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
+                        const FollowOptions& options) {
+  double high = 1.0, low = 1.0;
+  OpenedShores best = openBoth(graph, sizes, guides, options, high);
+  const auto attempt = [&](double first) {
+    OpenedShores opened = openBoth(graph, sizes, guides, options, first);
+    (opened.error > 0.0 ? high : low) = first;
+    if (std::abs(opened.error) < std::abs(best.error)) best = std::move(opened);
+  };
+  if (options.land_min == 0.0 || best.error < kClose) return best;
+  while (low == 1.0 && high > kLeastFirst && std::abs(best.error) > kClose) attempt(high - kStep);
+  for (int i = 0; i < kHalvings && low < 1.0 && std::abs(best.error) > kClose; ++i) attempt(0.5 * (low + high));
+  return best;
+}
+
+}  // namespace coastmesh

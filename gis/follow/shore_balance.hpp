@@ -1,0 +1,26 @@
+#pragma once
+
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "gis/follow/follow_options.hpp"
+#include "gis/follow/shore_opening.hpp"
+
+namespace coastmesh {
+
+struct OpenedShores {
+  ShoreGraph graph;
+  std::vector<CutOffWater> cut_off;
+  std::vector<ClosedStrait> straits;
+  WaterAreas areas, gained;
+  std::vector<std::tuple<EditKind, Point, RegionId>> edits;
+  double error = std::numeric_limits<double>::infinity();  // share of the water that there is too much
+};
+
+// Opens land and water (`openLand`, `openWater`). Where both are narrow, what goes first leaves room for the other: the less land goes
+// before water is closed, the less water there is in the end. As much goes first as brings the water's area near to what it was.
+OpenedShores openShores(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
+                        const FollowOptions& options);
+
+}  // namespace coastmesh

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "gis/follow/shore_graph.hpp"
+
+namespace coastmesh {
+
+// The boundaries of a graph as chains with the water to their left, to take vertices out of and to move them. Private to gis.
+struct ShoreChains {
+  std::vector<Point> at;
+  std::vector<VertexId> source;      // the domain's point that it is, or kNone
+  std::vector<VertexId> next, prev;  // kNone: on no boundary (any more)
+  std::vector<Segment> leaving;      // the boundary to the next vertex: its tag and labels
+  std::vector<char> stays;           // ends, corners of open boundaries, ends of lines: neither taken out nor moved
+  std::vector<char> open;            // between two segments of an open boundary
+  std::vector<char> alive;           // a vertex of the graph still
+  std::vector<double> size;          // wanted there
+  std::vector<Segment> lines;        // what is no boundary
+  // Ends of these, the lower first, in order.
+  std::vector<std::pair<VertexId, VertexId>> line_ends{};
+};
+
+// Called before a vertex is taken out, and before it is moved to a place.
+using ShoreLoss = std::function<void(VertexId)>;
+using ShoreMove = std::function<void(VertexId, const Point&)>;
+
+ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size);
+ShoreGraph graphOf(ShoreChains&& chains);
+
+// The angle on the water's side on the way a, b, c with the water to the left: 0 to two pi.
+double waterAngle(const Point& a, const Point& b, const Point& c);
+
+// Whether v may go and its neighbours be joined: a boundary or a line that joins them already would run twice.
+bool canTakeOut(const ShoreChains& chains, VertexId v);
+
+// Joins the neighbours of v. REQUIRES: they are not joined.
+void takeOut(ShoreChains& chains, VertexId v);
+
+}  // namespace coastmesh

@@ -1,0 +1,150 @@
+#include "gis/follow/shore_coarsen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <queue>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+#include "gis/geometry/box_tree.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Lengths are shares of the size wanted.
+constexpr double kMoved = 0.25;       // how far a shore may be moved
+constexpr double kMovedShort = 0.45;  // where segments are shorter than kShort
+constexpr double kShort = 0.55;
+constexpr double kLong = 1.1;        // longer segments are made only where the shore is straight:
+constexpr double kStraight = 0.03;   // so much out of it
+constexpr double kOpenMoved = 0.01;  // open boundaries
+constexpr double kApart = 0.5;       // shores keep so far from one another
+constexpr double kNearAlong = 1.6;   // along the shore: nearer vertices are the same piece of it
+constexpr double kLeastAngle = std::numbers::pi / 4;
+
+class Coarsener {
+ public:
+  Coarsener(ShoreChains& chains, const ShoreLoss& gone) : c_(chains), gone_(gone) {
+    version_.assign(c_.at.size(), 0);
+    dropped_.resize(c_.at.size());
+    std::vector<Box> boxes(c_.at.size());
+    for (VertexId v = 0; v < boxes.size(); ++v)
+      if (c_.alive[v]) boxes[v].add(c_.at[v]);
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  }
+
+  void run() {
+    for (VertexId v = 0; v < c_.at.size(); ++v) enqueue(v);
+    // Every entry that is not stale takes a vertex out, or is not renewed but by one that is.
+    while (!queue_.empty()) {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      const VertexId v = entry.vertex;
+      if (entry.version != version_[v] || !canTakeOut(c_, v) || isBlocked(v)) continue;
+      const VertexId p = c_.prev[v], q = c_.next[v];
+      gone_(v);
+      std::vector<VertexId>& all = dropped_[p];
+      all.push_back(v);
+      all.insert(all.end(), dropped_[v].begin(), dropped_[v].end());
+      std::vector<VertexId>().swap(dropped_[v]);
+      takeOut(c_, v);
+      for (const VertexId end : {p, q}) {
+        ++version_[end];
+        enqueue(end);
+      }
+    }
+  }
+
+ private:
+  struct Entry {
+    double cost;
+    VertexId vertex;
+    std::uint32_t version;
+    bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : vertex > other.vertex; }
+  };
+
+  // As a share of the size at v: how far v, and what went beside it, lies from the segment that would replace it.
+  double costOf(VertexId v) const {
+    const Point &a = c_.at[c_.prev[v]], &b = c_.at[c_.next[v]];
+    double cost = squaredDistanceToSegment(c_.at[v], a, b);
+    for (const VertexId from : {c_.prev[v], v})
+      for (const VertexId d : dropped_[from]) cost = std::max(cost, squaredDistanceToSegment(c_.at[d], a, b));
+    return std::sqrt(cost) / c_.size[v];
+  }
+
+  void enqueue(VertexId v) {
+    if (!canTakeOut(c_, v)) return;
+    const Point &a = c_.at[c_.prev[v]], &b = c_.at[c_.next[v]], &x = c_.at[v];
+    const double size = c_.size[v], cost = costOf(v);
+    double most = c_.open[v] ? kOpenMoved : kMoved;
+    if (!c_.open[v] && std::min(distance(a, x), distance(x, b)) < kShort * size) most = kMovedShort;
+    if (distance(a, b) > kLong * size) most = std::min(most, kStraight);
+    if (cost <= most) queue_.push({cost, v, version_[v]});
+  }
+
+  bool isBlocked(VertexId v) {
+    const VertexId p = c_.prev[v], q = c_.next[v];
+    if (makesSmallAngle(c_.prev[p], p, v, q) || makesSmallAngle(c_.next[q], q, v, p)) return true;
+    const Point &a = c_.at[p], &x = c_.at[v], &b = c_.at[q];
+    const int turn = orient2d(a, x, b);
+    Box box = Box::of(a, b);
+    box.add(x);
+    findNear(v);
+    bool found = false;
+    tree_.visit(box.grownBy(kApart * c_.size[v]), [&](std::uint32_t w) {
+      if (found || w == v || w == p || w == q || !c_.alive[w]) return;
+      const Point& y = c_.at[w];
+      found = turn == 0
+                  ? orient2d(a, b, y) == 0 && Box::of(a, b).meets(Box::of(y, y))
+                  : orient2d(a, x, y) * turn >= 0 && orient2d(x, b, y) * turn >= 0 && orient2d(b, a, y) * turn >= 0;
+      if (found || std::ranges::find(near_, w) != near_.end()) return;
+      const double apart = squaredDistanceToSegment(y, a, b), least = kApart * c_.size[w];
+      if (apart >= least * least) return;
+      found = apart < std::min(squaredDistanceToSegment(y, a, x), squaredDistanceToSegment(y, x, b));
+    });
+    return found;
+  }
+
+  // At `at`, whose neighbours are `beyond` and `from`, if `to` takes the place of `from`.
+  bool makesSmallAngle(VertexId beyond, VertexId at, VertexId from, VertexId to) const {
+    if (beyond == kNone) return false;
+    const bool forwards = c_.next[at] == from;
+    const auto angle = [&](VertexId w) {
+      return forwards ? waterAngle(c_.at[beyond], c_.at[at], c_.at[w]) : waterAngle(c_.at[w], c_.at[at], c_.at[beyond]);
+    };
+    const double then = angle(to);
+    return then < kLeastAngle && then < angle(from);
+  }
+
+  // Vertices of the same piece of shore.
+  void findNear(VertexId v) {
+    near_.clear();
+    const double reach = kNearAlong * c_.size[v];
+    double way = 0.0;
+    for (VertexId w = c_.prev[v]; w != kNone && way <= reach && w != v; w = c_.prev[w]) {
+      near_.push_back(w);
+      if (c_.prev[w] != kNone) way += distance(c_.at[w], c_.at[c_.prev[w]]);
+    }
+    way = 0.0;
+    for (VertexId w = c_.next[v]; w != kNone && way <= reach && w != v; w = c_.next[w]) {
+      near_.push_back(w);
+      if (c_.next[w] != kNone) way += distance(c_.at[w], c_.at[c_.next[w]]);
+    }
+  }
+
+  ShoreChains& c_;
+  const ShoreLoss& gone_;
+  std::vector<std::uint32_t> version_;
+  std::vector<std::vector<VertexId>> dropped_;  // beside the segment that leaves a vertex
+  std::vector<VertexId> near_;
+  BoxTree tree_;
+  std::priority_queue<Entry> queue_;
+};
+
+}  // namespace
+
+void coarsenShores(ShoreChains& chains, const ShoreLoss& gone) { Coarsener(chains, gone).run(); }
+
+}  // namespace coastmesh

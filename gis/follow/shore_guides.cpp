@@ -1,0 +1,267 @@
+#include "gis/follow/shore_guides.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Shares of the size wanted.
+constexpr double kStep = 0.25;         // between samples of a line
+constexpr double kBarrier = 0.25;      // to either side
+constexpr double kTooNear = 0.02;      // helpers keep so far from what is there
+constexpr double kMostSamples = 1e6;   // of a line
+constexpr double kLittleMore = 1.001;  // of the reach: rounding of helpers at it
+
+struct Sample {
+  Point at;
+  double size = 0.0, way = 0.0;  // wanted there; along the line
+  RegionId water = kUnlabelled;  // none on land
+  bool wanting = true;           // land, or water narrower than it should be
+};
+
+std::vector<Sample> samplesOf(const ShoreLine& line, const SizeFunction& size) {
+  std::vector<Sample> samples;
+  double way = 0.0;
+  const auto add = [&](const Point& p) { samples.push_back({p, size.at(p), way}); };
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const Point &a = line.points[i], &b = line.points[i + 1];
+    const double length = distance(a, b), before = way;
+    if (length == 0.0) continue;
+    if (samples.empty()) add(a);
+    const double least = length / kMostSamples;
+    for (double t = std::max(least, kStep * samples.back().size); t < length;) {
+      way = before + t;
+      add(a + (t / length) * (b - a));
+      t += std::max(least, kStep * samples.back().size);
+    }
+    way = before + length;
+    add(b);
+  }
+  return samples;
+}
+
+bool isIn(const Point& x, const Point& a, const Point& b, const Point& c) {
+  return orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 && orient2d(c, a, x) >= 0;
+}
+
+// What of the water the samples lie in.
+void locate(std::vector<Sample>& samples, const ShoreTriangles& t, double elements) {
+  std::vector<Box> boxes;
+  for (const Sample& sample : samples) boxes.push_back(Box::of(sample.at, sample.at));
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  for (TriId i = 0; i < t.mesh.triangles.size(); ++i) {
+    if (t.mesh.regions[i] == t.land) continue;
+    const auto& v = t.mesh.triangles[i].v;
+    const Point &a = t.mesh.point(v[0]), &b = t.mesh.point(v[1]), &c = t.mesh.point(v[2]);
+    Box box = Box::of(a, b);
+    box.add(c);
+    tree.visit(box, [&](std::uint32_t s) {
+      if (!isIn(samples[s].at, a, b, c)) return;
+      samples[s].water = t.mesh.regions[i];
+      samples[s].wanting = t.width[i] < elements;
+    });
+  }
+}
+
+// Points that are added for a while, so that triangles end where they should.
+class Helpers {
+ public:
+  explicit Helpers(ShoreGraph& graph) : graph_(graph) {
+    std::vector<Box> boxes;
+    for (const Segment& s : graph.pslg.segments)
+      boxes.push_back(Box::of(graph.pslg.points[s.a], graph.pslg.points[s.b]));
+    segments_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  }
+
+  void add(const Point& x, double size) {
+    const double least = kTooNear * size;
+    bool free = true;
+    segments_.visit(Box::of(x, x).grownBy(least), [&](std::uint32_t i) {
+      const Segment& s = graph_.pslg.segments[i];
+      free = free && squaredDistanceToSegment(x, graph_.pslg.points[s.a], graph_.pslg.points[s.b]) > least * least;
+    });
+    if (free) wanted_.emplace_back(x, least);
+  }
+
+  // Round all of the line, `reach` times the size away.
+  void addAround(const std::vector<Sample>& samples, double reach) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Point along = samples[std::min(i + 1, samples.size() - 1)].at - samples[i == 0 ? 0 : i - 1].at;
+      const double length = std::sqrt(squaredLength(along));
+      if (length == 0.0) continue;
+      const double by = reach * samples[i].size / length;
+      const Point side{-by * along.y, by * along.x}, ahead = by * along;
+      add(samples[i].at + side, samples[i].size);
+      add(samples[i].at - side, samples[i].size);
+      for (const double turn : {-1.0, 0.0, 1.0}) {
+        if (i == 0) add(samples[i].at - ahead + turn * side, samples[i].size);
+        if (i + 1 == samples.size()) add(samples[i].at + ahead + turn * side, samples[i].size);
+      }
+    }
+  }
+
+  // Those that are not too near to one another: the first of them.
+  void finish() {
+    std::vector<Box> boxes;
+    for (const auto& [x, least] : wanted_) boxes.push_back(Box::of(x, x));
+    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+    std::vector<bool> kept(wanted_.size(), false);
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      const auto& [x, least] = wanted_[i];
+      kept[i] = true;
+      tree.visit(Box::of(x, x).grownBy(least), [&](std::uint32_t other) {
+        if (other < i && kept[other] && squaredDistance(x, wanted_[other].first) < least * least) kept[i] = false;
+      });
+      if (!kept[i]) continue;
+      graph_.pslg.points.push_back(x);
+      graph_.source.push_back(kNone);
+    }
+  }
+
+ private:
+  ShoreGraph& graph_;
+  BoxTree segments_;
+  std::vector<std::pair<Point, double>> wanted_;
+};
+
+std::uint8_t usesOf(const ShoreTriangles& t, TriId i) {
+  const auto& v = t.mesh.triangles[i].v;
+  return t.use[v[0]] | t.use[v[1]] | t.use[v[2]];
+}
+
+bool meets(const Point& p, const Point& q, const Point& a, const Point& b, const Point& c) {
+  if (isIn(p, a, b, c) || isIn(q, a, b, c)) return true;
+  const auto crosses = [&](const Point& x, const Point& y) {
+    return orient2d(p, q, x) * orient2d(p, q, y) <= 0 && orient2d(x, y, p) * orient2d(x, y, q) <= 0 &&
+           Box::of(p, q).meets(Box::of(x, y));
+  };
+  return crosses(a, b) || crosses(b, c) || crosses(c, a);
+}
+
+}  // namespace
+
+BoxTree ShoreGuides::tree() const {
+  std::vector<Box> boxes;
+  for (const auto* lines : {&passages, &barriers})
+    for (const ShoreLine& line : *lines)
+      for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
+        boxes.push_back(Box::of(line.points[i], line.points[i + 1]));
+  return boxes.empty() ? BoxTree() : BoxTree(boxes, BoxTree::Order::Hilbert);
+}
+
+LineZone::LineZone(const std::vector<ShoreLine>& lines) {
+  std::vector<Box> boxes;
+  for (const ShoreLine& line : lines) {
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+      pieces_.emplace_back(line.points[i], line.points[i + 1]);
+      boxes.push_back(Box::of(line.points[i], line.points[i + 1]));
+    }
+  }
+  if (!boxes.empty()) tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+}
+
+bool LineZone::holds(const Point& a, const Point& b, const Point& c, double reach) const {
+  if (pieces_.empty()) return false;
+  const Point centre = centroid(a, b, c);
+  Box box = Box::of(centre, centre).grownBy(reach);
+  for (const Point& p : {a, b, c}) box.add(p);
+  bool found = false;
+  tree_.visit(box, [&](std::uint32_t i) {
+    const auto& [p, q] = pieces_[i];
+    found = found || squaredDistanceToSegment(centre, p, q) <= reach * reach || meets(p, q, a, b, c);
+  });
+  return found;
+}
+
+ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
+                         const ShoreEdit& edit, std::vector<WidenedPassage>& widened, std::vector<std::size_t>& dry) {
+  if (guides.passages.empty()) return graph;
+  const ShoreTriangles before = triangulateShores(graph, sizes.wanted);
+  ShoreGraph helped = graph;
+  Helpers helpers(helped);
+  std::vector<std::pair<Point, Point>> pieces;
+  std::vector<RegionId> water_of;
+  std::vector<Box> boxes;
+  for (std::size_t line = 0; line < guides.passages.size(); ++line) {
+    std::vector<Sample> samples = samplesOf(guides.passages[line], sizes.wanted);
+    locate(samples, before, guides.elements);
+    const auto isWet = [](const Sample& sample) { return sample.water != kUnlabelled; };
+    const auto first = std::ranges::find_if(samples, isWet);
+    const auto last = std::find_if(samples.rbegin(), samples.rend(), isWet).base();
+    if (first == samples.end()) {
+      dry.push_back(line);
+      continue;
+    }
+    const std::vector<Sample> wet(first, last);
+    RegionId water = wet.front().water;
+    WidenedPassage passage{line, {}, 0.0, 0.0};
+    for (std::size_t i = 0; i + 1 < wet.size(); ++i) {
+      if (isWet(wet[i])) water = wet[i].water;
+      if (!wet[i].wanting && !wet[i + 1].wanting) continue;
+      pieces.emplace_back(wet[i].at, wet[i + 1].at);
+      water_of.push_back(water);
+      boxes.push_back(Box::of(wet[i].at, wet[i + 1].at).grownBy(guides.elements * wet[i].size));
+      helpers.addAround({wet[i], wet[i + 1]}, 0.5 * guides.elements);
+      const double scale = sizes.projection.scaleAt(wet[i].at);
+      passage.length_m += (wet[i + 1].way - wet[i].way) / scale;
+      passage.width_m = std::max(passage.width_m, guides.elements * wet[i].size / scale);
+      passage.place = wet[i].at;
+    }
+    if (passage.length_m > 0.0) widened.push_back(passage);
+  }
+  if (pieces.empty()) return graph;
+  helpers.finish();
+  ShoreTriangles after = triangulateShores(helped, sizes.wanted);
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  for (TriId t = 0; t < after.mesh.triangles.size(); ++t) {
+    if (after.mesh.regions[t] != after.land || (usesOf(after, t) & (kAround | kOnOpen)) != 0) continue;
+    const auto& v = after.mesh.triangles[t].v;
+    const Point centre = centroid(after.mesh.point(v[0]), after.mesh.point(v[1]), after.mesh.point(v[2]));
+    const double reach = kLittleMore * 0.5 * guides.elements * after.size[t];
+    double nearest = reach * reach;
+    tree.visit(Box::of(centre, centre), [&](std::uint32_t i) {
+      const double square = squaredDistanceToSegment(centre, pieces[i].first, pieces[i].second);
+      if (square > nearest) return;
+      nearest = square;
+      after.mesh.regions[t] = water_of[i];
+    });
+  }
+  for (const WidenedPassage& passage : widened) edit(EditKind::WidenedPassage, passage.place, water_of.front());
+  ShoreGraph opened = graphOf(helped, after);
+  dropLoosePoints(opened);
+  return opened;
+}
+
+ShoreGraph closeBarriers(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
+                         const ShoreEdit& edit) {
+  if (guides.barriers.empty()) return graph;
+  ShoreGraph helped = graph;
+  Helpers helpers(helped);
+  for (const ShoreLine& line : guides.barriers) helpers.addAround(samplesOf(line, sizes.wanted), kBarrier);
+  helpers.finish();
+  ShoreTriangles after = triangulateShores(helped, sizes.wanted);
+  for (const ShoreLine& line : guides.barriers) {
+    const LineZone zone({line});
+    bool any = false;
+    for (TriId t = 0; t < after.mesh.triangles.size(); ++t) {
+      const RegionId water = after.mesh.regions[t];
+      const auto& v = after.mesh.triangles[t].v;
+      if (water == after.land ||
+          !zone.holds(after.mesh.point(v[0]), after.mesh.point(v[1]), after.mesh.point(v[2]), 0.0))
+        continue;
+      after.mesh.regions[t] = after.land;
+      if (!any) edit(EditKind::Barrier, after.mesh.point(v[0]), water);
+      any = true;
+    }
+  }
+  ShoreGraph closed = graphOf(helped, after);
+  dropLoosePoints(closed);
+  return closed;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,113 @@
+#include "gis/follow/shore_mend.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/metric.hpp"
+#include "gis/follow/shore_pieces.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Lengths are shares of the size wanted.
+constexpr double kMoved = 0.5;
+constexpr double kClosed = 1.2;  // how far a sharp corner may end from where it was
+constexpr double kBetter = 0.03;
+constexpr int kRounds = 12;
+constexpr int kDirections = 8;
+constexpr double kSteps[] = {0.1, 0.25, 0.45};
+
+class Mender {
+ public:
+  Mender(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved)
+      : c_(chains), gone_(gone), moved_(moved), from_(chains.at), near_(chains) {}
+
+  void run() {
+    for (int round = 0; round < kRounds && mendOnce(); ++round) {
+    }
+  }
+
+ private:
+  // A vertex's piece of shore as it would be: p, x, q; or p, q where x is none.
+  struct Change {
+    std::optional<Point> x;
+    double quality = 0.0;
+  };
+
+  bool mendOnce() {
+    near_.buildTrees();
+    locked_.assign(c_.at.size(), 0);
+    std::vector<std::pair<double, VertexId>> bad;
+    for (VertexId v = 0; v < c_.at.size(); ++v) {
+      if (c_.next[v] == kNone || c_.prev[v] == kNone) continue;
+      near_.gather(v, kSteps[2]);
+      const double quality = near_.qualityOf(v, c_.at[v]);
+      if (quality < 1.0) bad.emplace_back(quality, v);
+    }
+    std::ranges::sort(bad);
+    bool any = false;
+    for (const auto& [quality, v] : bad) {
+      if (c_.stays[v] || c_.open[v] || c_.next[v] == kNone) continue;
+      near_.gather(v, kSteps[2]);
+      if (std::ranges::any_of(near_.points(), [&](VertexId w) { return locked_[w] != 0; })) continue;
+      if (!mend(v, quality)) continue;
+      for (const VertexId w : near_.points()) locked_[w] = 1;
+      any = true;
+    }
+    return any;
+  }
+
+  bool mend(VertexId v, double quality) {
+    const double size = c_.size[v];
+    Change best{std::nullopt, quality + kBetter};
+    bool found = false;
+    if (canTakeOut(c_, v) && canGo(v)) {
+      const double after = near_.qualityOf(v, std::nullopt);
+      if (after >= best.quality) best = {std::nullopt, after}, found = true;
+    }
+    for (const double step : kSteps) {
+      for (int i = 0; i < kDirections; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kDirections;
+        const Point x = c_.at[v] + step * size * Point{std::cos(angle), std::sin(angle)};
+        if (squaredDistance(x, from_[v]) > kMoved * kMoved * size * size) continue;
+        const double after = near_.qualityOf(v, x);
+        if (after > best.quality + (found ? kBetter : 0.0) && near_.canMove(v, x)) best = {x, after}, found = true;
+      }
+    }
+    if (!found) return false;
+    if (best.x) {
+      moved_(v, *best.x);
+      c_.at[v] = *best.x;
+      c_.source[v] = kNone;
+    } else {
+      gone_(v);
+      takeOut(c_, v);
+    }
+    return true;
+  }
+
+  // Without v, within what it may be moved by.
+  bool canGo(VertexId v) const {
+    const Point &a = c_.at[c_.prev[v]], &x = c_.at[v], &b = c_.at[c_.next[v]];
+    const double most = (waterAngle(a, x, b) < kSmallShoreAngle ? kClosed : kMoved) * c_.size[v];
+    return squaredDistanceToSegment(from_[v], a, b) <= most * most && near_.canCut(v);
+  }
+
+  ShoreChains& c_;
+  const ShoreLoss& gone_;
+  const ShoreMove& moved_;
+  std::vector<Point> from_;
+  ShorePieces near_;
+  std::vector<char> locked_;
+};
+
+}  // namespace
+
+void mendShores(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved) {
+  Mender(chains, gone, moved).run();
+}
+
+}  // namespace coastmesh

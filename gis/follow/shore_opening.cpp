@@ -1,0 +1,295 @@
+#include "gis/follow/shore_opening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/metric.hpp"
+#include "gis/follow/shore_guides.hpp"
+#include "gis/follow/shore_patches.hpp"
+#include "gis/geometry/box.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kLongestIsland = 3.0;           // in elements: what is longer stays
+constexpr double kShallow = 0.3;                 // of the size: what reaches no deeper is left to simplifying
+constexpr double kPassage = 0.55;                // of its width: what is nearer to its line is part of a passage
+constexpr double kLeastWater = 6.0;              // triangles of the size wanted
+const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
+
+class Opening {
+ public:
+  Opening(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
+          WaterAreas& gained)
+      : t_(triangulateShores(graph, sizes.wanted)),
+        projection_(sizes.projection),
+        passages_(guides.passages),
+        barriers_(guides.barriers),
+        passage_elements_(guides.elements),
+        edit_(edit),
+        gained_(gained) {}
+
+  ShoreTriangles& triangles() { return t_; }
+
+  void dropIslands() {
+    const Patches lands = patchesOf(mesh(), [&](TriId t) { return isLand(t); });
+    keeps_all_.assign(mesh().triangles.size(), false);
+    for (const std::vector<TriId>& land : lands.triangles) {
+      if (usesOf(land) & kAround) continue;
+      const RegionId water = waterAround(land);
+      if (water != kNoRegion && isSmall(land)) {
+        flip(land, water, EditKind::SmallIsland, firstVertexOf(land));
+      } else if (std::ranges::all_of(land, [&](TriId t) { return t_.width[t] < narrowest_; })) {
+        for (const TriId t : land) keeps_all_[t] = true;
+      }
+    }
+  }
+
+  void openLand(double narrowest) {
+    narrowest_ = narrowest;
+    dropIslands();
+    // Ends are taken off one after another, so that no land is cut in two.
+    std::vector<bool> thin(mesh().triangles.size()), off(mesh().triangles.size(), false);
+    std::vector<TriId> ends;
+    const auto isEnd = [&](TriId t) {
+      int beside = 0;
+      for (const EdgeRef e : mesh().triangles[t].adj) beside += isLand(triOf(e)) && !off[triOf(e)] ? 1 : 0;
+      return beside <= 1;
+    };
+    for (TriId t = 0; t < thin.size(); ++t) {
+      thin[t] = isLand(t) && t_.width[t] < narrowest && !keeps_all_[t] && (usesOf(t) & ~kOnShore) == 0 &&
+                !isAt(barriers_, t, 0.0);
+      if (thin[t] && isEnd(t)) ends.push_back(t), off[t] = true;
+    }
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      for (const EdgeRef e : mesh().triangles[ends[i]].adj) {
+        const TriId next = triOf(e);
+        if (thin[next] && !off[next] && isEnd(next)) ends.push_back(next), off[next] = true;
+      }
+    }
+    const Patches spits = patchesOf(mesh(), [&](TriId t) { return off[t]; });
+    for (const std::vector<TriId>& spit : spits.triangles) {
+      const RegionId water = waterAround(spit);
+      const auto gates = gatesOf(spit, spits.of, [&](TriId t) { return isLand(t); });
+      const auto [deepest, depth] = deepestOf(spit, gates);
+      if (water != kNoRegion && depth >= kShallow) flip(spit, water, EditKind::DroppedSpit, deepest);
+    }
+  }
+
+  void openWater(double narrowest) {
+    const auto narrow = [&](TriId t) {
+      const std::uint8_t use = usesOf(t);
+      return !isLand(t) && t_.width[t] < narrowest && (use & kInWater) == 0 && !allOpen(t) &&
+             !isAt(passages_, t, kPassage * passage_elements_ * t_.size[t]);
+    };
+    bool any_wide = false;
+    for (TriId t = 0; t < mesh().triangles.size() && !any_wide; ++t) any_wide = !isLand(t) && !narrow(t);
+    if (!any_wide) return;
+    const Patches closed = patchesOf(mesh(), narrow);
+    for (const std::vector<TriId>& patch : closed.triangles) {
+      const auto gates = gatesOf(patch, closed.of, [&](TriId t) { return !isLand(t); });
+      const auto [deepest, depth] = deepestOf(patch, gates);
+      if (gates.size() == 1 && depth < kShallow) continue;
+      flip(patch, t_.land, EditKind::ClosedWater, gates.size() == 1 ? deepest : mesh().triangles[patch.front()].v[0]);
+    }
+    closeSmall();
+  }
+
+  // Parts of a region belong together.
+  void keepWater(KeepWater keep, std::vector<CutOffWater>& cut_off) {
+    const Patches parts = patchesOf(mesh(), [&](TriId t) { return !isLand(t); });
+    struct Part {
+      double area = 0.0;
+      bool at_open = false;
+    };
+    std::vector<Part> of_part;
+    std::map<RegionId, std::uint32_t> best;
+    const bool open_first = keep != KeepWater::Largest;
+    const auto less = [&](const Part& a, const Part& b) {
+      return open_first && a.at_open != b.at_open ? b.at_open : a.area < b.area;
+    };
+    for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
+      Part& part = of_part.emplace_back();
+      for (const TriId t : parts.triangles[i]) part.area += groundAreaOf(t);
+      part.at_open = (usesOf(parts.triangles[i]) & kOnOpen) != 0;
+      const auto [most, first] = best.try_emplace(mesh().regions[parts.triangles[i].front()], i);
+      if (!first && less(of_part[most->second], part)) most->second = i;
+    }
+    for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
+      const std::vector<TriId>& part = parts.triangles[i];
+      if (best[mesh().regions[part.front()]] == i || (open_first && of_part[i].at_open)) continue;
+      const TriId largest = *std::ranges::max_element(part, {}, [&](TriId t) { return areaOf(t); });
+      cut_off.push_back({centreOf(largest), of_part[i].area});
+      if (keep == KeepWater::All) continue;
+      gained_[mesh().regions[largest]] += of_part[i].area;
+      flip(part, t_.land, EditKind::CutOffWater, mesh().triangles[largest].v[0]);
+    }
+  }
+
+  WaterAreas areas() const {
+    WaterAreas areas;
+    for (TriId t = 0; t < mesh().triangles.size(); ++t)
+      if (!isLand(t)) areas[mesh().regions[t]] += groundAreaOf(t);
+    return areas;
+  }
+
+ private:
+  static constexpr RegionId kNoRegion = kUnlabelled;
+
+  const TriMesh& mesh() const { return t_.mesh; }
+  bool isLand(TriId t) const { return mesh().regions[t] == t_.land; }
+  std::uint8_t usesOf(TriId t) const {
+    const auto& v = mesh().triangles[t].v;
+    return t_.use[v[0]] | t_.use[v[1]] | t_.use[v[2]];
+  }
+  std::uint8_t usesOf(const std::vector<TriId>& patch) const {
+    std::uint8_t use = 0;
+    for (const TriId t : patch) use |= usesOf(t);
+    return use;
+  }
+  bool allOpen(TriId t) const {
+    const auto& v = mesh().triangles[t].v;
+    return (t_.use[v[0]] & t_.use[v[1]] & t_.use[v[2]] & kOnOpen) != 0;
+  }
+  double areaOf(TriId t) const {
+    const auto& v = mesh().triangles[t].v;
+    return 0.5 * cross(mesh().point(v[1]) - mesh().point(v[0]), mesh().point(v[2]) - mesh().point(v[0]));
+  }
+  Point centreOf(TriId t) const {
+    const auto& v = mesh().triangles[t].v;
+    return centroid(mesh().point(v[0]), mesh().point(v[1]), mesh().point(v[2]));
+  }
+  double groundAreaOf(TriId t) const {
+    const double scale = projection_.scaleAt(centreOf(t));
+    return areaOf(t) / scale / scale;
+  }
+  bool isAt(const LineZone& lines, TriId t, double reach) const {
+    const auto& v = mesh().triangles[t].v;
+    return lines.holds(mesh().point(v[0]), mesh().point(v[1]), mesh().point(v[2]), reach);
+  }
+  // In triangles of the size wanted.
+  double elementsIn(const std::vector<TriId>& patch) const {
+    double elements = 0.0;
+    for (const TriId t : patch) elements += areaOf(t) / (kTriangle * t_.size[t] * t_.size[t]);
+    return elements;
+  }
+
+  // The region of all water beside the patch; none where there are several, or an open boundary, or something on it.
+  RegionId waterAround(const std::vector<TriId>& patch) const {
+    RegionId water = kNoRegion;
+    for (const TriId t : patch) {
+      if ((usesOf(t) & ~kOnShore) != 0) return kNoRegion;
+      for (const EdgeRef e : mesh().triangles[t].adj) {
+        const RegionId beside = mesh().regions[triOf(e)];
+        if (beside == t_.land) continue;
+        if (water != kNoRegion && water != beside) return kNoRegion;
+        water = beside;
+      }
+    }
+    return water;
+  }
+
+  bool isSmall(const std::vector<TriId>& land) const {
+    if (elementsIn(land) >= 1.0) return false;
+    Box box;
+    double size = std::numeric_limits<double>::infinity();
+    for (const TriId t : land) {
+      for (const VertexId v : mesh().triangles[t].v) box.add(mesh().point(v));
+      size = std::min(size, t_.size[t]);
+    }
+    return std::max(box.xmax - box.xmin, box.ymax - box.ymin) <= kLongestIsland * size;
+  }
+
+  VertexId firstVertexOf(const std::vector<TriId>& patch) const {
+    VertexId first = kNone;
+    for (const TriId t : patch)
+      for (const VertexId v : mesh().triangles[t].v) first = std::min(first, v);
+    return first;
+  }
+
+  // Edges between the patch and others of its kind.
+  template <typename Same>
+  std::vector<EdgeRef> gatesOf(const std::vector<TriId>& patch, const std::vector<std::uint32_t>& number,
+                               Same&& same) const {
+    std::vector<EdgeRef> gates;
+    for (const TriId t : patch) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const TriId beside = triOf(mesh().twin(edgeRef(t, i)));
+        if (same(beside) && number[beside] != number[t]) gates.push_back(edgeRef(t, i));
+      }
+    }
+    return gates;
+  }
+
+  // The vertex that lies furthest from the gate, and how far, as a share of the size there. Infinite where there is not one gate.
+  std::pair<VertexId, double> deepestOf(const std::vector<TriId>& patch, const std::vector<EdgeRef>& gates) const {
+    if (gates.size() != 1) return {firstVertexOf(patch), std::numeric_limits<double>::infinity()};
+    const Point &a = mesh().point(mesh().origin(gates[0])), &b = mesh().point(mesh().target(gates[0]));
+    std::pair<VertexId, double> deepest{firstVertexOf(patch), 0.0};
+    for (const TriId t : patch) {
+      for (const VertexId v : mesh().triangles[t].v) {
+        const double depth = std::sqrt(squaredDistanceToSegment(mesh().point(v), a, b)) / t_.size[t];
+        if (depth > deepest.second) deepest = {v, depth};
+      }
+    }
+    return deepest;
+  }
+
+  void flip(const std::vector<TriId>& patch, RegionId region, EditKind kind, VertexId place) {
+    RegionId water = region;
+    for (const TriId t : patch) {
+      if (region == t_.land) water = mesh().regions[t];
+      gained_[water] += (region == t_.land ? -1.0 : 1.0) * groundAreaOf(t);
+      t_.mesh.regions[t] = region;
+    }
+    edit_(kind, mesh().point(place), water);
+  }
+
+  void closeSmall() {
+    const Patches waters = patchesOf(mesh(), [&](TriId t) { return !isLand(t); });
+    std::size_t most = 0;
+    std::vector<double> elements;
+    for (const std::vector<TriId>& water : waters.triangles) elements.push_back(elementsIn(water));
+    if (elements.empty()) return;
+    most = static_cast<std::size_t>(std::ranges::max_element(elements) - elements.begin());
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      if (i == most || elements[i] >= kLeastWater || (usesOf(waters.triangles[i]) & kInWater) != 0) continue;
+      flip(waters.triangles[i], t_.land, EditKind::ClosedWater, firstVertexOf(waters.triangles[i]));
+    }
+  }
+
+  ShoreTriangles t_;
+  const Projection& projection_;
+  const LineZone passages_, barriers_;
+  const double passage_elements_;
+  const ShoreEdit& edit_;
+  WaterAreas& gained_;
+  double narrowest_ = 0.0;
+  std::vector<bool> keeps_all_;
+};
+
+}  // namespace
+
+ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                    const ShoreEdit& edit, WaterAreas& gained) {
+  Opening opening(graph, sizes, guides, edit, gained);
+  opening.openLand(narrowest);
+  return graphOf(graph, opening.triangles());
+}
+
+OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                      KeepWater keep, const ShoreEdit& edit, WaterAreas& gained) {
+  Opening opening(graph, sizes, guides, edit, gained);
+  OpenedWater opened;
+  opening.openWater(narrowest);
+  opening.keepWater(keep, opened.cut_off);
+  opened.straits = closedStraits(opening.triangles(), sizes.projection);
+  opened.areas = opening.areas();
+  opened.graph = graphOf(graph, opening.triangles());
+  return opened;
+}
+
+}  // namespace coastmesh

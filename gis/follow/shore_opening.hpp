@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "gis/clean/clean.hpp"
+#include "gis/follow/follow_options.hpp"
+#include "gis/follow/shore_graph.hpp"
+#include "gis/follow/shore_guides.hpp"
+#include "gis/follow/shore_straits.hpp"
+
+namespace coastmesh {
+
+// A morphological opening of the land, with disks of `narrowest` times the size wanted for diameters: what no disk fits into and ends in
+// water goes (spits, capes); so do islands smaller than a triangle of that size. What joins two lands stays, and so does an island
+// longer than three elements, however thin. 0 leaves all of it. What regions of water gain is added to `gained`, as below.
+ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                    const ShoreEdit& edit, WaterAreas& gained);
+
+// A part of a region of water that nothing joins to the one that stays, mostly since what did was closed.
+struct CutOffWater {
+  Point place;        // inside
+  double area = 0.0;  // square metres
+};
+
+struct OpenedWater {
+  ShoreGraph graph;
+  std::vector<CutOffWater> cut_off;
+  std::vector<ClosedStrait> straits;
+  WaterAreas areas;
+};
+
+// The same for the water: what is narrower is closed (channels, heads of bays, corners), and so is water smaller than a few triangles.
+// Triangles at lines inside the water and at a corner of an open boundary stay. Where nothing would be left, all stays.
+// Of the parts of each region of water, what `keep` says stays; `cut_off` are those that would not if not all were kept. What is left
+// out so is not taken from `gained`.
+OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                      KeepWater keep, const ShoreEdit& edit, WaterAreas& gained);
+
+}  // namespace coastmesh

@@ -1,0 +1,147 @@
+#include "gis/follow/shore_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Lengths are shares of the size wanted.
+constexpr double kShort = 0.5;
+constexpr double kNarrow = 0.5;
+
+bool crosses(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return orient2d(a, b, c) * orient2d(a, b, d) <= 0 && orient2d(c, d, a) * orient2d(c, d, b) <= 0 &&
+         Box::of(a, b).meets(Box::of(c, d));
+}
+
+bool holds(const Point& a, const Point& b, const Point& c, const Point& x) {
+  const int turn = orient2d(a, b, c);
+  if (turn == 0)
+    return orient2d(a, b, x) == 0 && (Box::of(a, b).meets(Box::of(x, x)) || Box::of(b, c).meets(Box::of(x, x)));
+  return orient2d(a, b, x) * turn >= 0 && orient2d(b, c, x) * turn >= 0 && orient2d(c, a, x) * turn >= 0;
+}
+
+// The distance of y from ab, with the water to its left; large where y lies on the land's side.
+double apartInWater(const Point& y, const Point& a, const Point& b) {
+  return orient2d(a, b, y) <= 0 ? 1e300 : std::sqrt(squaredDistanceToSegment(y, a, b));
+}
+
+}  // namespace
+
+void ShorePieces::buildTrees() {
+  std::vector<Box> points(c_.at.size()), segments;
+  ends_.clear();
+  for (VertexId v = 0; v < c_.at.size(); ++v) {
+    if (!c_.alive[v]) continue;
+    points[v].add(c_.at[v]);
+    if (c_.next[v] != kNone) ends_.emplace_back(v, c_.next[v]);
+  }
+  for (const Segment& s : c_.lines) ends_.emplace_back(s.a, s.b);
+  for (const auto& [a, b] : ends_) segments.push_back(Box::of(c_.at[a], c_.at[b]));
+  point_tree_ = BoxTree(points, BoxTree::Order::Hilbert);
+  segment_tree_ = BoxTree(segments, BoxTree::Order::Hilbert);
+}
+
+void ShorePieces::gather(VertexId v, double reach) {
+  points_.clear();
+  segments_.clear();
+  const VertexId p = c_.prev[v], q = c_.next[v];
+  Box box = Box::of(c_.at[p], c_.at[q]);
+  box.add(c_.at[v]);
+  box = box.grownBy((kNarrow + reach) * c_.size[v]);
+  point_tree_.visit(box, [&](std::uint32_t w) { points_.push_back(w); });
+  segment_tree_.visit(box, [&](std::uint32_t s) {
+    segments_.push_back(ends_[s]);
+    for (const VertexId w : {ends_[s].first, ends_[s].second}) points_.push_back(w);
+  });
+  for (const VertexId w : {c_.prev[p], c_.next[q]})
+    if (w != kNone) points_.push_back(w);
+  std::ranges::sort(points_);
+  const auto repeated = std::ranges::unique(points_);
+  points_.erase(repeated.begin(), repeated.end());
+}
+
+double ShorePieces::qualityOf(VertexId v, const std::optional<Point>& x) const {
+  const VertexId p = c_.prev[v], q = c_.next[v], pp = c_.prev[p], qq = c_.next[q];
+  const Point &a = c_.at[p], &b = c_.at[q];
+  double quality = 1.0;
+  const auto take = [&](double share) { quality = std::min(quality, share); };
+  const auto takeLength = [&](const Point& from, const Point& to) { take(distance(from, to) / (kShort * c_.size[v])); };
+  const auto takeAngle = [&](const Point& from, const Point& at, const Point& to) {
+    take(waterAngle(from, at, to) / kSmallShoreAngle);
+  };
+  if (x) {
+    takeLength(a, *x), takeLength(*x, b);
+    takeAngle(a, *x, b);
+    if (pp != kNone) takeAngle(c_.at[pp], a, *x);
+    if (qq != kNone) takeAngle(*x, b, c_.at[qq]);
+  } else {
+    takeLength(a, b);
+    if (pp != kNone) takeAngle(c_.at[pp], a, b);
+    if (qq != kNone) takeAngle(a, b, c_.at[qq]);
+  }
+  const double least = kNarrow * c_.size[v];
+  for (const VertexId w : points_) {
+    if (w == v || w == p || w == q || !c_.alive[w]) continue;
+    const Point& y = c_.at[w];
+    if (x) {
+      if (w != pp) take(apartInWater(y, a, *x) / least);
+      if (w != qq) take(apartInWater(y, *x, b) / least);
+    } else if (w != pp && w != qq) {
+      take(apartInWater(y, a, b) / least);
+    }
+  }
+  if (!x) return quality;
+  for (const auto& [s, e] : segments_) {
+    if (s == v || e == v || s == p || e == p || s == q || e == q || !c_.alive[s] || !c_.alive[e]) continue;
+    // With the segment's own water to its left, or a line with water on both sides.
+    take(std::sqrt(squaredDistanceToSegment(*x, c_.at[s], c_.at[e])) *
+         (c_.next[s] == e && orient2d(c_.at[s], c_.at[e], *x) <= 0 ? 1e9 : 1.0) / least);
+  }
+  return quality;
+}
+
+bool ShorePieces::canMove(VertexId v, const Point& x) const {
+  const VertexId p = c_.prev[v], q = c_.next[v];
+  const Point& from = c_.at[v];
+  for (const VertexId w : points_) {
+    if (w == v || !c_.alive[w]) continue;
+    if (w != p && w != q && (holds(c_.at[p], from, x, c_.at[w]) || holds(from, c_.at[q], x, c_.at[w]))) return false;
+  }
+  if (orient2d(c_.at[p], x, c_.at[q]) == 0 || holds(c_.at[p], from, x, c_.at[q]) || holds(from, c_.at[q], x, c_.at[p]))
+    return false;
+  return std::ranges::none_of(segments_, [&](const auto& s) {
+    return s.first != v && s.second != v && c_.alive[s.first] && c_.alive[s.second] &&
+           crosses(from, x, c_.at[s.first], c_.at[s.second]);
+  });
+}
+
+bool ShorePieces::canCut(VertexId v) const {
+  const VertexId p = c_.prev[v], q = c_.next[v];
+  const Point &a = c_.at[p], &x = c_.at[v], &b = c_.at[q];
+  return std::ranges::none_of(
+      points_, [&](VertexId w) { return w != v && w != p && w != q && c_.alive[w] && holds(a, x, b, c_.at[w]); });
+}
+
+double ShorePieces::apart(VertexId v, const Point& x) const {
+  const VertexId p = c_.prev[v], q = c_.next[v];
+  const Point &a = c_.at[p], &b = c_.at[q];
+  double least = std::numeric_limits<double>::infinity();
+  for (const VertexId w : points_) {
+    if (w == v || w == p || w == q || w == c_.prev[p] || w == c_.next[q] || !c_.alive[w]) continue;
+    least = std::min({least, squaredDistanceToSegment(c_.at[w], a, x), squaredDistanceToSegment(c_.at[w], x, b)});
+  }
+  for (const auto& [s, e] : segments_) {
+    if (s == v || e == v || s == p || e == p || s == q || e == q || !c_.alive[s] || !c_.alive[e]) continue;
+    least = std::min(least, squaredDistanceToSegment(x, c_.at[s], c_.at[e]));
+  }
+  return std::sqrt(least);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,42 @@
+#include "gis/file/prj_file.hpp"
+#include "gis/format/fort14_text.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/grid/ibtype.hpp"
+
+namespace coastmesh {
+namespace {
+
+// ADCIRC's fort.14, depth positive down, and the CRS in a .prj beside it. Throws OutputError, also where a depth is
+// unknown.
+void writeAdcirc(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
+  TextWriter file(path);
+  writeFort14(file, grid, grid.nodes, Fort14Kind::Adcirc);
+  file.close();
+  writePrjBeside(path, grid.crs);
+}
+
+// Reads it back, with what is wrong in it as `notes`. Throws InputError.
+Grid readAdcirc(const std::string& path) {
+  Grid grid = readFort14(path);
+  for (Boundary& boundary : grid.boundaries) {
+    if (isRolesOwn(boundary.ibtype)) boundary.ibtype = -1;
+  }
+  grid.crs = readPrjBeside(path);
+  return grid;
+}
+
+}  // namespace
+
+FormatRecord adcircFormat() {
+  return {{"adcirc",
+           {".14", ".grd"},
+           "ADCIRC's fort.14, depth positive down",
+           true,
+           true,
+           {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs},
+           true},
+          {writeAdcirc, readAdcirc, withPrjBeside}};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "gis/file/output_files.hpp"
+#include "gis/format/grid_io.hpp"
+
+namespace coastmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Files of one name and these endings make one source.
+const std::vector<std::vector<std::string_view>> kSets = {{".shp", ".shx", ".dbf", ".cpg", ".qix", ".sbn", ".sbx"},
+                                                          {".tab", ".dat", ".map", ".id", ".ind"},
+                                                          {".mif", ".mid"}};
+// Beside any source: its CRS, its place, what says more of it.
+constexpr std::array<std::string_view, 8> kInPlace = {".prj", ".qpj", ".tfw", ".wld", ".hdr", ".gfs", ".xsd", ".clr"};
+constexpr std::array<std::string_view, 6> kAfter = {".aux.xml", ".ovr", ".msk", ".qpj", "-wal", "-journal"};
+
+const GridFormat* formatOf(const std::string& path) {
+  for (const GridFormat& format : gridFormats()) {
+    for (const std::string_view ending : format.endings)
+      if (path.ends_with(ending)) return &format;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> companionsOf(const std::string& path) {
+  std::vector<std::string> all;
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error))
+      all.push_back(entry->path().string());
+    return all;
+  }
+  const auto add = [&](std::string_view ending) { all.push_back(fs::path(path).replace_extension(ending).string()); };
+  std::ranges::for_each(kInPlace, add);
+  for (const auto& set : kSets) {
+    if (std::ranges::count(set, fs::path(path).extension().string()) > 0) std::ranges::for_each(set, add);
+  }
+  for (const std::string_view ending : kAfter) all.push_back(path + std::string(ending));
+  // A .poly may leave its points to a .node.
+  const GridFormat* format = path.ends_with(".poly") ? &gridFormatFor(".node") : formatOf(path);
+  if (format != nullptr) {
+    const OutputFiles files = filesOf(*format, path);
+    all.insert(all.end(), files.targets.begin(), files.targets.end());
+    if (!files.prj.empty()) all.push_back(files.prj);
+  }
+  std::erase(all, path);
+  return all;
+}
+
+}  // namespace coastmesh

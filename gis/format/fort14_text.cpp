@@ -1,0 +1,235 @@
+#include "gis/format/fort14_text.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "gis/error.hpp"
+#include "gis/file/text_reader.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/ibtype.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr std::string_view kNoTitle = "coastmesh";
+
+// A segment of nodes as the file has it.
+struct Segment {
+  std::vector<std::uint32_t> nodes;
+  int type = 0;
+  const Boundary* weir = nullptr;
+};
+
+// A weir's number without its heights would make a file that ADCIRC misreads: the role's own stands there then.
+int adcircType(const Boundary& boundary) {
+  const Ibtype* const told = findIbtype(boundary.ibtype);
+  const bool complete = told != nullptr && !isBareWeir(boundary);
+  return complete ? told->number : ibtypeOf(boundary.role, boundary.closed);
+}
+
+int typeOf(const Boundary& boundary, Fort14Kind kind) {
+  if (kind == Fort14Kind::Adcirc) return adcircType(boundary);
+  return boundary.role == BoundaryRole::Island && boundary.closed ? 1 : 0;
+}
+
+bool isOpen(const Boundary& boundary, Fort14Kind kind) {
+  return boundary.role == BoundaryRole::Open || (kind == Fort14Kind::Schism && boundary.role == BoundaryRole::River);
+}
+
+std::vector<Segment> segmentsOf(const Grid& grid, Fort14Kind kind, bool open) {
+  std::vector<Segment> segments;
+  for (const Boundary& boundary : grid.boundaries) {
+    if (isOpen(boundary, kind) != open || boundary.nodes.empty()) continue;
+    const int type = open ? 0 : typeOf(boundary, kind);
+    const bool weir = kind == Fort14Kind::Adcirc && !open && !boundary.weir.empty();
+    const bool closes_itself = !open && findIbtype(type)->closesItself();
+    if (!boundary.closed || closes_itself || weir) {
+      segments.push_back({boundary.nodes, type, weir ? &boundary : nullptr});
+      continue;
+    }
+    const auto begin = boundary.nodes.begin(), end = boundary.nodes.end(), middle = begin + (end - begin) / 2;
+    segments.push_back({{begin, middle + 1}, type, nullptr});
+    segments.push_back({{middle, end}, type, nullptr});
+    segments.back().nodes.push_back(boundary.nodes.front());
+  }
+  return segments;
+}
+
+void writeSegments(TextWriter& file, const Grid& grid, Fort14Kind kind, bool open) {
+  const std::vector<Segment> segments = segmentsOf(grid, kind, open);
+  std::size_t nodes = 0;
+  for (const Segment& segment : segments)
+    nodes += segment.nodes.size() * (segment.weir != nullptr && !segment.weir->back_nodes.empty() ? 2 : 1);
+  const char* const what = open ? "open boundaries" : "land boundaries";
+  file << segments.size() << " = number of " << what << '\n' << nodes << " = number of nodes on " << what << '\n';
+  std::size_t number = 0;
+  for (const Segment& segment : segments) {
+    file << segment.nodes.size();
+    // ADCIRC reads a second number here, SCHISM only for land.
+    if (!open || kind == Fort14Kind::Adcirc) file << ' ' << segment.type;
+    file << " = number of nodes of " << (open ? "open" : "land") << " boundary " << ++number << '\n';
+    for (std::size_t i = 0; i < segment.nodes.size(); ++i) {
+      file << segment.nodes[i] + 1;
+      if (segment.weir != nullptr) {
+        const Boundary& weir = *segment.weir;
+        if (!weir.back_nodes.empty()) file << ' ' << weir.back_nodes[i] + 1;
+        const std::size_t values = weir.weir.size() / weir.nodes.size();
+        for (std::size_t k = 0; k < values; ++k) file << ' ' << weir.weir[i * values + k];
+      }
+      file << '\n';
+    }
+  }
+}
+
+std::string oneLine(std::string title) {
+  std::ranges::replace_if(
+      title, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  const std::size_t first = title.find_first_not_of(" \t,"), last = title.find_last_not_of(" \t,");
+  return first == std::string::npos ? std::string(kNoTitle) : title.substr(first, last - first + 1);
+}
+
+}  // namespace
+
+void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& places, Fort14Kind kind) {
+  file << oneLine(grid.title) << '\n' << grid.triangles.size() << ' ' << grid.nodes.size() << '\n';
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double depth = grid.z.empty() ? 0.0 : 0.0 - grid.z[i];  // never -0
+    file << i + 1 << ' ' << places[i].x << ' ' << places[i].y << ' ' << depth << '\n';
+  }
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    file << t + 1 << " 3 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  }
+  writeSegments(file, grid, kind, true);
+  writeSegments(file, grid, kind, false);
+}
+
+namespace {
+
+// A line's first number; what follows it is a comment. None at the end of the file.
+std::optional<std::uint64_t> countLine(TextReader& file) {
+  if (!file.nextLine()) return std::nullopt;
+  return file.count();
+}
+
+std::uint64_t needCountLine(TextReader& file) {
+  file.needLine();
+  return file.count();
+}
+
+class NodeNumbers {
+ public:
+  NodeNumbers(std::vector<std::int64_t> ids, const TextReader& file) : index_(std::move(ids), file, "node") {}
+
+  std::uint32_t read(TextReader& file) const {
+    const std::int64_t id = file.integer();
+    const std::uint32_t node = index_.indexOf(id);
+    if (node == kNone) file.fail("there is no node " + std::to_string(id));
+    return node;
+  }
+
+ private:
+  IdMap index_;
+};
+
+NodeNumbers readNodes(TextReader& file, std::uint64_t count, Grid& grid) {
+  std::vector<std::int64_t> ids;
+  bool in_order = true;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    file.needLine();
+    ids.push_back(file.integer());
+    in_order = in_order && ids.back() == static_cast<std::int64_t>(i) + 1;
+    const double x = file.number(), y = file.number();
+    grid.nodes.push_back({x, y});
+    grid.z.push_back(0.0 - file.number());
+  }
+  if (!in_order) grid.notes.emplace_back("nodes are not numbered from 1 in their order");
+  if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
+  return {std::move(ids), file};
+}
+
+void readElements(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
+  bool in_order = true;
+  for (std::uint64_t t = 0; t < count; ++t) {
+    file.needLine();
+    in_order = in_order && file.integer() == static_cast<std::int64_t>(t) + 1;
+    if (const std::int64_t corners = file.integer(); corners != 3)
+      file.fail("an element of " + std::to_string(corners) + " nodes; only meshes of triangles can be read");
+    auto& triangle = grid.triangles.emplace_back();
+    for (std::uint32_t& corner : triangle) corner = numbers.read(file);
+  }
+  if (!in_order) grid.notes.emplace_back("elements are not numbered from 1 in their order");
+}
+
+void readNodesOf(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, const Ibtype& type,
+                 Boundary& boundary) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    file.needLine();
+    boundary.nodes.push_back(numbers.read(file));
+    if (type.has_back_nodes) boundary.back_nodes.push_back(numbers.read(file));
+    for (std::size_t k = 0; k < type.values; ++k) boundary.weir.push_back(file.number());
+  }
+}
+
+void closeLoop(Boundary& boundary) {
+  const bool repeats = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
+  boundary.closed = boundary.weir.empty() && (repeats || boundary.role == BoundaryRole::Island);
+  boundary.repeats_first = repeats;
+  if (boundary.closed && repeats) boundary.nodes.pop_back();
+}
+
+void readOpenSegments(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
+  const std::uint64_t said = needCountLine(file);
+  std::uint64_t nodes = 0;
+  for (std::uint64_t s = 0; s < count; ++s) {
+    Boundary boundary{BoundaryRole::Open, false, {}};
+    const std::uint64_t length = needCountLine(file);
+    readNodesOf(file, length, numbers, {}, boundary);
+    nodes += length;
+    closeLoop(boundary);
+    grid.boundaries.push_back(std::move(boundary));
+  }
+  if (nodes != said)
+    grid.notes.push_back("NETA is " + std::to_string(said) + ", but the open segments have " + std::to_string(nodes) +
+                         " nodes");
+}
+
+void readLandSegments(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
+  const std::uint64_t said = needCountLine(file);
+  std::uint64_t nodes = 0;
+  for (std::uint64_t s = 0; s < count; ++s) {
+    const std::uint64_t length = needCountLine(file);
+    const std::int64_t number = file.integer();
+    const Ibtype* const type = number < 0 || number > 200 ? nullptr : findIbtype(static_cast<int>(number));
+    if (type == nullptr) file.fail("ADCIRC has no boundary type " + std::to_string(number));
+    Boundary boundary{type->role, false, {}, type->number};
+    readNodesOf(file, length, numbers, *type, boundary);
+    nodes += length + boundary.back_nodes.size();
+    closeLoop(boundary);
+    grid.boundaries.push_back(std::move(boundary));
+  }
+  if (nodes != said)
+    grid.notes.push_back("NVEL is " + std::to_string(said) + ", but the land segments have " + std::to_string(nodes) +
+                         " nodes");
+}
+
+}  // namespace
+
+Grid readFort14(const std::string& path) {
+  TextReader file(path);
+  file.needLine();
+  Grid grid;
+  grid.title = std::string(file.line());
+  if (grid.title == kNoTitle) grid.title.clear();
+  file.needLine();
+  const std::uint64_t elements = file.count(), nodes = file.count();
+  const NodeNumbers numbers = readNodes(file, nodes, grid);
+  readElements(file, elements, numbers, grid);
+  if (const auto open = countLine(file)) {
+    readOpenSegments(file, *open, numbers, grid);
+    if (const auto land = countLine(file)) readLandSegments(file, *land, numbers, grid);
+  }
+  return grid;
+}
+
+}  // namespace coastmesh

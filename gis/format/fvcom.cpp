@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "gis/crs/crs_map.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/file/text_reader.hpp"
+#include "gis/file/text_writer.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/grid/rim_boundaries.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr std::string_view kGridEnding = "_grd.dat";
+constexpr int kOpenNodeType = 1;  // prescribed elevation
+
+std::string fileOfSet(const std::string& path, const char* which) {
+  std::string base = path;
+  if (base.ends_with(kGridEnding)) {
+    base.resize(base.size() - kGridEnding.size());
+  } else {
+    base = std::filesystem::path(path).replace_extension().string();
+  }
+  return base.append("_").append(which).append(".dat");
+}
+
+// In the order along each boundary, each node once.
+std::vector<std::uint32_t> openNodes(const Grid& grid) {
+  std::vector<std::uint32_t> nodes;
+  std::vector<bool> seen(grid.nodes.size(), false);
+  for (const Boundary& boundary : grid.boundaries) {
+    if (boundary.role != BoundaryRole::Open) continue;
+    for (const std::uint32_t node : boundary.nodes) {
+      if (!seen[node]) nodes.push_back(node);
+      seen[node] = true;
+    }
+  }
+  return nodes;
+}
+
+std::vector<double> latitudes(const Grid& grid) {
+  std::vector<double> out(grid.nodes.size(), 0.0);
+  if (grid.crs.isPlane()) return out;
+  if (grid.crs.geographic) {
+    std::ranges::transform(grid.nodes, out.begin(), &Point::y);
+    return out;
+  }
+  const CrsMap map(toOgr(grid.crs), geographicBase(grid.crs));
+  std::ranges::transform(grid.nodes, out.begin(), [&](const Point& p) { return map.forward(p).y; });
+  return out;
+}
+
+void writeNodeFile(const Grid& grid, const std::vector<double>& values, const std::string& path) {
+  TextWriter file(path);
+  file << "Node Number = " << grid.nodes.size() << '\n';
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    file << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << values[i] << '\n';
+  file.close();
+}
+
+void writeCells(const Grid& grid, const std::vector<double>& depths, const std::string& path) {
+  TextWriter file(path);
+  file << "Node Number = " << grid.nodes.size() << "\nCell Number = " << grid.triangles.size() << '\n';
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    file << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << " 1\n";
+  }
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    file << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << depths[i] << '\n';
+  file.close();
+}
+
+// FVCOM's set: `lake_grd.dat` (cells and nodes), `lake_dep.dat` (depth, positive down), `lake_obc.dat` (nodes of open
+// boundaries, type 1) and `lake_cor.dat` (latitudes; 0, which is no rotation, in a plane), with the CRS in a .prj.
+// `path` is the first of them; without "_grd.dat" at its end it gives the name of the set. Rivers are shore here: FVCOM
+// has them in its namelist. Throws OutputError, also where a depth is unknown.
+void writeFvcom(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
+  std::vector<double> depths(grid.nodes.size(), 0.0);
+  std::ranges::transform(grid.z, depths.begin(), [](double z) { return 0.0 - z; });
+  writeCells(grid, depths, fileOfSet(path, "grd"));
+  writeNodeFile(grid, depths, fileOfSet(path, "dep"));
+  writeNodeFile(grid, latitudes(grid), fileOfSet(path, "cor"));
+  const std::vector<std::uint32_t> open = openNodes(grid);
+  TextWriter file(fileOfSet(path, "obc"));
+  file << "OBC Node Number = " << open.size() << '\n';
+  for (std::size_t i = 0; i < open.size(); ++i) file << i + 1 << ' ' << open[i] + 1 << ' ' << kOpenNodeType << '\n';
+  file.close();
+  writePrjBeside(fileOfSet(path, "grd"), grid.crs);
+}
+
+namespace {
+
+// "Node Number = 12".
+std::uint64_t readCount(TextReader& file, std::string_view what) {
+  file.needLine();
+  const std::string_view line = file.line();
+  if (line.substr(0, line.find('=')).find(what) == std::string_view::npos || line.find('=') == std::string_view::npos)
+    file.fail("\"" + std::string(what) + " = ...\" is expected");
+  while (file.hasWord()) {
+    const std::string_view word = file.word();
+    if (word == "=") return file.count();
+  }
+  file.fail("\"" + std::string(what) + " = \" and a number apart from it are expected");
+}
+
+std::uint32_t readNode(TextReader& file, const Grid& grid) {
+  const std::int64_t id = file.integer();
+  if (id < 1 || id > static_cast<std::int64_t>(grid.nodes.size())) file.fail("there is no node " + std::to_string(id));
+  return static_cast<std::uint32_t>(id - 1);
+}
+
+void readCells(const std::string& path, Grid& grid) {
+  TextReader file(path);
+  const std::uint64_t nodes = readCount(file, "Node Number"), cells = readCount(file, "Cell Number");
+  if (nodes > file.size()) file.fail("it has fewer nodes than it says");
+  grid.nodes.resize(nodes);
+  for (std::uint64_t t = 0; t < cells; ++t) {
+    file.needLine();
+    file.integer();
+    auto& triangle = grid.triangles.emplace_back();
+    for (std::uint32_t& corner : triangle) corner = readNode(file, grid);
+  }
+  for (Point& node : grid.nodes) {
+    file.needLine();
+    file.integer();
+    node.x = file.number();
+    node.y = file.number();
+    grid.z.push_back(file.hasWord() ? 0.0 - file.number() : 0.0);
+  }
+}
+
+void readDepths(const std::string& path, Grid& grid) {
+  if (!std::filesystem::exists(path)) return;
+  TextReader file(path);
+  if (readCount(file, "Node Number") != grid.nodes.size()) file.fail("it has not as many nodes as the grid");
+  for (double& z : grid.z) {
+    file.needLine();
+    file.number();
+    file.number();
+    z = 0.0 - file.number();
+  }
+}
+
+std::vector<bool> readOpenNodes(const std::string& path, const Grid& grid) {
+  std::vector<bool> is_open(grid.nodes.size(), false);
+  if (!std::filesystem::exists(path)) return is_open;
+  TextReader file(path);
+  const std::uint64_t count = readCount(file, "OBC Node Number");
+  for (std::uint64_t i = 0; i < count; ++i) {
+    file.needLine();
+    file.integer();
+    is_open[readNode(file, grid)] = true;
+  }
+  return is_open;
+}
+
+}  // namespace
+
+// Reads the set, of which all but the first may be missing. Throws InputError.
+Grid readFvcom(const std::string& path) {
+  Grid grid;
+  readCells(fileOfSet(path, "grd"), grid);
+  readDepths(fileOfSet(path, "dep"), grid);
+  if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
+  grid.boundaries = boundariesOfOpenNodes(grid, readOpenNodes(fileOfSet(path, "obc"), grid));
+  grid.crs = readPrjBeside(fileOfSet(path, "grd"));
+  return grid;
+}
+
+}  // namespace
+
+FormatRecord fvcomFormat() {
+  const auto files = [](const std::string& path) -> OutputFiles {
+    OutputFiles all;
+    for (const char* which : {"grd", "dep", "obc", "cor"}) all.targets.push_back(fileOfSet(path, which));
+    all.prj = prjBeside(fileOfSet(path, "grd"));
+    return all;
+  };
+  return {{"fvcom",
+           {std::string_view(kGridEnding)},
+           "FVCOM's _grd, _dep, _obc and _cor.dat, depth positive down",
+           true,
+           true,
+           {},
+           true},
+          {writeFvcom, readFvcom, files}};
+}
+
+}  // namespace coastmesh

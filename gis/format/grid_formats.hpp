@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gis/file/output_files.hpp"
+#include "gis/format/grid_format.hpp"
+#include "gis/grid/grid.hpp"
+
+namespace coastmesh {
+
+// How a format is written and read. Private to gis.
+struct FormatFunctions {
+  void (*write)(const Grid&, const std::string& path) = nullptr;
+  Grid (*read)(const std::string& path) = nullptr;
+  OutputFiles (*files)(const std::string& path) = nullptr;  // null: `path` and nothing else
+};
+
+struct FormatRecord {
+  GridFormat format;
+  FormatFunctions functions;
+};
+
+// Every format, in the order of messages, by the function that tells of it, which stands in the file that writes it. A
+// new format is one line here.
+#define COASTMESH_GRID_FORMATS(FORMAT) \
+  FORMAT(geoPackageFormat)             \
+  FORMAT(geoJsonFormat)                \
+  FORMAT(shapefileFormat)              \
+  FORMAT(flatGeobufFormat)             \
+  FORMAT(ugridFormat)                  \
+  FORMAT(adcircFormat)                 \
+  FORMAT(schismFormat)                 \
+  FORMAT(telemacFormat)                \
+  FORMAT(fvcomFormat)                  \
+  FORMAT(sms2dmFormat)                 \
+  FORMAT(gmshFormat)                   \
+  FORMAT(gmsh22Format)                 \
+  FORMAT(ww3Format)                    \
+  FORMAT(triangleFormat)               \
+  FORMAT(vtuFormat)
+#define COASTMESH_FORMAT(name) FormatRecord name();
+COASTMESH_GRID_FORMATS(COASTMESH_FORMAT)
+#undef COASTMESH_FORMAT
+
+// `path` with another ending in place of its last.
+std::string withEnding(const std::string& path, const char* ending);
+OutputFiles withPrjBeside(const std::string& path);  // `path`, and a .prj that says its CRS
+OutputFiles layerFiles(const std::string& path);     // a file each for triangles, nodes, boundaries and lines
+
+const FormatFunctions& functionsOf(const GridFormat& format);
+
+}  // namespace coastmesh

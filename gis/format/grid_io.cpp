@@ -1,0 +1,133 @@
+#include "gis/format/grid_io.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <filesystem>
+
+#include "gis/crs/geodesy.hpp"
+#include "gis/error.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_layers.hpp"
+#include "gis/grid/grid_edit.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+namespace {
+
+const std::vector<FormatRecord>& records() {
+  static const std::vector<FormatRecord> known = {
+#define COASTMESH_FORMAT(name) name(),
+      COASTMESH_GRID_FORMATS(COASTMESH_FORMAT)
+#undef COASTMESH_FORMAT
+  };
+  return known;
+}
+
+// The longest of the endings that fit: "_22.msh" before ".msh".
+const GridFormat* formatByEnding(const std::string& path) {
+  std::string lower = path;
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const GridFormat* found = nullptr;
+  std::size_t longest = 0;
+  for (const GridFormat& format : gridFormats()) {
+    for (const std::string_view ending : format.endings) {
+      if (ending.size() <= longest || !lower.ends_with(ending)) continue;
+      found = &format;
+      longest = ending.size();
+    }
+  }
+  return found;
+}
+
+std::string endingList(bool GridFormat::*able) {
+  std::string list;
+  for (const GridFormat& format : gridFormats()) {
+    if (!(format.*able)) continue;
+    for (const std::string_view ending : format.endings) {
+      if (!list.empty()) list += ' ';
+      list += ending;
+    }
+  }
+  return list;
+}
+
+std::size_t edgesOfLines(const Grid& grid) {
+  std::size_t edges = 0;
+  for (const GridLine& line : grid.lines) edges += edgesOf(line).size();
+  return edges;
+}
+
+// Lines of other programs may run anywhere.
+void keepLinesInside(Grid& grid) {
+  const std::size_t before = edgesOfLines(grid);
+  cutLinesOffEdges(grid);
+  const std::size_t lost = before - edgesOfLines(grid);
+  if (lost > 0)
+    grid.notes.push_back(std::to_string(lost) + " edges of lines are none between two triangles and are left out");
+}
+
+}  // namespace
+
+const std::vector<GridFormat>& gridFormats() {
+  static const std::vector<GridFormat> formats = [] {
+    std::vector<GridFormat> all;
+    for (const FormatRecord& record : records()) all.push_back(record.format);
+    return all;
+  }();
+  return formats;
+}
+
+const GridFormat& gridFormatFor(const std::string& path, const std::string& name) {
+  if (name.empty()) {
+    if (const GridFormat* format = formatByEnding(path)) return *format;
+    throw OutputError("cannot tell the format of '" + path + "'; known endings are " +
+                      endingList(&GridFormat::writable));
+  }
+  std::string names;
+  for (const GridFormat& format : gridFormats()) {
+    if (format.name == name) return format;
+    names += ' ';
+    names += format.name;
+  }
+  throw OutputError("there is no format '" + name + "'; known are" + names);
+}
+
+const FormatFunctions& functionsOf(const GridFormat& format) {
+  const auto found =
+      std::ranges::find(records(), format.name, [](const FormatRecord& record) { return record.format.name; });
+  assert(found != records().end());
+  return found->functions;
+}
+
+std::string withEnding(const std::string& path, const char* ending) {
+  return std::filesystem::path(path).replace_extension(ending).string();
+}
+
+OutputFiles withPrjBeside(const std::string& path) { return {{path}, {}, prjBeside(path)}; }
+
+OutputFiles layerFiles(const std::string& path) {
+  return {
+      {path, pathOfLayer(path, kNodeLayer), pathOfLayer(path, kBoundaryLayer), pathOfLayer(path, kLineLayer)}, {}, {}};
+}
+
+OutputFiles filesOf(const GridFormat& format, const std::string& path) {
+  const FormatFunctions& functions = functionsOf(format);
+  return functions.files ? functions.files(path) : OutputFiles{{path}, {}, {}};
+}
+
+Grid readGrid(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError("there is no file '" + path + "'");
+  if (std::filesystem::is_directory(path, error)) throw InputError("'" + path + "' is a folder, no mesh");
+  const GridFormat* const format = formatByEnding(path);
+  if (format == nullptr || !format->readable)
+    throw InputError("cannot read '" + path + "' as a mesh; known endings are " + endingList(&GridFormat::readable));
+  Grid grid = functionsOf(*format).read(path);
+  keepLinesInside(grid);
+  requirePlaces(grid.nodes, grid.crs, path);
+  return grid;
+}
+
+}  // namespace coastmesh

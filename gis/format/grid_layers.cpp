@@ -1,0 +1,153 @@
+#include "gis/format/grid_layers.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "gis/coast/feature_names.hpp"
+#include "gis/crs/geodesy.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+namespace {
+
+LayerColumn idColumn() {
+  return {"id", LayerColumn::Whole([](std::size_t row) { return static_cast<std::int64_t>(row) + 1; })};
+}
+
+// A text of the triangle's feature; left out where no feature has it.
+void addFeatureText(const Grid& grid, const std::string& name, std::vector<std::string_view> texts,
+                    std::vector<LayerColumn>& columns) {
+  std::size_t longest = 0;
+  for (const std::string_view text : texts) longest = std::max(longest, text.size());
+  if (longest == 0) return;
+  columns.push_back({name, LayerColumn::Text([&grid, texts = std::move(texts)](std::size_t row) {
+                       return texts[grid.feature_of[row]];
+                     }),
+                     longest});
+}
+
+GridLayer triangleLayer(const Grid& grid) {
+  GridLayer layer{std::string(kTriangleLayer), GridLayer::Shape::Polygon, grid.triangles.size(), {idColumn()}, {}};
+  layer.shapeOf = [&grid](std::size_t row, std::vector<std::uint32_t>& nodes) {
+    const auto& [a, b, c] = grid.triangles[row];
+    nodes.assign({a, b, c, a});
+  };
+  for (std::size_t i = 0; i < 3; ++i)
+    layer.columns.push_back({std::string(kCornerColumns[i]), LayerColumn::Whole([&grid, i](std::size_t row) {
+                               return std::int64_t{grid.triangles[row][i]} + 1;
+                             })});
+  if (!grid.min_angle_deg.empty())
+    layer.columns.push_back(
+        {"min_angle", LayerColumn::Real([&grid](std::size_t row) { return grid.min_angle_deg[row]; })});
+  if (!grid.area_m2.empty())
+    layer.columns.push_back({"area_m2", LayerColumn::Real([&grid](std::size_t row) { return grid.area_m2[row]; })});
+  if (grid.feature_of.empty()) return layer;
+  layer.columns.push_back(
+      {"src_fid", LayerColumn::Whole([&grid](std::size_t row) { return grid.features[grid.feature_of[row]].fid; })});
+  std::vector<std::string_view> sources, names;
+  for (const GridFeature& feature : grid.features) {
+    sources.push_back(feature.source);
+    names.push_back(nameOf(feature.attributes));
+  }
+  addFeatureText(grid, "source", std::move(sources), layer.columns);
+  addFeatureText(grid, "name", std::move(names), layer.columns);
+  const auto inRegion = [](const GridFeature& feature) { return !feature.region.empty(); };
+  if (std::ranges::any_of(grid.features, inRegion)) {
+    std::vector<std::string_view> regions;
+    for (const GridFeature& feature : grid.features) regions.push_back(feature.region);
+    addFeatureText(grid, "region", std::move(regions), layer.columns);
+  }
+  return layer;
+}
+
+GridLayer nodeLayer(const Grid& grid) {
+  GridLayer layer{std::string(kNodeLayer), GridLayer::Shape::Point, grid.nodes.size(), {idColumn()}, {}};
+  layer.shapeOf = [](std::size_t row, std::vector<std::uint32_t>& nodes) {
+    nodes.assign({static_cast<std::uint32_t>(row)});
+  };
+  if (!grid.z.empty())
+    layer.columns.push_back({"z", LayerColumn::Real([&grid](std::size_t row) { return grid.z[row]; })});
+  if (!grid.size_m.empty())
+    layer.columns.push_back({"size", LayerColumn::Real([&grid](std::size_t row) { return grid.size_m[row]; })});
+  return layer;
+}
+
+// Lengths of boundaries or lines in metres.
+template <typename Chain>
+std::vector<double> lengthsOf(const std::vector<Chain>& chains, const Grid& grid) {
+  std::vector<std::vector<Point>> places;
+  for (const Chain& chain : chains) {
+    std::vector<Point>& made = places.emplace_back();
+    for (const std::uint32_t node : chain.nodes) made.push_back(grid.nodes[node]);
+    if (chain.closed && !made.empty()) made.push_back(made.front());
+  }
+  return chainLengths(places, grid.crs);
+}
+
+// A layer of boundaries or lines, with the id as its column. REQUIRES: `chains` outlive it.
+template <typename Chain>
+GridLayer chainLayer(std::string_view name, const std::vector<Chain>& chains) {
+  GridLayer layer{std::string(name), GridLayer::Shape::Line, chains.size(), {idColumn()}, {}};
+  layer.shapeOf = [&chains](std::size_t row, std::vector<std::uint32_t>& nodes) {
+    nodes = chains[row].nodes;
+    if (chains[row].closed && !nodes.empty()) nodes.push_back(nodes.front());
+  };
+  return layer;
+}
+
+template <typename Chain>
+void addClosedAndLength(const std::vector<Chain>& chains, const Grid& grid, GridLayer& layer) {
+  layer.columns.push_back({"closed", LayerColumn::Flag([&chains](std::size_t row) { return chains[row].closed; })});
+  layer.columns.push_back(
+      {"length_m", LayerColumn::Real([lengths = lengthsOf(chains, grid)](std::size_t row) { return lengths[row]; })});
+}
+
+GridLayer boundaryLayer(const Grid& grid) {
+  GridLayer layer = chainLayer(kBoundaryLayer, grid.boundaries);
+  constexpr std::size_t kLongestRole = std::string_view("island").size();
+  layer.columns.push_back({"role",
+                           LayerColumn::Text([&grid](std::size_t row) { return toString(grid.boundaries[row].role); }),
+                           kLongestRole});
+  if (std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return boundary.ibtype >= 0; }))
+    layer.columns.push_back({"ibtype", LayerColumn::Whole([&grid](std::size_t row) -> std::optional<std::int64_t> {
+                               const int type = grid.boundaries[row].ibtype;
+                               return type >= 0 ? std::optional<std::int64_t>(type) : std::nullopt;
+                             })});
+  addClosedAndLength(grid.boundaries, grid, layer);
+  return layer;
+}
+
+GridLayer lineLayer(const Grid& grid) {
+  GridLayer layer = chainLayer(kLineLayer, grid.lines);
+  constexpr std::size_t kLongestKind = std::string_view("region border").size();
+  layer.columns.push_back(
+      {"kind", LayerColumn::Text([&grid](std::size_t row) { return toString(grid.lines[row].kind); }), kLongestKind});
+  std::size_t longest = 0;
+  for (const GridLine& line : grid.lines) longest = std::max(longest, line.name.size());
+  if (longest > 0)
+    layer.columns.push_back(
+        {"name", LayerColumn::Text([&grid](std::size_t row) { return std::string_view(grid.lines[row].name); }),
+         longest});
+  addClosedAndLength(grid.lines, grid, layer);
+  return layer;
+}
+
+}  // namespace
+
+std::vector<GridLayer> layersOf(const Grid& grid) {
+  std::vector<GridLayer> layers{triangleLayer(grid), nodeLayer(grid), boundaryLayer(grid)};
+  if (!grid.lines.empty()) layers.push_back(lineLayer(grid));
+  return layers;
+}
+
+std::string pathOfLayer(const std::string& path, std::string_view layer) {
+  if (layer == kTriangleLayer) return path;
+  const std::filesystem::path whole(path);
+  std::string name = whole.stem().string() + "_";
+  name += layer;
+  return (whole.parent_path() / (name + whole.extension().string())).string();
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,132 @@
+#include "gis/format/grid_losses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include "gis/grid/grid_lines.hpp"
+#include "gis/grid/ibtype.hpp"
+
+namespace coastmesh {
+namespace {
+
+std::string counted(std::size_t count, const std::string& one, const std::string& more) {
+  return std::to_string(count) + ' ' + (count == 1 ? one : more);
+}
+
+std::string joined(const std::vector<std::string>& parts, const char* between) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
+  return text;
+}
+
+// "1 weir and 2 constraints"
+std::string linesOf(const Grid& grid) {
+  std::vector<std::string> kinds;
+  const auto count = [&](LineKind kind, const std::string& one, const std::string& more) {
+    const auto lines = static_cast<std::size_t>(std::ranges::count(grid.lines, kind, &GridLine::kind));
+    if (lines > 0) kinds.push_back(counted(lines, one, more));
+  };
+  count(LineKind::Weir, "weir", "weirs");
+  count(LineKind::Constraint, "constraint", "constraints");
+  count(LineKind::RegionBorder, "border of a region", "borders of regions");
+  return joined(kinds, " and ");
+}
+
+template <typename Wanted>
+std::size_t countBoundaries(const Grid& grid, Wanted&& wanted) {
+  return static_cast<std::size_t>(std::ranges::count_if(grid.boundaries, wanted));
+}
+
+// "(0, 11)": the types of those boundaries.
+template <typename Wanted>
+std::string typesOf(const Grid& grid, Wanted&& wanted) {
+  std::set<int> numbers;
+  for (const Boundary& boundary : grid.boundaries)
+    if (wanted(boundary)) numbers.insert(boundary.ibtype);
+  std::vector<std::string> texts;
+  for (const int number : numbers) texts.push_back(std::to_string(number));
+  return '(' + joined(texts, ", ") + ')';
+}
+
+bool anyName(const Grid& grid) {
+  return std::ranges::any_of(
+      grid.features, [](const GridFeature& feature) { return !feature.source.empty() || !feature.attributes.empty(); });
+}
+
+// What the grid has of a part, in words; empty where it has nothing.
+std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) {
+  switch (part) {
+    case GridPart::Title:
+      return grid.title.empty() ? "" : "the title";
+    case GridPart::Sizes:
+      return grid.size_m.empty() ? "" : "the lengths that edges were to have";
+    case GridPart::Features:
+      return grid.feature_of.empty() ? "" : "the features that triangles come from";
+    case GridPart::FeatureNames:
+      return anyName(grid) ? "names and sources of features" : "";
+    case GridPart::Regions: {
+      std::set<std::string> names;
+      for (const GridFeature& feature : grid.features)
+        if (!feature.region.empty()) names.insert(feature.region);
+      return names.empty() ? "" : "the names of " + counted(names.size(), "region", "regions");
+    }
+    case GridPart::Pieces:
+      return grid.piece_of.empty() ? "" : "the pieces that triangles were refined in";
+    case GridPart::Lines: {
+      if (grid.lines.empty()) return "";
+      std::string text = linesOf(grid) + ", whose edges stay in the mesh";
+      const bool weirs = std::ranges::count(grid.lines, LineKind::Weir, &GridLine::kind) > 0;
+      if (weirs && format.holds.has(GridPart::Weirs))
+        text += " (a weir of its own takes nodes across and heights, and lines have none)";
+      return text;
+    }
+    case GridPart::LineNames: {
+      const bool named = std::ranges::any_of(grid.lines, [](const GridLine& line) { return !line.name.empty(); });
+      return named && format.holds.has(GridPart::Lines) ? "the names of lines" : "";
+    }
+    case GridPart::Rivers: {
+      const std::size_t rivers =
+          countBoundaries(grid, [](const Boundary& boundary) { return boundary.role == BoundaryRole::River; });
+      return rivers == 0 ? "" : "that " + counted(rivers, "boundary is a river", "boundaries are rivers");
+    }
+    case GridPart::Ibtypes: {
+      const auto told = [](const Boundary& boundary) { return boundary.ibtype >= 0; };
+      const std::size_t types = countBoundaries(grid, told);
+      if (types == 0) return "";
+      return "ADCIRC's types of " + counted(types, "boundary", "boundaries") + ' ' + typesOf(grid, told);
+    }
+    case GridPart::Weirs: {
+      const std::size_t weirs = countBoundaries(grid, [](const Boundary& boundary) { return !boundary.weir.empty(); });
+      return weirs == 0 ? "" : "heights and nodes across of " + counted(weirs, "weir", "weirs") + " between shores";
+    }
+    case GridPart::BareWeirs: {
+      const std::size_t bare = countBoundaries(grid, isBareWeir);
+      if (bare == 0 || !format.holds.has(GridPart::Ibtypes)) return "";
+      return "that " + counted(bare, "boundary is a weir", "boundaries are weirs") + ' ' + typesOf(grid, isBareWeir) +
+             ", whose heights are not known";
+    }
+  }
+  return "";
+}
+
+constexpr std::array kGivenParts{GridPart::Regions, GridPart::Pieces,  GridPart::Lines, GridPart::LineNames,
+                                 GridPart::Rivers,  GridPart::Ibtypes, GridPart::Weirs, GridPart::BareWeirs};
+constexpr std::array kAllParts{GridPart::Title,   GridPart::Sizes,   GridPart::Features, GridPart::FeatureNames,
+                               GridPart::Regions, GridPart::Pieces,  GridPart::Lines,    GridPart::LineNames,
+                               GridPart::Rivers,  GridPart::Ibtypes, GridPart::Weirs,    GridPart::BareWeirs};
+
+}  // namespace
+
+std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
+  std::vector<std::string> losses;
+  for (const GridPart part : kAllParts) {
+    if (of == LossesOf::Input && std::ranges::find(kGivenParts, part) == kGivenParts.end()) continue;
+    if (format.holds.has(part)) continue;
+    if (std::string words = wordsFor(part, grid, format); !words.empty()) losses.push_back(std::move(words));
+  }
+  return joined(losses, "; ");
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,81 @@
+#include "gis/format/nodes_by_place.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <utility>
+
+#include "core/ids.hpp"
+
+namespace coastmesh {
+
+std::size_t NodesByPlace::Hash::operator()(const Point& p) const {
+  // 0.0 and -0.0 are equal and so need the same hash.
+  const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
+  const std::uint64_t mixed = (x ^ std::rotl(y, 32)) * 0x9E3779B97F4A7C15ull;
+  return static_cast<std::size_t>(mixed ^ mixed >> 29);
+}
+
+void NodesByPlace::add(const Point& place, std::uint32_t node) {
+  const auto [at, added] = first_.emplace(place, node);
+  if (next_.size() <= node) next_.resize(node + 1, kNone);
+  if (added) return;
+  next_[node] = std::exchange(next_[at->second], node);
+  several_ = true;
+}
+
+std::uint32_t NodesByPlace::firstAt(const Point& place) const {
+  const auto at = first_.find(place);
+  return at == first_.end() ? kNone : at->second;
+}
+
+std::vector<std::uint32_t> NodesByPlace::allAt(const Point& place) const {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t node = firstAt(place); node != kNone; node = next_[node]) nodes.push_back(node);
+  return nodes;
+}
+
+LineNodes::LineNodes(const Grid& grid, const NodesByPlace& nodes, Along along) : nodes_(nodes), along_(along) {
+  if (!nodes.severalSomewhere()) return;
+  for (const auto& t : grid.triangles)
+    for (unsigned i = 0; i < 3; ++i) edges_.insert({t[i], t[(i + 1) % 3]});
+}
+
+std::vector<std::uint32_t> LineNodes::of(const std::vector<Point>& places) const {
+  std::vector<std::vector<std::uint32_t>> choices;
+  for (const Point& place : places) choices.push_back(nodes_.allAt(place));
+  std::vector<std::uint32_t> first;
+  for (const auto& nodes : choices) {
+    if (nodes.empty()) return {};
+    first.push_back(nodes.front());
+  }
+  if (edges_.empty() || choices.size() < 2) return first;
+  const bool closed = places.front() == places.back();
+  const std::vector<std::uint32_t> starts = choices.front();
+  for (const std::uint32_t start : starts) {
+    choices.front() = {start};
+    if (closed) choices.back() = {start};
+    if (std::vector<std::uint32_t> found = follow(choices); !found.empty()) return found;
+  }
+  return first;
+}
+
+bool LineNodes::joined(std::uint32_t a, std::uint32_t b) const {
+  return edges_.contains({a, b}) && edges_.contains({b, a}) == (along_ == Along::Inside);
+}
+
+std::vector<std::uint32_t> LineNodes::follow(const std::vector<std::vector<std::uint32_t>>& choices) const {
+  std::vector<std::map<std::uint32_t, std::uint32_t>> before(choices.size());  // a node, and the one before it
+  before[0].emplace(choices[0].front(), kNone);
+  for (std::size_t i = 1; i < choices.size(); ++i)
+    for (const std::uint32_t node : choices[i])
+      for (const auto& [from, unused] : before[i - 1])
+        if (joined(from, node)) before[i].emplace(node, from);
+  if (before.back().empty()) return {};
+  std::vector<std::uint32_t> nodes{before.back().begin()->first};
+  for (std::size_t i = choices.size() - 1; i > 0; --i) nodes.push_back(before[i].at(nodes.back()));
+  std::ranges::reverse(nodes);
+  return nodes;
+}
+
+}  // namespace coastmesh

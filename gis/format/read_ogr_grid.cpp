@@ -1,0 +1,366 @@
+#include "gis/format/read_ogr_grid.hpp"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <regex>
+#include <tuple>
+
+#include "core/ids.hpp"
+#include "gis/crs/crs_from_ogr.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/format/grid_layers.hpp"
+#include "gis/format/nodes_by_place.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid_edit.hpp"
+#include "gis/grid/grid_lines.hpp"
+#include "gis/grid/wind_triangles.hpp"
+
+namespace coastmesh {
+namespace {
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
+
+class LayerReader {
+ public:
+  LayerReader(OGRLayer& layer, std::string path, const OgrErrors& errors)
+      : layer_(layer), path_(std::move(path)), errors_(errors) {
+    layer_.ResetReading();
+  }
+
+  const OGRFeature* next() {
+    feature_.reset(layer_.GetNextFeature());
+    if (!feature_ && errors_.failed()) throw InputError("cannot read '" + path_ + "': " + errors_.text());
+    return feature_.get();
+  }
+
+  // -1 where there is none.
+  int field(std::string_view name) const { return layer_.GetLayerDefn()->GetFieldIndex(std::string(name).c_str()); }
+  std::uint64_t expected() const { return static_cast<std::uint64_t>(std::max<GIntBig>(layer_.GetFeatureCount(), 0)); }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError("'" + path_ + "', layer \"" + layer_.GetName() + "\", feature " +
+                     std::to_string(feature_ ? feature_->GetFID() : 0) + ": " + what);
+  }
+
+ private:
+  OGRLayer& layer_;
+  std::string path_;
+  const OgrErrors& errors_;
+  OGRFeatureUniquePtr feature_;
+};
+
+DatasetPtr open(const std::string& path, const OgrErrors& errors) {
+  GDALAllRegister();
+  DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  if (!dataset) throw InputError("cannot read '" + path + "'" + (errors.text().empty() ? "" : ": " + errors.text()));
+  return dataset;
+}
+
+OGRLayer& triangleLayer(GDALDataset& dataset, const std::string& path) {
+  if (OGRLayer* const layer = dataset.GetLayerByName(std::string(kTriangleLayer).c_str())) return *layer;
+  std::vector<OGRLayer*> polygons;
+  for (OGRLayer* const layer : dataset.GetLayers()) {
+    const OGRwkbGeometryType type = wkbFlatten(layer->GetGeomType());
+    if (type == wkbPolygon || type == wkbMultiPolygon || type == wkbTriangle || type == wkbTIN || type == wkbUnknown)
+      polygons.push_back(layer);
+  }
+  if (polygons.size() != 1)
+    throw InputError("'" + path + "' has " +
+                     (polygons.empty() ? "no layer" : std::to_string(polygons.size()) + " layers") +
+                     " of polygons and none is called \"" + std::string(kTriangleLayer) + "\"");
+  return *polygons.front();
+}
+
+// A layer that goes with the triangles: in the same file, or in one of its own beside it.
+struct Companion {
+  DatasetPtr dataset;  // null where it is the triangles' own
+  OGRLayer* layer = nullptr;
+  std::string path;
+};
+
+Companion findCompanion(GDALDataset& dataset, const std::string& path, std::string_view name, const OgrErrors& errors) {
+  if (OGRLayer* const layer = dataset.GetLayerByName(std::string(name).c_str())) return {nullptr, layer, path};
+  const std::string beside = pathOfLayer(path, name);
+  if (!std::filesystem::exists(beside)) return {};
+  DatasetPtr other = open(beside, errors);
+  OGRLayer* const layer = other->GetLayerCount() > 0 ? other->GetLayer(0) : nullptr;
+  return {std::move(other), layer, beside};
+}
+
+Point placeOf(const OGRSimpleCurve& chain, int i) { return {chain.getX(i), chain.getY(i)}; }
+
+// In the file's order, which says nothing of the winding: formats and programs have ways of their own.
+std::array<Point, 3> cornersOf(const OGRFeature& feature, const LayerReader& reader) {
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (geometry == nullptr || geometry->IsEmpty()) reader.fail("it has no geometry");
+  if (wkbFlatten(geometry->getGeometryType()) == wkbMultiPolygon) {
+    const OGRMultiPolygon& parts = *geometry->toMultiPolygon();
+    if (parts.getNumGeometries() != 1) reader.fail("it has several parts; only triangles can be read");
+    geometry = parts.getGeometryRef(0);
+  }
+  const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
+  if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is no polygon; only triangles can be read");
+  const OGRPolygon& polygon = *geometry->toPolygon();
+  const OGRLinearRing& ring = *polygon.getExteriorRing();
+  const int points = ring.getNumPoints();
+  if (polygon.getNumInteriorRings() != 0 || points != 4 || placeOf(ring, 0) != placeOf(ring, 3))
+    reader.fail("a polygon of " + std::to_string(points - 1) + " corners; only triangles can be read");
+  std::array<Point, 3> corners{placeOf(ring, 0), placeOf(ring, 1), placeOf(ring, 2)};
+  for (const Point& p : corners)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) reader.fail("a coordinate is not finite");
+  return corners;
+}
+
+// The order of `ids`, which are a layer's; empty where they repeat, and then the file's order is as good.
+std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
+  std::vector<std::uint32_t> order(ids.size());
+  std::iota(order.begin(), order.end(), 0u);
+  if (std::ranges::is_sorted(ids)) return order;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return ids[i]; });
+  return order;
+}
+
+// The answer is the ids of the nodes, ascending.
+std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid,
+                                        NodesByPlace& index) {
+  std::vector<std::int64_t> ids;
+  if (companion.layer == nullptr) return ids;
+  LayerReader reader(*companion.layer, companion.path, errors);
+  const int id_field = reader.field("id"), z_field = reader.field("z"), size_field = reader.field("size");
+  if (id_field < 0) return ids;
+  bool has_z = false;
+  while (const OGRFeature* feature = reader.next()) {
+    const OGRGeometry* geometry = feature->GetGeometryRef();
+    if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbPoint || geometry->IsEmpty())
+      reader.fail("it is no point");
+    const OGRPoint& point = *geometry->toPoint();
+    ids.push_back(feature->GetFieldAsInteger64(id_field));
+    grid.nodes.push_back({point.getX(), point.getY()});
+    if (size_field >= 0) grid.size_m.push_back(feature->GetFieldAsDouble(size_field));
+    const bool in_field = z_field >= 0 && feature->IsFieldSetAndNotNull(z_field);
+    has_z = has_z || in_field || point.Is3D();
+    grid.z.push_back(point.Is3D() ? point.getZ()
+                     : in_field   ? feature->GetFieldAsDouble(z_field)
+                                  : std::numeric_limits<double>::quiet_NaN());
+  }
+  if (!has_z) grid.z.clear();
+  const std::vector<std::uint32_t> order = orderOf(ids);
+  orderNodes(grid, order);
+  for (std::uint32_t i = 0; i < grid.nodes.size(); ++i) index.add(grid.nodes[i], i);
+  reorder(ids, order);
+  return ids;
+}
+
+// The text of a field; empty where there is none.
+std::string textOf(const OGRFeature& feature, int field) {
+  return field >= 0 && feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsString(field) : "";
+}
+
+// Equal features of several triangles become one.
+class FeatureTable {
+ public:
+  FeatureTable(const LayerReader& reader)
+      : fid_(reader.field("src_fid")),
+        source_(reader.field("source")),
+        name_(reader.field("name")),
+        region_(reader.field("region")) {}
+
+  bool exists() const { return fid_ >= 0; }
+
+  std::uint32_t indexOf(const OGRFeature& feature, std::vector<GridFeature>& features) {
+    auto key = std::make_tuple(static_cast<std::int64_t>(feature.GetFieldAsInteger64(fid_)), textOf(feature, source_),
+                               textOf(feature, name_), textOf(feature, region_));
+    const auto [at, added] = index_.emplace(std::move(key), static_cast<std::uint32_t>(features.size()));
+    if (added) {
+      const auto& [fid, source, name, region] = at->first;
+      GridFeature& made = features.emplace_back(GridFeature{fid, source, {}, region});
+      if (!name.empty()) made.attributes.emplace_back("name", name);
+    }
+    return at->second;
+  }
+
+ private:
+  int fid_, source_, name_, region_;
+  std::map<std::tuple<std::int64_t, std::string, std::string, std::string>, std::uint32_t> index_;
+};
+
+struct LayerTriangle {
+  std::array<Point, 3> corners;
+  std::optional<std::array<std::int64_t, 3>> node_ids;  // counter-clockwise
+};
+
+// The nodes that a triangle names, where they have its corners: somebody may have edited the layers.
+std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& triangle, const std::vector<Point>& nodes,
+                                                       const std::vector<std::int64_t>& ids) {
+  if (!triangle.node_ids) return std::nullopt;
+  std::array<std::uint32_t, 3> named;
+  for (unsigned i = 0; i < 3; ++i) {
+    const auto [at, end] = std::ranges::equal_range(ids, (*triangle.node_ids)[i]);
+    if (end - at != 1) return std::nullopt;
+    named[i] = static_cast<std::uint32_t>(at - ids.begin());
+  }
+  const auto placesFrom = [&](unsigned first, unsigned step) {
+    return std::array{nodes[named[first]], nodes[named[(first + step) % 3]], nodes[named[(first + 2 * step) % 3]]};
+  };
+  for (unsigned first = 0; first < 3; ++first)
+    if (placesFrom(first, 1) == triangle.corners || placesFrom(first, 2) == triangle.corners) return named;
+  return std::nullopt;
+}
+
+void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<std::int64_t>& ids, Grid& grid,
+                   NodesByPlace& index) {
+  std::vector<bool> wound;
+  for (const LayerTriangle& from : given) {
+    const auto named = nodesNamed(from, grid.nodes, ids);
+    wound.push_back(named.has_value());
+    if (named) {
+      grid.triangles.push_back(*named);
+      continue;
+    }
+    auto& triangle = grid.triangles.emplace_back();
+    for (unsigned i = 0; i < 3; ++i) {
+      triangle[i] = index.firstAt(from.corners[i]);
+      if (triangle[i] != kNone) continue;
+      triangle[i] = addNode(grid, from.corners[i]);
+      index.add(from.corners[i], triangle[i]);
+    }
+  }
+  windTriangles(grid.nodes, grid.crs, wound, grid.triangles);
+}
+
+void readTriangles(LayerReader& reader, const std::vector<std::int64_t>& node_ids, Grid& grid, NodesByPlace& index) {
+  const int id_field = reader.field("id"), angle_field = reader.field("min_angle"),
+            area_field = reader.field("area_m2");
+  std::array<int, 3> node_fields;
+  for (std::size_t i = 0; i < 3; ++i) node_fields[i] = reader.field(kCornerColumns[i]);
+  FeatureTable features(reader);
+  std::vector<std::int64_t> ids;
+  std::vector<LayerTriangle> triangles;
+  while (const OGRFeature* feature = reader.next()) {
+    LayerTriangle& triangle = triangles.emplace_back(LayerTriangle{cornersOf(*feature, reader), {}});
+    const auto says = [&](int field) { return field >= 0 && feature->IsFieldSetAndNotNull(field); };
+    if (std::ranges::all_of(node_fields, says)) {
+      triangle.node_ids.emplace();
+      for (std::size_t i = 0; i < 3; ++i) (*triangle.node_ids)[i] = feature->GetFieldAsInteger64(node_fields[i]);
+    }
+    if (id_field >= 0) ids.push_back(feature->GetFieldAsInteger64(id_field));
+    if (angle_field >= 0) grid.min_angle_deg.push_back(feature->GetFieldAsDouble(angle_field));
+    if (area_field >= 0) grid.area_m2.push_back(feature->GetFieldAsDouble(area_field));
+    if (features.exists()) grid.feature_of.push_back(features.indexOf(*feature, grid.features));
+  }
+  if (!ids.empty()) {
+    const std::vector<std::uint32_t> order = orderOf(ids);
+    reorder(triangles, order);
+    orderTriangles(grid, order);
+    sortFeatures(grid);
+  }
+  makeTriangles(triangles, node_ids, grid, index);
+}
+
+// The nodes along a line of a layer.
+std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader, const NodesByPlace& index,
+                                      const LineNodes& lines) {
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is no line");
+  const OGRLineString& line = *geometry->toLineString();
+  std::vector<Point> places;
+  for (int i = 0; i < line.getNumPoints(); ++i) {
+    places.push_back(placeOf(line, i));
+    if (index.firstAt(places.back()) == kNone)
+      reader.fail("point " + std::to_string(i + 1) + " of the line is no corner of a triangle");
+  }
+  return lines.of(places);
+}
+
+void readBoundaries(const Companion& companion, const OgrErrors& errors, const NodesByPlace& index, Grid& grid) {
+  if (companion.layer == nullptr) return;
+  LayerReader reader(*companion.layer, companion.path, errors);
+  const int id_field = reader.field("id"), role_field = reader.field("role"), type_field = reader.field("ibtype");
+  if (id_field < 0 || role_field < 0) return;
+  const LineNodes nodes(grid, index, LineNodes::Along::Boundary);
+  std::vector<std::int64_t> ids;
+  while (const OGRFeature* feature = reader.next()) {
+    Boundary boundary;
+    const std::string role = feature->GetFieldAsString(role_field);
+    std::optional<BoundaryRole> known;
+    for (const BoundaryRole candidate : kBoundaryRoles)
+      if (role == toString(candidate)) known = candidate;
+    if (!known) reader.fail("its role is \"" + role + "\", not land, island, open or river");
+    boundary.role = *known;
+    if (type_field >= 0 && feature->IsFieldSetAndNotNull(type_field))
+      boundary.ibtype = feature->GetFieldAsInteger(type_field);
+    boundary.nodes = nodesAlong(*feature, reader, index, nodes);
+    boundary.closed = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
+    if (boundary.closed) boundary.nodes.pop_back();
+    ids.push_back(feature->GetFieldAsInteger64(id_field));
+    grid.boundaries.push_back(std::move(boundary));
+  }
+  reorder(grid.boundaries, orderOf(ids));
+}
+
+void readLines(const Companion& companion, const OgrErrors& errors, const NodesByPlace& index, Grid& grid) {
+  if (companion.layer == nullptr) return;
+  LayerReader reader(*companion.layer, companion.path, errors);
+  const int id_field = reader.field("id"), kind_field = reader.field("kind"), name_field = reader.field("name");
+  if (id_field < 0 || kind_field < 0) return;
+  const LineNodes nodes(grid, index, LineNodes::Along::Inside);
+  std::vector<std::int64_t> ids;
+  while (const OGRFeature* feature = reader.next()) {
+    const std::string kind = textOf(*feature, kind_field);
+    const std::optional<LineKind> known = lineKindNamed(kind);
+    if (!known) reader.fail("its kind is \"" + kind + "\", not constraint, weir or region border");
+    ids.push_back(feature->GetFieldAsInteger64(id_field));
+    grid.lines.push_back(lineOfNodes(*known, textOf(*feature, name_field), nodesAlong(*feature, reader, index, nodes)));
+  }
+  reorder(grid.lines, orderOf(ids));
+}
+
+// OGR takes a GeoJSON file that says "crs": null for WGS 84.
+bool saysNullCrs(const std::string& path) {
+  constexpr std::streamsize kHead = 4096;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kHead, '\0');
+  file.read(head.data(), kHead);
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  static const std::regex pattern(R"("crs"\s*:\s*null)");
+  return std::regex_search(head.substr(0, head.find("\"features\"")), pattern);
+}
+
+Crs readCrs(GDALDataset& dataset, OGRLayer& layer, const std::string& path) {
+  const std::string_view driver = dataset.GetDriverName();
+  if (driver == "GeoJSON" && saysNullCrs(path)) return {};
+  return fromOgr(layer.GetSpatialRef());
+}
+
+}  // namespace
+
+Grid readOgrGrid(const std::string& path) {
+  const OgrErrors errors;
+  const DatasetPtr dataset = open(path, errors);
+  OGRLayer& layer = triangleLayer(*dataset, path);
+  Grid grid;
+  NodesByPlace index;
+  grid.crs = readCrs(*dataset, layer, path);
+  const std::vector<std::int64_t> node_ids =
+      readNodeLayer(findCompanion(*dataset, path, kNodeLayer, errors), errors, grid, index);
+  LayerReader reader(layer, path, errors);
+  readTriangles(reader, node_ids, grid, index);
+  readBoundaries(findCompanion(*dataset, path, kBoundaryLayer, errors), errors, index, grid);
+  readLines(findCompanion(*dataset, path, kLineLayer, errors), errors, index, grid);
+  return grid;
+}
+
+}  // namespace coastmesh

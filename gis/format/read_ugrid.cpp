@@ -1,0 +1,221 @@
+#include "gis/format/read_ugrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <sstream>
+
+#include "gis/file/netcdf_file.hpp"
+#include "gis/format/grid_names.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+namespace {
+
+std::string findMesh(const NetcdfReader& file) {
+  for (const std::string& name : file.variables()) {
+    if (file.text(name, "cf_role") == "mesh_topology" && file.number(name, "topology_dimension") == 2.0) return name;
+  }
+  file.fail("there is no UGRID mesh of dimension 2 in it (a variable with cf_role \"mesh_topology\")");
+}
+
+std::pair<std::string, std::string> coordinateNames(const NetcdfReader& file, const std::string& mesh) {
+  std::istringstream words(file.text(mesh, "node_coordinates"));
+  std::string first, second;
+  if (!(words >> first >> second)) file.fail("\"" + mesh + "\" does not name two node_coordinates");
+  if (!file.hasVariable(first) || !file.hasVariable(second))
+    file.fail("there is no variable \"" + (file.hasVariable(first) ? second : first) + "\", which \"" + mesh +
+              "\" names");
+  if (file.text(first, "standard_name") == "latitude" || file.text(first, "standard_name") == "projection_y_coordinate")
+    std::swap(first, second);
+  return {first, second};
+}
+
+Crs readCrs(const NetcdfReader& file, const std::string& x) {
+  constexpr std::string_view kNoCode = "EPSG:0";  // D-FlowFM's word for none
+  std::string variable = file.text(x, "grid_mapping");
+  for (const char* name : {"projected_coordinate_system", "wgs84"})
+    if (!file.hasVariable(variable)) variable = name;
+  if (file.hasVariable(variable)) {
+    for (const char* name : {"EPSG_code", "crs_wkt", "spatial_ref", "wkt"}) {
+      const std::string text = file.text(variable, name);
+      if (!text.empty() && text != kNoCode) return parseCrs(text);
+    }
+    const double epsg = file.number(variable, "epsg").value_or(0.0);
+    if (epsg > 0.0 && epsg < 1e9) return parseCrs("EPSG:" + std::to_string(std::lround(epsg)));
+  }
+  const bool longitudes = file.text(x, "standard_name") == "longitude" || file.text(x, "units").starts_with("degree");
+  return longitudes ? wgs84() : Crs{};
+}
+
+// Rows of node indices; kNone for the fill value. `columns` comes out as the length of a row.
+std::vector<std::uint32_t> readConnectivity(const NetcdfReader& file, const std::string& variable, bool transposed,
+                                            std::size_t nodes, std::size_t& columns) {
+  const std::vector<std::size_t> shape = file.shape(variable);
+  if (shape.size() != 2) file.fail("\"" + variable + "\" does not have two dimensions");
+  const std::vector<std::int64_t> values = file.integers(variable);
+  const std::size_t rows = shape[transposed ? 1 : 0];
+  columns = shape[transposed ? 0 : 1];
+  const std::int64_t start = std::llround(file.number(variable, "start_index").value_or(0.0));
+  const auto fill = file.number(variable, "_FillValue");
+  std::vector<std::uint32_t> out;
+  out.reserve(values.size());
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      const std::int64_t value = values[transposed ? c * rows + r : r * columns + c];
+      if (fill && static_cast<double>(value) == *fill) {
+        out.push_back(kNone);
+        continue;
+      }
+      if (value < start || static_cast<std::uint64_t>(value - start) >= nodes)
+        file.fail("row " + std::to_string(r + 1) + " of \"" + variable + "\" names node " + std::to_string(value) +
+                  ", which is not there");
+      out.push_back(static_cast<std::uint32_t>(value - start));
+    }
+  }
+  return out;
+}
+
+void readNodes(const NetcdfReader& file, const std::string& x_name, const std::string& y_name, Grid& grid) {
+  const std::vector<double> x = file.doubles(x_name), y = file.doubles(y_name);
+  if (x.size() != y.size()) file.fail("\"" + x_name + "\" and \"" + y_name + "\" differ in length");
+  grid.nodes.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+      file.fail("node " + std::to_string(i + 1) + " has no finite coordinates");
+    grid.nodes[i] = {x[i], y[i]};
+  }
+}
+
+void readTriangles(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
+  const std::string variable = file.text(mesh, "face_node_connectivity");
+  if (!file.hasVariable(variable)) file.fail("\"" + mesh + "\" names no face_node_connectivity");
+  const std::string face_dimension = file.text(mesh, "face_dimension");
+  const std::vector<std::string> dimensions = file.dimensionsOf(variable);
+  const bool transposed = dimensions.size() == 2 && dimensions[0] != face_dimension && dimensions[1] == face_dimension;
+  std::size_t columns = 0;
+  const std::vector<std::uint32_t> rows = readConnectivity(file, variable, transposed, grid.nodes.size(), columns);
+  if (columns < 3) file.fail("\"" + variable + "\" has fewer than three nodes a face");
+  for (std::size_t at = 0; at < rows.size(); at += columns) {
+    const auto isThere = [](std::uint32_t node) { return node != kNone; };
+    const auto corners = std::count_if(rows.begin() + at, rows.begin() + at + columns, isThere);
+    if (corners != 3 || !std::all_of(rows.begin() + at, rows.begin() + at + 3, isThere))
+      file.fail("face " + std::to_string(at / columns + 1) + " has " + std::to_string(corners) +
+                " nodes; only meshes of triangles can be read");
+    grid.triangles.push_back({rows[at], rows[at + 1], rows[at + 2]});
+  }
+}
+
+void readElevation(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
+  for (const std::string& name : file.variables()) {
+    if (file.text(name, "mesh") != mesh || file.text(name, "location") != "node") continue;
+    if (file.text(name, "standard_name") != "altitude") continue;
+    if (file.shape(name) != std::vector{grid.nodes.size()}) continue;
+    grid.z = file.doubles(name);
+    const auto fill = file.number(name, "_FillValue");
+    const double sign = file.text(name, "positive") == "down" ? -1.0 : 1.0;
+    for (double& z : grid.z) z = fill && z == *fill ? std::numeric_limits<double>::quiet_NaN() : sign * z;
+    return;
+  }
+}
+
+std::vector<double> readFaceData(const NetcdfReader& file, const std::string& name, std::size_t faces) {
+  if (!file.hasVariable(name) || file.shape(name) != std::vector{faces}) return {};
+  return file.doubles(name);
+}
+
+void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
+  const std::string variable = file.text(mesh, "boundary_node_connectivity");
+  const std::string number_name = mesh + "_boundary_number", role_name = mesh + "_boundary_role";
+  if (!file.hasVariable(variable) || !file.hasVariable(number_name) || !file.hasVariable(role_name)) return;
+  std::size_t columns = 0;
+  const std::vector<std::uint32_t> nodes = readConnectivity(file, variable, false, grid.nodes.size(), columns);
+  const std::vector<std::int64_t> number = file.integers(number_name), role = file.integers(role_name);
+  if (columns != 2 || std::ranges::find(nodes, kNone) != nodes.end() || 2 * number.size() != nodes.size() ||
+      role.size() != number.size())
+    file.fail("\"" + variable + "\", \"" + number_name + "\" and \"" + role_name + "\" do not go together");
+  const std::string type_name = mesh + "_boundary_ibtype";
+  const std::vector<std::int64_t> type =
+      file.hasVariable(type_name) ? file.integers(type_name) : std::vector<std::int64_t>(number.size(), -1);
+  if (type.size() != number.size()) file.fail("\"" + type_name + "\" has another length than \"" + number_name + "\"");
+  std::vector<std::vector<NodePair>> groups;
+  std::vector<BoundaryRole> roles;
+  std::vector<int> types;
+  for (std::size_t e = 0; e < number.size(); ++e) {
+    if (e == 0 || number[e] != number[e - 1]) {
+      if (role[e] < 0 || role[e] >= static_cast<std::int64_t>(kBoundaryRoles.size()))
+        file.fail("\"" + role_name + "\" holds " + std::to_string(role[e]));
+      groups.emplace_back();
+      roles.push_back(static_cast<BoundaryRole>(role[e]));
+      types.push_back(static_cast<int>(std::clamp<std::int64_t>(type[e], -1, 1000)));
+    }
+    groups.back().push_back({nodes[2 * e], nodes[2 * e + 1]});
+  }
+  keepRimEdges(grid.triangles, groups);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (Boundary& chain : chainEdges(groups[g])) {
+      chain.role = roles[g];
+      chain.ibtype = types[g];
+      grid.boundaries.push_back(std::move(chain));
+    }
+  }
+}
+
+void readLines(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
+  const std::string number_name = mesh + "_edge_line", kind_name = mesh + "_line_kind", names = mesh + "_line_name";
+  const std::string edges_name = file.text(mesh, "edge_node_connectivity");
+  for (const std::string& needed : {number_name, kind_name, names, edges_name})
+    if (!file.hasVariable(needed)) return;
+  std::size_t columns = 0;
+  const std::vector<std::uint32_t> nodes = readConnectivity(file, edges_name, false, grid.nodes.size(), columns);
+  const std::vector<std::int64_t> number = file.integers(number_name), kind = file.integers(kind_name);
+  const std::vector<std::string> name = file.texts(names);
+  if (columns != 2 || 2 * number.size() != nodes.size() || name.size() != kind.size())
+    file.fail("\"" + number_name + "\", \"" + kind_name + "\" and \"" + names + "\" do not go together");
+  std::vector<std::vector<NodePair>> edges_of(kind.size());
+  for (std::size_t e = 0; e < number.size(); ++e) {
+    if (number[e] < 1) continue;
+    if (static_cast<std::uint64_t>(number[e]) > kind.size() || nodes[2 * e] == kNone || nodes[2 * e + 1] == kNone)
+      file.fail("edge " + std::to_string(e + 1) + " names line " + std::to_string(number[e]) + ", which is not there");
+    edges_of[static_cast<std::size_t>(number[e]) - 1].push_back({nodes[2 * e], nodes[2 * e + 1]});
+  }
+  for (std::size_t i = 0; i < kind.size(); ++i) {
+    if (kind[i] < 0 || kind[i] >= static_cast<std::int64_t>(kLineKinds.size()))
+      file.fail("\"" + kind_name + "\" holds " + std::to_string(kind[i]));
+    std::ranges::move(chainLines(std::move(edges_of[i]), static_cast<LineKind>(kind[i]), name[i]),
+                      std::back_inserter(grid.lines));
+  }
+}
+
+}  // namespace
+
+Grid readUgrid(const std::string& path) {
+  const NetcdfReader file(path);
+  const std::string mesh = findMesh(file);
+  Grid grid;
+  grid.title = file.globalText("title");
+  const auto [x, y] = coordinateNames(file, mesh);
+  readNodes(file, x, y, grid);
+  readTriangles(file, mesh, grid);
+  readElevation(file, mesh, grid);
+  if (const std::string name = mesh + "_node_size";
+      file.hasVariable(name) && file.shape(name) == std::vector{grid.nodes.size()})
+    grid.size_m = file.doubles(name);
+  grid.min_angle_deg = readFaceData(file, mesh + "_min_angle", grid.triangles.size());
+  grid.area_m2 = readFaceData(file, mesh + "_area", grid.triangles.size());
+  const std::string region_name = mesh + "_region_name";
+  addFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()),
+              file.hasVariable(region_name) ? readFaceData(file, mesh + "_region", grid.triangles.size())
+                                            : std::vector<double>(),
+              file.hasVariable(region_name) ? file.texts(region_name) : std::vector<std::string>(), grid);
+  for (const double piece : readFaceData(file, mesh + "_piece", grid.triangles.size()))
+    grid.piece_of.push_back(piece >= 1.0 ? static_cast<std::uint32_t>(std::min(piece, 4e9)) - 1 : 0);
+  readBoundaries(file, mesh, grid);
+  readLines(file, mesh, grid);
+  grid.crs = readCrs(file, x);
+  return grid;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,323 @@
+#include "gis/format/read_vtu.hpp"
+
+#include <cpl_minixml.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <ranges>
+#include <string_view>
+#include <utility>
+
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/format/grid_names.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr std::int64_t kVertexCell = 1, kLineCell = 3, kTriangleCell = 5;
+
+std::string decodeBase64(std::string_view text) {
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int held = 0;
+  for (const char c : text) {
+    int value = -1;
+    if (c >= 'A' && c <= 'Z') value = c - 'A';
+    if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
+    if (c >= '0' && c <= '9') value = c - '0' + 52;
+    if (c == '+') value = 62;
+    if (c == '/') value = 63;
+    if (c == '=') break;
+    if (value < 0) continue;  // blanks between lines
+    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes.push_back(static_cast<char>(bits >> held & 0xff));
+  }
+  return bytes;
+}
+
+template <typename T>
+std::vector<double> valuesOf(std::string_view bytes) {
+  std::vector<double> values(bytes.size() / sizeof(T));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    T value;
+    std::memcpy(&value, bytes.data() + i * sizeof(T), sizeof(T));
+    values[i] = static_cast<double>(value);
+  }
+  return values;
+}
+
+// The file as a tree of elements and the bytes of its appended arrays.
+class VtuFile {
+ public:
+  explicit VtuFile(const std::string& path) : path_(path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw InputError("cannot read '" + path + "': " + std::strerror(errno));
+    bytes_.assign(std::istreambuf_iterator<char>(file), {});
+    std::string head = bytes_;
+    if (const std::size_t appended = bytes_.find("<AppendedData"); appended != std::string::npos) {
+      const std::size_t mark = bytes_.find('_', bytes_.find('>', appended));
+      if (mark == std::string::npos) fail("its appended data does not start");
+      base64_ = bytes_.substr(appended, mark - appended).find("base64") != std::string::npos;
+      appended_ = mark + 1;
+      head = bytes_.substr(0, appended) + "</VTKFile>";
+    }
+    const OgrErrors errors;
+    root_.reset(CPLParseXMLString(head.c_str()));
+    if (!root_) fail("it is no XML (" + errors.text() + ")");
+    const CPLXMLNode* const file_node = CPLGetXMLNode(root_.get(), "=VTKFile");
+    if (file_node == nullptr) fail("it has no VTKFile");
+    if (std::string_view(CPLGetXMLValue(file_node, "compressor", "")) != "")
+      fail("its arrays are compressed; save it without compression");
+    if (std::string_view(CPLGetXMLValue(file_node, "byte_order", "LittleEndian")) != "LittleEndian")
+      fail("it is big-endian; save it as little-endian");
+    header_ = std::string_view(CPLGetXMLValue(file_node, "header_type", "UInt32")) == "UInt64" ? 8 : 4;
+    grid_ = CPLGetXMLNode(file_node, "UnstructuredGrid");
+    piece_ = grid_ == nullptr ? nullptr : CPLGetXMLNode(grid_, "Piece");
+    if (piece_ == nullptr) fail("it has no unstructured grid");
+    for (const CPLXMLNode* node = piece_->psNext; node != nullptr; node = node->psNext)
+      if (node->eType == CXT_Element && std::string_view(node->pszValue) == "Piece") fail("it has several pieces");
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw InputError("'" + path_ + "': " + what); }
+
+  // The first array of a section (those of points have no fixed name), or the one called `name`.
+  std::optional<std::vector<double>> array(const char* section, std::string_view name) const {
+    const bool in_grid = std::string_view(section) == "FieldData";
+    const CPLXMLNode* const parent = CPLGetXMLNode(in_grid ? grid_ : piece_, section);
+    if (parent == nullptr) return std::nullopt;
+    for (const CPLXMLNode* node = parent->psChild; node != nullptr; node = node->psNext) {
+      if (node->eType != CXT_Element || std::string_view(node->pszValue) != "DataArray") continue;
+      if (name.empty() || name == CPLGetXMLValue(node, "Name", "")) return decode(node);
+    }
+    return std::nullopt;
+  }
+
+  std::vector<double> need(const char* section, std::string_view name, std::size_t size) const {
+    auto values = array(section, name);
+    if (!values) fail("there is no array \"" + std::string(name) + "\" in " + section);
+    if (values->size() != size)
+      fail("the array \"" + std::string(name) + "\" in " + section + " has " + std::to_string(values->size()) +
+           " values where " + std::to_string(size) + " are expected");
+    return std::move(*values);
+  }
+
+  std::size_t count(const char* attribute) const {
+    const std::string_view text = CPLGetXMLValue(piece_, attribute, "");
+    std::size_t value = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc() || value > bytes_.size())
+      fail("its " + std::string(attribute) + " is \"" + std::string(text) + '"');
+    return value;
+  }
+
+ private:
+  std::vector<double> decode(const CPLXMLNode* node) const {
+    const std::string_view format = CPLGetXMLValue(node, "format", "");
+    const std::string_view type = CPLGetXMLValue(node, "type", "");
+    const std::string_view text = CPLGetXMLValue(node, nullptr, "");
+    if (format == "ascii") return decodeText(text);
+    if (format == "binary") return decodeBytes(block(decodeBase64(text), 0), type);
+    if (format != "appended") fail("an array of format \"" + std::string(format) + "\"");
+    const std::string_view offset_text = CPLGetXMLValue(node, "offset", "");
+    std::size_t offset = 0;
+    if (std::from_chars(offset_text.data(), offset_text.data() + offset_text.size(), offset).ec != std::errc() ||
+        appended_ == 0 || offset > bytes_.size() - appended_)
+      fail("an array lies beyond its end");
+    if (base64_) return decodeBytes(block(decodeBase64(std::string_view(bytes_).substr(appended_ + offset)), 0), type);
+    return decodeBytes(block(bytes_, appended_ + offset), type);
+  }
+
+  // The bytes of an array that stand after their own number.
+  std::string block(const std::string& bytes, std::size_t at) const {
+    if (bytes.size() - at < header_) fail("an array lies beyond its end");
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data() + at, header_);
+    if (size > bytes.size() - at - header_) fail("an array lies beyond its end");
+    return bytes.substr(at + header_, size);
+  }
+
+  std::vector<double> decodeText(std::string_view text) const {
+    std::vector<double> values;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+      while (at != end && std::strchr(" \t\r\n", *at) != nullptr) ++at;
+      if (at == end) return values;
+      double value = 0.0;
+      const auto [next, error] = std::from_chars(at, end, value);
+      if (error != std::errc()) fail("an array holds what is no number");
+      values.push_back(value);
+      at = next;
+    }
+  }
+
+  std::vector<double> decodeBytes(const std::string& bytes, std::string_view type) const {
+    static_assert(std::endian::native == std::endian::little);
+    if (type == "Float64") return valuesOf<double>(bytes);
+    if (type == "Float32") return valuesOf<float>(bytes);
+    if (type == "Int64") return valuesOf<std::int64_t>(bytes);
+    if (type == "UInt64") return valuesOf<std::uint64_t>(bytes);
+    if (type == "Int32") return valuesOf<std::int32_t>(bytes);
+    if (type == "UInt32") return valuesOf<std::uint32_t>(bytes);
+    if (type == "UInt8") return valuesOf<std::uint8_t>(bytes);
+    if (type == "Int8") return valuesOf<std::int8_t>(bytes);
+    fail("an array of type \"" + std::string(type) + '"');
+  }
+
+  struct FreeXml {
+    void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
+  };
+
+  std::string path_, bytes_;
+  std::unique_ptr<CPLXMLNode, FreeXml> root_;
+  const CPLXMLNode* grid_ = nullptr;
+  const CPLXMLNode* piece_ = nullptr;
+  std::size_t appended_ = 0;  // where the appended arrays start; 0 where there are none
+  bool base64_ = false;
+  std::size_t header_ = 4;
+};
+
+// Reads the triangles and tells which of the file's cells they are.
+std::vector<std::size_t> readTriangles(const VtuFile& file, Grid& grid) {
+  const std::size_t cells = file.count("NumberOfCells");
+  const std::vector<double> ends = file.need("Cells", "offsets", cells), types = file.need("Cells", "types", cells);
+  const auto corners = file.array("Cells", "connectivity");
+  if (!corners) file.fail("there is no array \"connectivity\" in Cells");
+  std::vector<std::size_t> of_cell;
+  for (std::size_t c = 0; c < cells; ++c) {
+    const auto type = static_cast<std::int64_t>(types[c]);
+    if (type == kVertexCell || type == kLineCell) continue;
+    if (type != kTriangleCell)
+      file.fail("cell " + std::to_string(c + 1) + " is of type " + std::to_string(type) +
+                "; only meshes of triangles (5) can be read");
+    const double begin = c == 0 ? 0.0 : ends[c - 1];
+    if (ends[c] - begin != 3.0 || begin < 0.0 || ends[c] > static_cast<double>(corners->size()))
+      file.fail("cell " + std::to_string(c + 1) + " has not three nodes");
+    auto& triangle = grid.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double node = (*corners)[static_cast<std::size_t>(begin) + i];
+      if (!(node >= 0.0 && node < static_cast<double>(grid.nodes.size())))
+        file.fail("cell " + std::to_string(c + 1) + " names a node that is not there");
+      triangle[i] = static_cast<std::uint32_t>(node);
+    }
+    of_cell.push_back(c);
+  }
+  return of_cell;
+}
+
+std::vector<double> readCellData(const VtuFile& file, const char* name, const std::vector<std::size_t>& cells) {
+  const auto values = file.array("CellData", name);
+  if (!values || (!cells.empty() && cells.back() >= values->size())) return {};
+  std::vector<double> out;
+  for (const std::size_t cell : cells) out.push_back((*values)[cell]);
+  return out;
+}
+
+// Boundaries or lines as `writeVtu` has them among the fields.
+struct Chain {
+  std::vector<std::uint32_t> nodes;
+  std::size_t kind = 0;
+  bool closed = false;
+};
+
+std::vector<Chain> readChains(const VtuFile& file, const std::string& of, const std::string& what, std::size_t kinds,
+                              std::size_t node_count) {
+  const auto array = [&](const std::string& name) { return file.array("FieldData", of + '_' + name); };
+  const auto nodes = array("nodes"), ends = array("ends"), kind_of = array(what), closed = array("closed");
+  std::vector<Chain> chains;
+  if (!nodes || !ends || !kind_of || !closed) return chains;
+  if (kind_of->size() != ends->size() || closed->size() != ends->size())
+    file.fail("its arrays of each " + of + " do not go together");
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < ends->size(); ++i) {
+    const double kind = (*kind_of)[i];
+    if (!(kind >= 0.0 && kind < static_cast<double>(kinds)) || !((*ends)[i] <= static_cast<double>(nodes->size())))
+      file.fail(of + ' ' + std::to_string(i + 1) + " is of no kind that is known");
+    Chain& chain = chains.emplace_back();
+    chain.kind = static_cast<std::size_t>(kind);
+    chain.closed = (*closed)[i] != 0.0;
+    for (; static_cast<double>(at) < (*ends)[i]; ++at) {
+      if (!((*nodes)[at] >= 0.0 && (*nodes)[at] < static_cast<double>(node_count)))
+        file.fail(of + ' ' + std::to_string(i + 1) + " names a node that is not there");
+      chain.nodes.push_back(static_cast<std::uint32_t>((*nodes)[at]));
+    }
+  }
+  return chains;
+}
+
+// Texts as bytes, each ended by a zero.
+std::vector<std::string> readTexts(const VtuFile& file, const char* name) {
+  std::vector<std::string> texts;
+  std::string text;
+  for (const double byte : file.array("FieldData", name).value_or(std::vector<double>())) {
+    if (byte != 0.0) {
+      text.push_back(static_cast<char>(static_cast<unsigned char>(byte)));
+    } else {
+      texts.push_back(std::exchange(text, {}));
+    }
+  }
+  return texts;
+}
+
+void readBoundaries(const VtuFile& file, Grid& grid) {
+  const auto types = file.array("FieldData", "boundary_ibtypes");
+  for (Chain& chain : readChains(file, "boundary", "roles", kBoundaryRoles.size(), grid.nodes.size())) {
+    const std::size_t b = grid.boundaries.size();
+    const bool told = types && b < types->size() && (*types)[b] >= 0.0 && (*types)[b] < 1000.0;
+    grid.boundaries.push_back(
+        {kBoundaryRoles[chain.kind], chain.closed, std::move(chain.nodes), told ? static_cast<int>((*types)[b]) : -1});
+  }
+}
+
+void readLines(const VtuFile& file, Grid& grid) {
+  const std::vector<std::string> names = readTexts(file, "line_names");
+  for (Chain& chain : readChains(file, "line", "kinds", kLineKinds.size(), grid.nodes.size())) {
+    const std::size_t i = grid.lines.size();
+    grid.lines.push_back(
+        {kLineKinds[chain.kind], i < names.size() ? names[i] : "", chain.closed, std::move(chain.nodes)});
+  }
+}
+
+}  // namespace
+
+Grid readVtu(const std::string& path) {
+  const VtuFile file(path);
+  Grid grid;
+  const std::size_t nodes = file.count("NumberOfPoints");
+  const std::vector<double> places = file.need("Points", {}, 3 * nodes);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    if (!std::isfinite(places[3 * i]) || !std::isfinite(places[3 * i + 1]))
+      file.fail("node " + std::to_string(i + 1) + " has no finite coordinates");
+    grid.nodes.push_back({places[3 * i], places[3 * i + 1]});
+  }
+  const std::vector<std::size_t> cells = readTriangles(file, grid);
+  if (auto z = file.array("PointData", "z"); z && z->size() == nodes) {
+    grid.z = std::move(*z);
+  } else if (std::ranges::any_of(std::views::iota(std::size_t{0}, nodes),
+                                 [&](std::size_t i) { return places[3 * i + 2] != 0.0; })) {
+    for (std::size_t i = 0; i < nodes; ++i) grid.z.push_back(places[3 * i + 2]);
+  }
+  grid.min_angle_deg = readCellData(file, "min_angle", cells);
+  grid.area_m2 = readCellData(file, "area_m2", cells);
+  addFeatures(readCellData(file, "src_fid", cells), readCellData(file, "region", cells),
+              readTexts(file, "region_names"), grid);
+  readBoundaries(file, grid);
+  readLines(file, grid);
+  grid.crs = readPrjBeside(path);
+  return grid;
+}
+
+}  // namespace coastmesh

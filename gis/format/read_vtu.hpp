@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "gis/grid/grid.hpp"
+
+namespace coastmesh {
+
+// VTK's unstructured grid of triangles as XML: arrays appended (raw or base64) or inline (ASCII or base64), not
+// compressed. Lines and points among the cells are left out; node data `z`, and what `writeVtu` adds, are read. Throws
+// InputError.
+Grid readVtu(const std::string& path);
+
+}  // namespace coastmesh

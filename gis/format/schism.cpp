@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "gis/crs/crs_map.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/format/fort14_text.hpp"
+#include "gis/format/grid_formats.hpp"
+
+namespace coastmesh {
+namespace {
+
+std::vector<Point> longitudesAndLatitudes(const Grid& grid) {
+  if (grid.crs.geographic) return grid.nodes;
+  const CrsMap map(toOgr(grid.crs), geographicBase(grid.crs));
+  std::vector<Point> places(grid.nodes.size());
+  std::ranges::transform(grid.nodes, places.begin(), [&](const Point& p) { return map.forward(p); });
+  return places;
+}
+
+// SCHISM's hgrid.gr3 in the grid's CRS, hgrid.ll beside it in longitudes and latitudes (not for a plane), and the CRS in
+// a .prj; depth positive down. `path` may name either file. Throws OutputError, also where a depth is unknown.
+void writeSchism(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
+  TextWriter gr3(withEnding(path, ".gr3"));
+  writeFort14(gr3, grid, grid.nodes, Fort14Kind::Schism);
+  gr3.close();
+  if (grid.crs.isPlane()) return;
+  TextWriter ll(withEnding(path, ".ll"));
+  writeFort14(ll, grid, longitudesAndLatitudes(grid), Fort14Kind::Schism);
+  ll.close();
+  writePrjBeside(path, grid.crs);
+}
+
+// Reads either file: a .ll is in WGS 84. Throws InputError.
+Grid readSchism(const std::string& path) {
+  Grid grid = readFort14(path);
+  for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;  // SCHISM knows no more than land and islands
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  grid.crs = readPrjBeside(path);
+  if (ending == ".ll" && !grid.crs.geographic) grid.crs = wgs84();
+  return grid;
+}
+
+}  // namespace
+
+FormatRecord schismFormat() {
+  const auto files = [](const std::string& path) -> OutputFiles {
+    return {{withEnding(path, ".gr3"), withEnding(path, ".ll")}, {}, prjBeside(path)};
+  };
+  return {{"schism",
+           {".gr3", ".ll"},
+           "SCHISM's hgrid.gr3 and hgrid.ll, depth positive down",
+           true,
+           true,
+           {GridPart::Title},
+           true},
+          {writeSchism, readSchism, files}};
+}
+
+}  // namespace coastmesh

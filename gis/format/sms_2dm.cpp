@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <variant>
+
+#include "gis/error.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/file/text_reader.hpp"
+#include "gis/file/text_writer.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_names.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+namespace {
+
+struct NodeString {
+  std::vector<std::int64_t> nodes;
+  std::int64_t id = 0;
+};
+
+struct Cards {
+  std::vector<std::int64_t> node_ids;
+  std::vector<std::array<std::int64_t, 3>> corners;
+  std::vector<std::int64_t> materials;
+  std::vector<NodeString> strings;
+  std::map<std::int64_t, std::string> material_names;
+};
+
+// A node string goes on over several lines until a node with a minus sign ends it.
+void readNodeString(TextReader& file, Cards& cards, bool& unfinished) {
+  if (!unfinished) cards.strings.emplace_back();
+  unfinished = true;
+  NodeString& string = cards.strings.back();
+  while (file.hasWord()) {
+    const std::int64_t node = file.integer();
+    string.nodes.push_back(node < 0 ? -node : node);
+    if (node >= 0) continue;
+    unfinished = false;
+    if (file.hasWord()) string.id = file.integer();
+    return;
+  }
+}
+
+// MAT id "name"
+void readMaterialName(TextReader& file, Cards& cards) {
+  const std::int64_t id = file.integer();
+  const std::string_view line = file.line();
+  const std::size_t open = line.find('"'), close = line.rfind('"');
+  if (open != std::string_view::npos && close > open)
+    cards.material_names[id] = std::string(line.substr(open + 1, close - open - 1));
+}
+
+Cards readCards(TextReader& file, Grid& grid) {
+  Cards cards;
+  bool unfinished = false;
+  while (file.nextLine()) {
+    const std::string_view card = file.word();
+    if (card == "E3T") {
+      file.integer();
+      auto& corners = cards.corners.emplace_back();
+      for (std::int64_t& corner : corners) corner = file.integer();
+      cards.materials.push_back(file.hasWord() ? file.integer() : 1);
+    } else if (card == "ND") {
+      cards.node_ids.push_back(file.integer());
+      const double x = file.number(), y = file.number();
+      grid.nodes.push_back({x, y});
+      grid.z.push_back(file.hasWord() ? file.number() : 0.0);
+    } else if (card == "NS") {
+      readNodeString(file, cards, unfinished);
+    } else if (card == "MAT") {
+      readMaterialName(file, cards);
+    } else if (card == "E4Q" || card == "E6T" || card == "E8Q" || card == "E9Q") {
+      file.fail("an element of kind " + std::string(card) + "; only meshes of triangles (E3T) can be read");
+    }
+  }
+  if (unfinished) throw InputError("'" + file.path() + "': the last node string (NS) has no end");
+  return cards;
+}
+
+void readMaterials(const Cards& cards, Grid& grid) {
+  std::vector<std::int64_t> known = cards.materials;
+  std::ranges::sort(known);
+  const auto repeated = std::ranges::unique(known);
+  known.erase(repeated.begin(), repeated.end());
+  const auto named = [&](std::int64_t material) { return cards.material_names.contains(material); };
+  if (known.size() < 2 && std::ranges::none_of(known, named)) return;
+  for (const std::int64_t material : known)
+    grid.features.push_back(named(material) ? featureOfLabel(cards.material_names.at(material), material)
+                                            : GridFeature{material, {}, {}});
+  for (const std::int64_t material : cards.materials)
+    grid.feature_of.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(known, material) - known.begin()));
+}
+
+// What a node string is by its number, where all of the file's are numbered as `write2dm` does it.
+using StringKind = std::variant<std::monostate, BoundaryRole, LineKind>;
+std::vector<StringKind> kindsOf(const std::vector<NodeString>& strings) {
+  std::vector<StringKind> kinds;
+  for (const NodeString& string : strings) {
+    if (const auto role = roleOfMarker(string.id, kinds.size())) {
+      kinds.emplace_back(*role);
+    } else if (const auto kind = lineKindOfMarker(string.id, kinds.size())) {
+      kinds.emplace_back(*kind);
+    } else {
+      return std::vector<StringKind>(strings.size());
+    }
+  }
+  return kinds;
+}
+
+std::vector<std::uint32_t> nodesOf(const NodeString& string, const IdMap& node_index, const TextReader& file) {
+  std::vector<std::uint32_t> nodes;
+  for (const std::int64_t id : string.nodes) {
+    nodes.push_back(node_index.indexOf(id));
+    if (nodes.back() == kNone)
+      throw InputError("'" + file.path() + "': a node string (NS) names node " + std::to_string(id) +
+                       ", which is not there");
+  }
+  return nodes;
+}
+
+// Boundaries, and lines inside the mesh: those of other programs are strings, or parts of them, that do not run along the
+// rim.
+void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& file, Grid& grid) {
+  const std::vector<StringKind> kinds = kindsOf(cards.strings);
+  std::vector<std::vector<NodePair>> groups;
+  for (std::size_t s = 0; s < cards.strings.size(); ++s) {
+    std::vector<std::uint32_t> nodes = nodesOf(cards.strings[s], node_index, file);
+    auto& edges = groups.emplace_back();
+    if (const LineKind* const kind = std::get_if<LineKind>(&kinds[s])) {
+      if (nodes.size() > 1) grid.lines.push_back(lineOfNodes(*kind, {}, std::move(nodes)));
+      continue;
+    }
+    for (std::size_t i = 1; i < nodes.size(); ++i) edges.push_back({nodes[i - 1], nodes[i]});
+  }
+  const std::vector<std::vector<NodePair>> inner = keepRimEdges(grid.triangles, groups);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (Boundary& chain : chainEdges(groups[g])) {
+      if (const BoundaryRole* const role = std::get_if<BoundaryRole>(&kinds[g])) {
+        chain.role = *role;
+      } else if (chain.closed) {
+        chain.role = roleOfLoop(grid.nodes, chain.nodes);
+      }
+      grid.boundaries.push_back(std::move(chain));
+    }
+    std::ranges::move(chainLines(inner[g], LineKind::Constraint, {}), std::back_inserter(grid.lines));
+  }
+}
+
+// SMS .2dm of triangles, with the CRS of a .prj beside it. Materials become features where there are several. Node
+// strings that follow the rim become boundaries: numbered by us they keep their role, others are open, or land or an
+// island where they close. Throws InputError with file and line.
+Grid read2dm(const std::string& path) {
+  TextReader file(path);
+  file.needLine();
+  if (file.word() != "MESH2D") file.fail("a 2dm file starts with MESH2D");
+  Grid grid;
+  const Cards cards = readCards(file, grid);
+  const IdMap node_index(cards.node_ids, file, "node");
+  for (const auto& corners : cards.corners) {
+    auto& triangle = grid.triangles.emplace_back();
+    for (unsigned i = 0; i < 3; ++i) {
+      triangle[i] = node_index.indexOf(corners[i]);
+      if (triangle[i] == kNone)
+        throw InputError("'" + path + "': triangle " + std::to_string(grid.triangles.size()) + " names node " +
+                         std::to_string(corners[i]) + ", which is not there");
+    }
+  }
+  if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
+  readMaterials(cards, grid);
+  readStrings(cards, node_index, file, grid);
+  grid.crs = readPrjBeside(path);
+  return grid;
+}
+
+constexpr std::size_t kNodesPerLine = 10;
+
+void writeNodeString(TextWriter& file, std::vector<std::uint32_t> nodes, bool closed, std::int64_t id) {
+  if (closed) nodes.push_back(nodes.front());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i % kNodesPerLine == 0) file << (i == 0 ? "NS" : "\nNS");
+    file << (i + 1 == nodes.size() ? " -" : " ") << nodes[i] + 1;
+  }
+  file << ' ' << id << '\n';
+}
+
+// Whether the numbers of materials say all that is known of features.
+bool numbersSayAll(const Grid& grid) {
+  for (std::size_t f = 0; f < grid.features.size(); ++f)
+    if (grid.features[f].fid != static_cast<std::int64_t>(f) + 1 || !grid.features[f].region.empty()) return false;
+  return true;
+}
+
+// SMS has the names of materials among the assignments of its models.
+void writeMaterialNames(TextWriter& file, const Grid& grid) {
+  if (grid.feature_of.empty() || numbersSayAll(grid)) return;
+  const std::vector<std::string> labels = featureLabels(grid);
+  file << "BEG2DMBC\n";
+  for (std::size_t f = 0; f < labels.size(); ++f) file << "MAT " << f + 1 << " \"" << labels[f] << "\"\n";
+  file << "END2DMBC\n";
+}
+
+// SMS .2dm with a .prj beside it. z is elevation, positive up, 0 where the grid has none; the material is the number of
+// the feature; boundaries are node strings that repeat the first node where they close, numbered as `boundaryMarker`
+// says. Throws OutputError.
+void write2dm(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
+  TextWriter file(path);
+  file << "MESH2D\n";
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    const std::uint32_t material = grid.feature_of.empty() ? 1 : grid.feature_of[t] + 1;
+    file << "E3T " << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << ' ' << material << '\n';
+  }
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    file << "ND " << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' '
+         << (grid.z.empty() ? 0.0 : grid.z[i]) << '\n';
+  }
+  for (std::size_t b = 0; b < grid.boundaries.size(); ++b) {
+    const Boundary& boundary = grid.boundaries[b];
+    writeNodeString(file, boundary.nodes, boundary.closed, boundaryMarker(b, boundary.role));
+  }
+  for (std::size_t i = 0; i < grid.lines.size(); ++i) {
+    const GridLine& line = grid.lines[i];
+    writeNodeString(file, line.nodes, line.closed, lineMarker(grid.boundaries.size() + i, line.kind));
+  }
+  writeMaterialNames(file, grid);
+  file.close();
+  writePrjBeside(path, grid.crs);
+}
+
+}  // namespace
+
+FormatRecord sms2dmFormat() {
+  return {{"2dm",
+           {".2dm"},
+           "SMS 2dm for QGIS and TUFLOW, z positive up",
+           true,
+           true,
+           {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers}},
+          {write2dm, read2dm, withPrjBeside}};
+}
+
+}  // namespace coastmesh

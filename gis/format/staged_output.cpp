@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "gis/error.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_io.hpp"
+#include "gis/grid/grid_edit.hpp"
+
+namespace coastmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void failToWrite(const std::string& path, const std::string& why) {
+  throw OutputError("cannot write '" + path + "': " + why);
+}
+
+bool isThere(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
+bool sameBytes(const fs::path& a, const fs::path& b) {
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
+}
+
+const GridFormat& writable(const std::string& path, const GridFormat& format) {
+  if (!format.writable) failToWrite(path, "the format " + std::string(format.name) + " can only be read");
+  return format;
+}
+
+}  // namespace
+
+StagedOutput::StagedOutput(const std::string& path, const GridFormat& format, bool overwrite)
+    : format_(&writable(path, format)), files_(path, filesOf(format, path), overwrite) {}
+
+// Whether a .prj that is there already stays, because it says what the grid's would.
+bool StagedOutput::keepsPrj(const Grid& grid) const {
+  const std::string prj = filesOf(*format_, files_.path()).prj;
+  if (prj.empty() || !isThere(prj)) return false;
+  if (sameBytes(prj, fs::path(files_.stagingFolder()) / fs::path(prj).filename())) return true;
+  try {
+    if (sameCrs(readPrjBeside(prj), grid.crs)) return true;
+  } catch (const InputError&) {
+    // It says nothing that can be read, so not the grid's CRS either.
+  }
+  if (!files_.mayReplace()) throw OutputError("'" + prj + "' exists already; give --overwrite to replace it");
+  const auto belongsTo = [&](const std::string& owner) {
+    failToWrite(files_.path(), "'" + prj + "' belongs to '" + owner +
+                                   "' and says another CRS than the mesh has; give the mesh another name");
+  };
+  const std::string shapefile = fs::path(prj).replace_extension(".shp").string();
+  if (isThere(shapefile) && format_->name != "shp") belongsTo(shapefile);
+  for (const std::string& input : inputs_) {
+    for (const std::string& companion : companionsOf(input)) {
+      std::error_code error;
+      if (fs::equivalent(companion, prj, error)) belongsTo(input);
+    }
+  }
+  return false;
+}
+
+void StagedOutput::write(const Grid& grid) {
+  if (grid.triangles.empty()) failToWrite(files_.path(), "the mesh has no triangles");
+  requireConsistent(grid);
+  files_.make([&](const std::string& path) { functionsOf(*format_).write(grid, path); });
+  if (keepsPrj(grid)) files_.keep(filesOf(*format_, files_.path()).prj);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "gis/error.hpp"
+#include "gis/file/fortran_records.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/file/text_reader.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/grid/rim_boundaries.hpp"
+
+namespace coastmesh {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t last = text.find_last_not_of(std::string(" \0", 2));
+  return last == std::string::npos ? std::string() : text.substr(0, last + 1);
+}
+
+// Ranks of nodes on the rim from 1, 0 inside.
+using Ranks = std::vector<std::int32_t>;
+
+Ranks readGeometry(FortranReader& file, Grid& grid) {
+  const std::string title = file.text();
+  if (title.size() != 80) file.fail("the title of a SELAFIN file has 80 characters");
+  grid.title = trimmed(title.substr(0, 72));
+  const std::size_t real = trimmed(title.substr(72)) == "SERAFIND" ? 8 : 4;
+  const std::vector<std::int32_t> counts = file.integers(2);
+  std::vector<std::string> variables;
+  if (counts[0] < 0 || counts[1] < 0) file.fail("the number of its variables is negative");
+  for (std::int64_t i = 0; i < std::int64_t{counts[0]} + counts[1]; ++i)
+    variables.push_back(trimmed(file.text().substr(0, 16)));
+  const std::vector<std::int32_t> parameters = file.integers(10);
+  if (parameters[6] > 1) file.fail("it has " + std::to_string(parameters[6]) + " planes; only 2D meshes can be read");
+  if (parameters[9] == 1) file.integers(6);  // the date
+  const std::vector<std::int32_t> sizes = file.integers(4);
+  if (sizes[2] != 3) file.fail("elements of " + std::to_string(sizes[2]) + " nodes; only triangles can be read");
+  if (sizes[0] < 0 || sizes[1] < 0) file.fail("a count of it is negative");
+  const auto elements = static_cast<std::size_t>(sizes[0]), nodes = static_cast<std::size_t>(sizes[1]);
+  const std::vector<std::int32_t> corners = file.integers(3 * elements);
+  for (std::size_t t = 0; t < elements; ++t) {
+    auto& triangle = grid.triangles.emplace_back();
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::int32_t node = corners[3 * t + i];
+      if (node < 1 || node > sizes[1])
+        file.fail("triangle " + std::to_string(t + 1) + " names node " + std::to_string(node) + ", which is not there");
+      triangle[i] = static_cast<std::uint32_t>(node - 1);
+    }
+  }
+  Ranks ranks = file.integers(nodes);
+  const std::vector<double> x = file.reals(nodes, real), y = file.reals(nodes, real);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+      file.fail("node " + std::to_string(i + 1) + " has no finite coordinates");
+    grid.nodes.push_back({x[i] + parameters[2], y[i] + parameters[3]});
+  }
+  if (file.atEnd()) return ranks;
+  file.reals(1, real);  // the time
+  for (const std::string& name : variables) {
+    const std::vector<double> values = file.reals(nodes, real);
+    const bool is_bottom = name == "BOTTOM" || name == "FOND" || name == "BOTTOM ELEVATION";
+    if (is_bottom && std::ranges::any_of(values, [](double z) { return z != 0.0; })) grid.z = values;
+  }
+  return ranks;
+}
+
+// What each node is by the .cli; shore where it says nothing.
+std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& ranks, Grid& grid) {
+  std::vector<BoundaryRole> roles(grid.nodes.size(), BoundaryRole::Land);
+  const auto on_rim = static_cast<std::size_t>(std::ranges::count_if(ranks, [](std::int32_t r) { return r != 0; }));
+  if (!std::filesystem::exists(path)) {
+    grid.notes.push_back("there is no '" + std::filesystem::path(path).filename().string() + "' beside it");
+    return roles;
+  }
+  TextReader file(path);
+  std::size_t lines = 0;
+  while (file.nextLine()) {
+    if (file.line().starts_with('#')) continue;
+    ++lines;
+    const std::int64_t level = file.integer(), flow = file.integer();
+    for (int k = 0; k < 9; ++k) file.number();
+    const std::int64_t node = file.integer();
+    if (node < 1 || node > static_cast<std::int64_t>(roles.size()))
+      file.fail("there is no node " + std::to_string(node));
+    if (file.hasWord() && file.integer() != ranks[static_cast<std::size_t>(node - 1)])
+      grid.notes.push_back("line " + std::to_string(lines) + " of the .cli is not the rank that IPOBO gives node " +
+                           std::to_string(node));
+    if (level == 2) continue;
+    const bool discharge = level == 4 && (flow == 5 || flow == 6);
+    roles[static_cast<std::size_t>(node - 1)] = discharge ? BoundaryRole::River : BoundaryRole::Open;
+  }
+  if (lines != on_rim)
+    grid.notes.push_back("the .cli has " + std::to_string(lines) + " lines, but IPOBO " + std::to_string(on_rim) +
+                         " nodes on the rim");
+  return roles;
+}
+
+// Loops in the order of their ranks, each from its lowest.
+void sortByRank(std::vector<std::vector<std::uint32_t>>& loops, const Ranks& ranks) {
+  const auto rankOf = [&](std::uint32_t node) { return ranks[node]; };
+  for (auto& loop : loops) std::ranges::rotate(loop, std::ranges::min_element(loop, {}, rankOf));
+  std::ranges::stable_sort(loops, {}, [&](const auto& loop) { return ranks[loop.front()]; });
+}
+
+// Reads either precision, two-dimensional meshes of triangles alone, and the .cli where there is one. Throws InputError.
+Grid readTelemac(const std::string& path) {
+  Grid grid;
+  FortranReader file(path);
+  const Ranks ranks = readGeometry(file, grid);
+  const std::vector<BoundaryRole> roles = readConditions(withEnding(path, ".cli"), ranks, grid);
+  auto loops = rimOf(grid);
+  sortByRank(loops, ranks);
+  // An edge is open where both its nodes are; between two kinds it is of the second.
+  grid.boundaries = cutLoops(grid.nodes, loops, [&](std::uint32_t from, std::uint32_t to) {
+    return RimKind{roles[from] == BoundaryRole::Land ? BoundaryRole::Land : roles[to]};
+  });
+  grid.crs = readPrjBeside(path);
+  return grid;
+}
+
+bool isLiquid(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
+
+// The rim's nodes in TELEMAC's order, each with what it is.
+struct RimNodes {
+  std::vector<std::uint32_t> nodes;
+  std::vector<BoundaryRole> roles;
+};
+
+// Outer loops before islands, each from its south-western node, as TELEMAC numbers them itself.
+std::vector<std::vector<std::uint32_t>> orderedLoops(const Grid& grid) {
+  std::vector<std::vector<std::uint32_t>> loops = rimOf(grid);
+  const auto southWest = [&](std::uint32_t node) { return grid.nodes[node].x + grid.nodes[node].y; };
+  for (auto& loop : loops) std::ranges::rotate(loop, std::ranges::min_element(loop, {}, southWest));
+  std::ranges::stable_partition(loops,
+                                [&](const auto& loop) { return roleOfLoop(grid.nodes, loop) == BoundaryRole::Land; });
+  return loops;
+}
+
+// A node between two kinds of opening belongs to the one before it, a node at the end of one to that one.
+RimNodes rimNodesOf(const Grid& grid, const std::string& path) {
+  const EdgeKinds kinds(grid);
+  const auto roleOf = [&](std::uint32_t from, std::uint32_t to) {
+    const RimKind* const kind = kinds.find(from, to);
+    return kind != nullptr ? kind->role : BoundaryRole::Land;
+  };
+  RimNodes rim;
+  std::vector<bool> seen(grid.nodes.size(), false);
+  for (const auto& loop : orderedLoops(grid)) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t node = loop[i];
+      if (seen[node])
+        throw OutputError("cannot write '" + path + "': the mesh touches itself in the node at " +
+                          std::to_string(grid.nodes[node].x) + ", " + std::to_string(grid.nodes[node].y) +
+                          ", which TELEMAC's files cannot say; mend it with --target telemac");
+      seen[node] = true;
+      const BoundaryRole before = roleOf(loop[(i + loop.size() - 1) % loop.size()], node);
+      const BoundaryRole after = roleOf(node, loop[(i + 1) % loop.size()]);
+      rim.nodes.push_back(node);
+      rim.roles.push_back(isLiquid(before) ? before : isLiquid(after) ? after : BoundaryRole::Land);
+    }
+  }
+  return rim;
+}
+
+std::string padded(std::string_view text, std::size_t width) {
+  std::string out(text.substr(0, width));
+  out.resize(width, ' ');
+  return out;
+}
+
+void writeGeometry(const Grid& grid, const RimNodes& rim, const std::string& path) {
+  FortranWriter file(path);
+  file.text(padded(grid.title, 72) + "SERAFIND");
+  file.integers(std::array<std::int32_t, 2>{1, 0});
+  file.text(padded("BOTTOM", 16) + padded("M", 16));
+  file.integers(std::array<std::int32_t, 10>{1});
+  const auto nodes = static_cast<std::int32_t>(grid.nodes.size());
+  file.integers(std::array{static_cast<std::int32_t>(grid.triangles.size()), nodes, 3, 1});
+  std::vector<std::int32_t> numbers;
+  numbers.reserve(3 * grid.triangles.size());
+  for (const auto& corners : grid.triangles)
+    for (const std::uint32_t node : corners) numbers.push_back(static_cast<std::int32_t>(node) + 1);
+  file.integers(numbers);
+  numbers.assign(grid.nodes.size(), 0);
+  for (std::size_t i = 0; i < rim.nodes.size(); ++i) numbers[rim.nodes[i]] = static_cast<std::int32_t>(i) + 1;
+  file.integers(numbers);
+  std::vector<double> values(grid.nodes.size());
+  std::ranges::transform(grid.nodes, values.begin(), &Point::x);
+  file.doubles(values);
+  std::ranges::transform(grid.nodes, values.begin(), &Point::y);
+  file.doubles(values);
+  file.doubles(std::array{0.0});  // the time
+  std::ranges::fill(values, 0.0);
+  file.doubles(grid.z.empty() ? values : grid.z);
+  file.close();
+}
+
+void writeConditions(const RimNodes& rim, const std::string& path) {
+  TextWriter file(path);
+  for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
+    const BoundaryRole role = rim.roles[i];
+    const bool liquid = isLiquid(role);
+    file << (role == BoundaryRole::Open ? "5 4 4"
+             : liquid                   ? "4 5 5"
+                                        : "2 2 2")
+         << " 0.000 0.000 0.000 0.000 " << (liquid ? '4' : '2') << " 0.000 0.000 0.000 " << rim.nodes[i] + 1 << ' '
+         << i + 1 << '\n';
+  }
+  file.close();
+}
+
+// TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, and beside
+// it the boundary conditions: `lake.slf` with `lake.cli`, and the CRS in a .prj. Shores are walls (2 2 2), open
+// boundaries levels (5 4 4), rivers discharges (4 5 5). The file has codes for nodes only: the shore of a single edge
+// between two openings becomes open with them. Throws OutputError, also where a z is unknown or the mesh touches
+// itself in a node.
+void writeTelemac(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
+  const RimNodes rim = rimNodesOf(grid, path);
+  writeGeometry(grid, rim, path);
+  writeConditions(rim, withEnding(path, ".cli"));
+  writePrjBeside(path, grid.crs);
+}
+
+}  // namespace
+
+FormatRecord telemacFormat() {
+  const auto files = [](const std::string& path) -> OutputFiles {
+    return {{path, withEnding(path, ".cli")}, {}, prjBeside(path)};
+  };
+  return {{"telemac",
+           {".slf"},
+           "TELEMAC's SELAFIN and .cli, elevation positive up",
+           true,
+           true,
+           {GridPart::Title, GridPart::Rivers},
+           true},
+          {writeTelemac, readTelemac, files}};
+}
+
+}  // namespace coastmesh

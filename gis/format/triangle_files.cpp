@@ -1,0 +1,242 @@
+#include <ogr_geometry.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <variant>
+
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/file/text_reader.hpp"
+#include "gis/file/text_writer.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr char kComment = '#';
+
+IdMap readNodes(const std::string& path, Grid& grid) {
+  TextReader file(path, kComment);
+  file.needLine();
+  const std::uint64_t count = file.count();
+  if (file.count() != 2) file.fail("the nodes are not in two dimensions");
+  const std::uint64_t attributes = file.hasWord() ? file.count() : 0;
+  std::vector<std::int64_t> ids;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    file.needLine();
+    ids.push_back(file.integer());
+    const double x = file.number(), y = file.number();
+    grid.nodes.push_back({x, y});
+    if (attributes == 1) grid.z.push_back(file.number());
+  }
+  return IdMap(std::move(ids), file, "node");
+}
+
+// Features by the triangles' attribute, ascending; none where it is not a whole number throughout.
+void readFeatures(const std::vector<double>& attribute, Grid& grid) {
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  const auto isWhole = [](double value) { return value == std::floor(value) && std::abs(value) <= kExact; };
+  if (attribute.empty() || !std::ranges::all_of(attribute, isWhole)) return;
+  std::vector<double> known = attribute;
+  std::ranges::sort(known);
+  const auto repeated = std::ranges::unique(known);
+  known.erase(repeated.begin(), repeated.end());
+  for (const double fid : known) grid.features.push_back({static_cast<std::int64_t>(fid), {}, {}});
+  for (const double fid : attribute)
+    grid.feature_of.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(known, fid) - known.begin()));
+}
+
+void readElements(const std::string& path, const IdMap& node_index, Grid& grid) {
+  TextReader file(path, kComment);
+  file.needLine();
+  const std::uint64_t count = file.count();
+  if (file.count() != 3) file.fail("only triangles of three nodes can be read");
+  const std::uint64_t attributes = file.hasWord() ? file.count() : 0;
+  std::vector<double> attribute;
+  for (std::uint64_t t = 0; t < count; ++t) {
+    file.needLine();
+    file.integer();
+    auto& triangle = grid.triangles.emplace_back();
+    for (std::uint32_t& corner : triangle) {
+      const std::int64_t id = file.integer();
+      corner = node_index.indexOf(id);
+      if (corner == kNone) file.fail("there is no node " + std::to_string(id));
+    }
+    if (attributes > 0) attribute.push_back(file.number());
+  }
+  readFeatures(attribute, grid);
+}
+
+// Segments of one marker that follow one another.
+struct MarkedSegments {
+  std::int64_t marker = 0;
+  std::variant<BoundaryRole, LineKind> kind;
+  std::vector<NodePair> edges;
+};
+
+// Segments in the order and with the markers that `writeTriangle` gives them; others tell no roles and are left out.
+void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) {
+  TextReader file(path, kComment);
+  file.needLine();
+  if (file.count() != 0) return;  // a .poly with vertices of its own is no companion of the .node
+  file.needLine();
+  const std::uint64_t count = file.count();
+  if (!file.hasWord() || file.count() == 0) return;
+  std::vector<MarkedSegments> marked;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    file.needLine();
+    file.integer();
+    NodePair edge{};
+    for (std::uint32_t& end : edge) {
+      const std::int64_t id = file.integer();
+      end = node_index.indexOf(id);
+      if (end == kNone) file.fail("there is no node " + std::to_string(id));
+    }
+    const std::int64_t marker = file.integer();
+    if (marked.empty() || marker != marked.back().marker) {
+      if (const auto role = roleOfMarker(marker, marked.size())) {
+        marked.push_back({marker, *role, {}});
+      } else if (const auto kind = lineKindOfMarker(marker, marked.size())) {
+        marked.push_back({marker, *kind, {}});
+      } else {
+        return;
+      }
+    }
+    marked.back().edges.push_back(edge);
+  }
+  std::vector<std::vector<NodePair>> groups;
+  for (MarkedSegments& segments : marked) {
+    auto& edges = groups.emplace_back();
+    if (const LineKind* const kind = std::get_if<LineKind>(&segments.kind)) {
+      std::ranges::move(linesAlong(segments.edges, *kind, {}), std::back_inserter(grid.lines));
+    } else {
+      edges = std::move(segments.edges);
+    }
+  }
+  keepRimEdges(grid.triangles, groups);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (Boundary& chain : chainEdges(groups[g])) {
+      chain.role = std::get<BoundaryRole>(marked[g].kind);
+      grid.boundaries.push_back(std::move(chain));
+    }
+  }
+}
+
+// Triangle's .node and .ele, numbered from 0 or 1, with the boundaries of a .poly where its markers are ours, and the
+// CRS of a .prj beside them; `path` is the .node or the .ele. A single attribute of the nodes is z, a whole number as
+// the attribute of the triangles their feature. Throws InputError with file and line.
+Grid readTriangle(const std::string& path) {
+  Grid grid;
+  const IdMap node_index = readNodes(withEnding(path, ".node"), grid);
+  readElements(withEnding(path, ".ele"), node_index, grid);
+  const std::string poly = withEnding(path, ".poly");
+  if (std::filesystem::exists(poly)) readSegments(poly, node_index, grid);
+  grid.crs = readPrjBeside(path);
+  return grid;
+}
+
+std::int64_t markerOfLine(const Grid& grid, std::size_t line) {
+  return lineMarker(grid.boundaries.size() + line, grid.lines[line].kind);
+}
+
+void writeNodes(const Grid& grid, const std::string& path) {
+  std::vector<std::int64_t> markers(grid.nodes.size(), 0);
+  for (std::size_t i = grid.lines.size(); i-- > 0;)
+    for (std::uint32_t node : grid.lines[i].nodes) markers[node] = markerOfLine(grid, i);
+  for (std::size_t b = grid.boundaries.size(); b-- > 0;)
+    for (std::uint32_t node : grid.boundaries[b].nodes) markers[node] = boundaryMarker(b, grid.boundaries[b].role);
+  TextWriter file(path);
+  file << grid.nodes.size() << " 2 " << (grid.z.empty() ? 0 : 1) << " 1\n";
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    file << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y;
+    if (!grid.z.empty()) file << ' ' << grid.z[i];
+    file << ' ' << markers[i] << '\n';
+  }
+  file.close();
+}
+
+void writeElements(const Grid& grid, const std::string& path) {
+  TextWriter file(path);
+  file << grid.triangles.size() << " 3 " << (grid.feature_of.empty() ? 0 : 1) << '\n';
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    file << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1;
+    if (!grid.feature_of.empty()) file << ' ' << grid.features[grid.feature_of[t]].fid;
+    file << '\n';
+  }
+  file.close();
+}
+
+Point pointInside(const Grid& grid, const Boundary& island, const std::string& path) {
+  const OgrErrors errors;
+  OGRLinearRing ring;
+  for (std::uint32_t node : island.nodes) ring.addPoint(grid.nodes[node].x, grid.nodes[node].y);
+  ring.closeRings();
+  OGRPolygon polygon;
+  polygon.addRing(&ring);
+  OGRPoint inside(0.0, 0.0);  // GDAL refuses to fill an empty one
+  if (polygon.PointOnSurface(&inside) != OGRERR_NONE)
+    throw OutputError("cannot write '" + path + "': no point found inside the island at " +
+                      std::to_string(grid.nodes[island.nodes[0]].x) + ", " +
+                      std::to_string(grid.nodes[island.nodes[0]].y) + " (" + errors.text() + ")");
+  return {inside.getX(), inside.getY()};
+}
+
+void writeSegments(const Grid& grid, const std::string& path) {
+  std::size_t segments = 0, islands = 0;
+  for (const Boundary& boundary : grid.boundaries) {
+    segments += edgesOf(boundary).size();
+    islands += boundary.closed && boundary.role == BoundaryRole::Island;
+  }
+  for (const GridLine& line : grid.lines) segments += edgesOf(line).size();
+  TextWriter file(path);
+  file << "0 2 0 1\n" << segments << " 1\n";
+  std::size_t id = 0;
+  for (std::size_t b = 0; b < grid.boundaries.size(); ++b)
+    for (const auto& [from, to] : edgesOf(grid.boundaries[b]))
+      file << ++id << ' ' << from + 1 << ' ' << to + 1 << ' ' << boundaryMarker(b, grid.boundaries[b].role) << '\n';
+  for (std::size_t i = 0; i < grid.lines.size(); ++i)
+    for (const auto& [from, to] : edgesOf(grid.lines[i]))
+      file << ++id << ' ' << from + 1 << ' ' << to + 1 << ' ' << markerOfLine(grid, i) << '\n';
+  file << islands << '\n';
+  id = 0;
+  for (const Boundary& boundary : grid.boundaries) {
+    if (!boundary.closed || boundary.role != BoundaryRole::Island) continue;
+    const Point hole = pointInside(grid, boundary, path);
+    file << ++id << ' ' << hole.x << ' ' << hole.y << '\n';
+  }
+  file.close();
+}
+
+// Triangle's .node and .ele, numbered from 1, with the boundaries as segments in a .poly and the CRS in a .prj; `path`
+// is any of them. z is the attribute of a node, the feature's fid that of a triangle. Segments are marked with
+// `boundaryMarker`, nodes with that of the first boundary they lie on. Islands have a hole point. Throws OutputError.
+void writeTriangle(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
+  writeNodes(grid, withEnding(path, ".node"));
+  writeElements(grid, withEnding(path, ".ele"));
+  writeSegments(grid, withEnding(path, ".poly"));
+  writePrjBeside(path, grid.crs);
+}
+
+}  // namespace
+
+FormatRecord triangleFormat() {
+  const auto files = [](const std::string& path) -> OutputFiles {
+    return {{withEnding(path, ".node"), withEnding(path, ".ele"), withEnding(path, ".poly")}, {}, prjBeside(path)};
+  };
+  return {{"triangle",
+           {".node", ".ele"},
+           "Triangle's .node, .ele and .poly",
+           true,
+           true,
+           {GridPart::Features, GridPart::Lines, GridPart::Rivers}},
+          {writeTriangle, readTriangle, files}};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,129 @@
+#include <cmath>
+
+#include "gis/error.hpp"
+#include "gis/file/text_writer.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_layers.hpp"
+#include "gis/format/read_ogr_grid.hpp"
+
+namespace coastmesh {
+namespace {
+
+// A text in JSON's quotes.
+std::string quoted(std::string_view text) {
+  constexpr char kHex[] = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      out += "\\u00";
+      out += kHex[c >> 4];
+      out += kHex[c & 15];
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string crsMember(const Crs& crs, const std::string& path) {
+  if (crs.isPlane())
+    return R"("crs": null,)"
+           "\n";
+  if (crs.authority == "EPSG:4326" || crs.authority == "OGC:CRS84") return {};
+  const std::size_t colon = crs.authority.find(':');
+  if (colon == std::string::npos)
+    throw OutputError("cannot write '" + path + "': GeoJSON can only name a CRS by its code, and " + nameOf(crs) +
+                      " has none; choose .gpkg");
+  const std::string urn = "urn:ogc:def:crs:" + crs.authority.substr(0, colon) + "::" + crs.authority.substr(colon + 1);
+  return R"("crs": {"type": "name", "properties": {"name": )" + quoted(urn) + "}},\n";
+}
+
+void writeValue(TextWriter& file, const LayerColumn& column, std::size_t row) {
+  if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
+    file << ((*flag)(row) ? "true" : "false");
+  } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
+    const std::optional<std::int64_t> value = (*whole)(row);
+    value ? file << *value : file << "null";
+  } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
+    const double value = (*real)(row);
+    std::isfinite(value) ? file << value : file << "null";
+  } else {
+    const std::string_view text = std::get<LayerColumn::Text>(column.value)(row);
+    text.empty() ? file << "null" : file << quoted(text);
+  }
+}
+
+void writeShape(TextWriter& file, const Grid& grid, GridLayer::Shape shape, const std::vector<std::uint32_t>& nodes) {
+  const auto writePlace = [&](std::uint32_t node) {
+    file << '[' << grid.nodes[node].x << ',' << grid.nodes[node].y;
+    if (shape == GridLayer::Shape::Point && !grid.z.empty() && std::isfinite(grid.z[node])) file << ',' << grid.z[node];
+    file << ']';
+  };
+  const auto writePlaces = [&] {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (i > 0) file << ',';
+      writePlace(nodes[i]);
+    }
+  };
+  switch (shape) {
+    case GridLayer::Shape::Point:
+      file << R"({"type":"Point","coordinates":)";
+      writePlace(nodes[0]);
+      break;
+    case GridLayer::Shape::Line:
+      file << R"({"type":"LineString","coordinates":[)";
+      writePlaces();
+      file << ']';
+      break;
+    case GridLayer::Shape::Polygon:
+      file << R"({"type":"Polygon","coordinates":[[)";
+      writePlaces();
+      file << "]]";
+      break;
+  }
+  file << '}';
+}
+
+void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs_member, const std::string& path) {
+  TextWriter file(path);
+  file << "{\n\"type\": \"FeatureCollection\",\n\"name\": " << quoted(layer.name) << ",\n"
+       << crs_member << "\"features\": [\n";
+  std::vector<std::string> keys;
+  keys.reserve(layer.columns.size());
+  for (const LayerColumn& column : layer.columns) keys.push_back(quoted(column.name));
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t row = 0; row < layer.rows; ++row) {
+    file << R"({"type":"Feature","properties":{)";
+    for (std::size_t c = 0; c < layer.columns.size(); ++c) {
+      file << (c == 0 ? "" : ",") << keys[c] << ':';
+      writeValue(file, layer.columns[c], row);
+    }
+    file << R"(},"geometry":)";
+    layer.shapeOf(row, nodes);
+    writeShape(file, grid, layer.shape, nodes);
+    file << (row + 1 < layer.rows ? "},\n" : "}\n");
+  }
+  file << "]\n}\n";
+  file.close();
+}
+
+// The grid's layers as three GeoJSON files: `path` with the triangles, and beside it nodes and boundaries. Written here
+// rather than by OGR, whose numbers do not all come back bit for bit and which takes what it cannot name for WGS 84.
+// WGS 84 as RFC 7946 has it; other CRS in their own coordinates with the `crs` member of GeoJSON 2008, null for a
+// plane. Throws OutputError, also for a CRS without a code, since GeoJSON can only name codes.
+void writeGeoJson(const Grid& grid, const std::string& path) {
+  const std::string crs_member = crsMember(grid.crs, path);
+  for (const GridLayer& layer : layersOf(grid)) writeLayer(grid, layer, crs_member, pathOfLayer(path, layer.name));
+}
+
+}  // namespace
+
+FormatRecord geoJsonFormat() {
+  return {{"geojson", {".geojson", ".json"}, "GeoJSON, three or four files", true, true, kLayerParts},
+          {writeGeoJson, readOgrGrid, layerFiles}};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,274 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "gis/file/prj_file.hpp"
+#include "gis/file/text_writer.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_names.hpp"
+#include "gis/format/read_gmsh.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr int kLine = 1, kTriangle = 2;  // element types
+
+constexpr GridParts kParts{GridPart::Features, GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
+                           GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs};
+
+// Curves are tagged from 1 in the order of the boundaries, then of the lines, surfaces go on after them in the order of
+// the features. Physical groups have the tags of their entities; lines of one kind and name are one group.
+struct Layout {
+  struct Curve {
+    const std::vector<std::uint32_t>* nodes = nullptr;
+    std::vector<NodePair> edges;
+    std::size_t group = 0;  // tag
+    bool inside = false;    // a line
+  };
+  std::vector<Curve> curves;
+  std::vector<std::pair<std::size_t, std::string>> curve_groups;  // tag and name
+  std::vector<std::vector<std::uint32_t>> triangles;              // one a surface
+  std::size_t line_count = 0;
+
+  std::size_t surfaces() const { return triangles.size(); }
+  std::size_t surfaceTag(std::size_t surface) const { return curves.size() + surface + 1; }
+};
+
+std::size_t surfaceOf(const Grid& grid, std::size_t triangle) {
+  return grid.feature_of.empty() ? 0 : grid.feature_of[triangle];
+}
+
+std::string groupName(const Boundary& boundary, std::size_t tag) {
+  std::string name = std::string(toString(boundary.role)) + ' ' + std::to_string(tag);
+  if (boundary.ibtype >= 0) name += std::string(kIbtypeMark) + std::to_string(boundary.ibtype);
+  return name;
+}
+
+std::string groupName(const GridLine& line) {
+  const std::string kind(toString(line.kind)), name = quotable(line.name);
+  return name.empty() ? kind : kind + ' ' + name;
+}
+
+Layout layoutOf(const Grid& grid) {
+  Layout layout;
+  const auto addCurve = [&](const auto& chain, std::size_t group, bool inside) {
+    layout.curves.push_back({&chain.nodes, edgesOf(chain), group, inside});
+    layout.line_count += layout.curves.back().edges.size();
+  };
+  for (const Boundary& boundary : grid.boundaries) {
+    const std::size_t tag = layout.curves.size() + 1;
+    layout.curve_groups.emplace_back(tag, groupName(boundary, tag));
+    addCurve(boundary, tag, false);
+  }
+  std::map<std::string, std::size_t> group_of;
+  for (const GridLine& line : grid.lines) {
+    const auto [group, added] = group_of.try_emplace(groupName(line), layout.curves.size() + 1);
+    if (added) layout.curve_groups.emplace_back(group->second, group->first);
+    addCurve(line, group->second, true);
+  }
+  layout.triangles.resize(grid.feature_of.empty() ? 1 : grid.features.size());
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) layout.triangles[surfaceOf(grid, t)].push_back(t);
+  return layout;
+}
+
+void writePhysicalNames(TextWriter& file, const Grid& grid, const Layout& layout) {
+  file << "$PhysicalNames\n" << layout.curve_groups.size() + layout.surfaces() << '\n';
+  for (const auto& [tag, name] : layout.curve_groups) file << "1 " << tag << " \"" << name << "\"\n";
+  const std::vector<std::string> labels =
+      grid.feature_of.empty() ? std::vector<std::string>{"domain"} : featureLabels(grid);
+  for (std::size_t s = 0; s < layout.surfaces(); ++s)
+    file << "2 " << layout.surfaceTag(s) << " \"" << labels[s] << "\"\n";
+  file << "$EndPhysicalNames\n";
+}
+
+void writeNodeData(TextWriter& file, const Grid& grid) {
+  if (grid.z.empty()) return;
+  const auto known = std::ranges::count_if(grid.z, [](double z) { return !std::isnan(z); });
+  file << "$NodeData\n1\n\"z\"\n1\n0\n3\n0\n1\n" << known << '\n';
+  for (std::size_t i = 0; i < grid.z.size(); ++i)
+    if (!std::isnan(grid.z[i])) file << i + 1 << ' ' << grid.z[i] << '\n';
+  file << "$EndNodeData\n";
+}
+
+struct Box {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void add(const Point& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+
+TextWriter& operator<<(TextWriter& file, const Box& box) {
+  return file << box.low.x << ' ' << box.low.y << " 0 " << box.high.x << ' ' << box.high.y << " 0";
+}
+
+// The curves that bound each surface: a line does where another surface lies beyond it.
+std::vector<std::set<std::size_t>> curvesAlong(const Grid& grid, const Layout& layout) {
+  std::vector<std::set<std::size_t>> along(layout.surfaces());
+  if (layout.surfaces() == 1) {
+    for (std::size_t c = 0; c < layout.curves.size(); ++c)
+      if (!layout.curves[c].inside) along[0].insert(c);
+    return along;
+  }
+  struct Side {
+    NodePair edge;
+    std::size_t curve;
+    std::size_t surface = kNone;  // to the left
+  };
+  std::vector<Side> sides;
+  for (std::size_t c = 0; c < layout.curves.size(); ++c) {
+    for (const auto& [a, b] : layout.curves[c].edges) {
+      sides.push_back({{a, b}, c});
+      if (layout.curves[c].inside) sides.push_back({{b, a}, c});
+    }
+  }
+  std::ranges::sort(sides, {}, &Side::edge);
+  std::vector<bool> on_curve(grid.nodes.size(), false);
+  for (const Side& side : sides) on_curve[side.edge[0]] = on_curve[side.edge[1]] = true;
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& v = grid.triangles[t];
+    for (unsigned i = 0; i < 3; ++i) {
+      const NodePair edge{v[i], v[next3(i)]};
+      if (!on_curve[edge[0]] || !on_curve[edge[1]]) continue;
+      for (Side& side : std::ranges::equal_range(sides, edge, {}, &Side::edge)) side.surface = surfaceOf(grid, t);
+    }
+  }
+  const auto beyond = [&](const Side& side) {
+    const NodePair back{side.edge[1], side.edge[0]};
+    const auto at = std::ranges::lower_bound(sides, back, {}, &Side::edge);
+    return at != sides.end() && at->edge == back ? at->surface : kNone;
+  };
+  for (const Side& side : sides)
+    if (side.surface != kNone && beyond(side) != side.surface) along[side.surface].insert(side.curve);
+  return along;
+}
+
+void writeEntities(TextWriter& file, const Grid& grid, const Layout& layout) {
+  file << "$Entities\n0 " << layout.curves.size() << ' ' << layout.surfaces() << " 0\n";
+  for (std::size_t c = 0; c < layout.curves.size(); ++c) {
+    Box box;
+    for (std::uint32_t node : *layout.curves[c].nodes) box.add(grid.nodes[node]);
+    file << c + 1 << ' ' << box << " 1 " << layout.curves[c].group << " 0\n";
+  }
+  const std::vector<std::set<std::size_t>> along = curvesAlong(grid, layout);
+  for (std::size_t s = 0; s < layout.surfaces(); ++s) {
+    Box box;
+    for (std::uint32_t t : layout.triangles[s])
+      for (std::uint32_t node : grid.triangles[t]) box.add(grid.nodes[node]);
+    file << layout.surfaceTag(s) << ' ' << box << " 1 " << layout.surfaceTag(s) << ' ' << along[s].size();
+    for (std::size_t c : along[s]) file << ' ' << c + 1;
+    file << '\n';
+  }
+  file << "$EndEntities\n";
+}
+
+// Every node in the block of the first entity that it lies on, curves before surfaces.
+void writeNodes(TextWriter& file, const Grid& grid, const Layout& layout) {
+  std::vector<std::vector<std::uint32_t>> blocks(layout.curves.size() + layout.surfaces());
+  std::vector<bool> placed(grid.nodes.size(), false);
+  const auto place = [&](std::size_t block, std::uint32_t node) {
+    if (!placed[node]) blocks[block].push_back(node);
+    placed[node] = true;
+  };
+  for (std::size_t c = 0; c < layout.curves.size(); ++c)
+    for (std::uint32_t node : *layout.curves[c].nodes) place(c, node);
+  for (std::size_t s = 0; s < layout.surfaces(); ++s)
+    for (std::uint32_t t : layout.triangles[s])
+      for (std::uint32_t node : grid.triangles[t]) place(layout.curves.size() + s, node);
+  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) place(layout.curves.size(), node);
+  const auto filled = std::ranges::count_if(blocks, [](const auto& block) { return !block.empty(); });
+  file << "$Nodes\n" << filled << ' ' << grid.nodes.size() << " 1 " << grid.nodes.size() << '\n';
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (blocks[b].empty()) continue;
+    std::ranges::sort(blocks[b]);
+    file << (b < layout.curves.size() ? 1 : 2) << ' ' << b + 1 << " 0 " << blocks[b].size() << '\n';
+    for (std::uint32_t node : blocks[b]) file << node + 1 << '\n';
+    for (std::uint32_t node : blocks[b]) file << grid.nodes[node].x << ' ' << grid.nodes[node].y << " 0\n";
+  }
+  file << "$EndNodes\n";
+}
+
+void writeElements(TextWriter& file, const Grid& grid, const Layout& layout) {
+  const auto blocks = std::ranges::count_if(layout.curves, [](const auto& curve) { return !curve.edges.empty(); }) +
+                      std::ranges::count_if(layout.triangles, [](const auto& group) { return !group.empty(); });
+  const std::size_t count = layout.line_count + grid.triangles.size();
+  file << "$Elements\n" << blocks << ' ' << count << " 1 " << count << '\n';
+  std::size_t tag = 0;
+  for (std::size_t c = 0; c < layout.curves.size(); ++c) {
+    const std::vector<NodePair>& edges = layout.curves[c].edges;
+    if (edges.empty()) continue;
+    file << "1 " << c + 1 << ' ' << kLine << ' ' << edges.size() << '\n';
+    for (const auto& [from, to] : edges) file << ++tag << ' ' << from + 1 << ' ' << to + 1 << '\n';
+  }
+  for (std::size_t s = 0; s < layout.surfaces(); ++s) {
+    if (layout.triangles[s].empty()) continue;
+    file << "2 " << layout.surfaceTag(s) << ' ' << kTriangle << ' ' << layout.triangles[s].size() << '\n';
+    for (std::uint32_t t : layout.triangles[s]) {
+      const auto& [a, b, c] = grid.triangles[t];
+      file << layout.line_count + t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+    }
+  }
+  file << "$EndElements\n";
+}
+
+// Gmsh .msh 4.1 or 2.2, ASCII, with the CRS in a .prj. Each boundary is a curve with a physical group ("land 1",
+// "island 2", "open 3") of line elements, each feature a surface with its own ("feature 17"; "domain" where there is
+// none). Tags of nodes and triangles follow the grid's order. The mesh lies in the plane: z is node data, since solvers
+// take a third coordinate for a curved surface. Throws OutputError.
+void writeGmsh(const Grid& grid, const std::string& path) {
+  const Layout layout = layoutOf(grid);
+  TextWriter file(path);
+  file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  writePhysicalNames(file, grid, layout);
+  writeEntities(file, grid, layout);
+  writeNodes(file, grid, layout);
+  writeElements(file, grid, layout);
+  writeNodeData(file, grid);
+  file.close();
+  writePrjBeside(path, grid.crs);
+}
+
+void writeGmsh22(const Grid& grid, const std::string& path) {
+  const Layout layout = layoutOf(grid);
+  TextWriter file(path);
+  file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  writePhysicalNames(file, grid, layout);
+  file << "$Nodes\n" << grid.nodes.size() << '\n';
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    file << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << " 0\n";
+  file << "$EndNodes\n$Elements\n" << layout.line_count + grid.triangles.size() << '\n';
+  std::size_t tag = 0;
+  for (std::size_t c = 0; c < layout.curves.size(); ++c)
+    for (const auto& [from, to] : layout.curves[c].edges)
+      file << ++tag << ' ' << kLine << " 2 " << layout.curves[c].group << ' ' << c + 1 << ' ' << from + 1 << ' '
+           << to + 1 << '\n';
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    const std::size_t surface = layout.surfaceTag(surfaceOf(grid, t));
+    file << ++tag << ' ' << kTriangle << " 2 " << surface << ' ' << surface << ' ' << a + 1 << ' ' << b + 1 << ' '
+         << c + 1 << '\n';
+  }
+  file << "$EndElements\n";
+  writeNodeData(file, grid);
+  file.close();
+  writePrjBeside(path, grid.crs);
+}
+
+}  // namespace
+
+FormatRecord gmshFormat() {
+  return {{"gmsh", {".msh"}, "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS", true, true, kParts},
+          {writeGmsh, readGmsh, withPrjBeside}};
+}
+
+FormatRecord gmsh22Format() {
+  return {{"gmsh22", {"_22.msh"}, "Gmsh 2.2", true, true, kParts}, {writeGmsh22, readGmsh, withPrjBeside}};
+}
+
+}  // namespace coastmesh

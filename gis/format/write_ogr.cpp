@@ -1,0 +1,334 @@
+#include "gis/format/write_ogr.hpp"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/file/gpkg_index.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_layers.hpp"
+#include "gis/format/read_ogr_grid.hpp"
+
+namespace coastmesh {
+namespace {
+
+// The date that formats note inside: the same input has to give the same bytes.
+constexpr const char* kGeoPackageDate = "2000-01-01T00:00:00.000Z";
+constexpr const char* kTableDate = "2000-01-01";
+
+constexpr std::size_t kLongestTableText = 254;  // bytes, of a .dbf
+
+struct Writer {
+  const char* driver;
+  std::vector<const char*> layer_options;
+  bool table_types = false;         // flags and texts as a .dbf has them
+  const char* plane_wkt = nullptr;  // what a plane is called; null: nothing
+  bool hides_failures = false;      // OGR does not tell when the disk is full
+};
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
+
+[[noreturn]] void fail(const std::string& path, const OgrErrors& errors) {
+  throw OutputError("cannot write '" + path + "'" + (errors.text().empty() ? "" : ": " + errors.text()));
+}
+
+DatasetPtr create(const Writer& writer, const std::string& path, const OgrErrors& errors) {
+  GDALAllRegister();
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(writer.driver);
+  if (driver == nullptr) throw OutputError("cannot write '" + path + "': this GDAL has no driver " + writer.driver);
+  DatasetPtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  if (!dataset) fail(path, errors);
+  return dataset;
+}
+
+// What is left in GDAL's buffers is written now; only the collected messages tell whether it went well.
+void close(DatasetPtr dataset, const std::string& path, const OgrErrors& errors) {
+  dataset->FlushCache(true);
+  dataset.reset();
+  if (errors.failed()) fail(path, errors);
+}
+
+bool createField(OGRLayer& target, const LayerColumn& column, const Writer& writer) {
+  OGRFieldDefn field(column.name.c_str(), OFTString);
+  if (std::holds_alternative<LayerColumn::Flag>(column.value)) {
+    field.SetType(OFTInteger);
+    if (!writer.table_types) field.SetSubType(OFSTBoolean);
+  } else if (std::holds_alternative<LayerColumn::Whole>(column.value)) {
+    field.SetType(OFTInteger64);
+  } else if (std::holds_alternative<LayerColumn::Real>(column.value)) {
+    field.SetType(OFTReal);
+  } else if (writer.table_types) {
+    field.SetWidth(static_cast<int>(std::min(column.longest, kLongestTableText)));
+  }
+  return target.CreateField(&field) == OGRERR_NONE;
+}
+
+void setField(OGRFeature& feature, int index, const LayerColumn& column, std::size_t row, std::string& scratch) {
+  if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
+    feature.SetField(index, (*flag)(row) ? 1 : 0);
+  } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
+    const std::optional<std::int64_t> value = (*whole)(row);
+    value ? feature.SetField(index, static_cast<GIntBig>(*value)) : feature.SetFieldNull(index);
+  } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
+    const double value = (*real)(row);
+    std::isnan(value) ? feature.SetFieldNull(index) : feature.SetField(index, value);
+  } else {
+    scratch = std::get<LayerColumn::Text>(column.value)(row);
+    scratch.empty() ? feature.SetFieldNull(index) : feature.SetField(index, scratch.c_str());
+  }
+}
+
+// One geometry for all rows of a layer, so that a row costs no allocation.
+class ShapeCursor {
+ public:
+  ShapeCursor(const Grid& grid, const GridLayer& layer) : grid_(grid), layer_(layer) {
+    switch (layer.shape) {
+      case GridLayer::Shape::Point:
+        geometry_ = std::make_unique<OGRPoint>();
+        break;
+      case GridLayer::Shape::Line:
+        geometry_ = std::make_unique<OGRLineString>();
+        break;
+      case GridLayer::Shape::Polygon: {
+        auto polygon = std::make_unique<OGRPolygon>();
+        polygon->addRingDirectly(new OGRLinearRing());
+        geometry_ = std::move(polygon);
+        break;
+      }
+    }
+  }
+
+  static OGRwkbGeometryType typeOf(const Grid& grid, const GridLayer& layer) {
+    switch (layer.shape) {
+      case GridLayer::Shape::Point:
+        return grid.z.empty() ? wkbPoint : wkbPoint25D;
+      case GridLayer::Shape::Line:
+        return wkbLineString;
+      case GridLayer::Shape::Polygon:
+        break;
+    }
+    return wkbPolygon;
+  }
+
+  const OGRGeometry& at(std::size_t row) {
+    layer_.shapeOf(row, nodes_);
+    if (layer_.shape == GridLayer::Shape::Point) {
+      auto& point = static_cast<OGRPoint&>(*geometry_);
+      point.setX(grid_.nodes[nodes_[0]].x);
+      point.setY(grid_.nodes[nodes_[0]].y);
+      if (!grid_.z.empty()) point.setZ(grid_.z[nodes_[0]]);
+      return point;
+    }
+    auto& chain = layer_.shape == GridLayer::Shape::Line
+                      ? static_cast<OGRSimpleCurve&>(static_cast<OGRLineString&>(*geometry_))
+                      : static_cast<OGRSimpleCurve&>(*static_cast<OGRPolygon&>(*geometry_).getExteriorRing());
+    chain.setNumPoints(static_cast<int>(nodes_.size()), false);
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      chain.setPoint(static_cast<int>(i), grid_.nodes[nodes_[i]].x, grid_.nodes[nodes_[i]].y);
+    return *geometry_;
+  }
+
+ private:
+  const Grid& grid_;
+  const GridLayer& layer_;
+  std::unique_ptr<OGRGeometry> geometry_;
+  std::vector<std::uint32_t> nodes_;
+};
+
+OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const Writer& writer, const Grid& grid,
+                      const GridLayer& layer, const std::string& name, const OgrErrors& errors) {
+  std::optional<OGRSpatialReference> srs;
+  if (!grid.crs.isPlane()) {
+    srs = toOgr(grid.crs);
+  } else if (writer.plane_wkt != nullptr) {
+    srs.emplace(writer.plane_wkt);
+  }
+  std::vector<const char*> options = writer.layer_options;
+  options.push_back(nullptr);
+  OGRLayer* const target = dataset.CreateLayer(name.c_str(), srs ? &*srs : nullptr, ShapeCursor::typeOf(grid, layer),
+                                               const_cast<char**>(options.data()));
+  if (target == nullptr) fail(path, errors);
+  for (const LayerColumn& column : layer.columns)
+    if (!createField(*target, column, writer)) fail(path, errors);
+  return *target;
+}
+
+void writeFeatures(OGRLayer& target, const std::string& path, const Grid& grid, const GridLayer& layer,
+                   const OgrErrors& errors) {
+  OGRFeature feature(target.GetLayerDefn());
+  ShapeCursor shapes(grid, layer);
+  std::string scratch;
+  for (std::size_t row = 0; row < layer.rows; ++row) {
+    feature.SetFID(OGRNullFID);
+    for (std::size_t c = 0; c < layer.columns.size(); ++c)
+      setField(feature, static_cast<int>(c), layer.columns[c], row, scratch);
+    feature.SetGeometry(&shapes.at(row));
+    if (target.CreateFeature(&feature) != OGRERR_NONE) fail(path, errors);
+  }
+}
+
+// The boxes of the layer's rows, which have the fids 1, 2, ...
+std::vector<IndexEntry> boxesOf(const Grid& grid, const GridLayer& layer) {
+  std::vector<IndexEntry> boxes(layer.rows);
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t row = 0; row < layer.rows; ++row) {
+    layer.shapeOf(row, nodes);
+    IndexEntry& box = boxes[row];
+    box = {static_cast<std::int64_t>(row) + 1, grid.nodes[nodes[0]], grid.nodes[nodes[0]]};
+    for (const std::uint32_t node : nodes) {
+      const Point& p = grid.nodes[node];
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  }
+  return boxes;
+}
+
+[[noreturn]] void failIncomplete(const std::string& path) {
+  throw OutputError("cannot write '" + path + "': the file came out incomplete; is the disk full?");
+}
+
+// Whether a .dbf holds so many rows: GDAL does not report when its header or the mark of its end cannot be written.
+bool isWholeTable(const std::string& path, std::size_t rows) {
+  std::array<unsigned char, 12> head{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
+  const auto number = [&head](std::size_t at, std::size_t bytes) {
+    std::uintmax_t value = 0;
+    for (std::size_t i = bytes; i-- > 0;) value = value << 8 | head[at + i];
+    return value;
+  };
+  constexpr std::uintmax_t kLeastHeader = 33, kLeastRow = 1;
+  const std::uintmax_t header = number(8, 2), row = number(10, 2);
+  return number(4, 4) == rows && header >= kLeastHeader && row >= kLeastRow &&
+         std::filesystem::file_size(path) >= header + rows * row + 1;
+}
+
+// Reads the file through.
+void requireComplete(const std::string& path, std::size_t rows, const OgrErrors& errors) {
+  const DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  OGRLayer* const layer = dataset && dataset->GetLayerCount() == 1 ? dataset->GetLayer(0) : nullptr;
+  std::size_t found = 0;
+  if (layer != nullptr)
+    while (OGRFeatureUniquePtr(layer->GetNextFeature())) ++found;
+  if (found != rows || errors.failed()) failIncomplete(path);
+}
+
+void writeLayerFiles(const Writer& writer, const Grid& grid, const std::vector<GridLayer>& layers,
+                     const std::string& path) {
+  for (const GridLayer& layer : layers) {
+    const std::string layer_path = pathOfLayer(path, layer.name);
+    const OgrErrors errors;
+    DatasetPtr dataset = create(writer, layer_path, errors);
+    const std::string name = std::filesystem::path(layer_path).stem().string();
+    writeFeatures(createLayer(*dataset, layer_path, writer, grid, layer, name, errors), layer_path, grid, layer,
+                  errors);
+    close(std::move(dataset), layer_path, errors);
+    if (writer.hides_failures) requireComplete(layer_path, layer.rows, errors);
+    if (writer.table_types && !isWholeTable(withEnding(layer_path, ".dbf"), layer.rows)) failIncomplete(layer_path);
+  }
+}
+
+std::uint64_t tableBytes(const GridLayer& layer) {
+  std::uint64_t bytes = 1;
+  for (const LayerColumn& column : layer.columns)
+    bytes += std::holds_alternative<LayerColumn::Text>(column.value) ? std::min(column.longest, kLongestTableText) : 24;
+  return bytes;
+}
+
+}  // namespace
+
+void writeGeoPackage(const Grid& grid, const std::string& path) {
+  const OgrErrors errors;
+  const OgrOption date("OGR_CURRENT_DATE", kGeoPackageDate);
+  // The file only gets its name once it is whole, so nothing is gained by a journal or by waiting for the disk.
+  const OgrOption journal("OGR_SQLITE_JOURNAL", "OFF");
+  const OgrOption synchronous("OGR_SQLITE_SYNCHRONOUS", "OFF");
+  // Said in this way or OGR calls it an undefined geographic CRS.
+  const Writer writer{"GPKG", {"SPATIAL_INDEX=NO"}, false, "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
+  DatasetPtr dataset = create(writer, path, errors);
+  if (dataset->StartTransaction() != OGRERR_NONE) fail(path, errors);
+  for (const GridLayer& layer : layersOf(grid)) {
+    OGRLayer& target = createLayer(*dataset, path, writer, grid, layer, layer.name, errors);
+    GeoPackageIndex index(*dataset, layer.name, target.GetGeometryColumn());
+    if (!index.create()) fail(path, errors);
+    writeFeatures(target, path, grid, layer, errors);
+    if (!index.fill(boxesOf(grid, layer))) fail(path, errors);
+  }
+  if (dataset->CommitTransaction() != OGRERR_NONE) fail(path, errors);
+  close(std::move(dataset), path, errors);
+}
+
+void writeShapefile(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
+  const std::vector<GridLayer> layers = layersOf(grid);
+  constexpr std::uint64_t kTriangleShape = 8 + 44 + 4 + 4 * 16;  // header, type, box and counts, part, four corners
+  requireShapefileSize(path, layers[0].rows, kTriangleShape, tableBytes(layers[0]));
+  const std::string date = std::string("DBF_DATE_LAST_UPDATE=") + kTableDate;
+  writeLayerFiles({"ESRI Shapefile", {"ENCODING=UTF-8", "2GB_LIMIT=YES", date.c_str()}, true}, grid, layers, path);
+}
+
+void writeFlatGeobuf(const Grid& grid, const std::string& path) {
+  writeLayerFiles({"FlatGeobuf", {}, false, nullptr, true}, grid, layersOf(grid), path);
+}
+
+void requireShapefileSize(const std::string& path, std::uint64_t rows, std::uint64_t shape_bytes,
+                          std::uint64_t table_bytes) {
+  constexpr std::uint64_t kLimit = 2'147'483'647;
+  constexpr std::uint64_t kHeader = 1000;  // at least the larger of the two files' own
+  if (rows * std::max(shape_bytes, table_bytes) + kHeader <= kLimit) return;
+  throw OutputError("cannot write '" + path + "': " + std::to_string(rows) +
+                    " triangles are more than the 2 GB of a shapefile hold; choose .gpkg or .fgb");
+}
+
+namespace {
+
+// SQLite would play a log that an older file of the name left into the new one.
+OutputFiles geoPackageFiles(const std::string& path) {
+  return {{path}, {path + "-wal", path + "-shm", path + "-journal"}, {}};
+}
+
+OutputFiles shapefileFiles(const std::string& path) {
+  OutputFiles files;
+  for (const std::string& layer : layerFiles(path).targets) {
+    for (const char* ending : {".shp", ".shx", ".dbf", ".cpg"}) files.targets.push_back(withEnding(layer, ending));
+    for (const char* ending : {".prj", ".qix", ".qpj", ".sbn", ".sbx", ".fbn", ".fbx", ".ain", ".aih", ".atx", ".ixs",
+                               ".mxs", ".idm", ".ind", ".cst", ".shp.xml"})
+      files.stale.push_back(withEnding(layer, ending));
+  }
+  files.prj = prjBeside(path);
+  return files;
+}
+
+}  // namespace
+
+FormatRecord geoPackageFormat() {
+  return {
+      {"gpkg", {".gpkg"}, "GeoPackage with layers of triangles, nodes, boundaries and lines", true, true, kLayerParts},
+      {writeGeoPackage, readOgrGrid, geoPackageFiles}};
+}
+
+FormatRecord shapefileFormat() {
+  return {{"shp", {".shp"}, "Shapefile, three or four sets of files", true, true, kLayerParts},
+          {writeShapefile, readOgrGrid, shapefileFiles}};
+}
+
+FormatRecord flatGeobufFormat() {
+  return {{"fgb", {".fgb"}, "FlatGeobuf, three or four files", true, true, kLayerParts},
+          {writeFlatGeobuf, readOgrGrid, layerFiles}};
+}
+
+}  // namespace coastmesh

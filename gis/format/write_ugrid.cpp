@@ -1,0 +1,367 @@
+#include <netcdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include "gis/crs/ogr_support.hpp"
+#include "gis/file/cf_grid_mapping.hpp"
+#include "gis/file/netcdf_file.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_names.hpp"
+#include "gis/format/read_ugrid.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid_lines.hpp"
+#include "gis/grid/mesh_edges.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr int kStartIndex = 1;
+constexpr int kFillNode = -999;
+constexpr double kFillZ = -999.0;
+constexpr int kNoIbtype = -1;
+
+std::string crsVariableName(const Crs& crs) { return crs.geographic ? "wgs84" : "projected_coordinate_system"; }
+
+// The number of an EPSG code, 0 for another authority or none.
+int epsgOf(const Crs& crs) {
+  constexpr std::string_view kEpsg = "EPSG:";
+  if (!crs.authority.starts_with(kEpsg)) return 0;
+  int code = 0;
+  for (const char c : crs.authority.substr(kEpsg.size())) code = c >= '0' && c <= '9' ? 10 * code + (c - '0') : code;
+  return code;
+}
+
+// The names that MDAL (wkt, EPSG_code), D-FlowFM (epsg), CF (crs_wkt) and GDAL (spatial_ref) look for.
+int defineCrs(NetcdfWriter& file, const Crs& crs) {
+  const int variable = file.variable(crsVariableName(crs), NC_INT, {});
+  const CfGridMapping mapping = cfGridMapping(crs);
+  file.attribute(variable, "name", nameOf(crs));
+  file.attribute(variable, "grid_mapping_name", mapping.name);
+  for (const auto& [name, value] : mapping.parameters) file.attribute(variable, name, value);
+  if (const int epsg = epsgOf(crs); epsg != 0) {
+    file.attribute(variable, "epsg", epsg);
+    file.attribute(variable, "EPSG_code", crs.authority);
+  }
+  for (const char* name : {"wkt", "crs_wkt", "spatial_ref"}) file.attribute(variable, name, crs.wkt);
+  return variable;
+}
+
+std::string lengthUnit(const Crs& crs) {
+  if (crs.isPlane()) return "m";
+  const char* name = nullptr;
+  const double metres = toOgr(crs).GetLinearUnits(&name);
+  return metres == 1.0 || name == nullptr ? "m" : name;
+}
+
+// The file while it is written: a variable is defined together with what will stand in it, which NetCDF takes only once
+// all are defined.
+class UgridFile {
+ public:
+  UgridFile(const Grid& grid, const std::string& path, bool large)
+      : file_(path, large), crs_name_(grid.crs.isPlane() ? "" : crsVariableName(grid.crs)) {}
+
+  NetcdfWriter& file() { return file_; }
+  int dimension(const std::string& name, std::size_t length) { return file_.dimension(name, length); }
+
+  // `values` is called when its turn comes, so that one array at a time is made.
+  template <typename Values>
+  void put(int variable, Values&& values) {
+    puts_.push_back([this, variable, values = std::forward<Values>(values)] {
+      const auto made = values();
+      file_.put(variable, made.data());
+    });
+  }
+
+  // A variable of the mesh.
+  template <typename Values>
+  int data(const std::string& name, int type, int dimension, const std::string& location, const std::string& long_name,
+           const std::string& units, Values&& values) {
+    const int variable = file_.variable("mesh2d_" + name, type, {dimension});
+    file_.attribute(variable, "mesh", "mesh2d");
+    file_.attribute(variable, "location", location);
+    file_.attribute(variable, "long_name", long_name);
+    if (!units.empty()) file_.attribute(variable, "units", units);
+    if (!crs_name_.empty() && (location == "node" || location == "face" || location == "edge"))
+      file_.attribute(variable, "grid_mapping", crs_name_);
+    put(variable, std::forward<Values>(values));
+    return variable;
+  }
+
+  template <typename Rows>
+  void connectivity(const std::string& of, const std::vector<int>& dimensions, const Rows& rows) {
+    const int variable = file_.variable("mesh2d_" + of + "_nodes", NC_INT, dimensions);
+    file_.attribute(variable, "cf_role", of + "_node_connectivity");
+    file_.attribute(variable, "long_name", "nodes of each " + of);
+    file_.attribute(variable, "start_index", kStartIndex);
+    file_.attribute(variable, "_FillValue", kFillNode);
+    put(variable, [&rows] {
+      std::vector<int> numbers;
+      for (const auto& row : rows)
+        for (const std::uint32_t node : row) numbers.push_back(static_cast<int>(node) + kStartIndex);
+      return numbers;
+    });
+  }
+
+  // Names as rows of characters.
+  void names(const std::string& name, int dimension, const std::string& long_name,
+             const std::vector<std::string>& texts) {
+    std::size_t longest = 1;
+    for (const std::string& text : texts) longest = std::max(longest, text.size());
+    const int length = file_.dimension("mesh2d_" + name + "_length", longest);
+    const int variable = file_.variable("mesh2d_" + name, NC_CHAR, {dimension, length});
+    file_.attribute(variable, "long_name", long_name);
+    put(variable, [texts, longest] {
+      std::string all;
+      for (const std::string& text : texts) all += text + std::string(longest - text.size(), '\0');
+      return all;
+    });
+  }
+
+  // The numbers 1, 2, … of a variable and what they mean, which CF wants without blanks.
+  void flags(int variable, const std::vector<std::string>& meanings) {
+    std::vector<int> values;
+    std::string words;
+    for (const std::string& meaning : meanings) {
+      values.push_back(static_cast<int>(values.size()) + 1);
+      std::string word = meaning;
+      std::ranges::replace_if(
+          word, [](unsigned char c) { return c <= ' '; }, '_');
+      words += (words.empty() ? "" : " ") + word;
+    }
+    file_.attribute(variable, "flag_values", values);
+    file_.attribute(variable, "flag_meanings", words);
+  }
+
+  void close() {
+    file_.endDefinitions();
+    for (const auto& put : puts_) put();
+    file_.close();
+  }
+
+ private:
+  NetcdfWriter file_;
+  std::string crs_name_;
+  std::vector<std::function<void()>> puts_;
+};
+
+void defineCoordinate(UgridFile& ugrid, const Grid& grid, int nodes, bool is_x) {
+  const Crs& crs = grid.crs;
+  const int variable = ugrid.file().variable(is_x ? "mesh2d_node_x" : "mesh2d_node_y", NC_DOUBLE, {nodes});
+  const auto attribute = [&](const char* name, const std::string& text) {
+    ugrid.file().attribute(variable, name, text);
+  };
+  if (crs.geographic) {
+    attribute("units", is_x ? "degrees_east" : "degrees_north");
+    attribute("standard_name", is_x ? "longitude" : "latitude");
+    attribute("long_name", is_x ? "longitude of the nodes" : "latitude of the nodes");
+  } else {
+    attribute("units", lengthUnit(crs));
+    attribute("standard_name", is_x ? "projection_x_coordinate" : "projection_y_coordinate");
+    attribute("long_name", is_x ? "x of the nodes" : "y of the nodes");
+  }
+  attribute("mesh", "mesh2d");
+  attribute("location", "node");
+  if (!crs.isPlane()) attribute("grid_mapping", crsVariableName(crs));
+  ugrid.put(variable, [&grid, is_x] {
+    std::vector<double> values(grid.nodes.size());
+    std::ranges::transform(grid.nodes, values.begin(), is_x ? &Point::x : &Point::y);
+    return values;
+  });
+}
+
+void defineNodes(UgridFile& ugrid, const Grid& grid, int nodes) {
+  defineCoordinate(ugrid, grid, nodes, true);
+  defineCoordinate(ugrid, grid, nodes, false);
+  if (!grid.z.empty()) {
+    const int z = ugrid.data("node_z", NC_DOUBLE, nodes, "node", "elevation of the nodes", "m", [&grid] {
+      std::vector<double> values = grid.z;
+      std::ranges::replace_if(
+          values, [](double value) { return std::isnan(value); }, kFillZ);
+      return values;
+    });
+    ugrid.file().attribute(z, "standard_name", "altitude");
+    ugrid.file().attribute(z, "positive", "up");
+    ugrid.file().attribute(z, "_FillValue", kFillZ);
+  }
+  if (!grid.size_m.empty())
+    ugrid.data("node_size", NC_DOUBLE, nodes, "node", "length that edges were to have", "m",
+               [&grid] { return std::span(grid.size_m); });
+}
+
+// One a boundary's edge, of what `value` says of the boundary.
+template <typename T, typename Value>
+std::vector<T> ofBoundaryEdges(const Grid& grid, Value&& value) {
+  std::vector<T> values;
+  for (std::size_t b = 0; b < grid.boundaries.size(); ++b)
+    values.insert(values.end(), edgesOf(grid.boundaries[b]).size(), static_cast<T>(value(b)));
+  return values;
+}
+
+void defineBoundaries(UgridFile& ugrid, const Grid& grid, int two, const std::vector<NodePair>& edges) {
+  if (edges.empty()) return;
+  const int dimension = ugrid.dimension("mesh2d_nBoundaryEdges", edges.size());
+  ugrid.connectivity("boundary", {dimension, two}, edges);
+  ugrid.data("boundary_number", NC_INT, dimension, "boundary", "boundary that the edge belongs to, from 1", {},
+             [&grid] { return ofBoundaryEdges<int>(grid, [](std::size_t b) { return b + 1; }); });
+  const int role = ugrid.data("boundary_role", NC_BYTE, dimension, "boundary", "role of the edge", {}, [&grid] {
+    return ofBoundaryEdges<signed char>(grid, [&](std::size_t b) { return grid.boundaries[b].role; });
+  });
+  ugrid.file().attribute(role, "flag_values", std::vector<signed char>{0, 1, 2, 3});
+  ugrid.file().attribute(role, "flag_meanings", "land island open river");
+  if (std::ranges::none_of(grid.boundaries, [](const Boundary& boundary) { return boundary.ibtype >= 0; })) return;
+  const int type = ugrid.data(
+      "boundary_ibtype", NC_INT, dimension, "boundary", "ADCIRC's type of the edge", {},
+      [&grid] { return ofBoundaryEdges<int>(grid, [&](std::size_t b) { return grid.boundaries[b].ibtype; }); });
+  ugrid.file().attribute(type, "_FillValue", kNoIbtype);
+}
+
+// One a triangle. As int where all fit, for programs that read no wider whole numbers, else as double.
+std::vector<double> fidsOf(const Grid& grid) {
+  std::vector<double> fids;
+  fids.reserve(grid.feature_of.size());
+  for (std::uint32_t feature : grid.feature_of) fids.push_back(static_cast<double>(grid.features[feature].fid));
+  return fids;
+}
+
+bool fidsFitInt(const Grid& grid) {
+  return std::ranges::all_of(grid.features, [](const GridFeature& feature) {
+    return feature.fid > std::numeric_limits<int>::min() && feature.fid <= std::numeric_limits<int>::max();
+  });
+}
+
+void defineRegions(UgridFile& ugrid, const Grid& grid, int faces) {
+  const std::vector<std::string> names = regionNames(grid);
+  if (names.empty() || grid.feature_of.empty()) return;
+  const int region =
+      ugrid.data("region", NC_INT, faces, "face", "region that the face lies in, 0 in none", {}, [&grid, names] {
+        const std::vector<int> numbers = regionNumbers(grid, names);
+        std::vector<int> values;
+        for (const std::uint32_t feature : grid.feature_of) values.push_back(numbers[feature]);
+        return values;
+      });
+  ugrid.flags(region, names);
+  ugrid.names("region_name", ugrid.dimension("mesh2d_nRegions", names.size()), "names of the regions", names);
+}
+
+void defineFaces(UgridFile& ugrid, const Grid& grid, int faces) {
+  if (!grid.min_angle_deg.empty())
+    ugrid.data("min_angle", NC_DOUBLE, faces, "face", "smallest angle", "degree",
+               [&grid] { return std::span(grid.min_angle_deg); });
+  if (!grid.area_m2.empty())
+    ugrid.data("area", NC_DOUBLE, faces, "face", "area", "m2", [&grid] { return std::span(grid.area_m2); });
+  if (!grid.feature_of.empty())
+    ugrid.data("feature", fidsFitInt(grid) ? NC_INT : NC_DOUBLE, faces, "face", "fid of the source feature", {},
+               [&grid] { return fidsOf(grid); });
+  defineRegions(ugrid, grid, faces);
+  if (!grid.piece_of.empty())
+    ugrid.data("piece", NC_INT, faces, "face", "piece that the face was refined in, from 1", {}, [&grid] {
+      std::vector<int> pieces(grid.piece_of.size());
+      std::ranges::transform(grid.piece_of, pieces.begin(), [](std::uint32_t p) { return static_cast<int>(p) + 1; });
+      return pieces;
+    });
+}
+
+void defineLines(UgridFile& ugrid, const Grid& grid, int edge_dimension, const std::vector<NodePair>& edges) {
+  if (grid.lines.empty()) return;
+  const int number =
+      ugrid.data("edge_line", NC_INT, edge_dimension, "edge", "line that the edge belongs to, 0 to none", {}, [&] {
+        std::vector<int> numbers(edges.size(), 0);
+        for (std::size_t i = grid.lines.size(); i-- > 0;) {
+          for (const auto& [a, b] : edgesOf(grid.lines[i])) {
+            const auto at = std::ranges::lower_bound(edges, NodePair{std::min(a, b), std::max(a, b)});
+            numbers[static_cast<std::size_t>(at - edges.begin())] = static_cast<int>(i) + 1;
+          }
+        }
+        return numbers;
+      });
+  std::vector<std::string> names, meanings;
+  for (const GridLine& line : grid.lines) {
+    names.push_back(line.name);
+    meanings.push_back(std::string(toString(line.kind)) + (line.name.empty() ? "" : ' ' + line.name));
+  }
+  ugrid.flags(number, meanings);
+  const int lines = ugrid.dimension("mesh2d_nLines", grid.lines.size());
+  const int kind = ugrid.file().variable("mesh2d_line_kind", NC_BYTE, {lines});
+  ugrid.file().attribute(kind, "long_name", "what the line is");
+  ugrid.file().attribute(kind, "flag_values", std::vector<signed char>{0, 1, 2});
+  ugrid.file().attribute(kind, "flag_meanings", "constraint weir region_border");
+  ugrid.put(kind, [&grid] {
+    std::vector<signed char> kinds;
+    for (const GridLine& line : grid.lines) kinds.push_back(static_cast<signed char>(line.kind));
+    return kinds;
+  });
+  ugrid.names("line_name", lines, "names of the lines", names);
+}
+
+void defineTopology(UgridFile& ugrid, bool with_boundaries) {
+  NetcdfWriter& file = ugrid.file();
+  const int mesh = file.variable("mesh2d", NC_INT, {});
+  file.attribute(mesh, "cf_role", "mesh_topology");
+  file.attribute(mesh, "long_name", "topology of the triangle mesh");
+  file.attribute(mesh, "topology_dimension", 2);
+  file.attribute(mesh, "node_coordinates", "mesh2d_node_x mesh2d_node_y");
+  file.attribute(mesh, "node_dimension", "mesh2d_nNodes");
+  file.attribute(mesh, "edge_dimension", "mesh2d_nEdges");
+  file.attribute(mesh, "face_dimension", "mesh2d_nFaces");
+  file.attribute(mesh, "max_face_nodes_dimension", "mesh2d_nMax_face_nodes");
+  file.attribute(mesh, "face_node_connectivity", "mesh2d_face_nodes");
+  file.attribute(mesh, "edge_node_connectivity", "mesh2d_edge_nodes");
+  if (with_boundaries) file.attribute(mesh, "boundary_node_connectivity", "mesh2d_boundary_nodes");
+  ugrid.put(mesh, [] { return std::array{0}; });
+}
+
+// UGRID-1.0 NetCDF (64-bit offset; CDF-5 past its 4 GiB an array) as MDAL, xugrid and D-FlowFM read it: mesh topology
+// `mesh2d` with face_nodes, edge_nodes and the boundary's edges, the CRS in `projected_coordinate_system` or `wgs84`,
+// elevation, smallest angle, area and source fid as data. A node without z holds the fill value -999. Throws
+// OutputError.
+void writeUgrid(const Grid& grid, const std::string& path) {
+  const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles);
+  std::vector<NodePair> boundary_edges;
+  for (const Boundary& boundary : grid.boundaries)
+    for (const NodePair& edge : edgesOf(boundary)) boundary_edges.push_back(edge);
+  constexpr std::size_t kLargest = 4'000'000'000;  // bytes of an array in a 64-bit offset file, some to spare
+  const std::size_t bytes = std::max({grid.triangles.size() * 12, grid.nodes.size() * 8, edges.size() * 8});
+  UgridFile ugrid(grid, path, bytes > kLargest);
+  NetcdfWriter& file = ugrid.file();
+  file.attribute(NC_GLOBAL, "Conventions", "CF-1.8 UGRID-1.0");
+  if (!grid.title.empty()) file.attribute(NC_GLOBAL, "title", grid.title);
+  file.attribute(NC_GLOBAL, "source", "coastmesh");
+  const int node_dim = ugrid.dimension("mesh2d_nNodes", grid.nodes.size());
+  const int edge_dim = ugrid.dimension("mesh2d_nEdges", edges.size());
+  const int face_dim = ugrid.dimension("mesh2d_nFaces", grid.triangles.size());
+  const int corner_dim = ugrid.dimension("mesh2d_nMax_face_nodes", 3);
+  const int two_dim = ugrid.dimension("Two", 2);
+
+  defineTopology(ugrid, !boundary_edges.empty());
+  if (!grid.crs.isPlane()) {
+    const int crs = defineCrs(file, grid.crs);
+    ugrid.put(crs, [&grid] { return std::array{epsgOf(grid.crs)}; });
+  }
+  defineNodes(ugrid, grid, node_dim);
+  ugrid.connectivity("face", {face_dim, corner_dim}, grid.triangles);
+  ugrid.connectivity("edge", {edge_dim, two_dim}, edges);
+  defineBoundaries(ugrid, grid, two_dim, boundary_edges);
+  defineFaces(ugrid, grid, face_dim);
+  defineLines(ugrid, grid, edge_dim, edges);
+  ugrid.close();
+}
+
+}  // namespace
+
+FormatRecord ugridFormat() {
+  return {{"ugrid",
+           {".nc"},
+           "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
+           true,
+           true,
+           {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces, GridPart::Lines,
+            GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes, GridPart::BareWeirs}},
+          {writeUgrid, readUgrid, nullptr}};
+}
+
+}  // namespace coastmesh

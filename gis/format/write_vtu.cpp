@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "gis/file/prj_file.hpp"
+#include "gis/file/text_writer.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_names.hpp"
+#include "gis/format/read_vtu.hpp"
+
+namespace coastmesh {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the file says LittleEndian");
+
+constexpr std::uint8_t kVtkTriangle = 5;
+
+// The blocks of the appended section: each is its length in bytes, then its bytes.
+class Appendix {
+ public:
+  explicit Appendix(TextWriter& file) : file_(file) {}
+
+  // `tuples`: of an array that belongs to neither nodes nor cells.
+  void declare(const char* type, const std::string& name, int components, std::uint64_t bytes,
+               std::uint64_t tuples = 0) {
+    file_ << R"(<DataArray type=")" << type << R"(" Name=")" << name << '"';
+    if (tuples > 0) file_ << R"( NumberOfTuples=")" << tuples << '"';
+    if (components > 1) file_ << R"( NumberOfComponents=")" << components << '"';
+    file_ << R"( format="appended" offset=")" << offset_ << "\"/>\n";
+    offset_ += sizeof(bytes) + bytes;
+  }
+
+  template <typename T>
+  void write(const std::vector<T>& values) {
+    const std::uint64_t bytes = values.size() * sizeof(T);
+    file_.raw(&bytes, sizeof(bytes));
+    file_.raw(values.data(), bytes);
+  }
+
+ private:
+  TextWriter& file_;
+  std::uint64_t offset_ = 0;
+};
+
+// The nodes of boundaries or lines one after another, where each ends among them, and its role or kind as in the enum.
+struct ChainArrays {
+  std::vector<std::int64_t> nodes, ends;
+  std::vector<std::uint8_t> kinds, closed;
+
+  template <typename Chain, typename Kind>
+  void add(const Chain& chain, Kind kind) {
+    nodes.insert(nodes.end(), chain.nodes.begin(), chain.nodes.end());
+    ends.push_back(static_cast<std::int64_t>(nodes.size()));
+    kinds.push_back(static_cast<std::uint8_t>(kind));
+    closed.push_back(chain.closed ? 1 : 0);
+  }
+
+  void declare(Appendix& appendix, const std::string& of, const std::string& what) const {
+    const std::uint64_t count = ends.size(), length = nodes.size();
+    appendix.declare("Int64", of + "_nodes", 1, length * 8, length);
+    appendix.declare("Int64", of + "_ends", 1, count * 8, count);
+    appendix.declare("UInt8", of + '_' + what, 1, count, count);
+    appendix.declare("UInt8", of + "_closed", 1, count, count);
+  }
+
+  void write(Appendix& appendix) const {
+    appendix.write(nodes);
+    appendix.write(ends);
+    appendix.write(kinds);
+    appendix.write(closed);
+  }
+};
+
+// What belongs to neither nodes nor cells. Texts are bytes, each ended by a zero: readers of numbers alone, of which there
+// are many, refuse arrays of texts.
+struct FieldArrays {
+  ChainArrays boundaries, lines;
+  std::vector<std::int64_t> ibtypes;
+  std::vector<std::uint8_t> line_names, region_names;
+
+  FieldArrays(const Grid& grid, const std::vector<std::string>& regions) {
+    for (const Boundary& boundary : grid.boundaries) {
+      boundaries.add(boundary, boundary.role);
+      ibtypes.push_back(boundary.ibtype);
+    }
+    if (std::ranges::none_of(ibtypes, [](std::int64_t type) { return type >= 0; })) ibtypes.clear();
+    for (const GridLine& line : grid.lines) {
+      lines.add(line, line.kind);
+      addText(line.name, line_names);
+    }
+    for (const std::string& region : regions) addText(region, region_names);
+  }
+
+  bool any() const { return !boundaries.ends.empty() || !lines.ends.empty() || !region_names.empty(); }
+
+  void declare(Appendix& appendix) const {
+    if (!boundaries.ends.empty()) boundaries.declare(appendix, "boundary", "roles");
+    if (!ibtypes.empty()) appendix.declare("Int64", "boundary_ibtypes", 1, ibtypes.size() * 8, ibtypes.size());
+    if (!lines.ends.empty()) lines.declare(appendix, "line", "kinds");
+    if (!line_names.empty()) appendix.declare("UInt8", "line_names", 1, line_names.size(), line_names.size());
+    if (!region_names.empty()) appendix.declare("UInt8", "region_names", 1, region_names.size(), region_names.size());
+  }
+
+  void write(Appendix& appendix) const {
+    if (!boundaries.ends.empty()) boundaries.write(appendix);
+    if (!ibtypes.empty()) appendix.write(ibtypes);
+    if (!lines.ends.empty()) lines.write(appendix);
+    if (!line_names.empty()) appendix.write(line_names);
+    if (!region_names.empty()) appendix.write(region_names);
+  }
+
+ private:
+  static void addText(const std::string& text, std::vector<std::uint8_t>& bytes) {
+    bytes.insert(bytes.end(), text.begin(), text.end());
+    bytes.push_back(0);
+  }
+};
+
+// VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z as node data, smallest
+// angle, area and source fid as cell data. VTK has no word for a CRS. Throws OutputError.
+void writeVtu(const Grid& grid, const std::string& path) {
+  const std::uint64_t nodes = grid.nodes.size(), cells = grid.triangles.size();
+  TextWriter file(path);
+  Appendix appendix(file);
+  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+          "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+  const std::vector<std::string> regions = grid.feature_of.empty() ? std::vector<std::string>() : regionNames(grid);
+  const FieldArrays fields(grid, regions);
+  if (fields.any()) {
+    file << "<FieldData>\n";
+    fields.declare(appendix);
+    file << "</FieldData>\n";
+  }
+  file << "<Piece NumberOfPoints=\"" << nodes << "\" NumberOfCells=\"" << cells << "\">\n";
+  file << "<Points>\n";
+  appendix.declare("Float64", "Points", 3, nodes * 24);
+  file << "</Points>\n<Cells>\n";
+  appendix.declare("Int64", "connectivity", 1, cells * 24);
+  appendix.declare("Int64", "offsets", 1, cells * 8);
+  appendix.declare("UInt8", "types", 1, cells);
+  file << "</Cells>\n<PointData>\n";
+  if (!grid.z.empty()) appendix.declare("Float64", "z", 1, nodes * 8);
+  file << "</PointData>\n<CellData>\n";
+  if (!grid.min_angle_deg.empty()) appendix.declare("Float64", "min_angle", 1, cells * 8);
+  if (!grid.area_m2.empty()) appendix.declare("Float64", "area_m2", 1, cells * 8);
+  if (!grid.feature_of.empty()) appendix.declare("Int64", "src_fid", 1, cells * 8);
+  if (!regions.empty()) appendix.declare("Int64", "region", 1, cells * 8);
+  file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+
+  fields.write(appendix);
+  std::vector<double> places;
+  places.reserve(3 * nodes);
+  for (const Point& p : grid.nodes) places.insert(places.end(), {p.x, p.y, 0.0});
+  appendix.write(places);
+  std::vector<std::int64_t> connectivity, offsets, fids;
+  connectivity.reserve(3 * cells);
+  offsets.reserve(cells);
+  for (const auto& corners : grid.triangles) {
+    connectivity.insert(connectivity.end(), corners.begin(), corners.end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  }
+  appendix.write(connectivity);
+  appendix.write(offsets);
+  appendix.write(std::vector<std::uint8_t>(cells, kVtkTriangle));
+  if (!grid.z.empty()) appendix.write(grid.z);
+  if (!grid.min_angle_deg.empty()) appendix.write(grid.min_angle_deg);
+  if (!grid.area_m2.empty()) appendix.write(grid.area_m2);
+  if (!grid.feature_of.empty()) {
+    for (const std::uint32_t feature : grid.feature_of) fids.push_back(grid.features[feature].fid);
+    appendix.write(fids);
+  }
+  if (!regions.empty()) {
+    const std::vector<int> numbers = regionNumbers(grid, regions);
+    std::vector<std::int64_t> region_of;
+    for (const std::uint32_t feature : grid.feature_of) region_of.push_back(numbers[feature]);
+    appendix.write(region_of);
+  }
+  file << "\n</AppendedData>\n</VTKFile>\n";
+  file.close();
+  writePrjBeside(path, grid.crs);
+}
+
+}  // namespace
+
+FormatRecord vtuFormat() {
+  return {{"vtu",
+           {".vtu"},
+           "VTK unstructured grid for ParaView",
+           true,
+           true,
+           {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::LineNames, GridPart::Rivers,
+            GridPart::Ibtypes, GridPart::BareWeirs}},
+          {writeVtu, readVtu, withPrjBeside}};
+}
+
+}  // namespace coastmesh

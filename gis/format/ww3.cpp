@@ -1,0 +1,111 @@
+#include <algorithm>
+
+#include "gis/file/prj_file.hpp"
+#include "gis/file/text_reader.hpp"
+#include "gis/file/text_writer.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/grid/rim_boundaries.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr std::int64_t kPoint = 15, kTriangle = 2;
+
+std::vector<std::uint32_t> openNodes(const Grid& grid) {
+  std::vector<std::uint32_t> nodes;
+  for (const Boundary& boundary : grid.boundaries)
+    if (boundary.role == BoundaryRole::Open) nodes.insert(nodes.end(), boundary.nodes.begin(), boundary.nodes.end());
+  std::ranges::sort(nodes);
+  const auto repeated = std::ranges::unique(nodes);
+  nodes.erase(repeated.begin(), repeated.end());
+  return nodes;
+}
+
+void needLine(TextReader& file, std::string_view wanted) {
+  file.needLine();
+  if (file.line() != wanted) file.fail(std::string(wanted) + " is expected");
+}
+
+// Gmsh 2 ASCII as WAVEWATCH III has it: z is the depth, positive down; nodes of open boundaries come first as elements
+// of type 15, then the triangles with three tags. The CRS goes into a .prj. Throws OutputError, also where a depth is
+// unknown.
+void writeWw3(const Grid& grid, const std::string& path) {
+  requireZ(grid, path);
+  TextWriter file(path);
+  file << "$MeshFormat\n2 0 8\n$EndMeshFormat\n$Nodes\n" << grid.nodes.size() << '\n';
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    file << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << (grid.z.empty() ? 0.0 : 0.0 - grid.z[i])
+         << '\n';
+  const std::vector<std::uint32_t> open = openNodes(grid);
+  file << "$EndNodes\n$Elements\n" << open.size() + grid.triangles.size() << '\n';
+  std::size_t id = 0;
+  for (const std::uint32_t node : open) file << ++id << ' ' << kPoint << " 2 0 0 " << node + 1 << '\n';
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    file << ++id << ' ' << kTriangle << " 3 0 " << t + 1 << " 0 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  }
+  file << "$EndElements\n";
+  file.close();
+  writePrjBeside(path, grid.crs);
+}
+
+// Throws InputError.
+Grid readWw3(const std::string& path) {
+  Grid grid;
+  TextReader file(path);
+  needLine(file, "$MeshFormat");
+  file.needLine();
+  if (!file.line().starts_with("2")) file.fail("WAVEWATCH III reads version 2 of Gmsh's format");
+  needLine(file, "$EndMeshFormat");
+  needLine(file, "$Nodes");
+  file.needLine();
+  const std::uint64_t nodes = file.count();
+  std::vector<std::int64_t> ids;
+  for (std::uint64_t i = 0; i < nodes; ++i) {
+    file.needLine();
+    ids.push_back(file.integer());
+    const double x = file.number(), y = file.number();
+    grid.nodes.push_back({x, y});
+    grid.z.push_back(0.0 - file.number());
+  }
+  const IdMap index(std::move(ids), file, "node");
+  needLine(file, "$EndNodes");
+  needLine(file, "$Elements");
+  file.needLine();
+  const std::uint64_t elements = file.count();
+  std::vector<bool> is_open(grid.nodes.size(), false);
+  const auto readNode = [&] {
+    const std::int64_t id = file.integer();
+    const std::uint32_t node = index.indexOf(id);
+    if (node == kNone) file.fail("there is no node " + std::to_string(id));
+    return node;
+  };
+  for (std::uint64_t e = 0; e < elements; ++e) {
+    file.needLine();
+    file.integer();
+    const std::int64_t type = file.integer();
+    const std::uint64_t tags = file.count();
+    for (std::uint64_t k = 0; k < tags; ++k) file.integer();
+    if (type == kPoint) {
+      is_open[readNode()] = true;
+    } else if (type == kTriangle) {
+      auto& triangle = grid.triangles.emplace_back();
+      for (std::uint32_t& corner : triangle) corner = readNode();
+    } else {
+      file.fail("an element of type " + std::to_string(type) + ", which WAVEWATCH III does not know");
+    }
+  }
+  if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
+  grid.boundaries = boundariesOfOpenNodes(grid, is_open);
+  grid.crs = readPrjBeside(path);
+  return grid;
+}
+
+}  // namespace
+
+FormatRecord ww3Format() {
+  return {{"ww3", {"_ww3.msh"}, "Gmsh 2 for WAVEWATCH III, depth positive down", true, true, {}, true},
+          {writeWw3, readWw3, withPrjBeside}};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,43 @@
+#include "gis/geometry/box_tree.hpp"
+
+#include <cassert>
+#include <numeric>
+
+#include "core/hilbert.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+std::vector<std::uint32_t> orderByCentre(const std::vector<Box>& boxes) {
+  std::vector<Point> centres;
+  centres.reserve(boxes.size());
+  for (const Box& box : boxes) centres.push_back({box.xmin / 2 + box.xmax / 2, box.ymin / 2 + box.ymax / 2});
+  return hilbertOrder(centres);
+}
+
+}  // namespace
+
+BoxTree::BoxTree(const std::vector<Box>& boxes, Order order) {
+  assert(boxes.size() <= std::numeric_limits<std::uint32_t>::max());
+  if (boxes.empty()) return;
+  boxes_.reserve(boxes.size() + boxes.size() / (kFanout - 1) + 16);
+  if (order == Order::Hilbert) {
+    items_ = orderByCentre(boxes);
+    for (const std::uint32_t item : items_) boxes_.push_back(boxes[item]);
+  } else {
+    boxes_ = boxes;
+  }
+  level_begin_ = {0, boxes_.size()};
+  while (level_begin_.back() - level_begin_[level_begin_.size() - 2] > 1) {
+    const std::size_t begin = level_begin_[level_begin_.size() - 2], end = level_begin_.back();
+    for (std::size_t first = begin; first < end; first += kFanout) {
+      Box box;
+      for (std::size_t i = first; i < std::min(end, first + kFanout); ++i) box.add(boxes_[i]);
+      boxes_.push_back(box);
+    }
+    level_begin_.push_back(boxes_.size());
+  }
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gis/geometry/box.hpp"
+
+namespace coastmesh {
+
+// A static tree over boxes, packed in one array: level 0 holds the boxes themselves, each box of a higher level
+// encloses kFanout neighbours of the level below. Neighbours are neighbours in the order given (a chain's edges, which
+// lie side by side by nature) or along a Hilbert curve. After Roussopoulos & Leifker, "Direct spatial search on
+// pictorial databases using packed R-trees" (1985), and Kamel & Faloutsos, "On packing R-trees" (1993).
+// Boost.Geometry's R-tree keeps its nodes to itself; chains need them: a node that lies wholly beside a point is done
+// with by the ends of its chain (see ChainIndex).
+class BoxTree {
+ public:
+  enum class Order { Given, Hilbert };
+
+  BoxTree() = default;
+  BoxTree(const std::vector<Box>& boxes, Order order);
+
+  std::size_t size() const { return level_begin_.empty() ? 0 : level_begin_[1]; }
+  Box bounds() const { return boxes_.empty() ? Box{} : boxes_.back(); }
+
+  // Items by blocks of neighbours, in Order::Hilbert.
+  std::size_t blockCount() const { return (size() + kFanout - 1) / kFanout; }
+  std::span<const std::uint32_t> block(std::size_t number) const {
+    const std::size_t first = number * kFanout;
+    return {items_.data() + first, std::min(size() - first, kFanout)};
+  }
+
+  // Calls `found(item)` for every item whose box meets `query`.
+  template <typename Found>
+  void visit(const Box& query, Found&& found) const {
+    descend([&](const Box& box, std::size_t, std::size_t) { return box.meets(query); }, found);
+  }
+
+  // Calls `enter(box, first, last)` for nodes from the root down, where [first, last) are positions in the packing
+  // (items, in Order::Given), and goes below those for which it is true; `found(item)` for the items entered.
+  template <typename Enter, typename Found>
+  void descend(Enter&& enter, Found&& found) const {
+    if (boxes_.empty()) return;
+    descendFrom(level_begin_.size() - 2, 0, enter, found);
+  }
+
+ private:
+  static constexpr std::size_t kFanout = 8;
+
+  template <typename Enter, typename Found>
+  void descendFrom(std::size_t level, std::size_t node, Enter& enter, Found& found) const {
+    const std::size_t first = node << (3 * level);
+    const std::size_t last = std::min(size(), (node + 1) << (3 * level));
+    if (!enter(boxes_[level_begin_[level] + node], first, last)) return;
+    if (level == 0) {
+      found(items_.empty() ? static_cast<std::uint32_t>(node) : items_[node]);
+      return;
+    }
+    const std::size_t below = level_begin_[level] - level_begin_[level - 1];
+    const std::size_t end = std::min(below, (node + 1) * kFanout);
+    for (std::size_t child = node * kFanout; child < end; ++child) descendFrom(level - 1, child, enter, found);
+  }
+
+  std::vector<Box> boxes_;                // level after level, the root last
+  std::vector<std::size_t> level_begin_;  // where each level begins in `boxes_`, and the end
+  std::vector<std::uint32_t> items_;      // level 0's items, where they are not in the order given
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "gis/geometry/box_tree.hpp"
+#include "gis/geometry/planar_map.hpp"
+
+namespace coastmesh {
+
+// Finds the face of a plane graph in which a point lies. Private to gis.
+class FaceLocator {
+ public:
+  // All are kept by reference.
+  FaceLocator(const PlanarMap& map, const std::vector<Point>& points,
+              const std::vector<std::pair<VertexId, VertexId>>& edges);
+
+  // The face with `place` in it; for a point on an edge, the one above it, and on an upright edge either. Exact.
+  std::uint32_t faceAt(const Point& place) const;
+
+ private:
+  const PlanarMap& map_;
+  const std::vector<Point>& points_;
+  const std::vector<std::pair<VertexId, VertexId>>& edges_;
+  BoxTree tree_;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,154 @@
+#include "gis/grid/boundary_chains.hpp"
+
+#include <algorithm>
+
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+BoundaryRole roleOfLoop(std::span<const Point> nodes, std::span<const std::uint32_t> loop) {
+  // At its least vertex a loop turns left if it goes counter-clockwise, however often it passes there: the mesh lies to
+  // its left, and all of it on one side of that vertex.
+  const auto less = [&](std::uint32_t a, std::uint32_t b) { return lexLess(nodes[a], nodes[b]); };
+  const std::size_t least = static_cast<std::size_t>(std::ranges::min_element(loop, less) - loop.begin());
+  const std::size_t n = loop.size();
+  const Point &before = nodes[loop[(least + n - 1) % n]], &after = nodes[loop[(least + 1) % n]];
+  return orient2d(before, nodes[loop[least]], after) > 0 ? BoundaryRole::Land : BoundaryRole::Island;
+}
+
+std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop) {
+  std::vector<Boundary> boundaries;
+  for (std::vector<VertexId>& vertices : rimLoops(mesh, loop)) {
+    const BoundaryRole role = roleOfLoop(mesh.points, vertices);
+    boundaries.push_back({role, true, std::move(vertices)});
+  }
+  return boundaries;
+}
+
+std::vector<NodePair> edgesOf(const Boundary& boundary) {
+  std::vector<NodePair> edges;
+  const std::vector<std::uint32_t>& nodes = boundary.nodes;
+  edges.reserve(nodes.size());
+  for (std::size_t i = 1; i < nodes.size(); ++i) edges.push_back({nodes[i - 1], nodes[i]});
+  if (boundary.closed && nodes.size() > 1) edges.push_back({nodes.back(), nodes.front()});
+  return edges;
+}
+
+std::vector<std::vector<NodePair>> keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                std::vector<std::vector<NodePair>>& edge_groups) {
+  struct Sides {
+    NodePair edge;  // the lesser node first
+    std::uint32_t along = 0;
+    std::uint32_t against = 0;
+  };
+  std::vector<Sides> sides;
+  std::uint32_t greatest = 0;
+  for (const auto& group : edge_groups) {
+    for (const auto& [a, b] : group) {
+      sides.push_back({{std::min(a, b), std::max(a, b)}});
+      greatest = std::max({greatest, a, b});
+    }
+  }
+  std::vector<std::vector<NodePair>> inner(edge_groups.size());
+  if (sides.empty()) return inner;
+  std::ranges::sort(sides, {}, &Sides::edge);
+  const auto repeated = std::ranges::unique(sides, {}, &Sides::edge);
+  sides.erase(repeated.begin(), repeated.end());
+  std::vector<bool> touched(std::size_t{greatest} + 1, false);
+  for (const Sides& side : sides) touched[side.edge[0]] = touched[side.edge[1]] = true;
+  const auto isTouched = [&](std::uint32_t v) { return v <= greatest && touched[v]; };
+  const auto find = [&](std::uint32_t a, std::uint32_t b) {
+    const NodePair key{std::min(a, b), std::max(a, b)};
+    const auto at = std::ranges::lower_bound(sides, key, {}, &Sides::edge);
+    return at != sides.end() && at->edge == key ? &*at : nullptr;
+  };
+  for (const auto& v : triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t a = v[i], b = v[next3(i)];
+      if (!isTouched(a) || !isTouched(b)) continue;
+      if (Sides* side = find(a, b)) ++(a < b ? side->along : side->against);
+    }
+  }
+  for (std::size_t g = 0; g < edge_groups.size(); ++g) {
+    std::vector<NodePair>& group = edge_groups[g];
+    std::erase_if(group, [&](const NodePair& edge) {
+      const Sides* side = find(edge[0], edge[1]);
+      if (side->along == 1 && side->against == 1) inner[g].push_back(edge);
+      return side->along + side->against != 1;
+    });
+    for (NodePair& edge : group) {
+      const Sides* side = find(edge[0], edge[1]);
+      const bool along = edge[0] < edge[1];
+      if (along != (side->along == 1)) std::swap(edge[0], edge[1]);
+    }
+  }
+  return inner;
+}
+
+std::vector<Boundary> chainEdges(std::span<const NodePair> edges) {
+  std::vector<std::uint32_t> by_start(edges.size());
+  for (std::uint32_t i = 0; i < edges.size(); ++i) by_start[i] = i;
+  const auto startOf = [&](std::uint32_t i) { return edges[i][0]; };
+  std::ranges::stable_sort(by_start, {}, startOf);
+  std::vector<std::uint32_t> ends;
+  for (const NodePair& edge : edges) ends.push_back(edge[1]);
+  std::ranges::sort(ends);
+
+  std::vector<bool> used(edges.size(), false);
+  const auto follower = [&](std::uint32_t i) {
+    if (i + 1 < edges.size() && !used[i + 1] && edges[i + 1][0] == edges[i][1]) return i + 1;
+    for (const std::uint32_t j : std::ranges::equal_range(by_start, edges[i][1], {}, startOf))
+      if (!used[j]) return j;
+    return kNone;
+  };
+  std::vector<Boundary> chains;
+  const auto follow = [&](std::uint32_t first) {
+    Boundary chain{BoundaryRole::Open, false, {}};
+    std::uint32_t at = first;
+    while (at != kNone) {
+      used[at] = true;
+      chain.nodes.push_back(edges[at][0]);
+      const std::uint32_t end = edges[at][1];
+      const std::uint32_t next = follower(at);
+      const bool home = end == edges[first][0];
+      if (next == kNone || (home && next != at + 1)) {
+        chain.closed = home;
+        if (!home) chain.nodes.push_back(end);
+        break;
+      }
+      at = next;
+    }
+    chains.push_back(std::move(chain));
+  };
+  for (std::uint32_t i = 0; i < edges.size(); ++i)
+    if (!used[i] && !std::ranges::binary_search(ends, edges[i][0])) follow(i);
+  for (std::uint32_t i = 0; i < edges.size(); ++i)
+    if (!used[i]) follow(i);
+  return chains;
+}
+
+namespace {
+constexpr std::int64_t kMarkerStep = 10, kFirstLineMarker = 5;
+}
+
+std::int64_t boundaryMarker(std::size_t index, BoundaryRole role) {
+  return kMarkerStep * static_cast<std::int64_t>(index + 1) + 1 + static_cast<std::int64_t>(role);
+}
+
+std::optional<BoundaryRole> roleOfMarker(std::int64_t marker, std::size_t index) {
+  for (const BoundaryRole role : kBoundaryRoles)
+    if (marker == boundaryMarker(index, role)) return role;
+  return std::nullopt;
+}
+
+std::int64_t lineMarker(std::size_t index, LineKind kind) {
+  return kMarkerStep * static_cast<std::int64_t>(index + 1) + kFirstLineMarker + static_cast<std::int64_t>(kind);
+}
+
+std::optional<LineKind> lineKindOfMarker(std::int64_t marker, std::size_t index) {
+  for (const LineKind kind : {LineKind::Constraint, LineKind::Weir, LineKind::RegionBorder})
+    if (marker == lineMarker(index, kind)) return kind;
+  return std::nullopt;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,65 @@
+#include "gis/grid/ground_orientation.hpp"
+
+#include <GeographicLib/Math.hpp>
+#include <cmath>
+#include <limits>
+
+#include "core/predicates.hpp"
+#include "gis/grid/grid_edit.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using GeographicLib::Math;
+
+struct Direction {
+  double east, north;
+};
+
+// Where `to` lies as seen from `from` on the unit sphere: parts of its vector along the tangents there. Made of the
+// differences of longitudes and latitudes, they keep their digits however near the two are.
+Direction seenFrom(const Point& from, const Point& to) {
+  double rest_lon, rest_lat;
+  const double lon = Math::AngDiff(from.x, to.x, rest_lon), lat = Math::AngDiff(from.y, to.y, rest_lat);
+  double sin_lon, cos_lon, sin_half, cos_half, sin_lat, cos_lat, sin_from, cos_from, sin_to, cos_to;
+  Math::sincosd(lon + rest_lon, sin_lon, cos_lon);
+  Math::sincosd((lon + rest_lon) / 2, sin_half, cos_half);
+  Math::sincosd(lat + rest_lat, sin_lat, cos_lat);
+  Math::sincosd(from.y, sin_from, cos_from);
+  Math::sincosd(to.y, sin_to, cos_to);
+  return {cos_to * sin_lon, sin_lat + 2 * sin_from * cos_to * sin_half * sin_half};
+}
+
+}  // namespace
+
+int orientationOnGround(const Point& a, const Point& b, const Point& c, const Crs& crs) {
+  if (!crs.geographic) return orient2d(a, b, c);
+  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+  const Direction to_b = seenFrom(a, b), to_c = seenFrom(a, c);
+  const double left = to_b.east * to_c.north, right = to_b.north * to_c.east;
+  const double determinant = left - right;
+  if (std::abs(determinant) <= kRounding * (std::abs(left) + std::abs(right))) return 0;
+  return determinant > 0 ? 1 : -1;
+}
+
+std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2) {
+  // Square metres: more than areas between geodesics round half the globe may be wrong by.
+  constexpr double kSureArea = 1.0;
+  std::vector<std::uint32_t> turned;
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    const bool sure = !grid.crs.isPlane() && std::abs(area_m2[t]) > kSureArea;
+    const bool right =
+        sure ? area_m2[t] > 0 : orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) > 0;
+    if (!right) turned.push_back(t);
+  }
+  return turned;
+}
+
+Point middleOf(const Grid& grid, std::uint32_t triangle) {
+  const auto& [a, b, c] = grid.triangles[triangle];
+  return meanPlace(grid.crs, std::array{grid.nodes[a], grid.nodes[b], grid.nodes[c]});
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,68 @@
+#include "gis/grid/rim_boundaries.hpp"
+
+#include <algorithm>
+
+namespace coastmesh {
+namespace {
+
+bool isShore(BoundaryRole role) { return role == BoundaryRole::Land || role == BoundaryRole::Island; }
+
+NodePair keyOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> rimOf(const Grid& grid) {
+  std::vector<EdgeConflict> conflicts;
+  return rimLoops(linkTriangles(grid.nodes, grid.triangles, conflicts));
+}
+
+std::vector<Boundary> cutLoops(std::span<const Point> nodes, const std::vector<std::vector<std::uint32_t>>& loops,
+                               const RimKindOf& kind_of) {
+  std::vector<Boundary> boundaries;
+  std::vector<RimKind> kinds;
+  for (const std::vector<std::uint32_t>& loop : loops) {
+    const std::size_t n = loop.size();
+    kinds.clear();
+    for (std::size_t i = 0; i < n; ++i) kinds.push_back(kind_of(loop[i], loop[(i + 1) % n]));
+    const auto changesAt = [&](std::size_t i) { return kinds[i] != kinds[(i + n - 1) % n]; };
+    std::size_t first = 0;
+    while (first < n && !changesAt(first)) ++first;
+    if (first == n) {
+      const RimKind& kind = kinds.front();
+      const BoundaryRole role = isShore(kind.role) ? roleOfLoop(nodes, loop) : kind.role;
+      boundaries.push_back({role, true, loop, kind.ibtype});
+      continue;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = (first + k) % n;
+      if (changesAt(i)) {
+        const BoundaryRole role = isShore(kinds[i].role) ? BoundaryRole::Land : kinds[i].role;
+        boundaries.push_back({role, false, {loop[i]}, kinds[i].ibtype});
+      }
+      boundaries.back().nodes.push_back(loop[(i + 1) % n]);
+    }
+  }
+  return boundaries;
+}
+
+EdgeKinds::EdgeKinds(const Grid& grid) {
+  for (std::uint32_t b = 0; b < grid.boundaries.size(); ++b) {
+    kinds_.push_back({grid.boundaries[b].role, grid.boundaries[b].ibtype, b});
+    for (const auto& [from, to] : edgesOf(grid.boundaries[b])) edges_.emplace_back(keyOf(from, to), b);
+  }
+  std::ranges::sort(edges_);
+}
+
+const RimKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const {
+  const NodePair key = keyOf(a, b);
+  const auto at = std::ranges::lower_bound(edges_, key, {}, [](const auto& entry) { return entry.first; });
+  return at != edges_.end() && at->first == key ? &kinds_[at->second] : nullptr;
+}
+
+std::vector<Boundary> boundariesOfOpenNodes(const Grid& grid, const std::vector<bool>& is_open) {
+  return cutLoops(grid.nodes, rimOf(grid), [&](std::uint32_t from, std::uint32_t to) {
+    return RimKind{is_open[from] && is_open[to] ? BoundaryRole::Open : BoundaryRole::Land};
+  });
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid.hpp"
+
+namespace coastmesh {
+
+// What an edge of the rim is. Edges of one boundary are alike in all of it.
+struct RimKind {
+  BoundaryRole role = BoundaryRole::Land;
+  int ibtype = -1;            // as in Boundary
+  std::uint32_t segment = 0;  // tells boundaries of the same role apart that follow one another
+
+  friend bool operator==(const RimKind&, const RimKind&) = default;
+};
+
+// The rim as closed loops of nodes with the mesh to the left; see `rimLoops`.
+std::vector<std::vector<std::uint32_t>> rimOf(const Grid& grid);
+
+// Loops cut into boundaries where the kind of their edges changes. A loop of one kind stays closed; one of shore alone
+// is land or an island by its direction, whichever the kind says; the shore of a loop that opens somewhere is land.
+using RimKindOf = std::function<RimKind(std::uint32_t from, std::uint32_t to)>;
+std::vector<Boundary> cutLoops(std::span<const Point> nodes, const std::vector<std::vector<std::uint32_t>>& loops,
+                               const RimKindOf& kind_of);
+
+// The kinds of edges that the grid's boundaries tell, whichever way they go.
+class EdgeKinds {
+ public:
+  explicit EdgeKinds(const Grid& grid);
+
+  // Null for an edge in no boundary. `segment` is the boundary's number.
+  const RimKind* find(std::uint32_t a, std::uint32_t b) const;
+
+ private:
+  std::vector<std::pair<NodePair, std::uint32_t>> edges_;  // sorted; the lesser node first
+  std::vector<RimKind> kinds_;
+};
+
+// For files that tell open nodes and no more: the rim's edges between two of them are open, all others are shore.
+// `is_open` has one flag a node.
+std::vector<Boundary> boundariesOfOpenNodes(const Grid& grid, const std::vector<bool>& is_open);
+
+}  // namespace coastmesh

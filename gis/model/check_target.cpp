@@ -1,0 +1,301 @@
+#include "gis/model/check_target.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/predicates.hpp"
+#include "core/quality.hpp"
+#include "core/tri_mesh.hpp"
+#include "gis/geometry/box_tree.hpp"
+#include "gis/grid/ground_orientation.hpp"
+#include "gis/grid/local_plane.hpp"
+#include "gis/grid/rim_boundaries.hpp"
+#include "gis/model/flow_links.hpp"
+#include "gis/model/target_limits.hpp"
+#include "gis/model/time_step.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
+    "wrong count",    "broken edge",     "clockwise",       "unused node",    "repeated node",   "hanging node",
+    "pinched node",   "orphan cell",     "unknown depth",   "dry opening",    "no boundary",     "boundary off the rim",
+    "boundary twice", "boundary turned", "looped boundary", "wrong shore",    "two open edges",  "open and solid edge",
+    "lone wall",      "valence",         "large angle",     "not orthogonal", "small flow link", "courant"};
+
+bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
+
+// Courant numbers above what explicit schemes take, or below what SCHISM's wants; the worst first.
+std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, bool from_below) {
+  std::vector<TargetDefect> found;
+  const std::vector<double> steps = timeSteps(grid);
+  for (std::uint32_t t = 0; t < steps.size(); ++t) {
+    if (!std::isfinite(steps[t])) continue;  // dry, or unknown
+    const double courant = time_step_s / steps[t];
+    if (from_below ? courant < kSchismLeastCourant : courant > kLargestCourant)
+      found.push_back({TargetDefectKind::Courant, middleOf(grid, t), t, -1, courant, {}});
+  }
+  std::ranges::stable_sort(
+      found, {}, [from_below](const TargetDefect& defect) { return from_below ? defect.value : -defect.value; });
+  return found;
+}
+
+class TargetCheck {
+ public:
+  TargetCheck(const Grid& grid, Target target, const TargetCheckOptions& options)
+      : grid_(grid), target_(target), options_(options) {}
+
+  std::vector<TargetDefect> run() {
+    for (const std::string& note : grid_.notes)
+      defects_.push_back(
+          {TargetDefectKind::WrongCount, grid_.nodes.empty() ? Point{} : grid_.nodes.front(), -1, -1, 0.0, note});
+    mesh_ = linkTriangles(grid_.nodes, grid_.triangles, conflicts_);
+    for (const EdgeConflict& conflict : conflicts_) add(TargetDefectKind::BrokenEdge, middle(conflict.a, conflict.b));
+    checkTriangles();
+    checkNodes();
+    checkHangingNodes();
+    if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
+    if (target_ != Target::Swan && target_ != Target::Dflowfm) checkOpenings();
+    if (target_ == Target::Fvcom) checkOpenCells();
+    if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
+    if (target_ == Target::Dflowfm) checkFlowLinks();
+    if (options_.time_step_s > 0.0 && target_ != Target::Swan && !grid_.z.empty()) checkCourant();
+    std::ranges::stable_sort(defects_, {},
+                             [](const TargetDefect& defect) { return std::pair(defect.advice, defect.kind); });
+    return std::move(defects_);
+  }
+
+ private:
+  void add(TargetDefectKind kind, const Point& place, std::int64_t triangle = -1, std::int64_t node = -1,
+           double value = 0.0) {
+    defects_.push_back({kind, place, triangle, node, value, {}});
+  }
+
+  Point middle(std::uint32_t a, std::uint32_t b) const {
+    return {(grid_.nodes[a].x + grid_.nodes[b].x) / 2.0, (grid_.nodes[a].y + grid_.nodes[b].y) / 2.0};
+  }
+
+  Point middle(std::size_t t) const {
+    const auto& [a, b, c] = grid_.triangles[t];
+    return {(grid_.nodes[a].x + grid_.nodes[b].x + grid_.nodes[c].x) / 3.0,
+            (grid_.nodes[a].y + grid_.nodes[b].y + grid_.nodes[c].y) / 3.0};
+  }
+
+  std::vector<Point> cornersOf(std::size_t t) const { return localPlane(grid_, grid_.triangles[t]); }
+
+  void checkTriangles() {
+    for (std::size_t t = 0; t < grid_.triangles.size(); ++t) {
+      const std::vector<Point> corners = cornersOf(t);
+      if (orient2d(corners[0], corners[1], corners[2]) <= 0) {
+        add(TargetDefectKind::Clockwise, middle(t), static_cast<std::int64_t>(t));
+        continue;
+      }
+      const auto& adj = mesh_.triangles[t].adj;
+      if (std::ranges::count(adj, kNone) == 3)
+        add(TargetDefectKind::OrphanCell, middle(t), static_cast<std::int64_t>(t));
+      if (target_ != Target::Swan) continue;
+      const auto& [a, b, c] = grid_.triangles[t];
+      const double largest = largestFileAngle(grid_.nodes[a], grid_.nodes[b], grid_.nodes[c]);
+      if (largest > kSwanLargestAngleDeg)
+        add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
+    }
+  }
+
+  void checkNodes() {
+    std::vector<int> cells(grid_.nodes.size(), 0), rim_starts(grid_.nodes.size(), 0);
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        ++cells[mesh_.triangles[t].v[i]];
+        if (mesh_.triangles[t].adj[i] == kNone) ++rim_starts[mesh_.origin(edgeRef(t, i))];
+      }
+    }
+    for (std::uint32_t node = 0; node < grid_.nodes.size(); ++node) {
+      const Point& place = grid_.nodes[node];
+      if (cells[node] == 0) add(TargetDefectKind::UnusedNode, place, -1, node);
+      if (rim_starts[node] > 1) add(TargetDefectKind::PinchedNode, place, -1, node, rim_starts[node]);
+      if (!grid_.z.empty() && std::isnan(grid_.z[node])) add(TargetDefectKind::UnknownDepth, place, -1, node);
+      const bool inner = cells[node] > 0 && rim_starts[node] == 0;
+      if (target_ == Target::Swan && inner && (cells[node] < kSwanFewestCells || cells[node] > kSwanMostCells))
+        add(TargetDefectKind::Valence, place, -1, node, cells[node]);
+    }
+    std::vector<std::uint32_t> order(grid_.nodes.size());
+    for (std::uint32_t node = 0; node < order.size(); ++node) order[node] = node;
+    std::ranges::stable_sort(order,
+                             [&](std::uint32_t a, std::uint32_t b) { return lexLess(grid_.nodes[a], grid_.nodes[b]); });
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (grid_.nodes[order[i]] == grid_.nodes[order[i - 1]])
+        add(TargetDefectKind::RepeatedNode, grid_.nodes[order[i]], -1, order[i]);
+  }
+
+  std::vector<NodePair> rimEdges() const {
+    std::vector<NodePair> edges;
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t)
+      for (unsigned i = 0; i < 3; ++i)
+        if (mesh_.triangles[t].adj[i] == kNone)
+          edges.push_back({mesh_.origin(edgeRef(t, i)), mesh_.target(edgeRef(t, i))});
+    return edges;
+  }
+
+  void checkHangingNodes() {
+    constexpr double kOnEdge = 1e-7;  // of the edge's length
+    const std::vector<NodePair> edges = rimEdges();
+    std::vector<Box> boxes;
+    std::vector<std::uint32_t> nodes;
+    for (const auto& [a, b] : edges) {
+      boxes.push_back(Box::of(grid_.nodes[a], grid_.nodes[b]));
+      nodes.push_back(a);
+    }
+    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+    std::ranges::sort(nodes);
+    const auto repeated = std::ranges::unique(nodes);
+    nodes.erase(repeated.begin(), repeated.end());
+    for (const std::uint32_t node : nodes) {
+      const Point& p = grid_.nodes[node];
+      bool hangs = false;
+      tree.visit(Box::of(p, p), [&](std::uint32_t e) {
+        const Point &a = grid_.nodes[edges[e][0]], &b = grid_.nodes[edges[e][1]];
+        if (edges[e][0] == node || edges[e][1] == node || p == a || p == b) return;
+        const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+        if (grid_.crs.geographic && std::abs(dx) > 180) return;  // across the antimeridian, not all round the globe
+        const double off = std::abs(dx * (p.y - a.y) - dy * (p.x - a.x)) / square;
+        const double along = (dx * (p.x - a.x) + dy * (p.y - a.y)) / square;
+        hangs = hangs || (off < kOnEdge && along > 0.0 && along < 1.0);
+      });
+      if (hangs) add(TargetDefectKind::HangingNode, p, -1, node);
+    }
+  }
+
+  // ADCIRC and SCHISM read segments of nodes.
+  void checkSegments() {
+    std::map<NodePair, int> uses;
+    for (const NodePair& edge : rimEdges()) uses[edge] = 0;
+    for (const Boundary& boundary : grid_.boundaries) {
+      std::vector<NodePair> edges = edgesOf(boundary);
+      const Boundary back{boundary.role, boundary.closed, boundary.back_nodes};
+      std::size_t turned = 0;
+      for (const auto& [from, to] : edges) {
+        if (const auto along = uses.find({from, to}); along != uses.end()) {
+          if (++along->second == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
+        } else if (const auto against = uses.find({to, from}); against != uses.end()) {
+          ++turned;
+          if (++against->second == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
+        } else {
+          add(TargetDefectKind::BoundaryOffRim, middle(from, to), -1, from);
+        }
+      }
+      for (const auto& [from, to] : edgesOf(back)) {
+        const auto across = uses.find(uses.contains({from, to}) ? NodePair{from, to} : NodePair{to, from});
+        if (across != uses.end()) ++across->second;
+      }
+      if (boundary.nodes.empty()) continue;
+      const std::uint32_t first = boundary.nodes.front();
+      if (turned > 0) add(TargetDefectKind::BoundaryTurned, grid_.nodes[first], -1, first, static_cast<double>(turned));
+      if (boundary.nodes.size() == 1) add(TargetDefectKind::BoundaryOffRim, grid_.nodes[first], -1, first);
+      checkLoop(boundary, turned > 0);
+    }
+    for (const auto& [edge, count] : uses)
+      if (count == 0) add(TargetDefectKind::NoBoundary, middle(edge[0], edge[1]), -1, edge[0]);
+  }
+
+  void checkLoop(const Boundary& boundary, bool turned) {
+    if (!boundary.closed || boundary.nodes.size() < 3) return;
+    const std::uint32_t first = boundary.nodes.front();
+    const BoundaryRole by_shape = roleOfLoop(grid_.nodes, boundary.nodes);
+    const bool shore = !isOpening(boundary.role);
+    if (shore && !turned && boundary.role != by_shape) add(TargetDefectKind::WrongShore, grid_.nodes[first], -1, first);
+    // Islands close themselves; for the others SCHISM wants two linked segments.
+    if (boundary.repeats_first && (target_ == Target::Schism || boundary.role == BoundaryRole::Island))
+      add(TargetDefectKind::LoopedBoundary, grid_.nodes[first], -1, first);
+  }
+
+  void checkOpenings() {
+    if (grid_.z.empty()) return;
+    std::vector<bool> dry(grid_.nodes.size(), false);
+    for (const Boundary& boundary : grid_.boundaries)
+      if (isOpening(boundary.role))
+        for (const std::uint32_t node : boundary.nodes) dry[node] = grid_.z[node] > 0.0;
+    for (std::uint32_t node = 0; node < dry.size(); ++node)
+      if (dry[node]) add(TargetDefectKind::DryOpening, grid_.nodes[node], -1, node, grid_.z[node]);
+  }
+
+  void checkOpenCells() {
+    const EdgeKinds kinds(grid_);
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      int open = 0, solid = 0;
+      for (unsigned i = 0; i < 3; ++i) {
+        if (mesh_.triangles[t].adj[i] != kNone) continue;
+        const RimKind* const kind = kinds.find(mesh_.origin(edgeRef(t, i)), mesh_.target(edgeRef(t, i)));
+        ++(kind != nullptr && kind->role == BoundaryRole::Open ? open : solid);
+      }
+      if (open > 1) add(TargetDefectKind::TwoOpenEdges, middle(t), t, -1, open);
+      if (open > 0 && solid > 0) add(TargetDefectKind::OpenAndSolid, middle(t), t);
+    }
+  }
+
+  void checkLoneWalls() {
+    const bool rivers_open = target_ == Target::Telemac;
+    std::vector<bool> on_opening(grid_.nodes.size(), false);
+    const auto opens = [&](BoundaryRole role) {
+      return role == BoundaryRole::Open || (rivers_open && isOpening(role));
+    };
+    for (const Boundary& boundary : grid_.boundaries)
+      if (opens(boundary.role))
+        for (const std::uint32_t node : boundary.nodes) on_opening[node] = true;
+    const EdgeKinds kinds(grid_);
+    for (const auto& [from, to] : rimEdges()) {
+      if (!on_opening[from] || !on_opening[to]) continue;
+      const RimKind* const kind = kinds.find(from, to);
+      if (kind == nullptr || !opens(kind->role)) add(TargetDefectKind::LoneWall, middle(from, to), -1, from);
+    }
+  }
+
+  void checkFlowLinks() {
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
+        if (twin == kNone || triOf(twin) < t) continue;
+        const std::array<std::uint32_t, 4> nodes{mesh_.origin(e), mesh_.target(e), mesh_.apex(e), mesh_.apex(twin)};
+        const std::vector<Point> p = localPlane(grid_, nodes);
+        const FlowLink link = flowLinkAcross(p[0], p[1], p[2], p[3]);
+        const Point place = middle(nodes[0], nodes[1]);
+        if (link.cosine > kDflowfmLargestCosine) add(TargetDefectKind::NotOrthogonal, place, t, nodes[0], link.cosine);
+        if (link.length < kDflowfmSmallestLink) add(TargetDefectKind::SmallFlowLink, place, t, nodes[0], link.length);
+      }
+    }
+  }
+
+  void checkCourant() {
+    const bool from_below = target_ == Target::Schism;
+    const bool advice = from_below || target_ == Target::Telemac || target_ == Target::Dflowfm;
+    for (TargetDefect& defect : courantsBeyond(grid_, options_.time_step_s, from_below)) {
+      defect.advice = advice;
+      defects_.push_back(std::move(defect));
+    }
+  }
+
+  const Grid& grid_;
+  const Target target_;
+  const TargetCheckOptions& options_;
+  TriMesh mesh_;
+  std::vector<EdgeConflict> conflicts_;
+  std::vector<TargetDefect> defects_;
+};
+
+}  // namespace
+
+std::string_view toString(TargetDefectKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
+
+double largestFileAngle(const Point& a, const Point& b, const Point& c) { return std::ranges::max(anglesDeg(a, b, c)); }
+
+std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s) {
+  return courantsBeyond(grid, time_step_s, false);
+}
+
+std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options) {
+  return TargetCheck(grid, target, options).run();
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,136 @@
+#include "gis/model/depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "gis/model/fill_depths.hpp"
+#include "gis/model/sample_raster.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+// Triangles round a node with fewer pixels than this tell less than the four pixels round it.
+constexpr double kLeastPixels = 4.0;
+// Of the pixels in a node's triangles, this share has to have a value for their mean to count before other rasters.
+constexpr double kMostPixels = 0.5;
+
+// The raster's values, as it has them, for nodes that have none yet.
+class ValueSearch {
+ public:
+  ValueSearch(const Grid& grid, const DepthOptions& options, DepthReport& report)
+      : grid_(grid),
+        options_(options),
+        report_(report),
+        values_(grid.nodes.size(), kUnknown),
+        partial_(grid.nodes.size(), kUnknown),
+        partial_file_(grid.nodes.size(), 0) {
+    report_.nodes_of_file.assign(options.files.size(), 0);
+  }
+
+  void take(std::size_t file, const RunControl& control) {
+    const RasterBand raster(options_.files[file]);
+    if (raster.crs().isPlane() && !grid_.crs.isPlane())
+      report_.warnings.push_back("'" + raster.path() + "' tells no CRS; taken to be in that of the mesh, " +
+                                 nameOf(grid_.crs));
+    std::vector<std::uint32_t> open = unknownNodes();
+    if (open.empty()) return;
+    const std::vector<Point> pixels = pixelsOf(grid_, raster);
+    if (options_.method == DepthMethod::Average) {
+      const auto samples = sampleAverage(raster, grid_, pixels, open, kLeastPixels, control);
+      report_.averaged += put(file, open, samples, kMostPixels);
+      open = unknownNodes();
+    }
+    put(file, open, sampleBilinear(raster, pixels, open, control), 1.0);
+  }
+
+  std::vector<double> finish() {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      if (!std::isnan(values_[i]) || std::isnan(partial_[i])) continue;
+      values_[i] = partial_[i];
+      ++report_.partial;
+      ++report_.nodes_of_file[partial_file_[i]];
+    }
+    return std::move(values_);
+  }
+
+ private:
+  std::vector<std::uint32_t> unknownNodes() const {
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t i = 0; i < values_.size(); ++i)
+      if (std::isnan(values_[i])) nodes.push_back(i);
+    return nodes;
+  }
+
+  std::size_t put(std::size_t file, const std::vector<std::uint32_t>& nodes, const std::vector<RasterSample>& samples,
+                  double least_share) {
+    std::size_t taken = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (!(samples[k].share > 0.0)) continue;
+      if (samples[k].share >= least_share) {
+        values_[nodes[k]] = samples[k].value;
+        ++taken;
+      } else if (std::isnan(partial_[nodes[k]])) {
+        partial_[nodes[k]] = samples[k].value;
+        partial_file_[nodes[k]] = file;
+      }
+    }
+    report_.nodes_of_file[file] += taken;
+    return taken;
+  }
+
+  const Grid& grid_;
+  const DepthOptions& options_;
+  DepthReport& report_;
+  std::vector<double> values_, partial_;
+  std::vector<std::size_t> partial_file_;
+};
+
+void measure(const Grid& grid, DepthReport& report) {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const double z : grid.z) {
+    if (std::isnan(z)) {
+      ++report.unknown;
+      continue;
+    }
+    report.above_water += z > 0.0;
+    least = std::min(least, 0.0 - z);
+    greatest = std::max(greatest, 0.0 - z);
+  }
+  if (least <= greatest) {
+    report.least_m = least;
+    report.greatest_m = greatest;
+  }
+}
+
+}  // namespace
+
+DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control) {
+  DepthReport report;
+  if (options.files.empty()) return report;
+  ValueSearch search(grid, options, report);
+  for (std::size_t file = 0; file < options.files.size(); ++file) search.take(file, control);
+  grid.z = search.finish();
+  for (double& z : grid.z) z = (options.positive_down ? 0.0 - z : z) - options.water_level_m;
+  const std::size_t known = std::accumulate(report.nodes_of_file.begin(), report.nodes_of_file.end(), std::size_t{0});
+  if (known == 0) report.warnings.emplace_back("no raster has a value anywhere in the mesh; is its CRS right?");
+  if (options.fill == DepthFill::Neighbours) report.filled = fillFromNeighbours(grid);
+  if (options.fill == DepthFill::Nearest) report.filled = fillFromNearest(grid);
+  const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));
+  for (double& z : grid.z) {
+    if (!(z > 0.0 - options.min_depth_m)) continue;
+    z = 0.0 - options.min_depth_m;
+    ++report.lowered;
+  }
+  measure(grid, report);
+  if (2 * dry > grid.nodes.size() && known > 0)
+    report.warnings.push_back(std::to_string(dry) + " of " + std::to_string(grid.nodes.size()) +
+                              " nodes lie above the water; " +
+                              (options.positive_down ? "do the rasters tell elevations, positive up?"
+                                                     : "do the rasters tell depths, positive down?") +
+                              " See --depth-sign");
+  return report;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,203 @@
+#include "gis/model/make_grid.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+
+#include "core/quality.hpp"
+#include "gis/coast/segment_tags.hpp"
+#include "gis/crs/geodesy.hpp"
+#include "gis/grid/grid_lines.hpp"
+
+namespace coastmesh {
+namespace {
+
+// Where the longitudes of a group are to lie: a whole turn that holds those of its input.
+struct LongitudeRange {
+  double west = -180.0;
+
+  double bring(double longitude) const {
+    if (longitude >= west && longitude <= west + 360.0) return longitude;
+    return longitude - 360.0 * std::floor((longitude - west) / 360.0);
+  }
+};
+
+LongitudeRange rangeOf(const std::vector<Point>& input) {
+  const auto [least, greatest] = std::ranges::minmax(input, {}, &Point::x);
+  if (least.x >= -180.0 && greatest.x <= 180.0) return {-180.0};
+  if (least.x >= 0.0 && greatest.x <= 360.0) return {0.0};
+  return {(least.x + greatest.x) / 2.0 - 180.0};
+}
+
+// Appends the used points of `part` and returns the new index of each, kNone for the unused.
+std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic, const ItemLoop& loop,
+                                       std::vector<Point>& nodes) {
+  const Domain& domain = *part.domain;
+  const TriMesh& mesh = *part.mesh;
+  assert(domain.input_points.size() == mesh.input_vertices);
+  // Coordinates that were meshed as they are stay as they are.
+  const bool shifts = geographic && !domain.projection.isIdentity();
+  const LongitudeRange range = shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  std::vector<std::uint32_t> index_of(mesh.points.size(), kNone);
+  auto count = static_cast<std::uint32_t>(nodes.size());
+  for (std::size_t v = 0; v < index_of.size(); ++v)
+    if (used[v]) index_of[v] = count++;
+  nodes.resize(count);
+  forEachByStretches(loop, mesh.points.size(), [&](std::size_t v) {
+    if (index_of[v] == kNone) return;
+    Point& node = nodes[index_of[v]];
+    if (v < mesh.input_vertices) {
+      node = domain.input_points[v];
+    } else {
+      node = domain.projection.inverse(mesh.points[v]);
+      if (shifts) node.x = range.bring(node.x);
+    }
+  });
+  return index_of;
+}
+
+void appendTriangles(const TriMesh& mesh, const std::vector<std::uint32_t>& index_of,
+                     const std::vector<std::uint32_t>& feature_index, const ItemLoop& loop, Grid& grid) {
+  const std::size_t before = grid.triangles.size(), after = before + mesh.triangles.size();
+  grid.triangles.resize(after);
+  if (!feature_index.empty()) grid.feature_of.resize(after);
+  grid.min_angle_deg.resize(after);
+  forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t].v;
+    grid.triangles[before + t] = {index_of[a], index_of[b], index_of[c]};
+    if (!feature_index.empty()) grid.feature_of[before + t] = feature_index[static_cast<std::size_t>(mesh.regions[t])];
+    grid.min_angle_deg[before + t] = std::ranges::min(anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c]));
+  });
+}
+
+// The features that triangles belong to, in the coastline's order; the answer is the new index of each of the
+// coastline's, and empty where it has none (a .poly).
+std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
+                                          std::vector<GridFeature>& features) {
+  std::vector<std::uint32_t> index_of(coastline.features.size(), kNone);
+  if (index_of.empty()) return index_of;
+  for (const MeshedDomain& part : parts) {
+    for (RegionId region : part.mesh->regions) {
+      assert(region >= 0 && static_cast<std::size_t>(region) < index_of.size());
+      index_of[static_cast<std::size_t>(region)] = 0;
+    }
+  }
+  for (std::size_t i = 0; i < index_of.size(); ++i) {
+    if (index_of[i] == kNone) continue;
+    index_of[i] = static_cast<std::uint32_t>(features.size());
+    const Feature& feature = coastline.features[i];
+    features.push_back({feature.fid, feature.source, feature.attributes, feature.region});
+  }
+  return index_of;
+}
+
+LineKind kindOf(FeatureUse use) {
+  if (use == FeatureUse::Weir) return LineKind::Weir;
+  return use == FeatureUse::Region ? LineKind::RegionBorder : LineKind::Constraint;
+}
+
+// The domain's lines as the mesh has them, in their order; those of one feature go on where a region's border joins.
+void appendLines(const Domain& domain, const TriMesh& mesh, const std::vector<std::uint32_t>& index_of,
+                 std::vector<GridLine>& lines) {
+  if (domain.lines.empty()) return;
+  std::vector<std::vector<NodePair>> edges_of(domain.lines.size());
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& triangle = mesh.triangles[t];
+    for (unsigned i = 0; i < 3; ++i) {
+      const SegmentId segment = triangle.seg[i];
+      if (triangle.adj[i] == kNone || segment >= domain.pslg.segments.size()) continue;
+      const std::int32_t tag = domain.pslg.segments[segment].tag;
+      if (!isLineTag(tag) || lineOfTag(tag) >= domain.lines.size()) continue;
+      if (triOf(triangle.adj[i]) < t) continue;  // once of both sides
+      edges_of[lineOfTag(tag)].push_back({index_of[triangle.v[next3(i)]], index_of[triangle.v[prev3(i)]]});
+    }
+  }
+  for (std::size_t first = 0, last = 0; first < edges_of.size(); first = last) {
+    const DomainLine& line = domain.lines[first];
+    std::vector<NodePair> edges;
+    for (; last < edges_of.size() && domain.lines[last].feature == line.feature; ++last)
+      edges.insert(edges.end(), edges_of[last].begin(), edges_of[last].end());
+    std::ranges::move(chainLines(std::move(edges), kindOf(line.use), line.name), std::back_inserter(lines));
+  }
+}
+
+// Edges of the rim that lie on the frame's, with the mesh to the left, sorted.
+std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh) {
+  std::vector<NodePair> open;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const SegmentId segment = triangle.seg[i];
+      if (triangle.adj[i] != kNone || segment >= domain.pslg.segments.size()) continue;
+      if (domain.pslg.segments[segment].tag == kOpenTag) open.push_back({triangle.v[next3(i)], triangle.v[prev3(i)]});
+    }
+  }
+  std::ranges::sort(open);
+  return open;
+}
+
+// Cuts a loop where open water and land meet, so that each piece is one or the other; they share their end nodes.
+std::vector<Boundary> splitLoop(Boundary&& loop, const std::vector<NodePair>& open) {
+  const std::size_t n = loop.nodes.size();
+  std::vector<char> is_open(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    is_open[i] = std::ranges::binary_search(open, NodePair{loop.nodes[i], loop.nodes[(i + 1) % n]});
+  }
+  const auto roleOf = [&](std::size_t i) { return is_open[i] ? BoundaryRole::Open : loop.role; };
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_open[i] != is_open[(i + n - 1) % n]) starts.push_back(i);
+  }
+  std::vector<Boundary> pieces;
+  if (starts.empty()) {
+    loop.role = roleOf(0);
+    pieces.push_back(std::move(loop));
+    return pieces;
+  }
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const std::size_t first = starts[s], last = starts[(s + 1) % starts.size()];
+    Boundary& piece = pieces.emplace_back(Boundary{roleOf(first), false, {}});
+    for (std::size_t i = first; i != last; i = (i + 1) % n) piece.nodes.push_back(loop.nodes[i]);
+    piece.nodes.push_back(loop.nodes[last]);
+  }
+  return pieces;
+}
+
+}  // namespace
+
+Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop) {
+  Grid grid;
+  grid.crs = coastline.crs;
+  std::size_t triangle_count = 0, point_count = 0;
+  for (const MeshedDomain& part : parts) {
+    triangle_count += part.mesh->triangles.size();
+    point_count += part.mesh->points.size();
+  }
+  reserveOn(loop, grid.nodes, point_count);
+  reserveOn(loop, grid.triangles, triangle_count);
+  reserveOn(loop, grid.min_angle_deg, triangle_count);
+  const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, grid.features);
+  if (!feature_index.empty()) reserveOn(loop, grid.feature_of, triangle_count);
+  for (const MeshedDomain& part : parts) {
+    const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, loop, grid.nodes);
+    if (part.size_m != nullptr) {
+      grid.size_m.resize(grid.nodes.size());
+      for (std::size_t v = 0; v < index_of.size(); ++v)
+        if (index_of[v] != kNone) grid.size_m[index_of[v]] = (*part.size_m)[v];
+    }
+    appendTriangles(*part.mesh, index_of, feature_index, loop, grid);
+    appendLines(*part.domain, *part.mesh, index_of, grid.lines);
+    const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh);
+    for (Boundary& rim : findBoundaries(*part.mesh, loop)) {
+      for (Boundary& boundary : splitLoop(std::move(rim), open)) {
+        for (std::uint32_t& node : boundary.nodes) node = index_of[node];
+        grid.boundaries.push_back(std::move(boundary));
+      }
+    }
+  }
+  grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);
+  return grid;
+}
+
+}  // namespace coastmesh

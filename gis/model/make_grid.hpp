@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "core/tri_mesh.hpp"
+#include "gis/clean/domain.hpp"
+#include "gis/coast/coastline.hpp"
+#include "gis/grid/grid.hpp"
+
+namespace coastmesh {
+
+// The grid of several meshed domains, in their order. `coastline.features` gives names; nodes of the PSLG come back
+// with the input's own bits, Steiner points through the domain's inverse projection.
+struct MeshedDomain {
+  const Domain* domain = nullptr;
+  const TriMesh* mesh = nullptr;
+  const std::vector<double>* size_m = nullptr;  // one a vertex of the mesh; null where no lengths were asked for
+};
+Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop = inOrder);
+
+}  // namespace coastmesh

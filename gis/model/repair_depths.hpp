@@ -1,0 +1,11 @@
+#pragma once
+
+#include "gis/model/repair_state.hpp"
+
+namespace coastmesh {
+
+// A node of an opening that is above the water gets the depth of the shallowest neighbour below it; where there is none yet,
+// a later round may find one.
+void lowerDryOpening(RepairState& state, const FoundDefect& found);
+
+}  // namespace coastmesh

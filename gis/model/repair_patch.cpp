@@ -1,0 +1,150 @@
+#include "gis/model/repair_patch.hpp"
+
+#include <array>
+#include <tuple>
+
+namespace coastmesh {
+namespace {
+
+std::uint32_t featureOf(const Grid& grid, std::uint32_t t) { return grid.feature_of.empty() ? 0 : grid.feature_of[t]; }
+
+// An inner edge that has to stay: it is part of a line, or features meet there.
+bool isFixed(const RepairView& view, std::uint32_t a, std::uint32_t b, std::uint32_t left, std::uint32_t right) {
+  return view.links.line_edges.contains(edgeKey(a, b)) || featureOf(view.grid, left) != featureOf(view.grid, right);
+}
+
+// The triangle to the left of the edge from `a` to `b`.
+const PatchEdge* findSide(const Grid& grid, const Patch& patch, std::uint32_t a, std::uint32_t b) {
+  for (const PatchEdge& edge : patch.edgesAt(edgeKey(a, b))) {
+    const GridCorners& v = grid.triangles[edge.triangle];
+    for (unsigned i = 0; i < 3; ++i)
+      if (v[i] == a && v[next3(i)] == b) return &edge;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::span<const PatchEdge> Patch::edgesAt(const NodePair& key) const {
+  const auto [first, last] = std::ranges::equal_range(edges, key, {}, &PatchEdge::key);
+  return {first, last};
+}
+
+Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle) {
+  std::set<std::uint32_t> nodes, members;
+  for (const std::uint32_t t : middle) nodes.insert(view.grid.triangles[t].begin(), view.grid.triangles[t].end());
+  for (const std::uint32_t node : nodes)
+    members.insert(view.links.triangles_at[node].begin(), view.links.triangles_at[node].end());
+  Patch patch;
+  patch.triangles.assign(members.begin(), members.end());
+  for (const std::uint32_t t : patch.triangles) {
+    const GridCorners& v = view.grid.triangles[t];
+    for (unsigned i = 0; i < 3; ++i) patch.edges.push_back({edgeKey(v[next3(i)], v[prev3(i)]), t, v[i]});
+  }
+  std::ranges::sort(patch.edges, {}, [](const PatchEdge& edge) { return std::tuple(edge.key, edge.triangle); });
+  return patch;
+}
+
+const RimKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b) {
+  const NodePair key = edgeKey(a, b);
+  if (const auto half = edit.halves.find(key); half != edit.halves.end()) return &half->second;
+  if (edit.gone == key) return nullptr;
+  const auto at = view.links.kinds.find(key);
+  return at == view.links.kinds.end() ? nullptr : &at->second;
+}
+
+std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b) {
+  const PatchEdge* const left = findSide(view.grid, patch, a, b);
+  const PatchEdge* const right = findSide(view.grid, patch, b, a);
+  if (left == nullptr || right == nullptr) return std::nullopt;
+  if (isFixed(view, a, b, left->triangle, right->triangle)) return std::nullopt;
+  PatchEdit edit{.kind = PatchEditKind::EdgeFlip, .nodes = {a, b}};
+  edit.triangles.push_back({{a, right->apex, left->apex}, left->triangle, left->triangle});
+  edit.triangles.push_back({{right->apex, b, left->apex}, right->triangle, right->triangle});
+  return edit;
+}
+
+PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b, double share) {
+  const auto middle = static_cast<std::uint32_t>(view.grid.nodes.size());
+  PatchEdit edit{.kind = PatchEditKind::EdgeSplit, .nodes = {a, b}, .share = share, .placed = middle};
+  edit.place = placeBetween(view.grid.crs, view.grid.nodes[a], view.grid.nodes[b], share);
+  std::vector<EditedTriangle> added;
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+    const PatchEdge* const side = findSide(view.grid, patch, from, to);
+    if (side == nullptr) continue;
+    edit.triangles.push_back({{from, middle, side->apex}, side->triangle, side->triangle});
+    added.push_back({{middle, to, side->apex}, kNone, side->triangle});
+  }
+  edit.triangles.insert(edit.triangles.end(), added.begin(), added.end());
+  if (const RimKind* const kind = kindOf(view, edit, a, b)) {
+    edit.halves[edgeKey(a, middle)] = edit.halves[edgeKey(middle, b)] = *kind;
+    edit.gone = edgeKey(a, b);
+  }
+  return edit;
+}
+
+std::vector<std::uint32_t> ringRound(const RepairView& view, std::uint32_t node) {
+  std::map<std::uint32_t, std::uint32_t> next;
+  for (const std::uint32_t t : view.links.triangles_at[node]) {
+    const GridCorners& v = view.grid.triangles[t];
+    const auto k = static_cast<unsigned>(std::ranges::find(v, node) - v.begin());
+    next[v[next3(k)]] = v[prev3(k)];
+  }
+  std::vector<std::uint32_t> ring{next.begin()->first};
+  while (ring.size() < next.size() && next.contains(ring.back())) ring.push_back(next[ring.back()]);
+  const bool closes = next.contains(ring.back()) && next[ring.back()] == ring.front();
+  return closes ? ring : std::vector<std::uint32_t>();
+}
+
+std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node, std::span<const std::uint32_t> ring,
+                                     const std::set<std::uint32_t>& fixed, std::size_t first, std::size_t count) {
+  const std::size_t n = ring.size();
+  const auto fresh = static_cast<std::uint32_t>(view.grid.nodes.size());
+  std::set<NodePair> moved;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t from = ring[(first + k) % n];
+    if (k > 0 && fixed.contains(from)) return std::nullopt;
+    moved.insert({from, ring[(first + k + 1) % n]});
+  }
+  PatchEdit edit{.kind = PatchEditKind::NodeSplit, .nodes = {node, node}, .placed = fresh};
+  std::uint32_t source = kNone;
+  for (const std::uint32_t t : view.links.triangles_at[node]) {
+    GridCorners v = view.grid.triangles[t];
+    const auto k = static_cast<unsigned>(std::ranges::find(v, node) - v.begin());
+    if (!moved.contains({v[next3(k)], v[prev3(k)]})) continue;
+    v[k] = fresh;
+    edit.triangles.push_back({v, t, t});
+    source = t;
+  }
+  edit.triangles.push_back({{node, ring[first], fresh}, kNone, source});
+  edit.triangles.push_back({{node, fresh, ring[(first + count) % n]}, kNone, source});
+  return edit;
+}
+
+bool isMovable(const RepairView& view, std::uint32_t node) {
+  return !view.links.on_boundary[node] && fixedNeighbours(view, node).empty();
+}
+
+PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share) {
+  const Crs& crs = view.grid.crs;
+  const std::vector<Point>& nodes = view.grid.nodes;
+  PatchEdit edit{.kind = PatchEditKind::NodeMove, .nodes = {a, b}, .share = share, .placed = node};
+  edit.place = placeBetween(crs, nodes[node], placeBetween(crs, nodes[a], nodes[b], 0.5), share);
+  for (const std::uint32_t t : view.links.triangles_at[node]) edit.triangles.push_back({view.grid.triangles[t], t, t});
+  return edit;
+}
+
+std::set<std::uint32_t> fixedNeighbours(const RepairView& view, std::uint32_t node) {
+  std::set<std::uint32_t> fixed;
+  std::map<std::uint32_t, std::uint32_t> triangle_at;  // one with the edge to a neighbour
+  for (const std::uint32_t t : view.links.triangles_at[node]) {
+    for (const std::uint32_t other : view.grid.triangles[t]) {
+      if (other == node) continue;
+      const std::uint32_t seen = triangle_at.try_emplace(other, t).first->second;
+      if (isFixed(view, node, other, t, seen)) fixed.insert(other);
+    }
+  }
+  return fixed;
+}
+
+}  // namespace coastmesh

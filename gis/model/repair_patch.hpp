@@ -1,0 +1,105 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "core/tri_mesh.hpp"
+#include "gis/grid/grid_edit.hpp"
+#include "gis/grid/rim_boundaries.hpp"
+#include "gis/model/check_target.hpp"
+
+namespace coastmesh {
+
+// A few triangles of a grid, and edits of them that would mend it for models.
+
+// An edge, whichever way it goes.
+inline NodePair edgeKey(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+using BoundaryKinds = std::map<NodePair, RimKind>;  // by `edgeKey`
+
+// How the grid hangs together.
+struct GridLinks {
+  TriMesh mesh;
+  std::vector<std::vector<std::uint32_t>> triangles_at;  // one list a node
+  BoundaryKinds kinds;                                   // of the boundary's edges
+  std::vector<bool> on_boundary;                         // one flag a node
+  std::set<NodePair> line_edges;                         // by `edgeKey`; these stay
+};
+
+// What a search for repairs looks at.
+struct RepairView {
+  const Grid& grid;
+  const GridLinks& links;
+  std::span<const Target> targets;
+
+  bool isFor(Target target) const { return std::ranges::count(targets, target) > 0; }
+};
+
+struct PatchEdge {
+  NodePair key{};              // by `edgeKey`
+  std::uint32_t triangle = 0;  // of the grid
+  std::uint32_t apex = 0;      // the triangle's corner opposite
+};
+
+struct Patch {
+  std::vector<std::uint32_t> triangles;  // of the grid, ascending
+  std::vector<PatchEdge> edges;          // of them, by key and triangle
+
+  std::span<const PatchEdge> edgesAt(const NodePair& key) const;
+};
+
+// A triangle as an edit makes it.
+struct EditedTriangle {
+  GridCorners v{};
+  std::uint32_t slot = kNone;    // the triangle that it was; kNone for a new one
+  std::uint32_t source = kNone;  // the one that it is cut from
+};
+
+enum class PatchEditKind { EdgeFlip, EdgeSplit, NodeSplit, NodeMove };
+
+struct PatchEdit {
+  PatchEditKind kind = PatchEditKind::EdgeFlip;
+  NodePair nodes{};                         // the edge; what a node moves towards: the middle between these
+  double share = 0.0;                       // of the way along the edge, or of the move's
+  std::uint32_t placed = kNone;             // the node that is moved, or added behind the grid's last
+  Point place{};                            // of it
+  std::vector<EditedTriangle> triangles{};  // those that change, then new ones
+  BoundaryKinds halves{};                   // edges of the boundary that splitting made
+  std::optional<NodePair> gone{};           // and the one it split
+};
+
+// The triangles that share a node with one of these.
+Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle);
+
+// What the boundary is at the edge once the edit is made; null inside the mesh.
+const RimKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b);
+
+// The edge between two triangles of the patch turned to join their other corners; none where it has to stay.
+std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b);
+
+// A new node on the edge, at `share` of the way.
+PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b, double share);
+
+// The nodes round an inner node, counter-clockwise; empty where they do not close.
+std::vector<std::uint32_t> ringRound(const RepairView& view, std::uint32_t node);
+
+// An inner node split in two: `count` triangles from ring[first] on get a node of their own, yet to be placed. None
+// where an edge that has to stay would move.
+std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node, std::span<const std::uint32_t> ring,
+                                     const std::set<std::uint32_t>& fixed, std::size_t first, std::size_t count);
+
+// An inner node that no edge holds in its place.
+bool isMovable(const RepairView& view, std::uint32_t node);
+
+// The node moved `share` of the way towards the middle between `a` and `b`, nodes of its ring.
+PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share);
+
+// The other ends of edges at a node that have to stay: parts of lines, and those where features meet.
+std::set<std::uint32_t> fixedNeighbours(const RepairView& view, std::uint32_t node);
+
+}  // namespace coastmesh

@@ -1,0 +1,101 @@
+#include "gis/model/repair_pinches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <set>
+
+#include "core/predicates.hpp"
+#include "gis/grid/local_plane.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr double kMoveApart = 0.05;  // of the way into the fan of triangles that gets a node of its own
+
+using Fan = std::vector<std::uint32_t>;
+
+// The triangles round a node in fans that share edges, the largest first.
+std::vector<Fan> fansAt(const GridLinks& links, std::uint32_t node) {
+  std::vector<Fan> fans;
+  std::set<std::uint32_t> left(links.triangles_at[node].begin(), links.triangles_at[node].end());
+  while (!left.empty()) {
+    Fan& fan = fans.emplace_back();
+    fan.push_back(*left.begin());
+    left.erase(left.begin());
+    for (std::size_t k = 0; k < fan.size(); ++k) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef twin = links.mesh.triangles[fan[k]].adj[i];
+        if (twin == kNone || links.mesh.triangles[fan[k]].v[i] == node) continue;
+        if (left.erase(triOf(twin)) > 0) fan.push_back(triOf(twin));
+      }
+    }
+  }
+  std::ranges::stable_sort(fans, std::greater(), [](const Fan& fan) { return fan.size(); });
+  return fans;
+}
+
+// The edges of the boundary between the fan and the node are now at its twin.
+void moveKinds(GridLinks& links, const Fan& fan, std::uint32_t node, std::uint32_t twin) {
+  for (const std::uint32_t t : fan) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t a = links.mesh.origin(edgeRef(t, i)), b = links.mesh.target(edgeRef(t, i));
+      if (links.mesh.triangles[t].adj[i] != kNone || (a != node && b != node)) continue;
+      const std::uint32_t other = a == node ? b : a;
+      links.kinds[edgeKey(twin, other)] = links.kinds[edgeKey(node, other)];
+      links.kinds.erase(edgeKey(node, other));
+    }
+  }
+}
+
+std::string distanceText(const Crs& crs, const Point& from, const Point& to) {
+  const std::vector<Point> plane = localPlane(crs, std::array{from, to});
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", std::hypot(plane[1].x - plane[0].x, plane[1].y - plane[0].y));
+  return std::string(text) + (crs.geographic ? " m" : "");
+}
+
+}  // namespace
+
+void doublePinchedNode(RepairState& state, const FoundDefect& found) {
+  const auto node = static_cast<std::uint32_t>(found.defect.node);
+  Grid& grid = state.grid;
+  if (state.anyTaken(state.links.triangles_at[node])) return;
+  const std::vector<Fan> fans = fansAt(state.links, node);
+  for (std::size_t f = 1; f < fans.size(); ++f) {
+    const Point place = grid.nodes[node];
+    std::vector<Point> corners;
+    for (const std::uint32_t t : fans[f])
+      for (const std::uint32_t corner : grid.triangles[t]) corners.push_back(grid.nodes[corner]);
+    const Point apart = placeBetween(grid.crs, place, meanPlace(grid.crs, corners), kMoveApart);
+    const std::uint32_t twin = detachTriangles(grid, node, fans[f], apart);
+    moveKinds(state.links, fans[f], node, twin);
+    addRepair(state, found, place,
+              "node doubled, and moved apart by " + distanceText(grid.crs, place, grid.nodes[twin]));
+  }
+  for (const std::uint32_t t : state.links.triangles_at[node])
+    state.touched[t] = state.changed[t] = state.disturbed[t] = true;
+}
+
+void takeOutOrphan(RepairState& state, const FoundDefect& found) {
+  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
+  if (state.touched[t] || state.grid.triangles.size() < 2) return;
+  state.touched[t] = state.dead[t] = true;
+  const GridCorners& v = state.grid.triangles[t];
+  for (unsigned i = 0; i < 3; ++i) state.links.kinds.erase(edgeKey(v[i], v[next3(i)]));
+  addRepair(state, found, state.grid.nodes[v[0]], "triangle taken out");
+}
+
+void turnClockwise(RepairState& state, const FoundDefect& found) {
+  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
+  GridCorners& corners = state.grid.triangles[t];
+  const std::vector<Point> p = localPlane(state.grid, corners);
+  if (orient2d(p[0], p[1], p[2]) == 0) return;
+  std::swap(corners[1], corners[2]);
+  state.disturbed[t] = true;
+  addRepair(state, found, state.grid.nodes[corners[0]], "triangle turned");
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/point.hpp"
+#include "gis/model/check_target.hpp"
+
+namespace coastmesh {
+
+// One thing that was done to a grid for a model.
+struct Repair {
+  TargetDefectKind kind;  // of the defect
+  Target target;          // the model that minds it
+  Point place;            // in the grid's CRS
+  std::string what;       // "node doubled, and moved apart by 12.5 m"
+};
+
+struct RepairReport {
+  std::vector<Repair> repairs;
+  std::vector<std::pair<Target, TargetDefect>> left;  // what could not be mended
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "gis/model/repair_patch.hpp"
+
+namespace coastmesh {
+
+// What an edit leaves of a patch: fewer defects are better, then a larger smallest angle.
+struct EditScore {
+  int defects = 0;         // more than the patch has now; less than 0 where it gets better
+  double min_angle = 0.0;  // degrees, of the whole patch
+
+  bool betterThan(const EditScore& other) const {
+    return defects != other.defects ? defects < other.defects : min_angle > other.min_angle;
+  }
+};
+
+// More than any patch has.
+inline constexpr int kTurnedOver = std::numeric_limits<int>::max();
+
+// What is measured once, so that an edit costs what it changes.
+struct PatchScale {
+  std::vector<std::pair<double, std::uint32_t>> angles;  // the smallest of each triangle, ascending
+  std::vector<std::uint32_t> turned;                     // triangles that are clockwise, or without area
+};
+
+PatchScale scaleOf(const RepairView& view, const Patch& patch);
+
+// Of the patch as it is.
+EditScore scoreOf(const PatchScale& scale);
+EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& scale, const PatchEdit& edit);
+
+}  // namespace coastmesh

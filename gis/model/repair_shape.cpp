@@ -1,0 +1,158 @@
+#include "gis/model/repair_shape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+
+#include "gis/model/repair_search.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr std::array kShares{0.5, 0.4, 0.6, 0.3, 0.7};
+// Where these do not help: at a sharp corner of the input an edge is to be cut near its end.
+constexpr std::array kFarShares{0.2, 0.8, 0.15, 0.85, 0.1, 0.9, 0.05, 0.95};
+
+// The patch round the triangles, none where part of it has been changed in this round: then another one will do.
+std::optional<Patch> untouchedPatch(const RepairState& state, std::span<const std::uint32_t> middle) {
+  if (state.anyTaken(middle)) return std::nullopt;
+  Patch patch = patchRound(state.view(), middle);
+  if (state.anyTaken(patch.triangles)) return std::nullopt;
+  return patch;
+}
+
+void placeNode(RepairState& state, const PatchEdit& edit) {
+  const auto [a, b] = edit.nodes;
+  switch (edit.kind) {
+    case PatchEditKind::EdgeFlip:
+      return;
+    case PatchEditKind::EdgeSplit:
+      addNodeBetween(state.grid, a, b, edit.share);
+      if (state.links.line_edges.erase(edgeKey(a, b)) > 0)
+        state.links.line_edges.insert({edgeKey(a, edit.placed), edgeKey(edit.placed, b)});
+      return;
+    case PatchEditKind::NodeSplit:
+      copyNode(state.grid, a, edit.place);
+      return;
+    case PatchEditKind::NodeMove:
+      moveNode(state.grid, edit.placed, a, b, edit.share);
+      return;
+  }
+}
+
+std::string_view textOf(PatchEditKind kind) {
+  constexpr std::array<std::string_view, 4> kTexts{"edge flipped", "edge split", "node split in two", "node moved"};
+  return kTexts[static_cast<std::size_t>(kind)];
+}
+
+void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit, const FoundDefect& found) {
+  placeNode(state, edit);
+  if (edit.gone) state.links.kinds.erase(*edit.gone);
+  for (const auto& [edge, kind] : edit.halves) state.links.kinds[edge] = kind;
+  for (const std::uint32_t t : patch.triangles) state.touched[t] = true;
+  for (const EditedTriangle& triangle : edit.triangles) {
+    if (triangle.slot == kNone) {
+      copyTriangle(state.grid, triangle.source, triangle.v);
+      for (std::vector<bool>* flags : {&state.touched, &state.changed, &state.disturbed}) flags->push_back(true);
+      state.dead.push_back(false);
+      continue;
+    }
+    state.grid.triangles[triangle.slot] = triangle.v;
+    state.changed[triangle.slot] = state.disturbed[triangle.slot] = true;
+  }
+  addRepair(state, found, found.defect.place, std::string(textOf(edit.kind)));
+}
+
+// Whether the attempt was made; `done` says whether it did anything.
+struct Attempt {
+  bool made = false, done = false;
+};
+
+Attempt splitNode(RepairState& state, std::uint32_t node, const FoundDefect& found) {
+  const auto patch = untouchedPatch(state, state.links.triangles_at[node]);
+  if (!patch) return {};
+  const std::optional<PatchEdit> chosen = bestNodeSplit(state.view(), node, *patch);
+  if (chosen) applyEdit(state, *patch, *chosen, found);
+  return {true, chosen.has_value()};
+}
+
+// These, and what lies across their edges.
+std::vector<std::uint32_t> withNeighbours(const TriMesh& mesh, std::span<const std::uint32_t> triangles) {
+  std::set<std::uint32_t> concerned(triangles.begin(), triangles.end());
+  for (const std::uint32_t t : triangles)
+    for (const EdgeRef twin : mesh.triangles[t].adj)
+      if (twin != kNone) concerned.insert(triOf(twin));
+  return {concerned.begin(), concerned.end()};
+}
+
+Attempt reshape(RepairState& state, std::span<const std::uint32_t> inside, const SearchReach& reach,
+                const FoundDefect& found) {
+  std::vector<std::uint32_t> middle(inside.begin(), inside.end());
+  for (const std::uint32_t node : reach.movable)
+    middle.insert(middle.end(), state.links.triangles_at[node].begin(), state.links.triangles_at[node].end());
+  const auto patch = untouchedPatch(state, middle);
+  if (!patch) return {};
+  const std::optional<PatchEdit> chosen = bestReshaping(state.view(), inside, reach, *patch);
+  if (chosen) applyEdit(state, *patch, *chosen, found);
+  return {true, chosen.has_value()};
+}
+
+std::vector<std::uint32_t> movableCorners(const RepairState& state, std::span<const std::uint32_t> triangles) {
+  std::set<std::uint32_t> nodes;
+  for (const std::uint32_t t : triangles)
+    nodes.insert(state.links.mesh.triangles[t].v.begin(), state.links.mesh.triangles[t].v.end());
+  std::vector<std::uint32_t> movable;
+  for (const std::uint32_t node : nodes)
+    if (isMovable(state.view(), node)) movable.push_back(node);
+  return movable;
+}
+
+// An inner node of three triangles goes, and these become one.
+void takeOutNode(RepairState& state, std::uint32_t node, const FoundDefect& found) {
+  const std::vector<std::uint32_t>& round = state.links.triangles_at[node];
+  if (round.size() < 3 || !fixedNeighbours(state.view(), node).empty() || state.anyTaken(round)) return;
+  GridCorners corners = state.grid.triangles[round[0]];
+  // What the other two have and the first has not takes the node's place.
+  for (const std::uint32_t other : state.grid.triangles[round[1]])
+    if (std::ranges::count(corners, other) == 0) std::ranges::replace(corners, node, other);
+  state.grid.triangles[round[0]] = corners;
+  for (const std::uint32_t t : round) state.touched[t] = state.disturbed[t] = true;
+  state.changed[round[0]] = state.dead[round[1]] = state.dead[round[2]] = true;
+  addRepair(state, found, found.defect.place, "node taken out");
+}
+
+}  // namespace
+
+void reshapeTriangle(RepairState& state, const FoundDefect& found) {
+  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
+  if (state.hopeless_triangles[t]) return;
+  const std::vector<std::uint32_t> inside = withNeighbours(state.links.mesh, std::array{t});
+  Attempt attempt = reshape(state, inside, {kShares, {}}, found);
+  if (attempt.made && !attempt.done)
+    attempt = reshape(state, inside, {kFarShares, movableCorners(state, inside)}, found);
+  state.hopeless_triangles[t] = attempt.made && !attempt.done;
+}
+
+void lengthenFlowLink(RepairState& state, const FoundDefect& found) {
+  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
+  if (state.hopeless_triangles[t]) return;
+  const std::vector<std::uint32_t> inside = withNeighbours(state.links.mesh, std::array{t});
+  const std::vector<std::uint32_t> movable = movableCorners(state, inside);
+  Attempt attempt = reshape(state, inside, {kShares, movable}, found);
+  if (attempt.made && !attempt.done) attempt = reshape(state, inside, {kFarShares, {}}, found);
+  state.hopeless_triangles[t] = attempt.made && !attempt.done;
+}
+
+void mendValence(RepairState& state, const FoundDefect& found) {
+  const auto node = static_cast<std::uint32_t>(found.defect.node);
+  const std::vector<std::uint32_t>& round = state.links.triangles_at[node];
+  if (round.size() <= 3) return takeOutNode(state, node, found);
+  if (state.hopeless_nodes[node]) return;
+  const Attempt reshaped = reshape(state, withNeighbours(state.links.mesh, round), {kShares, {}}, found);
+  if (reshaped.done) return;
+  const Attempt was_split = splitNode(state, node, found);
+  state.hopeless_nodes[node] = reshaped.made && was_split.made && !was_split.done;
+}
+
+}  // namespace coastmesh

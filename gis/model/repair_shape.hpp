@@ -1,0 +1,18 @@
+#pragma once
+
+#include "gis/model/repair_state.hpp"
+
+namespace coastmesh {
+
+// Repairs of triangles' shapes, and of how many there are round a node: flips, splits and moves of nodes.
+
+// A triangle with an angle, an edge or neighbours as the model refuses them.
+void reshapeTriangle(RepairState& state, const FoundDefect& found);
+
+// An edge with the centres of its triangles too near to one another: a little move of a node is tried too.
+void lengthenFlowLink(RepairState& state, const FoundDefect& found);
+
+// A node with too few or too many triangles.
+void mendValence(RepairState& state, const FoundDefect& found);
+
+}  // namespace coastmesh

@@ -1,0 +1,168 @@
+#include "gis/model/repair_target.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/quality.hpp"
+#include "gis/crs/geodesy.hpp"
+#include "gis/error.hpp"
+#include "gis/grid/local_plane.hpp"
+#include "gis/model/repair_boundaries.hpp"
+#include "gis/model/repair_depths.hpp"
+#include "gis/model/repair_pinches.hpp"
+#include "gis/model/repair_shape.hpp"
+#include "gis/model/repair_state.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr int kMostRounds = 40;
+
+std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets) {
+  std::vector<FoundDefect> found;
+  for (const Target target : targets)
+    for (TargetDefect& defect : checkTarget(grid, target)) found.push_back({target, std::move(defect)});
+  return found;
+}
+
+// Each once: several models may mind the same.
+std::vector<FoundDefect> withoutRepeats(const std::vector<FoundDefect>& defects) {
+  std::vector<FoundDefect> once;
+  std::set<std::pair<TargetDefectKind, std::int64_t>> seen;
+  for (const FoundDefect& found : defects) {
+    const auto& [kind, place, triangle, node, value, text, advice] = found.defect;
+    const bool has_place = node >= 0 || triangle >= 0;
+    if (!has_place || seen.emplace(kind, triangle >= 0 ? triangle : node).second) once.push_back(found);
+  }
+  return once;
+}
+
+void requireNoWeirs(const Grid& grid) {
+  if (std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return !boundary.weir.empty(); }))
+    throw InputError("the mesh has weirs and defects; mend these by hand, or take the weirs out");
+}
+
+void requireTriangles(const Grid& grid, Target target) {
+  if (!grid.triangles.empty()) return;
+  throw InputError(std::string("no triangle is left once those that ") +
+                   kTargetNames[static_cast<std::size_t>(target)] +
+                   " refuses are taken out: each stood alone; a smaller --size-max makes more of them");
+}
+
+bool isOfBoundaries(TargetDefectKind kind) {
+  switch (kind) {
+    case TargetDefectKind::NoBoundary:
+    case TargetDefectKind::BoundaryOffRim:
+    case TargetDefectKind::BoundaryTwice:
+    case TargetDefectKind::BoundaryTurned:
+    case TargetDefectKind::LoopedBoundary:
+    case TargetDefectKind::WrongShore:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// All but boundaries, which are put together at the end of a round.
+void mend(RepairState& state, const FoundDefect& found) {
+  switch (found.defect.kind) {
+    case TargetDefectKind::WrongCount:
+      return addRepair(state, found, found.defect.place, "counted anew: " + found.defect.text);
+    case TargetDefectKind::UnusedNode:  // goes when the round ends
+      return addRepair(state, found, found.defect.place, "node taken out");
+    case TargetDefectKind::Clockwise:
+      return turnClockwise(state, found);
+    case TargetDefectKind::PinchedNode:
+      return doublePinchedNode(state, found);
+    case TargetDefectKind::OrphanCell:
+      return takeOutOrphan(state, found);
+    case TargetDefectKind::LoneWall:
+      return openLoneWall(state, found);
+    case TargetDefectKind::DryOpening:
+      return lowerDryOpening(state, found);
+    case TargetDefectKind::TwoOpenEdges:
+    case TargetDefectKind::OpenAndSolid:
+    case TargetDefectKind::LargeAngle:
+    case TargetDefectKind::NotOrthogonal:
+      return reshapeTriangle(state, found);
+    case TargetDefectKind::SmallFlowLink:
+      return lengthenFlowLink(state, found);
+    case TargetDefectKind::Valence:
+      return mendValence(state, found);
+    case TargetDefectKind::NoBoundary:
+    case TargetDefectKind::BoundaryOffRim:
+    case TargetDefectKind::BoundaryTwice:
+    case TargetDefectKind::BoundaryTurned:
+    case TargetDefectKind::LoopedBoundary:
+    case TargetDefectKind::WrongShore:
+    case TargetDefectKind::BrokenEdge:
+    case TargetDefectKind::RepeatedNode:
+    case TargetDefectKind::HangingNode:
+    case TargetDefectKind::UnknownDepth:
+    case TargetDefectKind::Courant:
+      return;
+  }
+}
+
+// Returns whether another round may find more to do. Boundaries that `cutLoops` cannot make right stay so: they are
+// worth one round alone.
+bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool& boundaries_done) {
+  startRound(state);
+  const std::size_t repairs_before = state.report.repairs.size();
+  std::vector<FoundDefect> of_boundaries;
+  for (const FoundDefect& found : withoutRepeats(defects)) {
+    if (isOfBoundaries(found.defect.kind)) of_boundaries.push_back(found);
+    mend(state, found);
+  }
+  const bool changed = state.report.repairs.size() > repairs_before;
+  state.grid.notes.clear();
+  if (!changed && of_boundaries.empty()) return false;
+  if (changed) compact(state);
+  const std::size_t boundaries_before = state.grid.boundaries.size();
+  rebuildBoundaries(state);
+  reportRebuilt(state, of_boundaries, boundaries_before);
+  const bool again = changed || !boundaries_done;
+  boundaries_done = true;
+  return again;
+}
+
+void measureChanged(Grid& grid, const std::vector<bool>& changed) {
+  std::vector<GridCorners> corners;
+  std::vector<std::size_t> which;
+  for (std::size_t t = 0; t < changed.size(); ++t) {
+    if (!changed[t]) continue;
+    which.push_back(t);
+    corners.push_back(grid.triangles[t]);
+    if (grid.min_angle_deg.empty()) continue;
+    const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
+    grid.min_angle_deg[t] = std::ranges::min(anglesDeg(p[0], p[1], p[2]));
+  }
+  if (grid.area_m2.empty() || which.empty()) return;
+  const std::vector<double> areas = triangleAreas(grid.nodes, corners, grid.crs);
+  for (std::size_t k = 0; k < which.size(); ++k) grid.area_m2[which[k]] = areas[k];
+}
+
+}  // namespace
+
+RepairReport repairForTargets(Grid& grid, std::span<const Target> targets) {
+  RepairState state{grid, targets};
+  std::vector<FoundDefect> defects = findDefects(grid, targets);
+  if (defects.empty()) return {};
+  requireNoWeirs(grid);
+  state.changed.assign(grid.triangles.size(), false);
+  state.hopeless_triangles = state.disturbed = state.changed;
+  state.hopeless_nodes.assign(grid.nodes.size(), false);
+  state.links.kinds = takeBoundaryKinds(grid);
+  bool again = true, boundaries_done = false;
+  for (int round = 0; round < kMostRounds && again && !defects.empty(); ++round) {
+    again = mendRound(state, defects, boundaries_done);
+    defects = findDefects(grid, targets);
+  }
+  requireTriangles(grid, targets.front());
+  for (FoundDefect& found : defects) state.report.left.emplace_back(found.target, std::move(found.defect));
+  measureChanged(grid, state.changed);
+  requireConsistent(grid);
+  return std::move(state.report);
+}
+
+}  // namespace coastmesh

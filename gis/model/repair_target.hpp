@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gis/grid/grid.hpp"
+#include "gis/model/check_target.hpp"
+#include "gis/model/repair_report.hpp"
+
+namespace coastmesh {
+
+// Changes as little of the grid as takes away what `checkTarget` finds for the models, in rounds: nodes in which the
+// mesh touches itself are doubled and moved apart, triangles without a neighbour and unused nodes taken out, clockwise
+// triangles turned, edges flipped or split, or nodes moved that no boundary, line or feature holds, where a triangle, a
+// node or a flow link is not as a model wants it, and boundaries put together anew. Depths of new and moved nodes lie
+// between those of the nodes there were. Angles and areas of what was changed are measured again. Throws InputError for a
+// grid with weirs that has defects.
+RepairReport repairForTargets(Grid& grid, std::span<const Target> targets);
+
+}  // namespace coastmesh

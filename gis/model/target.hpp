@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace coastmesh {
+
+// Models that a grid may be for.
+enum class Target { Adcirc, Schism, Fvcom, Telemac, Dflowfm, Swan };
+inline constexpr std::array kTargetNames{"adcirc", "schism", "fvcom", "telemac", "dflowfm", "swan"};
+
+// "adcirc|schism|…"
+std::string allTargetNames();
+
+// The models so named, each once, in the order of Target. Throws OptionError for a name that is none.
+std::vector<Target> targetsNamed(const std::vector<std::string>& names);
+
+}  // namespace coastmesh

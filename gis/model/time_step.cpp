@@ -1,0 +1,147 @@
+#include "gis/model/time_step.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gis/crs/geodesy.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid_edit.hpp"
+#include "gis/grid/ground_orientation.hpp"
+#include "gis/long_wave.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Of the corner that is deepest, metres; NaN where none is known.
+double deepestOf(const Grid& grid, std::uint32_t t) {
+  if (grid.z.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double deepest = std::numeric_limits<double>::quiet_NaN();
+  for (const std::uint32_t node : grid.triangles[t]) deepest = std::fmax(deepest, 0.0 - grid.z[node]);
+  return deepest;
+}
+
+double stepOf(double shortest_m, double depth_m) {
+  if (std::isnan(depth_m)) return depth_m;
+  return depth_m > 0.0 ? shortest_m / longWaveSpeed(depth_m) : kInfinity;
+}
+
+// Which edges and nodes cannot move apart, since the shore or a line holds them.
+class HeldEdges {
+ public:
+  explicit HeldEdges(const Grid& grid) : on_shore_(grid.nodes.size(), false) {
+    for (const auto& [a, b, c] : grid.triangles)
+      for (const auto& [from, to] : {NodePair{a, b}, NodePair{b, c}, NodePair{c, a}})
+        edges_.push_back({std::min(from, to), std::max(from, to)});
+    std::ranges::sort(edges_);
+    std::vector<NodePair> rim;  // of one triangle alone
+    for (std::size_t i = 0, end = 0; i < edges_.size(); i = end) {
+      for (end = i; end < edges_.size() && edges_[end] == edges_[i];) ++end;
+      if (end - i == 1) rim.push_back(edges_[i]);
+    }
+    edges_ = std::move(rim);
+    for (const auto& [a, b] : edges_) on_shore_[a] = on_shore_[b] = true;
+    for (const GridLine& line : grid.lines) {
+      for (std::size_t i = 1; i < line.nodes.size() + (line.closed ? 1 : 0); ++i) {
+        const std::uint32_t a = line.nodes[i - 1], b = line.nodes[i % line.nodes.size()];
+        edges_.push_back({std::min(a, b), std::max(a, b)});
+      }
+    }
+    std::ranges::sort(edges_);
+  }
+
+  ShortCause causeOf(std::uint32_t a, std::uint32_t b) const {
+    if (std::ranges::binary_search(edges_, NodePair{std::min(a, b), std::max(a, b)})) return ShortCause::Shore;
+    return on_shore_[a] && on_shore_[b] ? ShortCause::Narrow : ShortCause::Interior;
+  }
+
+ private:
+  std::vector<NodePair> edges_;  // the lesser node first
+  std::vector<bool> on_shore_;
+};
+
+// Why an edge of the triangle is shorter than `least_m`: of several edges the one held most says it.
+ShortCause causeIn(const Grid& grid, const HeldEdges& held, const std::array<double, 3>& lengths, std::uint32_t t,
+                   double least_m) {
+  ShortCause cause = ShortCause::Interior;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (lengths[i] < least_m)
+      cause = std::min(cause, held.causeOf(grid.triangles[t][i], grid.triangles[t][(i + 1) % 3]));
+  return cause;
+}
+
+}  // namespace
+
+std::vector<double> timeSteps(const Grid& grid) {
+  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
+  std::vector<double> steps(lengths.size());
+  for (std::uint32_t t = 0; t < steps.size(); ++t) steps[t] = stepOf(std::ranges::min(lengths[t]), deepestOf(grid, t));
+  return steps;
+}
+
+StepReport measureStep(const Grid& grid) {
+  StepReport report;
+  if (grid.triangles.empty()) return report;
+  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
+  report.shortest_edge_m = kInfinity;
+  for (std::uint32_t t = 0; t < lengths.size(); ++t) {
+    const auto shortest = std::ranges::min_element(lengths[t]);
+    if (*shortest < report.shortest_edge_m) {
+      const auto i = static_cast<std::size_t>(shortest - lengths[t].begin());
+      report.shortest_edge_m = *shortest;
+      report.shortest_edge =
+          placeBetween(grid.crs, grid.nodes[grid.triangles[t][i]], grid.nodes[grid.triangles[t][(i + 1) % 3]], 0.5);
+    }
+    const double depth = deepestOf(grid, t), step = stepOf(*shortest, depth);
+    report.has_depths = report.has_depths || !std::isnan(depth);
+    if (!(step < report.step_s)) continue;
+    report.step_s = step;
+    report.step_place = middleOf(grid, t);
+  }
+  return report;
+}
+
+std::string_view toString(ShortCause cause) {
+  constexpr std::array<std::string_view, kShortCauses> kNames{"shore", "narrow", "interior"};
+  return kNames[static_cast<std::size_t>(cause)];
+}
+
+std::vector<ShortStep> stepsBelow(const Grid& grid, double time_step_s, double courant) {
+  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
+  const HeldEdges held(grid);
+  std::vector<ShortStep> found;
+  for (std::uint32_t t = 0; t < lengths.size(); ++t) {
+    const double depth = deepestOf(grid, t), step = stepOf(std::ranges::min(lengths[t]), depth);
+    if (!(time_step_s > courant * step)) continue;
+    const double needed = time_step_s / courant * longWaveSpeed(depth);
+    found.push_back({t, middleOf(grid, t), step, needed, causeIn(grid, held, lengths[t], t, needed)});
+  }
+  std::ranges::stable_sort(found, {}, &ShortStep::step_s);
+  return found;
+}
+
+std::vector<ShortEdge> edgesBelow(const Grid& grid, double least_m) {
+  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
+  std::vector<std::pair<NodePair, double>> edges;
+  for (std::uint32_t t = 0; t < lengths.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = grid.triangles[t][i], b = grid.triangles[t][(i + 1) % 3];
+      if (lengths[t][i] < least_m) edges.push_back({{std::min(a, b), std::max(a, b)}, lengths[t][i]});
+    }
+  }
+  std::ranges::sort(edges);
+  const auto repeated = std::ranges::unique(edges, {}, &std::pair<NodePair, double>::first);
+  edges.erase(repeated.begin(), repeated.end());
+  std::vector<ShortEdge> found;
+  if (edges.empty()) return found;
+  const HeldEdges held(grid);
+  for (const auto& [nodes, length] : edges)
+    found.push_back({placeBetween(grid.crs, grid.nodes[nodes[0]], grid.nodes[nodes[1]], 0.5), length,
+                     held.causeOf(nodes[0], nodes[1])});
+  std::ranges::stable_sort(found, {}, &ShortEdge::length_m);
+  return found;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,158 @@
+#include "gis/projection/conformal_map.hpp"
+
+#include <GeographicLib/LambertConformalConic.hpp>
+#include <GeographicLib/Math.hpp>
+#include <GeographicLib/PolarStereographic.hpp>
+#include <GeographicLib/TransverseMercator.hpp>
+#include <cmath>
+
+namespace coastmesh {
+
+namespace {
+
+using GeographicLib::Math;
+
+// What GeographicLib projects about a central meridian, with the plane's origin moved to the centre.
+template <typename Library>
+class AboutMeridian final : public ConformalMap {
+ public:
+  AboutMeridian(Library library, const Point& centre) : library_(std::move(library)), meridian_(centre.x) {
+    origin_ = forward(centre);
+  }
+
+  Point forward(const Point& lonlat) const override {
+    double x, y;
+    library_.Forward(meridian_, lonlat.y, lonlat.x, x, y);
+    return {x - origin_.x, y - origin_.y};
+  }
+  Point inverse(const Point& plane) const override {
+    double lat, lon;
+    library_.Reverse(meridian_, plane.x + origin_.x, plane.y + origin_.y, lat, lon);
+    return {lon, lat};
+  }
+  double scaleAt(const Point& plane) const override {
+    double lat, lon, convergence, scale;
+    library_.Reverse(meridian_, plane.x + origin_.x, plane.y + origin_.y, lat, lon, convergence, scale);
+    return scale;
+  }
+
+ private:
+  Library library_;
+  double meridian_;
+  Point origin_;
+};
+
+class PolarMap final : public ConformalMap {
+ public:
+  PolarMap(const Ellipsoid& ellipsoid, bool north, double meridian)
+      : library_(ellipsoid.a, ellipsoid.f, 1.0), north_(north), meridian_(meridian) {}
+
+  Point forward(const Point& lonlat) const override {
+    double x, y;
+    library_.Forward(north_, lonlat.y, Math::AngDiff(meridian_, lonlat.x), x, y);
+    return {x, y};
+  }
+  Point inverse(const Point& plane) const override {
+    double lat, lon;
+    library_.Reverse(north_, plane.x, plane.y, lat, lon);
+    return {Math::AngNormalize(lon + meridian_), lat};
+  }
+  double scaleAt(const Point& plane) const override {
+    double lat, lon, convergence, scale;
+    library_.Reverse(north_, plane.x, plane.y, lat, lon, convergence, scale);
+    return scale;
+  }
+  // A little beside the pole, where data that reach it have an edge.
+  std::optional<Point> infinity() const override { return Point{17.123, north_ ? -89.999 : 89.999}; }
+
+ private:
+  GeographicLib::PolarStereographic library_;
+  bool north_;
+  double meridian_;
+};
+
+// The ellipsoid goes to a sphere by the conformal latitude chi, the sphere to the plane stereographically: Snyder, "Map
+// Projections: A Working Manual" (1987), p. 160, equations 21-24 to 21-27; here by unit vectors, so that no place but
+// the antipode is special.
+class ObliqueStereographic final : public ConformalMap {
+ public:
+  ObliqueStereographic(const Ellipsoid& ellipsoid, const Point& centre)
+      : e2_(ellipsoid.f * (2 - ellipsoid.f)),
+        es_((ellipsoid.f < 0 ? -1 : 1) * std::sqrt(std::abs(e2_))),
+        meridian_(centre.x),
+        centre_(onSphere(centre.y)),
+        diameter_(2 * ellipsoid.a / centre_.scale),
+        a_(ellipsoid.a) {}
+
+  Point forward(const Point& lonlat) const override {
+    const OnSphere at = onSphere(lonlat.y);
+    double sin_lon, cos_lon;
+    Math::sincosd(Math::AngDiff(meridian_, lonlat.x), sin_lon, cos_lon);
+    const double east = at.cos * sin_lon;
+    const double north = centre_.cos * at.sin - centre_.sin * at.cos * cos_lon;
+    const double up = centre_.sin * at.sin + centre_.cos * at.cos * cos_lon;
+    return {diameter_ * east / (1 + up), diameter_ * north / (1 + up)};
+  }
+
+  Point inverse(const Point& plane) const override {
+    const double x = plane.x / diameter_, y = plane.y / diameter_;
+    const double q = x * x + y * y;
+    const double east = 2 * x / (1 + q), north = 2 * y / (1 + q), up = (1 - q) / (1 + q);
+    const double to_meridian = up * centre_.cos - north * centre_.sin;
+    const double to_pole = up * centre_.sin + north * centre_.cos;
+    const double to_axis = std::hypot(to_meridian, east);
+    if (to_axis == 0) return {Math::AngNormalize(meridian_), to_pole > 0 ? 90.0 : -90.0};
+    const double lat = Math::atand(Math::tauf(to_pole / to_axis, es_));
+    return {Math::AngNormalize(meridian_ + Math::atan2d(east, to_meridian)), lat};
+  }
+
+  double scaleAt(const Point& plane) const override {
+    const double x = plane.x / diameter_, y = plane.y / diameter_;
+    return diameter_ / (2 * a_) * onSphere(inverse(plane).y).scale * (1 + x * x + y * y);
+  }
+  std::optional<Point> infinity() const override { return inverse({1e18 * diameter_, 0}); }
+
+ private:
+  // Sine and cosine of the conformal latitude, and the scale of the map from the ellipsoid of semi-major axis 1 to the
+  // unit sphere: cos chi / m, with m the radius of the parallel.
+  struct OnSphere {
+    double sin, cos, scale;
+  };
+
+  OnSphere onSphere(double lat) const {
+    const double tau = Math::tand(Math::LatFix(lat)), tau_conformal = Math::taupf(tau, es_);
+    const double secant = std::hypot(1.0, tau), secant_conformal = std::hypot(1.0, tau_conformal);
+    const double sin_lat = tau / secant;
+    return {tau_conformal / secant_conformal, 1 / secant_conformal,
+            secant / secant_conformal * std::sqrt(1 - e2_ * sin_lat * sin_lat)};
+  }
+
+  double e2_, es_;
+  double meridian_;
+  OnSphere centre_;
+  double diameter_;
+  double a_;
+};
+
+}  // namespace
+
+std::unique_ptr<ConformalMap> transverseMercator(const Ellipsoid& ellipsoid, const Point& centre) {
+  using Library = GeographicLib::TransverseMercator;
+  return std::make_unique<AboutMeridian<Library>>(Library(ellipsoid.a, ellipsoid.f, 1.0), centre);
+}
+
+std::unique_ptr<ConformalMap> lambertConic(const Ellipsoid& ellipsoid, const Point& centre, double parallel1,
+                                           double parallel2) {
+  using Library = GeographicLib::LambertConformalConic;
+  return std::make_unique<AboutMeridian<Library>>(Library(ellipsoid.a, ellipsoid.f, parallel1, parallel2, 1.0), centre);
+}
+
+std::unique_ptr<ConformalMap> polarStereographic(const Ellipsoid& ellipsoid, bool north, double central_meridian) {
+  return std::make_unique<PolarMap>(ellipsoid, north, central_meridian);
+}
+
+std::unique_ptr<ConformalMap> obliqueStereographic(const Ellipsoid& ellipsoid, const Point& centre) {
+  return std::make_unique<ObliqueStereographic>(ellipsoid, centre);
+}
+
+}  // namespace coastmesh

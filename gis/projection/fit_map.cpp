@@ -1,0 +1,286 @@
+#include "gis/projection/fit_map.hpp"
+
+#include <GeographicLib/Math.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "gis/error.hpp"
+#include "gis/geometry/chain_index.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using GeographicLib::Math;
+
+struct Direction {
+  double x = 0, y = 0, z = 0;
+};
+
+double dot(const Direction& u, const Direction& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
+
+Direction toDirection(const Point& lonlat) {
+  double sin_lon, cos_lon, sin_lat, cos_lat;
+  Math::sincosd(lonlat.x, sin_lon, cos_lon);
+  Math::sincosd(lonlat.y, sin_lat, cos_lat);
+  return {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat};
+}
+
+Point toLonLat(const Direction& d) { return {Math::atan2d(d.y, d.x), Math::atan2d(d.z, std::hypot(d.x, d.y))}; }
+
+double degreesBetween(const Direction& u, const Direction& v) {
+  const double chord = std::sqrt(std::max(0.0, 2 - 2 * dot(u, v)));
+  return 2 * std::asin(std::min(1.0, chord / 2)) / Math::degree();
+}
+
+// As the library's, sooner for longitudes as they mostly come.
+double angNormalize(double x) { return x > -180 && x < 180 ? x : Math::AngNormalize(x); }
+double angDiff(double x, double y) {
+  const double d = y - x;
+  return std::abs(x) < 180 && std::abs(y) < 180 && std::abs(d) < 180 ? d : Math::AngDiff(x, y);
+}
+
+constexpr std::size_t kLonCells = 360, kLatCells = 180;
+
+// Many points are thinned to the outermost ones in each cell of one degree: enough for radii and centres.
+std::vector<Direction> thinned(const std::vector<Point>& lonlat) {
+  std::vector<Direction> directions;
+  if (lonlat.size() < kLonCells * kLatCells) {
+    for (const Point& p : lonlat) directions.push_back(toDirection(p));
+    return directions;
+  }
+  std::vector<std::uint32_t> number(kLonCells * kLatCells, 0);  // of the cell among those used, from 1
+  std::vector<std::array<Point, 4>> outermost;
+  for (const Point& given : lonlat) {
+    const Point p{angNormalize(given.x), given.y};
+    const auto i = static_cast<std::size_t>(std::clamp(p.x + 180, 0.0, 359.0));
+    const auto j = static_cast<std::size_t>(std::clamp(p.y + 90, 0.0, 179.0));
+    std::uint32_t& cell = number[j * kLonCells + i];
+    if (cell == 0) {
+      outermost.push_back({p, p, p, p});
+      cell = static_cast<std::uint32_t>(outermost.size());
+    }
+    auto& [west, east, south, north] = outermost[cell - 1];
+    if (p.x < west.x) west = p;
+    if (p.x > east.x) east = p;
+    if (p.y < south.y) south = p;
+    if (p.y > north.y) north = p;
+  }
+  for (const std::uint32_t cell : number) {
+    if (cell == 0) continue;
+    for (const Point& p : outermost[cell - 1]) directions.push_back(toDirection(p));
+  }
+  return directions;
+}
+
+// The shortest arc of longitudes, and the latitudes.
+struct Extent {
+  double mid_lon = 0, width = 0;
+  double south = 90, north = -90;
+
+  double midLat() const { return (south + north) / 2; }
+  double height() const { return north - south; }
+};
+
+Extent extentOf(const std::vector<Point>& lonlat) {
+  Extent extent;
+  std::array<bool, kLonCells> used{};
+  for (const Point& p : lonlat) {
+    extent.south = std::min(extent.south, p.y), extent.north = std::max(extent.north, p.y);
+    if (std::abs(p.y) == 90) continue;  // a pole has no longitude
+    used[static_cast<std::size_t>(std::clamp(angNormalize(p.x) + 180, 0.0, 359.0))] = true;
+  }
+  // The middle of the longest run of empty cells, round the globe, is where the arc is not.
+  std::size_t best_run = 0, best_end = 0, run = 0;
+  for (std::size_t i = 0; i < 2 * kLonCells; ++i) {
+    run = used[i % kLonCells] ? 0 : run + 1;
+    if (run > best_run && run <= kLonCells) best_run = run, best_end = i;
+  }
+  const double empty_mid = static_cast<double>(best_end) + 1 - static_cast<double>(best_run) / 2 - 180;
+  const double roughly = Math::AngNormalize(empty_mid + 180);
+  double west = 180, east = -180;
+  for (const Point& p : lonlat) {
+    if (std::abs(p.y) == 90) continue;
+    const double d = angDiff(roughly, p.x);
+    west = std::min(west, d), east = std::max(east, d);
+  }
+  if (west > east) return extent;  // poles only
+  extent.mid_lon = Math::AngNormalize(roughly + (west + east) / 2);
+  extent.width = east - west;
+  return extent;
+}
+
+// A cap of the sphere.
+struct Cap {
+  Point centre;
+  double radius = 0;  // degrees
+};
+
+Cap capAround(const Point& centre, const std::vector<Direction>& directions) {
+  const Direction middle = toDirection(centre);
+  Direction farthest = middle;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Direction& d : directions) {
+    const double cosine = dot(middle, d);
+    if (cosine < least) least = cosine, farthest = d;
+  }
+  return {centre, degreesBetween(middle, farthest)};
+}
+
+// The least of a few caps: about the middle of the extent, the mean direction, the poles. A pole is preferred where it
+// is nearly as good.
+Cap leastCap(const Extent& extent, const std::vector<Direction>& directions) {
+  Cap best = capAround({extent.mid_lon, extent.midLat()}, directions);
+  Direction mean;
+  for (const Direction& d : directions) mean = {mean.x + d.x, mean.y + d.y, mean.z + d.z};
+  const Cap about_mean = capAround(toLonLat(mean), directions);
+  if (about_mean.radius < best.radius) best = about_mean;
+  for (const double pole : {90.0, -90.0}) {
+    const Cap about_pole = capAround({extent.mid_lon, pole}, directions);
+    if (about_pole.radius < 1.1 * best.radius &&
+        degreesBetween(toDirection(best.centre), {0, 0, pole / 90}) < best.radius)
+      best = about_pole;
+  }
+  return best;
+}
+
+// Where the globe is on land, or in no group.
+class LeftOut {
+ public:
+  explicit LeftOut(const std::vector<RingGroup>& groups) {
+    for (const RingGroup& group : groups) {
+      ChainIndex& index = (group.is_land ? land_ : water_).emplace_back(ChainIndex::Kind::Rings);
+      for (const Ring* ring : group.rings) index.add(*ring);
+      index.build();
+    }
+  }
+
+  bool holds(const Point& p) const {
+    const auto isIn = [&](const ChainIndex& index) { return index.locate(p) == Location::Inside; };
+    const auto touches = [&](const ChainIndex& index) { return index.locate(p) != Location::Outside; };
+    return std::ranges::any_of(land_, isIn) || std::ranges::none_of(water_, touches);
+  }
+
+ private:
+  std::vector<ChainIndex> land_, water_;
+};
+
+// The centre of a stereographic projection for what is larger than a hemisphere: its antipode, which has no image, lies
+// as far inside of what is left out as possible.
+Point centreAwayFromLand(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions) {
+  const LeftOut left_out(groups);
+  constexpr int kTrials = 4000;            // some 3 degrees apart
+  constexpr double kLeastClearance = 0.5;  // degrees
+  std::optional<Point> best;
+  double best_clearance = kLeastClearance;
+  for (int i = 0; i < kTrials; ++i) {
+    // A spiral from pole to pole, with both poles on it.
+    const double z = 1 - 2.0 * i / (kTrials - 1);
+    const double lon = std::fmod(i * 180 * (3 - std::sqrt(5.0)), 360.0);
+    const Point trial{lon, std::asin(std::clamp(z, -1.0, 1.0)) / Math::degree()};
+    const Direction d = toDirection(trial);
+    double nearest = -1;
+    for (const Direction& vertex : directions) nearest = std::max(nearest, dot(d, vertex));
+    const double clearance = std::acos(std::clamp(nearest, -1.0, 1.0)) / Math::degree();
+    if (clearance <= best_clearance) continue;
+    const Point as_given{west + std::fmod(trial.x - west + 720, 360.0), trial.y};
+    if (!left_out.holds(as_given)) continue;
+    best = trial, best_clearance = clearance;
+  }
+  if (!best) {
+    throw InputError("the features cover the whole globe: a plane needs a place of some 100 km that they leave out");
+  }
+  return {Math::AngNormalize(best->x + 180), -best->y};
+}
+
+std::string degreesInWords(double degrees) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.5g°", degrees == 0 ? 0.0 : degrees);
+  return text;
+}
+
+FittedMap polar(const Point& centre, const Ellipsoid& ellipsoid) {
+  const bool north = centre.y > 0;
+  return {polarStereographic(ellipsoid, north, centre.x),
+          std::string("polar stereographic about the ") + (north ? "north" : "south") + " pole, central meridian " +
+              degreesInWords(centre.x),
+          ""};
+}
+
+FittedMap oblique(const Point& centre, const Ellipsoid& ellipsoid) {
+  return {obliqueStereographic(ellipsoid, centre),
+          "oblique stereographic, centre at longitude " + degreesInWords(centre.x) + ", latitude " +
+              degreesInWords(centre.y),
+          ""};
+}
+
+FittedMap because(FittedMap map, const std::string& reason) {
+  map.reason = reason;
+  return map;
+}
+
+constexpr double kLargeCap = 30;  // degrees
+
+// So small, and so far from the poles, that no cap around it reaches a pole or is large.
+bool isPlainlySmall(const Extent& extent) {
+  return extent.height() < 10 && extent.width < 20 && extent.south > -60 && extent.north < 60;
+}
+
+// The map for what is large or near a pole, if it is.
+std::optional<FittedMap> mapAboutCentre(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups,
+                                        const Extent& extent, const Ellipsoid& ellipsoid) {
+  const std::vector<Direction> directions = thinned(lonlat);
+  const Cap cap = leastCap(extent, directions);
+  const auto atPole = [](const Point& p) { return std::abs(p.y) == 90; };
+  if (cap.radius > 90) {
+    const double west = std::ranges::min(lonlat, {}, &Point::x).x;  // longitudes may run from -180 or from 0
+    const Point centre = centreAwayFromLand(groups, west, directions);
+    return because(atPole(centre) ? polar(centre, ellipsoid) : oblique(centre, ellipsoid),
+                   "larger than a hemisphere: projected away from the middle of what is left out");
+  }
+  const std::string radius = "lies within " + degreesInWords(cap.radius) + " of ";
+  if (atPole(cap.centre)) return because(polar(cap.centre, ellipsoid), radius + "the pole");
+  const bool holds_pole = 90 - std::abs(cap.centre.y) <= cap.radius;
+  if (cap.radius > kLargeCap || holds_pole) {
+    return because(oblique(cap.centre, ellipsoid), radius + "the centre" + (holds_pole ? ", a pole among it" : ""));
+  }
+  return std::nullopt;
+}
+
+FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups,
+                    const Ellipsoid& ellipsoid) {
+  constexpr double kElongated = 1.5;
+  const Extent extent = extentOf(lonlat);
+  if (!isPlainlySmall(extent)) {
+    if (std::optional<FittedMap> map = mapAboutCentre(lonlat, groups, extent, ellipsoid)) return std::move(*map);
+  }
+  const Point middle{extent.mid_lon, extent.midLat()};
+  const double width = extent.width * std::cos(middle.y * Math::degree());
+  const std::string spans = "spans " + degreesInWords(extent.height()) + " from south to north and " +
+                            degreesInWords(width) + " of arc from west to east: ";
+  if (extent.height() >= kElongated * width) {
+    return {transverseMercator(ellipsoid, middle), "transverse Mercator, central meridian " + degreesInWords(middle.x),
+            spans + "long from south to north"};
+  }
+  if (width >= kElongated * extent.height()) {
+    const double parallel1 = extent.south + extent.height() / 6, parallel2 = extent.north - extent.height() / 6;
+    return {lambertConic(ellipsoid, middle, parallel1, parallel2),
+            "Lambert conformal conic, central meridian " + degreesInWords(middle.x) + ", parallels " +
+                degreesInWords(parallel1) + " and " + degreesInWords(parallel2),
+            spans + "long from west to east"};
+  }
+  return because(oblique(middle, ellipsoid), spans + "as wide as long");
+}
+
+}  // namespace
+
+FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid) {
+  return chooseMap(lonlat, groups, ellipsoid);
+}
+
+}  // namespace coastmesh

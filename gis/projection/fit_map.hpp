@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gis/coast/coastline.hpp"
+#include "gis/projection/conformal_map.hpp"
+
+namespace coastmesh {
+
+// A conformal map chosen for an extent, and its name for people. Private to gis.
+struct FittedMap {
+  std::unique_ptr<ConformalMap> map;
+  std::string description;
+  std::string reason;  // why this one, for people
+};
+
+// Rings in longitudes and latitudes that hold something together, by the even-odd rule.
+struct RingGroup {
+  std::vector<const Ring*> rings;
+  bool is_land = false;  // what it holds is left out, whatever else holds it
+};
+
+// Chooses by the extent of `lonlat` (degrees; any longitudes): transverse Mercator for what reaches north and south,
+// Lambert's conic for what reaches east and west, polar stereographic around a pole, oblique stereographic for the rest
+// and for all that is larger than a cap of 30 degrees. What is larger than a hemisphere is projected away from the
+// middle of the largest place that is left out: on land, or in no group. Throws InputError where there is none. REQUIRES: `lonlat` is not empty, latitudes within ±90.
+FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid);
+
+}  // namespace coastmesh

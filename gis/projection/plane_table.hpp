@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/point.hpp"
+#include "gis/geometry/box.hpp"
+
+namespace coastmesh {
+
+// A smooth map of the plane, tabulated: projections cost more than all else that is done with a place. Usable from several threads.
+class PlaneTable {
+ public:
+  // Between the places of the table values lie off by `tolerance` at most, in either coordinate, as far as a test halfway between them
+  // tells; where no table of moderate size is good enough, or the map is not finite everywhere, the map itself is asked.
+  PlaneTable(std::function<Point(const Point&)> map, const Box& box, double tolerance);
+
+  Point at(const Point& x) const;
+  bool isTabulated() const { return !values_.empty(); }
+
+ private:
+  bool tabulate(std::size_t cells, double tolerance);
+
+  std::function<Point(const Point&)> map_;
+  Box box_;
+  std::size_t cells_ = 0;  // along each side
+  double per_x_ = 0.0, per_y_ = 0.0;
+  std::vector<Point> values_;
+};
+
+}  // namespace coastmesh

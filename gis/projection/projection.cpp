@@ -1,0 +1,32 @@
+#include "gis/projection/projection.hpp"
+
+#include "gis/projection/projection_map.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct Identity final : ProjectionMap {
+  Identity() { description = "plane, coordinates as they are"; }
+  Point forward(const Point& input) const override { return input; }
+  Point inverse(const Point& plane) const override { return plane; }
+  double scaleAt(const Point&) const override { return 1.0; }
+  bool isIdentity() const override { return true; }
+};
+
+}  // namespace
+
+Projection::Projection(std::shared_ptr<const ProjectionMap> impl) : impl_(std::move(impl)) {}
+
+Projection Projection::plane() { return Projection(std::make_shared<Identity>()); }
+
+Point Projection::forward(const Point& input) const { return impl_->forward(input); }
+Point Projection::inverse(const Point& plane) const { return impl_->inverse(plane); }
+double Projection::scaleAt(const Point& plane) const { return impl_->scaleAt(plane); }
+std::optional<Point> Projection::infinity() const { return impl_->infinity(); }
+bool Projection::isIdentity() const { return impl_->isIdentity(); }
+bool Projection::mayTear() const { return impl_->mayTear(); }
+const std::string& Projection::reason() const { return impl_->reason; }
+const std::string& Projection::description() const { return impl_->description; }
+
+}  // namespace coastmesh

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/point.hpp"
+#include "gis/coast/coastline.hpp"
+#include "gis/crs/crs.hpp"
+
+namespace coastmesh {
+
+struct ProjectionMap;  // what stands behind a Projection: see projection_map.hpp
+
+// A map between the input's coordinates and the working plane, in metres where the input lies on Earth. Conformal
+// unless the user chose a CRS that is not. Cheap to copy; usable from several threads at once.
+class Projection {
+ public:
+  // The identity: coordinates are plane already (a CRS-less input, `--crs plane`).
+  static Projection plane();
+  // A conformal projection fitted to the extent of `features[members]`, on the ellipsoid of `crs`: transverse Mercator,
+  // Lambert conformal conic, polar or oblique stereographic. Crosses the antimeridian and the poles unharmed. The plane
+  // for a plane. Throws InputError for a point that is no place on Earth and for a group that leaves no land out.
+  static Projection fitted(const Coastline& coastline, const std::vector<std::size_t>& members);
+  // The same for each of many groups; what they have in common is done once.
+  static std::vector<Projection> fittedEach(const Coastline& coastline,
+                                            const std::vector<std::vector<std::size_t>>& groups);
+  // The CRS of the user's choice. Throws InputError where no transformation exists.
+  static Projection to(const Crs& input, const Crs& working);
+
+  Point forward(const Point& input) const;
+  Point inverse(const Point& plane) const;
+  // Plane length over true length on the ellipsoid at a place of the plane. 1 for `plane()`.
+  double scaleAt(const Point& plane) const;
+  // The place, in the input's CRS, that lies beyond all of the plane, for maps that show all others.
+  std::optional<Point> infinity() const;
+  bool isIdentity() const;                 // of `plane()`
+  bool mayTear() const;                    // of a chosen CRS: places that touch may lie far apart in the plane
+  const std::string& reason() const;       // why this one was chosen, for people; empty where nobody chose
+  const std::string& description() const;  // for people: "transverse Mercator, central meridian -87.5°"
+
+ private:
+  explicit Projection(std::shared_ptr<const ProjectionMap> impl);
+  std::shared_ptr<const ProjectionMap> impl_;
+};
+
+}  // namespace coastmesh

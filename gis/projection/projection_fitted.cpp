@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "gis/coast/turned_rings.hpp"
+#include "gis/crs/crs_map.hpp"
+#include "gis/crs/geodesy.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/projection/fit_map.hpp"
+#include "gis/projection/projection.hpp"
+#include "gis/projection/projection_map.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Longitudes and latitudes of features, from whatever CRS they are in.
+class ToGeographic {
+ public:
+  explicit ToGeographic(const Crs& crs) {
+    if (!crs.geographic) map_ = std::make_shared<CrsMap>(toOgr(crs), geographicBase(crs));
+  }
+  Point forward(const Point& input) const { return map_ ? map_->forward(input) : input; }
+  Point inverse(const Point& lonlat) const { return map_ ? map_->inverse(lonlat) : lonlat; }
+  bool isIdentity() const { return !map_; }
+
+ private:
+  std::shared_ptr<const CrsMap> map_;
+};
+
+class Fitted final : public ProjectionMap {
+ public:
+  Fitted(ToGeographic to_geographic, FittedMap fitted, double middle_longitude)
+      : to_geographic_(std::move(to_geographic)), map_(std::move(fitted.map)), middle_(middle_longitude) {
+    description = std::move(fitted.description);
+    reason = std::move(fitted.reason);
+  }
+
+  Point forward(const Point& input) const override { return map_->forward(to_geographic_.forward(input)); }
+  Point inverse(const Point& plane) const override {
+    Point lonlat = map_->inverse(plane);
+    // As the input has it: the same turn round the globe.
+    if (lonlat.x < middle_ - 180) lonlat.x += 360;
+    if (lonlat.x > middle_ + 180) lonlat.x -= 360;
+    return to_geographic_.inverse(lonlat);
+  }
+  double scaleAt(const Point& plane) const override { return map_->scaleAt(plane); }
+  std::optional<Point> infinity() const override {
+    return to_geographic_.isIdentity() ? map_->infinity() : std::nullopt;
+  }
+
+ private:
+  ToGeographic to_geographic_;
+  std::unique_ptr<ConformalMap> map_;
+  double middle_;
+};
+
+bool hasFramedWater(const Coastline& coastline, const std::vector<std::size_t>& members) {
+  return std::ranges::any_of(members, [&](std::size_t member) {
+    const FeatureUse use = coastline.features[member].use;
+    return use == FeatureUse::Land || use == FeatureUse::Coast;
+  });
+}
+
+// Calls `act(feature, chain)` for every ring and line of the members that shape the domain.
+template <typename Act>
+void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& members, Act&& act) {
+  const bool with_frame = hasFramedWater(coastline, members);
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    const bool guest = feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
+                       feature.use == FeatureUse::Region || feature.use == FeatureUse::Open ||
+                       (feature.use == FeatureUse::Frame && !with_frame);
+    if (guest) continue;
+    for (const Polygon& polygon : feature.polygons) {
+      act(feature, polygon.outer, true);
+      for (const Ring& hole : polygon.holes) act(feature, hole, true);
+    }
+    for (const auto& line : feature.lines) act(feature, line, false);
+  }
+}
+
+[[noreturn]] void refuse(const Feature& feature, const Point& input, const Crs& crs) {
+  throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the point " +
+                   std::to_string(input.x) + ", " + std::to_string(input.y) + " is no place on Earth in " +
+                   nameOf(crs) + ": name the CRS that the data are in, or take them as a plane");
+}
+
+std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std::vector<std::size_t>& members,
+                                           const ToGeographic& to_geographic) {
+  std::vector<Point> lonlat;
+  std::deque<Ring> projected_rings;
+  std::vector<RingGroup> groups(1);  // the frame and lines of the coast; then one a feature
+  const Feature* last = nullptr;
+  double west = std::numeric_limits<double>::infinity(), east = -west;
+  std::size_t count = 0;
+  forEachChain(coastline, members,
+               [&](const Feature&, const std::vector<Point>& chain, bool) { count += chain.size(); });
+  lonlat.reserve(count);
+  forEachChain(coastline, members, [&](const Feature& feature, const std::vector<Point>& chain, bool is_ring) {
+    for (const Point& input : chain) {
+      const Point p = to_geographic.forward(input);
+      if (!isLonLat(p)) refuse(feature, input, coastline.crs);
+      west = std::min(west, p.x), east = std::max(east, p.x);
+      lonlat.push_back(p);
+    }
+    if (!is_ring) return;
+    const bool is_whole = feature.use == FeatureUse::Land || feature.use == FeatureUse::Area;
+    if (is_whole && std::exchange(last, &feature) != &feature) groups.push_back({{}, feature.use == FeatureUse::Land});
+    std::vector<const Ring*>& rings = (is_whole ? groups.back() : groups.front()).rings;
+    const auto addProjected = [&](Ring ring) { rings.push_back(&projected_rings.emplace_back(std::move(ring))); };
+    if (to_geographic.isIdentity()) {
+      if (feature.use == FeatureUse::Frame || !longitudesJump(chain)) {
+        rings.push_back(&chain);
+      } else {
+        for (Ring& turned : turnedRings(chain)) addProjected(std::move(turned));
+      }
+    } else {
+      addProjected({lonlat.end() - static_cast<std::ptrdiff_t>(chain.size()), lonlat.end()});
+    }
+  });
+  if (lonlat.empty()) throw InputError("the features hold no point");
+  const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
+  const Ellipsoid ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
+  return std::make_shared<Fitted>(to_geographic, fitMap(lonlat, groups, ellipsoid), middle);
+}
+
+}  // namespace
+
+std::vector<Projection> Projection::fittedEach(const Coastline& coastline,
+                                               const std::vector<std::vector<std::size_t>>& groups) {
+  if (coastline.crs.isPlane()) return std::vector<Projection>(groups.size(), plane());
+  const ToGeographic to_geographic(coastline.crs);
+  std::vector<Projection> projections;
+  projections.reserve(groups.size());
+  for (const auto& members : groups) projections.push_back(Projection(fitTo(coastline, members, to_geographic)));
+  return projections;
+}
+
+Projection Projection::fitted(const Coastline& coastline, const std::vector<std::size_t>& members) {
+  return fittedEach(coastline, {members}).front();
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,165 @@
+#include "gis/raster/raster_band.hpp"
+
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "gis/crs/crs_from_ogr.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+namespace {
+
+// GDAL keeps what it read; by default a share of the memory that grows with the machine.
+constexpr GIntBig kCacheBytes = 128 << 20;
+// Pixels of a tile, about: small beside the cache, large beside the cost of a call.
+constexpr std::int64_t kTilePixels = 1 << 20;
+
+std::string subdatasetHint(GDALDataset& dataset) {
+  char** const list = dataset.GetMetadata("SUBDATASETS");
+  const char* const first = CSLFetchNameValue(list, "SUBDATASET_1_NAME");
+  return first == nullptr ? "" : "; name one of its parts, such as " + std::string(first);
+}
+
+}  // namespace
+
+struct RasterBand::Dataset {
+  GDALDataset* dataset = nullptr;
+  GDALRasterBand* band = nullptr;
+  std::vector<GDALRasterBand*> masks;  // 0 where a pixel has no value
+  std::optional<double> no_data;       // where the mask does not tell it
+  bool is_single = false;              // values are in single precision
+  double scale = 1.0;
+  double offset = 0.0;
+
+  ~Dataset() {
+    if (dataset != nullptr) GDALClose(dataset);
+  }
+
+  bool isNoData(double value) const {
+    // A value of no data that single precision cannot say comes back rounded.
+    return no_data && (value == *no_data || (is_single && static_cast<float>(value) == static_cast<float>(*no_data)));
+  }
+};
+
+RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>()) {
+  geometry_.path = std::move(path);
+  const std::string& name = geometry_.path;
+  GDALAllRegister();
+  const OgrErrors errors;
+  if (GDALGetCacheMax64() > kCacheBytes) GDALSetCacheMax64(kCacheBytes);
+  Dataset& raster = *dataset_;
+  raster.dataset = GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR);
+  if (raster.dataset == nullptr) throw InputError("cannot read '" + name + "' as a raster: " + errors.text());
+  if (raster.dataset->GetRasterCount() == 0)
+    throw InputError("'" + name + "' has no raster band" + subdatasetHint(*raster.dataset));
+  raster.band = raster.dataset->GetRasterBand(1);
+  const GDALDataType type = raster.band->GetRasterDataType();
+  if (GDALDataTypeIsComplex(type))
+    throw InputError("'" + name + "': its first band holds complex numbers; give one of plain numbers");
+  const int mask = raster.band->GetMaskFlags();
+  if ((mask & GMF_ALL_VALID) == 0) raster.masks.push_back(raster.band->GetMaskBand());
+  // GDAL takes alpha bands of whole numbers only for masks.
+  for (int b = 2; b <= raster.dataset->GetRasterCount() && (mask & GMF_ALPHA) == 0; ++b) {
+    GDALRasterBand* const band = raster.dataset->GetRasterBand(b);
+    if (band->GetColorInterpretation() == GCI_AlphaBand) raster.masks.push_back(band);
+  }
+  // GDAL has one mask a band: where that is another, it says nothing of the value of no data.
+  int has_no_data = 0;
+  if ((mask & GMF_NODATA) == 0 && type != GDT_Int64 && type != GDT_UInt64) {
+    const double no_data = raster.band->GetNoDataValue(&has_no_data);
+    if (has_no_data != 0) raster.no_data = no_data;
+  }
+  raster.is_single = type == GDT_Float32;
+  raster.scale = raster.band->GetScale();
+  raster.offset = raster.band->GetOffset();
+  std::array<double, 6>& to_place = geometry_.to_place;
+  if (raster.dataset->GetGeoTransform(to_place.data()) != CE_None ||
+      !GDALInvGeoTransform(to_place.data(), geometry_.to_pixel.data()))
+    throw InputError("'" + name + "' does not say where its pixels lie (no geotransform); warp it with gdalwarp");
+  geometry_.columns = raster.dataset->GetRasterXSize();
+  geometry_.rows = raster.dataset->GetRasterYSize();
+  geometry_.crs = fromOgr(raster.dataset->GetSpatialRef());
+
+  int block_columns = 1, block_rows = 1;
+  raster.band->GetBlockSize(&block_columns, &block_rows);
+  const auto side = static_cast<std::int64_t>(std::sqrt(static_cast<double>(kTilePixels)));
+  tile_columns_ = block_columns * std::max<std::int64_t>(1, side / block_columns);
+  tile_rows_ = block_rows * std::max<std::int64_t>(1, kTilePixels / tile_columns_ / block_rows);
+  if (geometry_.crs.geographic && to_place[1] != 0.0) {
+    geometry_.period = 360.0 / std::abs(to_place[1]);
+    geometry_.wraps = std::abs(geometry_.columns - geometry_.period) < 0.5;
+    if (geometry_.wraps) geometry_.period = geometry_.columns;
+  }
+}
+
+RasterBand::~RasterBand() = default;
+RasterBand::RasterBand(RasterBand&&) noexcept = default;
+
+RasterGeometry readRasterGeometry(const std::string& path) { return RasterBand(path).geometry(); }
+
+Point RasterGeometry::placeOf(const Point& pixel) const {
+  const std::array<double, 6>& to = to_place;
+  return {to[0] + to[1] * pixel.x + to[2] * pixel.y, to[3] + to[4] * pixel.x + to[5] * pixel.y};
+}
+
+Point RasterGeometry::pixelOf(const Point& place) const {
+  const std::array<double, 6>& to = to_pixel;
+  Point pixel{to[0] + to[1] * place.x + to[2] * place.y, to[3] + to[4] * place.x + to[5] * place.y};
+  const double width = columns;
+  if (period > 0.0 && (pixel.x < 0.0 || pixel.x > width)) {
+    const double turned = pixel.x - period * std::floor(pixel.x / period);
+    if (turned <= width) pixel.x = turned;
+  }
+  return pixel;
+}
+
+void RasterBand::readInto(const RasterWindow& window, double* values, std::int64_t stride) const {
+  const OgrErrors errors;
+  const int column = static_cast<int>(window.column), row = static_cast<int>(window.row),
+            columns = static_cast<int>(window.columns), rows = static_cast<int>(window.rows);
+  const auto fail = [&] {
+    throw InputError("cannot read '" + path() + "' at pixel " + std::to_string(column) + ", " + std::to_string(row) +
+                     ": " + errors.text());
+  };
+  if (dataset_->band->RasterIO(GF_Read, column, row, columns, rows, values, columns, rows, GDT_Float64, 0,
+                               stride * static_cast<GSpacing>(sizeof(double)), nullptr) != CE_None)
+    fail();
+  const auto count = static_cast<std::size_t>(window.columns * window.rows);
+  std::vector<bool> hidden(count, false);
+  std::vector<float> shown(dataset_->masks.empty() ? 0 : count);
+  for (GDALRasterBand* const mask : dataset_->masks) {
+    if (mask->RasterIO(GF_Read, column, row, columns, rows, shown.data(), columns, rows, GDT_Float32, 0, 0, nullptr) !=
+        CE_None)
+      fail();
+    for (std::size_t i = 0; i < count; ++i)
+      if (shown[i] == 0.0F) hidden[i] = true;
+  }
+  for (std::int64_t r = 0; r < window.rows; ++r) {
+    for (std::int64_t c = 0; c < window.columns; ++c) {
+      double& value = values[r * stride + c];
+      const bool masked = hidden[static_cast<std::size_t>(r * window.columns + c)];
+      value = masked || !std::isfinite(value) || dataset_->isNoData(value) ? std::numeric_limits<double>::quiet_NaN()
+                                                                           : dataset_->offset + dataset_->scale * value;
+    }
+  }
+}
+
+std::vector<double> RasterBand::read(const RasterWindow& window) const {
+  std::vector<double> values(static_cast<std::size_t>(window.columns * window.rows));
+  const std::int64_t end = window.column + window.columns;
+  for (std::int64_t at = window.column; at < end;) {
+    const std::int64_t inside = wraps() ? (at % columns() + columns()) % columns() : at;
+    const std::int64_t count = std::min(end - at, columns() - inside);
+    readInto({inside, window.row, count, window.rows}, values.data() + (at - window.column), window.columns);
+    at += count;
+  }
+  return values;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/point.hpp"
+#include "gis/crs/crs.hpp"
+
+namespace coastmesh {
+
+// Pixels of a raster: `columns` by `rows` from `column`, `row`.
+struct RasterWindow {
+  std::int64_t column = 0;
+  std::int64_t row = 0;
+  std::int64_t columns = 0;
+  std::int64_t rows = 0;
+};
+
+// Where the pixels of a raster lie, without its values.
+struct RasterGeometry {
+  std::string path;
+  int columns = 0, rows = 0;
+  std::array<double, 6> to_place{};  // GDAL's geotransform
+  std::array<double, 6> to_pixel{};  // its inverse
+  Crs crs;                           // a plane where the raster tells none
+  double period = 0.0;               // columns after which longitudes repeat: 360 degrees of them; 0 for other CRS
+  bool wraps = false;                // the last column meets the first, to half a pixel
+
+  // A place of the raster's CRS in columns and rows, from the corner of the first pixel; longitudes in the turn that
+  // the raster has.
+  Point pixelOf(const Point& place) const;
+  Point placeOf(const Point& pixel) const;
+};
+
+// Throws InputError as `RasterBand` does.
+RasterGeometry readRasterGeometry(const std::string& path);
+
+// The first band of a raster that GDAL reads, a window at a time. For one thread. This alone reads rasters, so that what
+// is missing is missing for depths and sizes alike: pixels of no data, those that are no finite number, and those that a
+// mask (of the band, of the raster, an alpha band) leaves out.
+class RasterBand {
+ public:
+  // Throws InputError, also for a raster without a place in its CRS, and for complex numbers.
+  explicit RasterBand(std::string path);
+  ~RasterBand();
+  RasterBand(RasterBand&&) noexcept;
+  RasterBand& operator=(RasterBand&&) = delete;
+
+  const RasterGeometry& geometry() const { return geometry_; }
+  const std::string& path() const { return geometry_.path; }
+  const Crs& crs() const { return geometry_.crs; }
+  std::int64_t columns() const { return geometry_.columns; }
+  std::int64_t rows() const { return geometry_.rows; }
+  double period() const { return geometry_.period; }
+  bool wraps() const { return geometry_.wraps; }
+  Point pixelOf(const Point& place) const { return geometry_.pixelOf(place); }
+  // The size of windows that are read with least effort: whole blocks of the file.
+  std::int64_t tileColumns() const { return tile_columns_; }
+  std::int64_t tileRows() const { return tile_rows_; }
+
+  // The window's values row by row, scale and offset applied, NaN where there is none. Columns past either end wrap
+  // round where `wraps()`. REQUIRES: the window lies in the raster otherwise. Throws InputError.
+  std::vector<double> read(const RasterWindow& window) const;
+
+ private:
+  struct Dataset;
+
+  void readInto(const RasterWindow& window, double* values, std::int64_t stride) const;
+
+  RasterGeometry geometry_;
+  std::unique_ptr<Dataset> dataset_;
+  std::int64_t tile_columns_ = 1;
+  std::int64_t tile_rows_ = 1;
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,281 @@
+#include "gis/read/cleaned_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "gis/coast/join_lines.hpp"
+#include "gis/coast/nest_rings.hpp"
+#include "gis/crs/crs_from_ogr.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+OGRLayer* layerNamed(const OpenSource& source, std::string_view name) {
+  for (OGRLayer* layer : source.layers) {
+    if (layer->GetName() == name) return layer;
+  }
+  return nullptr;
+}
+
+bool hasFields(OGRLayer& layer, std::initializer_list<const char*> names) {
+  return std::ranges::all_of(names, [&](const char* field) { return layer.GetLayerDefn()->GetFieldIndex(field) >= 0; });
+}
+
+using Lines = std::vector<std::vector<Point>>;
+
+bool jumps(const Ring& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (std::abs(ring[i].x - ring[(i + 1) % ring.size()].x) > 180) return true;
+  }
+  return false;
+}
+
+// A vertex on the antimeridian has one place for the areas on both sides: it goes to the side of the ring's others.
+void putOnOneSide(Ring& ring) {
+  bool west = false, east = false;
+  for (const Point& p : ring) {
+    if (std::abs(p.x) == 180) continue;
+    (p.x < 0 ? west : east) = true;
+  }
+  if (west == east) return;
+  for (Point& p : ring) {
+    if (std::abs(p.x) == 180) p.x = west ? -180 : 180;
+  }
+}
+
+// Gives the feature the areas whose rim the lines are.
+void addAreas(const Lines& rim, bool geographic, Feature& feature) {
+  JoinedLines joined = joinLines(rim);
+  std::vector<Ring> rings;
+  for (JoinedLines::Part& part : joined.rings) rings.push_back(std::move(part.points));
+  if (geographic) {
+    for (Ring& ring : rings) putOnOneSide(ring);
+  }
+  feature.clipped = std::ranges::any_of(rings, jumps);
+  for (const NestedRing& nested : nestRings(rings)) {
+    Polygon& polygon = feature.polygons.emplace_back();
+    polygon.outer = std::move(rings[nested.outer]);
+    for (const std::size_t hole : nested.holes) polygon.holes.push_back(std::move(rings[hole]));
+  }
+}
+
+using FeatureId = std::int64_t;  // of the layer of features
+
+struct Cleaned {
+  std::map<FeatureId, Feature> features;  // their numbers, sources and attributes
+  std::map<FeatureId, Lines> rims;
+  std::map<FeatureId, std::int64_t> part_of;  // of areas: the part of the graph
+  std::map<std::pair<FeatureUse, FeatureId>, Lines> lines;
+  std::map<std::string, Lines> boundaries;  // by what they are
+  std::map<FeatureId, std::vector<Polygon>> regions;
+  std::map<std::int64_t, std::map<std::int64_t, Point>> vertices;  // by part and number
+  std::vector<Point> alone;                                        // vertices that no edge has
+  Box bounds;
+};
+
+// Calls `take(row)` for each row of a layer that is there.
+template <typename Take>
+void forEachRow(OGRLayer* layer, Take&& take) {
+  if (layer == nullptr) return;
+  for (const auto& row : *layer) take(*row);
+}
+
+std::int64_t wholeOf(const OGRFeature& row, const char* field) {
+  return row.GetFieldAsInteger64(row.GetFieldIndex(field));
+}
+std::string textOf(const OGRFeature& row, const char* field) { return row.GetFieldAsString(row.GetFieldIndex(field)); }
+
+std::vector<Point> pointsOf(const OGRSimpleCurve& chain) {
+  std::vector<Point> points;
+  for (int i = 0; i < chain.getNumPoints(); ++i) points.push_back({chain.getX(i), chain.getY(i)});
+  return points;
+}
+
+// The row's shape, null where it is of another type.
+const OGRGeometry* shapeOf(const OGRFeature& row, OGRwkbGeometryType type) {
+  const OGRGeometry* geometry = row.GetGeometryRef();
+  return geometry && wkbFlatten(geometry->getGeometryType()) == type ? geometry : nullptr;
+}
+
+void takeFeatures(OGRLayer* features, OGRLayer* attributes, Cleaned& cleaned) {
+  forEachRow(features, [&](const OGRFeature& row) {
+    Feature& feature = cleaned.features[wholeOf(row, "id")];
+    feature.fid = wholeOf(row, "fid_of_feature");
+    feature.source = textOf(row, "source");
+  });
+  forEachRow(attributes, [&](const OGRFeature& row) {
+    const auto feature = cleaned.features.find(wholeOf(row, "feature_id"));
+    if (feature != cleaned.features.end())
+      feature->second.attributes.emplace_back(textOf(row, "name"), textOf(row, "value"));
+  });
+}
+
+std::optional<FeatureUse> useOfKind(std::string_view kind) {
+  if (kind == "open") return FeatureUse::Open;
+  if (kind == "weir") return FeatureUse::Weir;
+  if (kind == "constraint") return FeatureUse::Constraint;
+  return kind == "region" ? std::optional(FeatureUse::Region) : std::nullopt;
+}
+
+void takeEdges(OGRLayer* layer, Cleaned& cleaned, ReadReport& report) {
+  forEachRow(layer, [&](const OGRFeature& row) {
+    const OGRGeometry* const geometry = shapeOf(row, wkbLineString);
+    if (!geometry) return;
+    std::vector<Point> points = pointsOf(*geometry->toLineString());
+    if (points.size() < 2) return;
+    for (const Point& p : points) cleaned.bounds.add(p);
+    report.points += points.size();
+    const std::int64_t part = wholeOf(row, "region");
+    cleaned.vertices[part].emplace(wholeOf(row, "first"), points.front());
+    cleaned.vertices[part].emplace(wholeOf(row, "last"), points.back());
+    const FeatureId left = wholeOf(row, "left_id"), right = wholeOf(row, "right_id");
+    for (const FeatureId side : {left, right}) {
+      if (side <= 0 || left == right) continue;
+      cleaned.rims[side].push_back(points);
+      cleaned.part_of[side] = part;
+    }
+    if (const int type = row.GetFieldIndex(kBoundaryField); type >= 0 && row.IsFieldSetAndNotNull(type)) {
+      if (const std::string text = row.GetFieldAsString(type); !text.empty())
+        cleaned.boundaries[text].push_back(points);
+    }
+    if (const auto use = useOfKind(textOf(row, "kind")))
+      cleaned.lines[{*use, wholeOf(row, "line_id")}].push_back(std::move(points));
+  });
+}
+
+void takeVertices(OGRLayer* layer, Cleaned& cleaned) {
+  forEachRow(layer, [&](const OGRFeature& row) {
+    const OGRGeometry* const geometry = shapeOf(row, wkbPoint);
+    if (!geometry) return;
+    cleaned.alone.push_back({geometry->toPoint()->getX(), geometry->toPoint()->getY()});
+    cleaned.bounds.add(cleaned.alone.back());
+    cleaned.vertices[wholeOf(row, "region")].emplace(wholeOf(row, "number"), cleaned.alone.back());
+  });
+}
+
+void takeRegions(OGRLayer* layer, Cleaned& cleaned) {
+  const auto ringOf = [](const OGRLinearRing& ring) {
+    Ring points = pointsOf(ring);
+    if (points.size() > 1 && points.front() == points.back()) points.pop_back();
+    return points;
+  };
+  forEachRow(layer, [&](const OGRFeature& row) {
+    const OGRGeometry* const geometry = shapeOf(row, wkbPolygon);
+    if (!geometry) return;
+    const OGRPolygon& shape = *geometry->toPolygon();
+    Polygon& polygon = cleaned.regions[wholeOf(row, "feature_id")].emplace_back();
+    polygon.outer = ringOf(*shape.getExteriorRing());
+    for (int i = 0; i < shape.getNumInteriorRings(); ++i) polygon.holes.push_back(ringOf(*shape.getInteriorRing(i)));
+  });
+}
+
+void takeEdits(OGRLayer& layer, ReadReport& report) {
+  const OGRFeatureDefn& fields = *layer.GetLayerDefn();
+  const int kind = fields.GetFieldIndex("kind"), fid = fields.GetFieldIndex("fid_of_feature");
+  if (kind < 0 || fid < 0) return;
+  for (const auto& row : layer) {
+    const OGRGeometry* geometry = row->GetGeometryRef();
+    if (!geometry || wkbFlatten(geometry->getGeometryType()) != wkbPoint) continue;
+    report.edits.push_back({row->GetFieldAsString(kind),
+                            {geometry->toPoint()->getX(), geometry->toPoint()->getY()},
+                            row->GetFieldAsInteger64(fid)});
+  }
+}
+
+}  // namespace
+
+std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, ReadReport& report) {
+  OGRLayer* const pslg = layerNamed(source, kPslgLayer);
+  if (!pslg || !hasFields(*pslg, {"kind", "region", "left_fid", "right_fid"})) return std::nullopt;
+  OGRLayer* const features = layerNamed(source, kFeatureLayer);
+  OGRLayer* const attributes = layerNamed(source, kAttributeLayer);
+  if (!features || !attributes || !hasFields(*pslg, {"left_id", "right_id", "line_id", "first", "last"}))
+    throw InputError(source.name +
+                     ": an older coastmesh cleaned it, and it does not say all that is needed; clean the "
+                     "input again");
+  report.cleaned = true;
+  Cleaned cleaned;
+  takeFeatures(features, attributes, cleaned);
+  takeEdges(pslg, cleaned, report);
+  takeVertices(layerNamed(source, kVertexLayer), cleaned);
+  takeRegions(layerNamed(source, kRegionLayer), cleaned);
+  if (OGRLayer* const edits = layerNamed(source, kEditLayer)) takeEdits(*edits, report);
+
+  std::vector<RawLayer> layers;
+  const auto add = [&](FeatureUse use) -> RawLayer& {
+    RawLayer& layer = layers.emplace_back();
+    layer.source = source.name;
+    layer.use = use;
+    layer.bounds = cleaned.bounds;
+    const OGRSpatialReference* srs = pslg->GetSpatialRef();
+    if (srs && !srs->IsEmpty()) layer.crs = fromOgr(srs);
+    return layer;
+  };
+  const auto featureOf = [&](FeatureId id, FeatureUse use) {
+    const auto known = cleaned.features.find(id);
+    Feature feature = known == cleaned.features.end() ? Feature{} : known->second;
+    if (feature.source.empty()) feature.source = source.name;
+    feature.use = use;
+    return feature;
+  };
+  RawLayer& areas = add(FeatureUse::Area);
+  std::set<std::int64_t> parts;
+  for (const auto& [id, rim] : cleaned.rims) {
+    Feature& feature = areas.features.emplace_back(featureOf(id, FeatureUse::Area));
+    addAreas(rim, areas.crs && areas.crs->geographic, feature);
+    for (const Polygon& polygon : feature.polygons) report.rings += 1 + polygon.holes.size();
+    const std::int64_t part = cleaned.part_of.at(id);
+    if (!parts.insert(part).second) continue;
+    for (const auto& [number, place] : cleaned.vertices[part]) feature.vertex_order.push_back(place);
+  }
+  for (const FeatureUse use : {FeatureUse::Constraint, FeatureUse::Weir, FeatureUse::Open}) {
+    RawLayer layer = add(use);
+    layers.pop_back();
+    for (auto& [key, lines] : cleaned.lines) {
+      if (key.first != use) continue;
+      for (auto& line : lines) layer.lines.push_back({std::move(line), layer.line_features.size()});
+      layer.line_features.push_back(featureOf(key.second, use));
+    }
+    if (!layer.lines.empty()) layers.push_back(std::move(layer));
+  }
+  if (!cleaned.regions.empty()) {
+    RawLayer& layer = add(FeatureUse::Region);
+    for (auto& [id, polygons] : cleaned.regions) {
+      Feature& feature = layer.features.emplace_back(featureOf(id, FeatureUse::Region));
+      feature.polygons = std::move(polygons);
+      const auto border = cleaned.lines.find({FeatureUse::Region, id});
+      if (border != cleaned.lines.end()) feature.lines = std::move(border->second);
+    }
+  }
+  for (const auto& [text, lines] : cleaned.boundaries) {
+    RawLayer& layer = add(FeatureUse::Boundary);
+    Feature& feature = layer.line_features.emplace_back();
+    feature.source = source.name;
+    feature.use = FeatureUse::Boundary;
+    feature.attributes = {{kBoundaryField, text}};
+    JoinedLines joined = joinLines(lines);
+    for (JoinedLines::Part& ring : joined.rings) {
+      ring.points.push_back(ring.points.front());
+      layer.lines.push_back({std::move(ring.points), 0});
+    }
+    for (JoinedLines::Part& part : joined.open) layer.lines.push_back({std::move(part.points), 0});
+    report.boundary_types = true;
+  }
+  if (!cleaned.alone.empty()) {
+    RawLayer& layer = add(FeatureUse::Constraint);
+    Feature& feature = layer.line_features.emplace_back();
+    feature.source = source.name;
+    feature.use = FeatureUse::Constraint;
+    feature.points = std::move(cleaned.alone);
+  }
+  return layers;
+}
+
+}  // namespace coastmesh

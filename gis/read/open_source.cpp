@@ -1,0 +1,194 @@
+#include "gis/read/open_source.hpp"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+bool exists(const std::string& path) {
+  VSIStatBufL stat;
+  return VSIStatL(path.c_str(), &stat) == 0;
+}
+
+std::string lowered(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool endsWith(const std::string& text, std::string_view ending) { return lowered(text).ends_with(ending); }
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 8;
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < kShown; ++i) {
+    if (i > 0) text += ", ";
+    text += names[i];
+  }
+  return names.size() > kShown ? text + ", and " + std::to_string(names.size() - kShown) + " more" : text;
+}
+
+// The one vector file in an archive, however deep. Where there are several, or none that is known by its name, OGR is
+// given the archive as a folder.
+std::string insideOf(const std::string& archive) {
+  constexpr std::array<std::string_view, 8> kEndings = {".shp", ".gpkg", ".geojson", ".json",
+                                                        ".fgb", ".gml",  ".kml",     ".osm"};
+  const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
+  std::vector<std::string> found;
+  for (int i = 0; i < entries.size(); ++i) {
+    const std::string entry = entries[i];
+    if (std::ranges::any_of(kEndings, [&](std::string_view ending) { return endsWith(entry, ending); })) {
+      found.push_back(entry);
+    }
+  }
+  if (found.size() > 1) {
+    throw InputError(archive.substr(archive.find('/', 1) + 1) + ": holds " + std::to_string(found.size()) +
+                     " vector files (" + listed(found) + "): name one as '" + archive + "/" + found.front() + "'");
+  }
+  return found.empty() ? archive : archive + "/" + found.front();
+}
+
+bool isStandardInput(const std::string& path) { return path == "-" || path == "/dev/stdin"; }
+
+// Whether it can be read but once, from its beginning to its end.
+bool isStream(const std::string& path) {
+  std::error_code error;
+  return isStandardInput(path) || std::filesystem::is_fifo(path, error);
+}
+
+// All of a stream, as a file in memory: what comes through a pipe can be read but once, and formats look twice.
+std::string inMemory(const std::string& given) {
+  const std::string name = isStandardInput(given) ? "standard input" : given;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(
+      isStandardInput(given) ? nullptr : std::fopen(given.c_str(), "rb"),
+      [](std::FILE* file) { return std::fclose(file); });
+  std::FILE* const stream = isStandardInput(given) ? stdin : opened.get();
+  if (stream == nullptr) throw InputError(name + ": cannot be opened: " + std::strerror(errno));
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  std::vector<GByte> bytes;
+  for (std::size_t got = kPiece; got == kPiece;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kPiece);
+    got = std::fread(bytes.data() + before, 1, kPiece, stream);
+    bytes.resize(before + got);
+  }
+  if (bytes.empty()) throw InputError(name + ": it is empty");
+  const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 64));
+  std::string path = "/vsimem/coastmesh_standard_input";
+  if (opened) {
+    path = "/vsimem/coastmesh_stream" + given;
+    std::replace(path.begin() + 8, path.end(), '/', '_');
+  }
+  if (head.starts_with("SQLite format 3")) path += ".gpkg";
+  if (head.starts_with("PK\x03\x04")) path += ".zip";
+  VSILFILE* file = VSIFOpenL(path.c_str(), "wb");
+  const bool written = file != nullptr && VSIFWriteL(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (file != nullptr) VSIFCloseL(file);
+  if (!written) throw InputError(name + ": too large to be held in memory");
+  return path;
+}
+
+// The path as OGR wants it.
+std::string pathForOgr(const std::string& path) {
+  const std::string real = isStream(path) ? inMemory(path) : path;
+  if (real.starts_with("/vsi") && !real.starts_with("/vsimem/")) return real;
+  if (endsWith(real, ".shp.zip")) return real;
+  if (!exists(real)) {  // a file in an archive
+    for (const auto& [ending, prefix] :
+         {std::pair{".zip/", "/vsizip/"}, {".tar/", "/vsitar/"}, {".tgz/", "/vsitar/"}}) {
+      if (lowered(real).find(ending) != std::string::npos && exists(prefix + real)) return prefix + real;
+    }
+    return real;
+  }
+  if (endsWith(real, ".zip") || endsWith(real, ".kmz")) return insideOf("/vsizip/" + real);
+  if (endsWith(real, ".tar") || endsWith(real, ".tgz") || endsWith(real, ".tar.gz")) return insideOf("/vsitar/" + real);
+  if (endsWith(real, ".gz")) return "/vsigzip/" + real;
+  return real;
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& path, const OgrErrors& errors) {
+  std::string why;
+  if (!errors.text().empty()) why.append(" (").append(errors.text()).append(")");
+  VSIStatBufL stat;
+  if (VSIStatL(path.c_str(), &stat) != 0) {
+    throw InputError(name + ": no such file; check the path, or name a source that OGR can open" +
+                     (path.starts_with("/vsi") || path.find("://") != std::string::npos ? why : ""));
+  }
+  if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(name + ": the file is empty");
+  throw InputError(name + ": not a vector file that GDAL can read" + why);
+}
+
+// "file|layer" into file and layer, where there is no file of the whole name.
+std::pair<std::string, std::string> splitLayer(const std::string& path) {
+  const std::size_t bar = path.rfind('|');
+  if (bar == std::string::npos || exists(path)) return {path, {}};
+  std::string layer = path.substr(bar + 1);
+  constexpr std::string_view kQgis = "layername=";
+  if (layer.starts_with(kQgis)) layer.erase(0, kQgis.size());
+  return {path.substr(0, bar), layer};
+}
+
+}  // namespace
+
+OpenSource openSource(const std::string& given, const std::vector<std::string>& wanted, const OgrErrors& errors) {
+  GDALAllRegister();
+  const auto [file, layer_of_file] = splitLayer(given);
+  OpenSource source;
+  source.name = isStandardInput(file) ? "standard input" : file;
+  const std::string path = pathForOgr(file);
+  source.dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (!source.dataset) refuse(source.name, path, errors);
+
+  std::vector<std::string> names = wanted;
+  if (!layer_of_file.empty()) names = {layer_of_file};
+  std::vector<std::string> there;
+  for (OGRLayer* layer : source.dataset->GetLayers()) {
+    there.emplace_back(layer->GetName());
+    if (names.empty() || std::ranges::find(names, there.back()) != names.end()) source.layers.push_back(layer);
+  }
+  for (const std::string& name : names) {
+    if (std::ranges::find(there, name) != there.end()) continue;
+    throw InputError(source.name + ": has no layer '" + name + "'; there " + (there.size() == 1 ? "is " : "are ") +
+                     (there.empty() ? "none" : listed(there)));
+  }
+  return source;
+}
+
+std::uint64_t keepWhere(const OpenSource& source, const std::string& where, OgrErrors& errors) {
+  std::uint64_t left_out = 0;
+  std::size_t kept = 0;
+  std::string reason;
+  for (OGRLayer* layer : source.layers) {
+    const GIntBig before = layer->GetFeatureCount();
+    if (layer->SetAttributeFilter(where.c_str()) != OGRERR_NONE || errors.failed()) {
+      if (reason.empty()) reason = errors.text();
+      errors.clear();
+      layer->SetAttributeFilter("1 = 0");
+      left_out += static_cast<std::uint64_t>(std::max<GIntBig>(before, 0));
+      continue;
+    }
+    const GIntBig after = layer->GetFeatureCount();
+    if (errors.failed()) {
+      throw InputError(source.name + ": --where \"" + where + "\" cannot be asked of it (" + errors.text() + ")");
+    }
+    left_out += static_cast<std::uint64_t>(std::max<GIntBig>(before - after, 0));
+    ++kept;
+  }
+  if (kept > 0) return left_out;
+  throw InputError(source.name + ": --where \"" + where + "\" cannot be asked of it" +
+                   (reason.empty() ? "" : " (" + reason + ")"));
+}
+
+}  // namespace coastmesh

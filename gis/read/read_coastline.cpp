@@ -1,0 +1,194 @@
+#include "gis/read/read_coastline.hpp"
+
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "gis/coast/join_lines.hpp"
+#include "gis/coast/nest_rings.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/read/read_layers.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+bool looksGeographic(const Box& box) {
+  return box.xmin >= -180 && box.xmax <= 180 && box.ymin >= -90 && box.ymax <= 90;
+}
+
+Crs crsOfFirst(const RawLayer& first, ReadReport& report) {
+  if (first.crs && !first.crs->geographic && !first.crs->isPlane() && looksGeographic(first.bounds)) {
+    report.warnings.push_back(
+        first.source + ": says that it is in " + nameOf(*first.crs) +
+        ", but all coordinates lie within ±180, ±90: if they are degrees, give the file EPSG:4326");
+  }
+  if (first.crs) return *first.crs;
+  if (looksGeographic(first.bounds)) {
+    report.warnings.push_back(first.source +
+                              ": does not say its CRS; all coordinates lie within ±180, ±90, so they are taken for "
+                              "longitudes and latitudes on WGS 84 (take them as a plane, or give the file a CRS, where "
+                              "that is wrong)");
+    return wgs84();
+  }
+  report.warnings.push_back(
+      first.source +
+      ": does not say its CRS; coordinates lie beyond ±180, ±90, so they are taken as metres in a "
+      "plane");
+  return {};
+}
+
+// Brings the points of a layer from one CRS to another, feature by feature.
+class Reprojection {
+ public:
+  Reprojection(const std::string& source, const Crs& from, const Crs& to) : source_(source), name_(nameOf(to)) {
+    const OGRSpatialReference from_srs = toOgr(from), to_srs = toOgr(to);
+    transformation_.reset(OGRCreateCoordinateTransformation(&from_srs, &to_srs));
+    if (transformation_) return;
+    throw InputError(source_ + ": PROJ knows no way from its CRS, " + nameOf(from) + ", to that of the first source, " +
+                     name_ + (errors_.text().empty() ? "" : " (" + errors_.text() + ")"));
+  }
+
+  void apply(std::vector<Point>& chain, std::int64_t fid) const {
+    std::vector<double> x(chain.size()), y(chain.size());
+    for (std::size_t i = 0; i < chain.size(); ++i) x[i] = chain[i].x, y[i] = chain[i].y;
+    transformation_->Transform(static_cast<int>(chain.size()), x.data(), y.data());
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+        throw InputError(source_ + ", feature " + std::to_string(fid) + ": the point " + std::to_string(chain[i].x) +
+                         ", " + std::to_string(chain[i].y) + " has no place in " + name_ +
+                         ", the CRS of the first source");
+      }
+      chain[i] = {x[i], y[i]};
+    }
+  }
+
+ private:
+  OgrErrors errors_;
+  std::string source_, name_;
+  std::unique_ptr<OGRCoordinateTransformation> transformation_;
+};
+
+void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport& report) {
+  if (!layer.crs) {
+    if (crs.geographic && !looksGeographic(layer.bounds)) {
+      throw InputError(layer.source +
+                       ": does not say its CRS, and its coordinates are no longitudes and latitudes as those of " +
+                       first.source + " are: give the file a CRS");
+    }
+    if (first.crs) {
+      report.warnings.push_back(layer.source + ": does not say its CRS; taken to be in that of the first source, " +
+                                nameOf(crs));
+    }
+    return;
+  }
+  if (sameCrs(*layer.crs, crs)) return;
+  if (crs.isPlane() || layer.crs->isPlane()) {
+    const bool first_lacks = crs.isPlane();
+    throw InputError((first_lacks ? first.source : layer.source) + ": is in a plane without a place on Earth, while " +
+                     (first_lacks ? layer.source : first.source) + " is in " + nameOf(first_lacks ? *layer.crs : crs) +
+                     ": give both a CRS");
+  }
+  const Reprojection reprojection(layer.source, *layer.crs, crs);
+  for (Feature& feature : layer.features) {
+    for (Polygon& polygon : feature.polygons) {
+      reprojection.apply(polygon.outer, feature.fid);
+      for (Ring& hole : polygon.holes) reprojection.apply(hole, feature.fid);
+    }
+    for (auto& line : feature.lines) reprojection.apply(line, feature.fid);
+    reprojection.apply(feature.vertex_order, feature.fid);
+  }
+  for (Feature& feature : layer.line_features) reprojection.apply(feature.points, feature.fid);
+  for (RawLayer::Line& line : layer.lines) {
+    reprojection.apply(line.points, layer.line_features[line.feature].fid);
+  }
+}
+
+// A feature with the name and attributes of one that has a line.
+struct LineOrigin {
+  const RawLayer* layer;
+  std::size_t feature;
+
+  Feature named() const { return layer->line_features[feature]; }
+};
+
+// Lines that stay as they are: constraints and weirs, each feature with its own.
+void addPlainLines(RawLayer& layer, Coastline& coastline) {
+  std::vector<Feature> features = std::move(layer.line_features);
+  for (RawLayer::Line& line : layer.lines) features[line.feature].lines.push_back(std::move(line.points));
+  std::move(features.begin(), features.end(), std::back_inserter(coastline.features));
+}
+
+bool joinsLines(FeatureUse use) { return use == FeatureUse::Area || use == FeatureUse::Frame; }
+
+void addJoinedLines(std::vector<RawLayer>& layers, FeatureUse use, Coastline& coastline, ReadReport& report) {
+  std::vector<std::vector<Point>> lines;
+  std::vector<LineOrigin> origins;
+  for (RawLayer& layer : layers) {
+    if (layer.use != use) continue;
+    for (RawLayer::Line& line : layer.lines) {
+      lines.push_back(std::move(line.points));
+      origins.push_back({&layer, line.feature});
+    }
+  }
+  if (lines.empty()) return;
+  JoinedLines joined = joinLines(lines);
+  std::vector<Ring> rings;
+  rings.reserve(joined.rings.size());
+  for (JoinedLines::Part& part : joined.rings) rings.push_back(std::move(part.points));
+  report.rings += rings.size();
+  for (const NestedRing& nested : nestRings(rings)) {
+    Feature feature = origins[joined.rings[nested.outer].origin].named();
+    feature.from_lines = true;
+    Polygon& polygon = feature.polygons.emplace_back();
+    polygon.outer = std::move(rings[nested.outer]);
+    for (const std::size_t hole : nested.holes) polygon.holes.push_back(std::move(rings[hole]));
+    coastline.features.push_back(std::move(feature));
+  }
+  for (JoinedLines::Part& part : joined.open) {
+    Feature feature = origins[part.origin].named();
+    feature.from_lines = true;
+    feature.lines.push_back(std::move(part.points));
+    coastline.features.push_back(std::move(feature));
+  }
+}
+
+}  // namespace
+
+Coastline readCoastline(const std::vector<std::string>& paths, ReadReport& report) {
+  std::vector<Source> sources;
+  for (const std::string& path : paths) sources.push_back({path, FeatureUse::Area});
+  return readCoastline(sources, {}, report);
+}
+
+Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report) {
+  if (sources.empty()) throw InputError("no input was given: name at least one vector source");
+  std::vector<RawLayer> layers;
+  for (const Source& source : sources) {
+    const ReadFilter& own_filter = source.use == FeatureUse::Area ? filter : ReadFilter{};
+    for (RawLayer& layer : readLayers(source, own_filter, report))
+      if (layer.use != FeatureUse::Boundary) layers.push_back(std::move(layer));
+  }
+  Coastline coastline;
+  coastline.crs = crsOfFirst(layers.front(), report);
+  for (std::size_t i = 1; i < layers.size(); ++i) bringTo(coastline.crs, layers.front(), layers[i], report);
+  for (RawLayer& layer : layers) {
+    if (coastline.features.empty()) {
+      coastline.features = std::move(layer.features);
+    } else {
+      std::move(layer.features.begin(), layer.features.end(), std::back_inserter(coastline.features));
+    }
+  }
+  for (const FeatureUse use : {FeatureUse::Area, FeatureUse::Frame}) addJoinedLines(layers, use, coastline, report);
+  for (RawLayer& layer : layers) {
+    if (!joinsLines(layer.use)) addPlainLines(layer, coastline);
+  }
+  report.features = static_cast<std::uint64_t>(
+      std::ranges::count(coastline.features, FeatureUse::Area, [](const Feature& feature) { return feature.use; }));
+  return coastline;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,208 @@
+#include "gis/read/read_layers.hpp"
+
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "gis/crs/crs_from_ogr.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/read/bare_geojson.hpp"
+#include "gis/read/cleaned_file.hpp"
+#include "gis/read/ogr_geometry.hpp"
+#include "gis/read/open_source.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// OGR gives coordinates in the order that the layer's axis mapping says: true where that is y, x.
+bool axesSwapped(const OGRSpatialReference& srs) {
+  OGRSpatialReference traditional(srs);
+  traditional.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return srs.GetDataAxisToSRSAxisMapping() != traditional.GetDataAxisToSRSAxisMapping();
+}
+
+std::vector<std::pair<std::string, std::string>> attributesOf(OGRFeature& feature) {
+  std::vector<std::pair<std::string, std::string>> attributes;
+  for (int i = 0; i < feature.GetFieldCount(); ++i) {
+    if (!feature.IsFieldSetAndNotNull(i)) continue;
+    attributes.emplace_back(feature.GetFieldDefnRef(i)->GetNameRef(), feature.GetFieldAsString(i));
+  }
+  return attributes;
+}
+
+template <typename Act>
+void forEachChain(GeometryParts& parts, Act&& act) {
+  for (Polygon& polygon : parts.polygons) {
+    act(polygon.outer);
+    for (Ring& hole : polygon.holes) act(hole);
+  }
+  for (auto& line : parts.lines) act(line);
+  act(parts.points);
+}
+
+std::string placeInWords(const Point& p) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.10g, %.10g", p.x, p.y);
+  return text;
+}
+
+// One layer while it is read.
+class LayerReader {
+ public:
+  LayerReader(OGRLayer& layer, std::string source, FeatureUse use) {
+    raw_.source = std::move(source);
+    raw_.use = use;
+    const OGRSpatialReference* srs = layer.GetSpatialRef();
+    if (!srs || srs->IsEmpty()) return;
+    try {
+      raw_.crs = fromOgr(srs);
+    } catch (const InputError& error) {
+      throw InputError(raw_.source + ": " + error.what());
+    }
+    swap_axes_ = axesSwapped(*srs);
+  }
+
+  LayerReader(const Crs& crs, std::string source, FeatureUse use) {
+    raw_.source = std::move(source);
+    raw_.use = use;
+    raw_.crs = crs;
+  }
+
+  void add(OGRFeature& given, ReadReport& report) {
+    const OGRGeometry* geometry = given.GetGeometryRef();
+    if (!geometry || geometry->IsEmpty()) {
+      ++report.skipped_empty;
+      return;
+    }
+    Feature feature;
+    feature.fid = given.GetFID() == OGRNullFID ? count_ : given.GetFID();
+    feature.source = raw_.source;
+    feature.use = raw_.use;
+    GeometryParts parts;
+    takeApart(*geometry, describe(feature), parts);
+    if (!parts.empty()) feature.attributes = attributesOf(given);
+    add(std::move(parts), std::move(feature), report);
+  }
+
+  // `feature` has its name and attributes.
+  void add(GeometryParts parts, Feature feature, ReadReport& report) {
+    ++count_;
+    tally(parts, describe(feature), report);
+    forEachChain(parts, [&](std::vector<Point>& chain) {
+      for (Point& p : chain) {
+        if (swap_axes_) std::swap(p.x, p.y);
+        raw_.bounds.add(p);
+      }
+    });
+    if (raw_.use == FeatureUse::Constraint) feature.points = std::move(parts.points);
+    if (!parts.lines.empty() || !feature.points.empty()) {
+      for (auto& line : parts.lines) raw_.lines.push_back({std::move(line), raw_.line_features.size()});
+      raw_.line_features.push_back(feature);
+      feature.points.clear();
+    }
+    if (!parts.polygons.empty()) {
+      feature.polygons = std::move(parts.polygons);
+      raw_.features.push_back(std::move(feature));
+    }
+  }
+
+  RawLayer finish() {
+    if (raw_.use == FeatureUse::Area && count_ == 1 && raw_.features.size() == 1 &&
+        raw_.features.front().attributes.empty())
+      takeBareApart();
+    return std::move(raw_);
+  }
+
+ private:
+  static std::string describe(const Feature& feature) {
+    return feature.source + ", feature " + std::to_string(feature.fid);
+  }
+
+  void tally(const GeometryParts& parts, const std::string& what, ReadReport& report) {
+    report.points += parts.coordinates;
+    report.rings += parts.rings;
+    if (raw_.use != FeatureUse::Constraint) report.skipped_points += parts.points.size();
+    if (parts.unclosed_place && report.unclosed_rings == 0) {
+      report.warnings.push_back(what + ": a ring of a polygon is not closed (it ends at " +
+                                placeInWords(*parts.unclosed_place) + "): such rings are closed");
+    }
+    report.unclosed_rings += parts.unclosed_rings;
+  }
+
+  // A lone geometry that no table row goes with: its polygons are features of their own.
+  void takeBareApart() {
+    Feature whole = std::move(raw_.features.front());
+    raw_.features.clear();
+    raw_.features.reserve(whole.polygons.size());
+    for (Polygon& polygon : whole.polygons) {
+      Feature& feature = raw_.features.emplace_back();
+      feature.fid = whole.polygons.size() > 1 ? static_cast<std::int64_t>(raw_.features.size()) - 1 : whole.fid;
+      feature.source = whole.source;
+      feature.use = whole.use;
+      feature.polygons.push_back(std::move(polygon));
+    }
+  }
+
+  RawLayer raw_;
+  std::int64_t count_ = 0;  // features with a geometry
+  bool swap_axes_ = false;
+};
+
+[[noreturn]] void refuseEmpty(const std::string& source, std::uint64_t points) {
+  throw InputError(source + (points > 0 ? ": holds points only" : ": holds no feature with a geometry") +
+                   "; polygons or lines are needed");
+}
+
+std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, const std::string& source, std::uint64_t points) {
+  std::vector<RawLayer> raw;
+  for (LayerReader& reader : readers) {
+    RawLayer finished = reader.finish();
+    if (!finished.empty()) raw.push_back(std::move(finished));
+  }
+  if (raw.empty()) refuseEmpty(source, points);
+  return raw;
+}
+
+}  // namespace
+
+std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, ReadReport& report) {
+  const bool filtered = !filter.layers.empty() || !filter.where.empty();
+  const std::uint64_t points_before = report.skipped_points;
+  std::vector<LayerReader> readers;
+  if (std::optional<GeometryParts> bare = filtered ? std::nullopt : readBareGeojson(given.path)) {
+    Feature feature;
+    feature.source = given.path;
+    feature.use = given.use;
+    readers.emplace_back(wgs84(), given.path, given.use);
+    readers.front().add(std::move(*bare), std::move(feature), report);
+    return finishAll(readers, given.path, report.skipped_points - points_before);
+  }
+
+  OgrErrors errors;
+  const OgrOption any_size("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
+  const OpenSource source = openSource(given.path, filter.layers, errors);
+  if (!filtered) {
+    if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, report)) return std::move(*cleaned);
+  }
+  if (!filter.where.empty()) report.filtered += keepWhere(source, filter.where, errors);
+  const bool only = source.dataset->GetLayerCount() == 1;
+  for (OGRLayer* layer : source.layers) {
+    readers.emplace_back(*layer, only ? source.name : source.name + "|" + layer->GetName(), given.use);
+  }
+  // Through the dataset, not layer by layer: OpenStreetMap files come interleaved.
+  source.dataset->ResetReading();
+  OGRLayer* layer = nullptr;
+  while (const std::unique_ptr<OGRFeature> feature{source.dataset->GetNextFeature(&layer, nullptr, nullptr, nullptr)}) {
+    const auto at = std::find(source.layers.begin(), source.layers.end(), layer);
+    if (at == source.layers.end()) continue;
+    readers[static_cast<std::size_t>(at - source.layers.begin())].add(*feature, report);
+  }
+  if (errors.failed()) throw InputError(source.name + ": cannot be read to its end (" + errors.text() + ")");
+  if (!errors.text().empty()) report.warnings.push_back(source.name + ": " + errors.text());
+  return finishAll(readers, source.name, report.skipped_points - points_before);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,153 @@
+#include "gis/size/size_depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "gis/long_wave.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+
+// A function of the depth, from a table: there are as many calls as pixels.
+class DepthTable {
+ public:
+  template <typename F>
+  DepthTable(double least, F&& f) : least_(least) {
+    for (int i = 0; i <= kEntries; ++i) values_.push_back(f(least_ * std::exp(kStep * i)));
+  }
+  double at(double depth) const {
+    const double u = std::clamp(std::log(depth / least_) / kStep, 0.0, kEntries - 1e-6);
+    const auto i = static_cast<std::size_t>(u);
+    const double share = u - static_cast<double>(i);
+    return (1.0 - share) * values_[i] + share * values_[i + 1];
+  }
+
+ private:
+  static constexpr int kEntries = 2048;
+  static constexpr double kStep = 0.01;  // 2048 of them reach 8e8 times the least depth
+
+  double least_;
+  std::vector<double> values_;
+};
+
+// Depths with the margin, after a mean over squares three times, which is nearly a Gaussian's. NaN where nothing is known.
+void smooth(std::vector<double>& depth, std::size_t width, std::size_t height, int radius) {
+  if (radius < 1) return;
+  std::vector<double> line, sums, counts;
+  const auto pass = [&](std::size_t first, std::size_t step, std::size_t count) {
+    sums.assign(count + 1, 0.0);
+    counts.assign(count + 1, 0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = depth[first + i * step];
+      sums[i + 1] = sums[i] + (std::isnan(value) ? 0.0 : value);
+      counts[i + 1] = counts[i] + (std::isnan(value) ? 0.0 : 1.0);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (std::isnan(depth[first + i * step])) continue;
+      const std::size_t from = i - std::min(i, static_cast<std::size_t>(radius));
+      const std::size_t to = std::min(count, i + static_cast<std::size_t>(radius) + 1);
+      depth[first + i * step] = (sums[to] - sums[from]) / (counts[to] - counts[from]);
+    }
+  };
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    for (std::size_t y = 0; y < height; ++y) pass(y * width, 1, width);
+    for (std::size_t x = 0; x < width; ++x) pass(x, width, height);
+  }
+}
+
+double slopeBetween(double before, double here, double after, double pixel_m) {
+  if (std::isnan(before) && std::isnan(after)) return 0.0;
+  if (std::isnan(before)) return (after - here) / pixel_m;
+  if (std::isnan(after)) return (here - before) / pixel_m;
+  return (after - before) / (2.0 * pixel_m);
+}
+
+double depthOf(double value, const DepthRules& rules) {
+  return rules.water_level_m + (rules.positive_down ? value : -value);
+}
+
+// Calls `f(pixel, x, y, depth)` for the tile's own pixels with data.
+template <typename F>
+void forEachDepth(const RasterTile& tile, const DepthRules& rules, F&& f) {
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const double value = tile.at(x, y);
+      if (std::isnan(value)) continue;
+      const double depth = depthOf(value, rules);
+      f(static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x), x, y, depth);
+    }
+  }
+}
+
+void applySlope(const RasterTile& tile, const DepthRules& rules, std::span<float> sizes) {
+  const std::size_t width = tile.stride();
+  std::vector<double> depth(tile.values.begin(), tile.values.end());
+  for (double& d : depth) d = depthOf(d, rules);
+  // Three squares of this half width even out what is shorter than the filter.
+  const int radius =
+      static_cast<int>(std::lround(rules.slope_filter_m / (4.0 * std::min(tile.pixel_m[0], tile.pixel_m[1]))));
+  smooth(depth, width, depth.size() / width, radius);
+  forEachDepth(tile, rules, [&](std::size_t pixel, int x, int y, double) {
+    const std::size_t k = static_cast<std::size_t>(y + tile.margin) * width + static_cast<std::size_t>(x + tile.margin);
+    const double dx = slopeBetween(depth[k - 1], depth[k], depth[k + 1], tile.pixel_m[0]);
+    const double dy = slopeBetween(depth[k - width], depth[k], depth[k + width], tile.pixel_m[1]);
+    const double slope = std::hypot(dx, dy);
+    if (!(slope > 0.0)) return;
+    const double d = std::max(depth[k], rules.least_depth_m);
+    sizes[pixel] =
+        std::min(sizes[pixel], static_cast<float>(2.0 * std::numbers::pi / rules.slope_elements * d / slope));
+  });
+}
+
+}  // namespace
+
+double wavelengthOf(double period_s, double depth_m) {
+  const double deep = kGravity * period_s * period_s / (2.0 * std::numbers::pi);
+  // x tanh x = k0 d for x = k d: Newton's method from above both limits.
+  const double k0d = 2.0 * std::numbers::pi * depth_m / deep;
+  double x = k0d < 1.0 ? std::sqrt(k0d) * (1.0 + k0d / 6.0) : k0d;
+  for (int i = 0; i < 20; ++i) {
+    const double t = std::tanh(x);
+    const double step = (x * t - k0d) / (t + x * (1.0 - t * t));
+    x -= step;
+    if (std::abs(step) < 1e-14 * x) break;
+  }
+  return 2.0 * std::numbers::pi * depth_m / x;
+}
+
+TileRule depthRule(const DepthRules& rules) {
+  TileRule rule;
+  // Three means over squares look one and a half squares far, and slopes one pixel further.
+  if (rules.slope_elements > 0.0) rule.margin_m = 0.8 * rules.slope_filter_m;
+  const DepthTable waves(rules.least_depth_m, [&](double depth) {
+    return rules.wave_elements > 0.0 ? wavelengthOf(rules.period_s, depth) / rules.wave_elements : kNothing;
+  });
+  rule.sizes = [rules, waves](const RasterTile& tile, std::span<float> sizes) {
+    forEachDepth(tile, rules, [&](std::size_t pixel, int, int, double depth) {
+      double size = kNothing;
+      if (rules.wave_elements > 0.0) size = waves.at(std::max(depth, rules.least_depth_m));
+      for (const DepthBand& band : rules.bands)
+        if (depth >= band.from_m && depth < band.to_m) size = std::min(size, band.size_m);
+      sizes[pixel] = static_cast<float>(size);
+    });
+    if (rules.slope_elements > 0.0) applySlope(tile, rules, sizes);
+  };
+  return rule;
+}
+
+TileRule courantRule(double time_step_s, double courant, const DepthRules& rules) {
+  return {0.0, [=](const RasterTile& tile, std::span<float> sizes) {
+            forEachDepth(tile, rules, [&](std::size_t pixel, int, int, double depth) {
+              const double speed = longWaveSpeed(std::max(depth, rules.least_depth_m));
+              sizes[pixel] = static_cast<float>(speed * time_step_s / courant);
+            });
+          }};
+}
+
+}  // namespace coastmesh

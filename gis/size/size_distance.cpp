@@ -1,0 +1,171 @@
+#include "gis/size/size_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/hilbert.hpp"
+#include "core/metric.hpp"
+#include "gis/coast/segment_tags.hpp"
+#include "gis/geometry/box.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+struct DistanceField::Search {
+  Point x;
+  double per_metre;  // 1 / scale
+  double best;       // a size; where all lines are alike, the square of a distance
+  std::uint32_t nearest = kNone;
+};
+
+DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(const Point&)> scale, double most_m)
+    : most_m_(most_m), scale_(std::move(scale)) {
+  if (lines.empty()) return;
+  std::vector<Point> middles;
+  for (const SizedLine& line : lines) {
+    middles.push_back(midpoint(line.a, line.b));
+    most_rate_ = std::max(most_rate_, line.rate);
+    least_size_m_ = std::min(least_size_m_, line.size_m);
+    alike_ = alike_ && line.rate == lines.front().rate && line.size_m == lines.front().size_m;
+  }
+  struct Node {
+    Box box;
+    double size_m = kInfinity, rate = kInfinity;
+  };
+  std::vector<Node> nodes;
+  const auto add = [&](std::size_t i, const Node& node) {
+    if (i % kFanout == 0) nodes.emplace_back();
+    nodes.back().box.add(node.box);
+    nodes.back().size_m = std::min(nodes.back().size_m, node.size_m);
+    nodes.back().rate = std::min(nodes.back().rate, node.rate);
+  };
+  for (const std::uint32_t i : hilbertOrder(middles)) {
+    const SizedLine& line = lines[i];
+    const Point along = line.b - line.a;
+    const double square = squaredLength(along);
+    add(lines_.size(), {Box::of(line.a, line.b), line.size_m, line.rate});
+    lines_.push_back({line.a, along, square > 0.0 ? 1.0 / square : 0.0, line.size_m, line.rate});
+  }
+  do {
+    level_begin_.push_back(groups_.size());
+    const std::vector<Node> below = std::exchange(nodes, {});
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const std::size_t k = i % kFanout;
+      if (k == 0) {
+        Group& group = groups_.emplace_back();
+        for (auto* of : {&group.xmin, &group.ymin, &group.size_m, &group.rate}) of->fill(kInfinity);
+        for (auto* of : {&group.xmax, &group.ymax}) of->fill(-kInfinity);
+      }
+      Group& group = groups_.back();
+      group.xmin[k] = below[i].box.xmin, group.ymin[k] = below[i].box.ymin;
+      group.xmax[k] = below[i].box.xmax, group.ymax[k] = below[i].box.ymax;
+      group.size_m[k] = below[i].size_m, group.rate[k] = below[i].rate;
+      add(i, below[i]);
+    }
+  } while (nodes.size() > 1);
+}
+
+void DistanceField::limitRate(double rate) {
+  most_rate_ = std::min(most_rate_, rate);
+  for (Line& line : lines_) line.rate = std::min(line.rate, rate);
+  for (Group& group : groups_)
+    for (double& least : group.rate) least = std::min(least, rate);
+}
+
+template <bool kAlike>
+void DistanceField::measure(std::uint32_t i, Search& search) const {
+  const Line& line = lines_[i];
+  const Point to = search.x - line.a;
+  const double share = std::min(std::max(dot(to, line.along) * line.inverse_square, 0.0), 1.0);
+  const double square = squaredLength(to - share * line.along);
+  const double value = kAlike ? square : line.size_m + line.rate * std::sqrt(square) * search.per_metre;
+  if (value < search.best) {
+    search.best = value;
+    search.nearest = i;
+  }
+}
+
+template <bool kAlike>
+void DistanceField::descend(std::size_t level, std::size_t number, Search& search) const {
+  const Group& group = groups_[level_begin_[level] + number];
+  std::array<double, kFanout> off;
+  for (std::size_t k = 0; k < kFanout; ++k) {
+    const double dx = std::max(std::max(group.xmin[k] - search.x.x, search.x.x - group.xmax[k]), 0.0);
+    const double dy = std::max(std::max(group.ymin[k] - search.x.y, search.x.y - group.ymax[k]), 0.0);
+    off[k] = dx * dx + dy * dy;
+    if constexpr (!kAlike) off[k] = group.size_m[k] + group.rate[k] * std::sqrt(off[k]) * search.per_metre;
+  }
+  // The most promising first; mostly few are left.
+  std::array<std::uint8_t, kFanout> order;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < kFanout; ++k) {
+    if (!(off[k] < search.best)) continue;
+    std::size_t at = count++;
+    for (; at > 0 && off[k] < off[order[at - 1]]; --at) order[at] = order[at - 1];
+    order[at] = static_cast<std::uint8_t>(k);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(off[order[i]] < search.best)) return;
+    const std::size_t node = number * kFanout + order[i];
+    if (level > 0) {
+      descend<kAlike>(level - 1, node, search);
+    } else {
+      const std::size_t end = std::min(lines_.size(), (node + 1) * kFanout);
+      for (std::size_t line = node * kFanout; line < end; ++line)
+        measure<kAlike>(static_cast<std::uint32_t>(line), search);
+    }
+  }
+}
+
+double DistanceField::sizeAt(const Point& x, double scale, double most_m, std::uint32_t& nearest) const {
+  if (lines_.empty()) return kInfinity;
+  Search search{x, 1.0 / scale, most_m};
+  const auto run = [&]<bool kAlike>() {
+    if (nearest != kNone) measure<kAlike>(nearest, search);
+    descend<kAlike>(level_begin_.size() - 1, 0, search);
+    if (search.nearest != kNone) nearest = search.nearest;
+  };
+  if (!alike_) {
+    run.operator()<false>();
+    return search.best;
+  }
+  const Line& line = lines_.front();
+  if (!(most_m > line.size_m) || line.rate == 0.0) return std::min(most_m, line.size_m);
+  const double reach = (most_m - line.size_m) / line.rate * scale;
+  search.best = reach * reach;
+  run.operator()<true>();
+  return search.nearest == kNone ? most_m : line.size_m + line.rate * std::sqrt(search.best) * search.per_metre;
+}
+
+void DistanceField::sample(std::span<const Point> places, std::span<double> sizes) const {
+  std::uint32_t nearest = kNone;
+  for (std::size_t i = 0; i < places.size(); ++i) sizes[i] = sizeAt(places[i], scale_(places[i]), most_m_, nearest);
+}
+
+void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
+  std::uint32_t nearest = kNone;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const double scale = scale_(boxes[i].centre);
+    const double reach = most_rate_ * std::sqrt(2.0) * boxes[i].half / scale * 1.01;
+    const double size = sizeAt(boxes[i].centre, scale, most_m_ + reach, nearest);
+    ranges[i] = {std::max(least_size_m_, size - reach), size + reach};
+  }
+}
+
+std::vector<SizedLine> shoreLines(const Pslg& pslg, double size_m, double rate) {
+  const bool labelled =
+      std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
+  std::vector<SizedLine> lines;
+  for (const Segment& s : pslg.segments)
+    if (!labelled || (s.tag != kOpenTag && (s.left >= 0) != (s.right >= 0)))
+      lines.push_back({pslg.points[s.a], pslg.points[s.b], size_m, rate});
+  return lines;
+}
+
+}  // namespace coastmesh

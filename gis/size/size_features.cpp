@@ -1,0 +1,221 @@
+#include "gis/size/size_features.hpp"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "gis/crs/crs_map.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/geometry/box_tree.hpp"
+#include "gis/read/ogr_geometry.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Sizes inside polygons, their rims included by halves: round them another field counts.
+class PolygonField final : public SizeField {
+ public:
+  struct SizedPolygon {
+    std::vector<Ring> rings;  // in the plane
+    double size_m;
+  };
+
+  explicit PolygonField(std::vector<SizedPolygon> polygons) : polygons_(std::move(polygons)) {
+    std::vector<Box> boxes;
+    for (const SizedPolygon& polygon : polygons_) {
+      std::vector<Box> edges;
+      Box whole;
+      for (const Ring& ring : polygon.rings) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+          const Point &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
+          edges_.push_back({a, b});
+          edges.push_back(Box::of(a, b));
+          whole.add(edges.back());
+        }
+      }
+      first_edge_.push_back(edges_.size() - edges.size());
+      trees_.emplace_back(edges, BoxTree::Order::Given);
+      boxes.push_back(whole);
+    }
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  }
+
+  void sample(std::span<const Point> places, std::span<double> sizes) const override {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      sizes[i] = kInfinity;
+      tree_.visit(Box::of(places[i], places[i]), [&](std::uint32_t p) {
+        if (polygons_[p].size_m < sizes[i] && contains(p, places[i])) sizes[i] = polygons_[p].size_m;
+      });
+    }
+  }
+
+  void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Point& c = boxes[i].centre;
+      const Box box = Box::of(c, c).grownBy(boxes[i].half);
+      ranges[i] = {kInfinity, kInfinity};
+      tree_.visit(box, [&](std::uint32_t p) {
+        bool crossed = false;
+        trees_[p].visit(box, [&](std::uint32_t) { crossed = true; });
+        const bool within = contains(p, c);
+        if (crossed || within) ranges[i].low = std::min(ranges[i].low, polygons_[p].size_m);
+        if (!crossed && within) ranges[i].high = std::min(ranges[i].high, polygons_[p].size_m);
+      });
+    }
+  }
+
+ private:
+  // Even-odd, by the edges that a ray to the right meets.
+  bool contains(std::uint32_t p, const Point& x) const {
+    bool inside = false;
+    trees_[p].visit(Box{x.x, x.y, kInfinity, x.y}, [&](std::uint32_t e) {
+      const auto& [a, b] = edges_[first_edge_[p] + e];
+      if ((a.y > x.y) == (b.y > x.y)) return;
+      inside ^= x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x);
+    });
+    return inside;
+  }
+
+  std::vector<SizedPolygon> polygons_;
+  std::vector<std::pair<Point, Point>> edges_;  // polygon after polygon
+  std::vector<std::size_t> first_edge_;
+  std::vector<BoxTree> trees_;  // of each polygon's edges
+  BoxTree tree_;                // of the polygons
+};
+
+void collectPoints(const OGRGeometry& geometry, std::vector<std::vector<Point>>& lines) {
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (type == wkbPoint && !geometry.IsEmpty()) {
+    lines.push_back({{geometry.toPoint()->getX(), geometry.toPoint()->getY()}});
+  } else if (type == wkbMultiPoint || type == wkbGeometryCollection) {
+    for (const OGRGeometry* part : *geometry.toGeometryCollection()) collectPoints(*part, lines);
+  }
+}
+
+// The attribute's value; none where it is null. Throws where it is no number of at least `least`.
+std::optional<double> numberOf(const OGRFeature& feature, int field, double least, const std::string& what) {
+  if (field < 0 || !feature.IsFieldSetAndNotNull(field)) return std::nullopt;
+  const double value = feature.GetFieldAsDouble(field);
+  if (std::isfinite(value) && value >= least) return value;
+  throw InputError(what + ": its attribute '" + feature.GetFieldDefnRef(field)->GetNameRef() + "' is " +
+                   feature.GetFieldAsString(field) + ", not a number above 0; correct it, or leave it empty");
+}
+
+class FeatureReader {
+ public:
+  FeatureReader(const Crs& crs, double usual_rate, SizedFeatures& features)
+      : crs_(crs), usual_rate_(usual_rate), features_(features) {}
+
+  void read(OGRLayer& layer, const std::string& source) {
+    const int size_field = layer.GetLayerDefn()->GetFieldIndex("size");
+    const int rate_field = layer.GetLayerDefn()->GetFieldIndex("rate");
+    if (size_field < 0) {
+      throw InputError(source + ": has no attribute 'size', which says the size wanted in metres; add it");
+    }
+    std::optional<CrsMap> map;
+    const OGRSpatialReference* srs = layer.GetSpatialRef();
+    if (srs && !srs->IsEmpty() && !crs_.isPlane()) {
+      OGRSpatialReference from(*srs);
+      from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+      map.emplace(from, toOgr(crs_));
+    }
+    layer.ResetReading();
+    for (const OGRFeatureUniquePtr& feature : layer) {
+      const OGRGeometry* geometry = feature->GetGeometryRef();
+      const std::string what = source + ", feature " + std::to_string(feature->GetFID());
+      const std::optional<double> size = numberOf(*feature, size_field, std::numeric_limits<double>::min(), what);
+      if (!geometry || geometry->IsEmpty() || !size) continue;
+      GeometryParts parts;
+      takeApart(*geometry, what, parts);
+      SizedFeatures::Part part;
+      part.size_m = *size;
+      part.rate = numberOf(*feature, rate_field, 0.0, what).value_or(usual_rate_);
+      for (Polygon& polygon : parts.polygons) {
+        part.rings.push_back(std::move(polygon.outer));
+        std::move(polygon.holes.begin(), polygon.holes.end(), std::back_inserter(part.rings));
+      }
+      part.lines = std::move(parts.lines);
+      collectPoints(*geometry, part.lines);
+      const auto move = [&](std::vector<Point>& points) {
+        if (!map) return;
+        for (Point& p : points) {
+          p = map->forward(p);
+          if (!std::isfinite(p.x) || !std::isfinite(p.y))
+            throw InputError(what + ": has a place that the input's coordinate system does not reach; take it out");
+        }
+      };
+      for (auto& ring : part.rings) move(ring);
+      for (auto& line : part.lines) move(line);
+      features_.parts.push_back(std::move(part));
+    }
+  }
+
+ private:
+  const Crs& crs_;
+  double usual_rate_;
+  SizedFeatures& features_;
+};
+
+}  // namespace
+
+SizedFeatures readSizedFeatures(const std::string& source, const Crs& crs, double usual_rate) {
+  GDALAllRegister();
+  const OgrErrors errors;
+  const std::unique_ptr<GDALDataset> dataset(
+      GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset) {
+    throw InputError(source + ": cannot be read as features with sizes" +
+                     (errors.text().empty() ? "; check the path" : " (" + errors.text() + ")"));
+  }
+  SizedFeatures features;
+  FeatureReader reader(crs, usual_rate, features);
+  for (OGRLayer* layer : dataset->GetLayers()) {
+    reader.read(*layer, dataset->GetLayerCount() > 1 ? source + "|" + layer->GetName() : source);
+  }
+  if (features.parts.empty()) throw InputError(source + ": no feature in it has a geometry and a size");
+  return features;
+}
+
+std::vector<std::unique_ptr<SizeField>> featureFields(const SizedFeatures& features, const Projection& projection,
+                                                      const std::function<double(const Point&)>& scale) {
+  std::vector<SizedLine> lines;
+  std::vector<PolygonField::SizedPolygon> polygons;
+  const auto toPlane = [&](const std::vector<Point>& points) {
+    std::vector<Point> plane;
+    for (const Point& p : points) {
+      plane.push_back(projection.forward(p));
+      // What lies too far from the domain for its projection does not matter to it.
+      if (!std::isfinite(plane.back().x) || !std::isfinite(plane.back().y)) return std::vector<Point>();
+    }
+    return plane;
+  };
+  for (const SizedFeatures::Part& part : features.parts) {
+    const auto addLine = [&](const std::vector<Point>& points, bool closed) {
+      if (points.size() == 1) lines.push_back({points[0], points[0], part.size_m, part.rate});
+      for (std::size_t i = 0; i + (closed ? 0 : 1) < points.size(); ++i)
+        lines.push_back({points[i], points[(i + 1) % points.size()], part.size_m, part.rate});
+    };
+    PolygonField::SizedPolygon polygon{{}, part.size_m};
+    for (const Ring& ring : part.rings) {
+      polygon.rings.push_back(toPlane(ring));
+      addLine(polygon.rings.back(), true);
+    }
+    for (const auto& line : part.lines) addLine(toPlane(line), false);
+    if (!polygon.rings.empty()) polygons.push_back(std::move(polygon));
+  }
+  std::vector<std::unique_ptr<SizeField>> fields;
+  fields.push_back(std::make_unique<DistanceField>(std::move(lines), scale));
+  if (!polygons.empty()) fields.push_back(std::make_unique<PolygonField>(std::move(polygons)));
+  return fields;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "gis/size/domain_mask.hpp"
+#include "gis/size/size_field.hpp"
+
+namespace coastmesh {
+
+// What no size may fall below, made so that it can be graded: at each place the most of `field` there and, for every other
+// place, of `field` there less `rate` times the distance. Sizes that are nowhere below it stay so when they are
+// graded by no less than that rate. 0 where the field knows nothing and nothing near is steep.
+//
+// Only where the field changes by more than the rate does this differ from the field: a quadtree keeps these squares, each
+// with the most in it, so that the result is too large by a few hundredths at most, never too small by more.
+class SizeFloor final : public SizeField {
+ public:
+  // Over the square `root`, of what `mask` meets. What is no more than `least_m` matters to nobody: sizes are not less
+  // anyway. `scale` is plane length over metres at a place. `loop` lends threads.
+  SizeFloor(std::unique_ptr<SizeField> field, double rate, double least_m, std::function<double(const Point&)> scale,
+            const SizeBox& root, const DomainMask& mask, const ItemLoop& loop);
+
+  // Beside what `distances` tells the distance from, in metres times a rate, it is `factor` times as high, and falls to what
+  // it is elsewhere as the distance grows.
+  void raiseNear(std::unique_ptr<SizeField> distances, double factor);
+
+  void sample(std::span<const Point> places, std::span<double> sizes) const override;
+  // `high` is infinite where the field is known in a part of the box alone.
+  void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
+  void limitRate(double rate) override { rate_ = std::min(rate_, rate); }
+
+ private:
+  struct Node {
+    float most = 0.0F;        // metres, of all steep squares in it
+    std::uint32_t below = 0;  // the first of four in a row; 0 for a leaf
+  };
+
+  void build(const DomainMask& mask, const ItemLoop& loop);
+  double steepMost(const SizeBox& asked) const;  // in it, metres
+  void descend(std::uint32_t node, const SizeBox& box, const SizeBox& asked, double rate, double& most) const;
+
+  std::unique_ptr<SizeField> field_;
+  double rate_, least_m_;
+  std::function<double(const Point&)> scale_;
+  SizeBox root_;
+  std::vector<Node> nodes_;  // level after level
+  std::unique_ptr<SizeField> distances_;
+  double factor_ = 1.0;
+};
+
+}  // namespace coastmesh

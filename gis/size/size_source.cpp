@@ -1,0 +1,335 @@
+#include "gis/size/size_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+#include "core/metric.hpp"
+#include "gis/error.hpp"
+#include "gis/projection/plane_table.hpp"
+#include "gis/size/guide_lines.hpp"
+#include "gis/size/size_channel.hpp"
+#include "gis/size/size_distance.hpp"
+#include "gis/size/size_floor.hpp"
+#include "gis/size/size_raster.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Several fields as one source in plane units.
+class ComposedSizes final : public SizeSource {
+ public:
+  ComposedSizes(const SizeOptions& options, std::function<double(const Point&)> scale, const DomainMask& mask,
+                const ItemLoop& loop)
+      : options_(options), scale_(std::move(scale)), mask_(mask), loop_(loop) {}
+
+  // `option` asks for it.
+  void add(std::string option, std::unique_ptr<SizeField> field) {
+    fields_.push_back(std::move(field));
+    asking_.push_back(std::move(option));
+  }
+  void setFloor(std::unique_ptr<SizeField> field) { floor_ = std::move(field); }
+
+  void sample(std::span<const Point> places, std::span<double> sizes) const override {
+    forStretches(loop_, places.size(), [&](std::size_t first, std::size_t last) {
+      const auto here = places.subspan(first, last - first);
+      const auto out = sizes.subspan(first, last - first);
+      std::vector<double> own(here.size());
+      std::ranges::fill(out, options_.size_m);
+      std::vector<Point> asked;
+      std::vector<std::size_t> which;
+      for (const auto& field : fields_) {
+        asked.clear();
+        which.clear();
+        for (std::size_t i = 0; i < out.size(); ++i) {
+          if (!(out[i] > field->least())) continue;
+          asked.push_back(here[i]);
+          which.push_back(i);
+        }
+        field->sample(asked, std::span(own).first(asked.size()));
+        for (std::size_t k = 0; k < which.size(); ++k) out[which[k]] = std::min(out[which[k]], own[k]);
+      }
+      std::ranges::fill(own, 0.0);
+      if (floor_) floor_->sample(here, own);
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] = bounded(out[i], own[i]) * scale_(here[i]);
+    });
+  }
+
+  // Nothing asks for less, metres.
+  double leastWanted() const {
+    double least = options_.size_m;
+    for (const auto& field : fields_) least = std::min(least, field->least());
+    return std::max(least, options_.least_m);
+  }
+
+  void limitSize(double most_m) { most_m_ = most_m; }
+  double share(const SizeBox& box) const override { return mask_.share(box); }
+
+  // What decides on the size at a place.
+  std::string optionAt(const Point& place) const {
+    double least = options_.size_m, own = 0.0;
+    std::string option = "--size";
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      fields_[f]->sample(std::span(&place, 1), std::span(&own, 1));
+      if (!(own < least)) continue;
+      least = own;
+      option = asking_[f];
+    }
+    if (least < options_.least_m) option = "--size-min";
+    if (options_.most_m <= least) option = "--size-max";
+    if (most_m_ < std::min(least, options_.most_m)) option = "--grade";
+    return option;
+  }
+  void limitRate(double rate) {
+    for (const auto& field : fields_) field->limitRate(rate);
+    if (floor_) floor_->limitRate(rate);
+  }
+  bool isWanted(const SizeBox& box) const override { return mask_.meets(box); }
+
+  void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
+    forStretches(loop_, boxes.size(), [&](std::size_t first, std::size_t last) {
+      const auto here = boxes.subspan(first, last - first);
+      const auto out = ranges.subspan(first, last - first);
+      std::vector<SizeRange> own(here.size());
+      std::ranges::fill(out, SizeRange{options_.size_m, options_.size_m});
+      std::vector<SizeBox> asked;
+      std::vector<std::size_t> which;
+      for (const auto& field : fields_) {
+        asked.clear();
+        which.clear();
+        for (std::size_t i = 0; i < out.size(); ++i) {
+          if (!(out[i].high > field->least())) continue;
+          asked.push_back(here[i]);
+          which.push_back(i);
+        }
+        field->bound(asked, std::span(own).first(asked.size()));
+        for (std::size_t k = 0; k < which.size(); ++k) {
+          SizeRange& range = out[which[k]];
+          range = {std::min(range.low, own[k].low), std::min(range.high, own[k].high)};
+        }
+      }
+      std::ranges::fill(own, SizeRange{0.0, 0.0});
+      if (floor_) floor_->bound(here, own);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        const double scale = scale_(here[i].centre);
+        out[i] = {bounded(out[i].low, own[i].low) * scale, bounded(out[i].high, own[i].high) * scale};
+      }
+    });
+  }
+
+ private:
+  double bounded(double size, double floor) const {
+    return std::min({std::max({size, options_.least_m, floor}), options_.most_m, most_m_});
+  }
+
+  const SizeOptions& options_;
+  double most_m_ = kInfinity;
+  std::function<double(const Point&)> scale_;
+  const DomainMask& mask_;
+  const ItemLoop& loop_;
+  std::vector<std::unique_ptr<SizeField>> fields_;
+  std::vector<std::string> asking_;   // one a field
+  std::unique_ptr<SizeField> floor_;  // what the time step allows
+};
+
+TileRule rawRule() {
+  return {
+      0.0, [](const RasterTile& tile, std::span<float> sizes) {
+        for (int y = 0; y < tile.height; ++y) {
+          for (int x = 0; x < tile.width; ++x) {
+            const float size = tile.at(x, y);
+            if (std::isnan(size)) continue;
+            if (!(size > 0.0F)) {
+              throw InputError(tile.file + ": holds the size " + std::to_string(size) +
+                               ", but sizes are lengths in metres, above 0; mark pixels without one as no data");
+            }
+            sizes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x)] =
+                size;
+          }
+        }
+      }};
+}
+
+std::unique_ptr<SizeField> rasterFields(const std::vector<RasterGeometry>& rasters, const Crs& input,
+                                        const Projection& projection, const Box& box, const TileRule& rule,
+                                        const ItemLoop& loop) {
+  std::vector<std::unique_ptr<SizeField>> fields;
+  for (const RasterGeometry& raster : rasters)
+    fields.push_back(std::make_unique<RasterField>(raster, input, projection, box, rule, loop));
+  if (fields.size() == 1) return std::move(fields.front());
+  return std::make_unique<FirstOfFields>(std::move(fields));
+}
+
+// The tree grades lengths of the plane; what is asked for is that lengths on the ground are graded. The gradient of a length h on the
+// ground is that of the plane's length k h, less h times the gradient of the scale k: at most so much. Infinite h counts as `most_m`.
+double gradeForScale(const ComposedSizes& source, const std::function<double(const Point&)>& scale,
+                     const SizeBox& square, double most_m) {
+  constexpr int kProbes = 64;
+  const double step = 2.0 * square.half / kProbes;
+  std::vector<Point> places;
+  for (int j = 0; j < kProbes; ++j) {
+    for (int i = 0; i < kProbes; ++i) {
+      const Point place = square.centre + Point{(i + 0.5) * step - square.half, (j + 0.5) * step - square.half};
+      if (source.isWanted({place, 0.5 * step})) places.push_back(place);
+    }
+  }
+  std::vector<double> lengths(places.size());
+  source.sample(places, lengths);
+  double most = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Point x{0.5 * step, 0.0}, y{0.0, 0.5 * step};
+    const double k = scale(places[i]), h = std::min(lengths[i] / k, most_m);
+    const double slope =
+        std::hypot(scale(places[i] + x) - scale(places[i] - x), scale(places[i] + y) - scale(places[i] - y));
+    if (std::isfinite(slope)) most = std::max(most, h * slope / step);
+  }
+  constexpr double kBetweenProbes = 1.25;
+  return kBetweenProbes * most;
+}
+
+// Edges come out no shorter than this share of the size there, but for few.
+constexpr double kShortestOfSize = 0.6;
+// Those of a shore that follows the sizes come shorter: beside it sizes are so many times larger.
+constexpr double kShoreFloor = 1.4;
+
+// A map of sizes takes about a cell for two vertices; more, where something small lies on few of them.
+constexpr double kCellsPerVertex = 2.0;
+constexpr double kLeastCells = 200'000.0;
+
+std::string askingOfDepths(const DepthRules& rules) {
+  std::string options;
+  for (const auto& [asked, option] : {std::pair{rules.wave_elements > 0.0, "--wave-elements"},
+                                      {rules.slope_elements > 0.0, "--slope-elements"},
+                                      {!rules.bands.empty(), "--depth-band"}})
+    if (asked) options += (options.empty() ? "" : " or ") + std::string(option);
+  return options;
+}
+
+// Where in the cell that asks for the most the size is the least.
+VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, const Projection& projection) {
+  constexpr int kProbes = 8;
+  const SizeBox& box = demand.most_in;
+  const double step = 2.0 * box.half / kProbes;
+  std::vector<Point> places;
+  for (int j = 0; j < kProbes; ++j)
+    for (int i = 0; i < kProbes; ++i)
+      places.push_back(box.centre + Point{(i + 0.5) * step - box.half, (j + 0.5) * step - box.half});
+  std::erase_if(places, [&](const Point& place) { return !source.isWanted({place, 0.5 * step}); });
+  if (places.empty()) places.push_back(box.centre);
+  std::vector<double> sizes(places.size());
+  source.sample(places, sizes);
+  const Point& place = places[static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin())];
+  return {demand.vertices, projection.inverse(place),
+          std::min(std::ranges::min(sizes), demand.size) / projection.scaleAt(place), source.optionAt(place)};
+}
+
+}  // namespace
+
+TooManyVertices::TooManyVertices(VertexDemand d)
+    : std::runtime_error("sizes ask for more vertices than there is room for"), demand(std::move(d)) {}
+
+SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
+  SizeInputs inputs;
+  inputs.crs = crs;
+  for (const std::string& path : options.features)
+    inputs.features.push_back(readSizedFeatures(path, crs, options.grade));
+  const auto readLines = [&](const std::vector<std::string>& paths, std::vector<ShoreLine>& lines) {
+    for (const std::string& path : paths) std::ranges::move(readGuideLines(path, crs), std::back_inserter(lines));
+  };
+  readLines(options.passages, inputs.passages);
+  readLines(options.barriers, inputs.barriers);
+  for (const std::string& path : options.rasters) inputs.rasters.push_back(readRasterGeometry(path));
+  if (options.depth.any() || options.time_step_s > 0.0)
+    for (const std::string& path : options.bathymetry) inputs.bathymetry.push_back(readRasterGeometry(path));
+  return inputs;
+}
+
+DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
+                             double most_vertices, const ItemLoop& loop) {
+  Box box;
+  for (const Point& p : domain.pslg.points) box.add(p);
+  const double extent = std::max(box.xmax - box.xmin, box.ymax - box.ymin);
+  // Around the tree's square, which is larger than the domain's box.
+  const Point middle{0.5 * (box.xmin + box.xmax), 0.5 * (box.ymin + box.ymax)};
+  const Box square = Box::of(middle, middle).grownBy(0.51 * extent);
+  const Projection& projection = domain.projection;
+  constexpr double kScaleTolerance = 1e-5;
+  const auto table = std::make_shared<PlaneTable>(
+      [projection](const Point& x) {
+        return Point{projection.scaleAt(x), 0.0};
+      },
+      square, kScaleTolerance);
+  const auto scale = [table](const Point& x) { return table->at(x).x; };
+
+  const SizeBox root{middle, 0.505 * extent};
+  const DomainMask mask(domain.pslg, root);
+  ComposedSizes source(options, scale, mask, loop);
+  const double reach_m = extent / scale(middle), most_m = std::min(options.most_m, options.size_m);
+  if (options.shore_m < kInfinity)
+    source.add("--size-shore", std::make_unique<DistanceField>(
+                                   shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale, most_m));
+  if (options.channel_elements > 0.0) {
+    source.add("--channel-elements",
+               std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.grade,
+                                                            options.least_m, std::min(most_m, reach_m), scale),
+                                               scale, most_m));
+  }
+  for (const SizedFeatures& features : inputs.features)
+    for (auto& field : featureFields(features, projection, scale)) source.add("--size-features", std::move(field));
+  if (!inputs.rasters.empty())
+    source.add("--size-raster", rasterFields(inputs.rasters, inputs.crs, projection, square, rawRule(), loop));
+  if (options.depth.any())
+    source.add(askingOfDepths(options.depth),
+               rasterFields(inputs.bathymetry, inputs.crs, projection, square, depthRule(options.depth), loop));
+  if (options.time_step_s > 0.0) {
+    const TileRule rule = courantRule(options.time_step_s, kShortestOfSize * options.courant, options.depth);
+    auto floor =
+        std::make_unique<SizeFloor>(rasterFields(inputs.bathymetry, inputs.crs, projection, square, rule, loop),
+                                    options.grade, source.leastWanted() / kShoreFloor, scale, root, mask, loop);
+    if (options.coast == CoastDetail::Follow)
+      floor->raiseNear(std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.grade), scale),
+                       kShoreFloor);
+    source.setFloor(std::move(floor));
+  }
+  source.limitRate(options.grade);
+  double for_scale = gradeForScale(source, scale, root, reach_m);
+  if (for_scale > 0.5 * options.grade) {  // elements as large as seas: no larger than leaves half of the grade
+    const double most = 0.5 * options.grade / for_scale * reach_m;
+    if (most < options.least_m) {
+      throw InputError(
+          "--grade: on a projection with so much change of scale, sizes of --size-min cannot differ by as "
+          "little as that; give a larger one");
+    }
+    source.limitSize(most);
+    for_scale = 0.5 * options.grade;
+  }
+  SizeTreeOptions tree;
+  tree.grade = options.grade - for_scale;
+  // A little less: what is only just too steep everywhere would have to be flattened everywhere.
+  constexpr double kJustBelow = 0.99;
+  source.limitRate(kJustBelow * tree.grade);
+  tree.most_vertices = most_vertices;
+  tree.most_cells =
+      static_cast<std::uint32_t>(std::min<double>(tree.most_cells, kLeastCells + kCellsPerVertex * most_vertices));
+  auto size = std::make_unique<SizeTree>(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}, source, tree, loop);
+  VertexDemand demand = demandOf(source, size->demand(), projection);
+  demand.map_too_large = !size->isComplete() && !(demand.vertices > most_vertices);
+  if (!size->isComplete()) throw TooManyVertices(std::move(demand));
+  // Of the extent: below it coordinates do not tell the corners of good triangles apart.
+  constexpr double kLeastSize = 1e-9;
+  if (size->least() < kLeastSize * extent) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "sizes come down to %.3g m, too little for coordinates over an extent of %.3g m: give a --size-min",
+                  size->least() / scale(middle), reach_m);
+    throw InputError(text);
+  }
+  return {std::move(size), std::move(demand)};
+}
+
+}  // namespace coastmesh

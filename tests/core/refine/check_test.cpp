@@ -1,0 +1,404 @@
+#include "core/refine/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "core/delaunay.hpp"
+#include "core/metric.hpp"
+#include "core/refine/refine.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+// A refined mesh to break.
+struct Sample {
+  Pslg pslg;
+  TriMesh mesh;
+};
+
+Sample sampleOf(const Pslg& pslg) {
+  Sample sample{pslg, constrainedDelaunay(pslg)};
+  refine(sample.mesh, pslg, {.min_angle_deg = 30.0});
+  return sample;
+}
+
+std::set<DefectKind> kindsIn(const std::vector<MeshDefect>& defects) {
+  std::set<DefectKind> kinds;
+  for (const MeshDefect& d : defects) kinds.insert(d.kind);
+  return kinds;
+}
+
+std::set<DefectKind> kindsIn(const Sample& sample, const CheckOptions& options = {}) {
+  return kindsIn(checkMesh(sample.mesh, &sample.pslg, options));
+}
+
+using Kinds = std::set<DefectKind>;
+
+// What a program reads from a file: coordinates and corners, all else linked anew. Steiner points are rounded.
+TriMesh asRead(const TriMesh& mesh, double rounding) {
+  std::vector<Point> points = mesh.points;
+  if (rounding > 0.0)
+    for (std::size_t v = mesh.input_vertices; v < points.size(); ++v)
+      points[v] = {std::round(points[v].x / rounding) * rounding, std::round(points[v].y / rounding) * rounding};
+  std::vector<std::array<VertexId, 3>> corners;
+  for (const Triangle& t : mesh.triangles) corners.push_back(t.v);
+  return meshOf(std::move(points), corners);
+}
+
+VertexId firstFree(const TriMesh& mesh) {
+  std::vector<bool> on_segment(mesh.points.size(), false);
+  for (const Triangle& t : mesh.triangles)
+    for (unsigned i = 0; i < 3; ++i)
+      if (t.seg[i] != kNone) on_segment[t.v[next3(i)]] = on_segment[t.v[prev3(i)]] = true;
+  for (VertexId v = mesh.input_vertices; v < mesh.points.size(); ++v)
+    if (!on_segment[v]) return v;
+  return kNone;
+}
+
+VertexId firstOnSegment(const TriMesh& mesh) {
+  for (const Triangle& t : mesh.triangles)
+    for (unsigned i = 0; i < 3; ++i)
+      if (t.seg[i] != kNone && t.v[next3(i)] >= mesh.input_vertices) return t.v[next3(i)];
+  return kNone;
+}
+
+EdgeRef firstInnerEdge(const TriMesh& mesh) {
+  for (TriId t = 0; t < mesh.triangles.size(); ++t)
+    for (unsigned i = 0; i < 3; ++i)
+      if (mesh.triangles[t].adj[i] != kNone && mesh.triangles[t].seg[i] == kNone) return edgeRef(t, i);
+  return kNone;
+}
+
+TEST(CheckMesh, EveryKindHasAName) {
+  std::set<std::string_view> names;
+  for (const DefectKind kind : {DefectKind::BrokenTopology, DefectKind::NotCounterClockwise, DefectKind::PinchedVertex,
+                                DefectKind::MissingVertex, DefectKind::MissingSegment, DefectKind::NotDelaunay,
+                                DefectKind::AngleBelowBound, DefectKind::WrongArea, DefectKind::UnusedVertex})
+    EXPECT_TRUE(names.insert(toString(kind)).second && !toString(kind).empty());
+}
+
+TEST(CheckMesh, ASoundMeshHasNoDefect) {
+  for (const Pslg& pslg : {squareWithHole(), twoRegions(), openLines(), touchingHoles(), fractalCoast(2, 2, 2)}) {
+    const Sample sample = sampleOf(pslg);
+    EXPECT_EQ(describe(checkMesh(sample.mesh, &sample.pslg, {.min_angle_deg = 30.0})), "");
+    EXPECT_EQ(describe(checkMesh(sample.mesh, nullptr, {.min_angle_deg = 30.0})), "");
+  }
+}
+
+TEST(CheckMesh, NeighbourThatDoesNotPointBack) {
+  for (const EdgeRef wrong : {EdgeRef{0}, EdgeRef{5}, edgeRef(1'000'000, 0), edgeRef(0, 0) + 3}) {
+    Sample sample = sampleOf(squareWithHole());
+    const EdgeRef e = firstInnerEdge(sample.mesh);
+    ASSERT_NE(sample.mesh.twin(e), wrong);
+    sample.mesh.triangles[triOf(e)].adj[indexOf(e)] = wrong;
+    EXPECT_EQ(kindsIn(sample), Kinds{DefectKind::BrokenTopology}) << wrong;
+  }
+}
+
+TEST(CheckMesh, CornerOutOfRangeOrTwice) {
+  for (const bool twice : {false, true}) {
+    Sample sample = sampleOf(squareWithHole());
+    auto& v = sample.mesh.triangles[3].v;
+    v[1] = twice ? v[0] : static_cast<VertexId>(sample.mesh.points.size());
+    const auto defects = checkMesh(sample.mesh, &sample.pslg, {});
+    EXPECT_EQ(kindsIn(defects), Kinds{DefectKind::BrokenTopology});
+    EXPECT_TRUE(std::ranges::any_of(defects, [](const MeshDefect& d) { return d.triangle == 3; }));
+  }
+}
+
+TEST(CheckMesh, SegmentKnownOnOneSideOnly) {
+  Sample sample = sampleOf(twoRegions());
+  bool changed = false;
+  for (Triangle& t : sample.mesh.triangles)
+    for (unsigned i = 0; i < 3 && !changed; ++i)
+      if (t.seg[i] != kNone && t.adj[i] != kNone) {
+        t.seg[i] = kNone;
+        changed = true;
+      }
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(kindsIn(sample), Kinds{DefectKind::BrokenTopology});
+}
+
+TEST(CheckMesh, TurnedTriangle) {
+  Sample sample = sampleOf(fractalCoast(2, 2, 2));
+  const VertexId v = firstFree(sample.mesh);
+  ASSERT_NE(v, kNone);
+  // Across the opposite edge of one of its triangles.
+  for (TriId t = 0; t < sample.mesh.triangles.size(); ++t) {
+    const auto& c = sample.mesh.triangles[t].v;
+    if (std::ranges::find(c, v) == c.end()) continue;
+    const Point centre = (1.0 / 3.0) * (sample.mesh.points[c[0]] + sample.mesh.points[c[1]] + sample.mesh.points[c[2]]);
+    sample.mesh.points[v] = centre + 3.0 * (centre - sample.mesh.points[v]);
+    break;
+  }
+  EXPECT_TRUE(kindsIn(sample).contains(DefectKind::NotCounterClockwise));
+}
+
+TEST(CheckMesh, FlatTriangle) {
+  const TriMesh mesh = meshOf({{0, 0}, {1, 0}, {2, 0}, {1, 1}}, {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}});
+  const auto defects = checkMesh(mesh, nullptr, {.delaunay = false});
+  ASSERT_EQ(defects.size(), 1u);
+  EXPECT_EQ(defects[0].kind, DefectKind::NotCounterClockwise);
+  EXPECT_EQ(defects[0].triangle, 2u);
+}
+
+TEST(CheckMesh, PinchedVertexOnlyWhereAsked) {
+  const Sample sample = sampleOf(touchingHoles());
+  EXPECT_EQ(kindsIn(sample), Kinds{});
+  const auto defects = checkMesh(sample.mesh, &sample.pslg, {.pinches = true});
+  ASSERT_EQ(defects.size(), 2u);
+  for (const MeshDefect& d : defects) {
+    EXPECT_EQ(d.kind, DefectKind::PinchedVertex);
+    EXPECT_TRUE((d.place == Point{0.0, 0.0}) || (d.place == Point{0.5, 0.5}));
+  }
+  EXPECT_EQ(describe(checkMesh(sampleOf(squareWithHole()).mesh, nullptr, {.pinches = true})), "");
+  const TriMesh bow_tie = meshOf({{0, 0}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}, {{0, 1, 2}, {0, 3, 4}});
+  EXPECT_EQ(kindsIn(checkMesh(bow_tie, nullptr, {.pinches = true})), Kinds{DefectKind::PinchedVertex});
+}
+
+TEST(CheckMesh, InputVertexMovedByOneBit) {
+  Sample sample = sampleOf(squareWithHole());
+  sample.mesh.points[2].x = std::nextafter(1.0, 2.0);
+  const auto defects = checkMesh(sample.mesh, &sample.pslg, {});
+  ASSERT_EQ(kindsIn(defects), Kinds{DefectKind::MissingVertex});
+  EXPECT_EQ(defects.front().place, (Point{1.0, 1.0}));
+}
+
+TEST(CheckMesh, PointInsideTheDomainThatIsNoCorner) {
+  // Input points without segments are kept too.
+  const Pslg pslg = randomPointsInBox(3, 5);
+  Pslg fewer = pslg;
+  fewer.points.pop_back();
+  Sample sample{pslg, constrainedDelaunay(fewer)};
+  sample.mesh.points.push_back(pslg.points.back());
+  sample.mesh.input_vertices = static_cast<VertexId>(pslg.points.size());
+  EXPECT_TRUE(kindsIn(sample).contains(DefectKind::MissingVertex));
+}
+
+TEST(CheckMesh, LabelledPointInsideTheDomainThatIsNoCorner) {
+  Pslg pslg = nestedRings();
+  Sample sample{pslg, constrainedDelaunay(pslg)};
+  const Point lonely{0.1, 0.1};
+  sample.pslg.points.push_back(lonely);
+  sample.mesh.points.push_back(lonely);
+  sample.mesh.input_vertices = static_cast<VertexId>(sample.pslg.points.size());
+  EXPECT_TRUE(kindsIn(sample).contains(DefectKind::MissingVertex));
+}
+
+TEST(CheckMesh, SegmentThatIsNoChain) {
+  // A diagonal that the mesh does not have.
+  Sample sample = sampleOf(squarePslg());
+  ASSERT_EQ(sample.mesh.triangles.size(), 2u);
+  const EdgeRef inner = firstInnerEdge(sample.mesh);
+  const VertexId p = sample.mesh.origin(inner), q = sample.mesh.target(inner);
+  // The square's corners are in order, so the other diagonal joins the next ones.
+  sample.pslg.segments.push_back({(p + 1) % 4, (q + 1) % 4});
+  const auto defects = checkMesh(sample.mesh, &sample.pslg, {});
+  ASSERT_EQ(kindsIn(defects), Kinds{DefectKind::MissingSegment});
+  EXPECT_EQ(defects.front().place, (Point{0.5, 0.5}));
+}
+
+TEST(CheckMesh, SegmentWithAGap) {
+  // One piece of several no longer marked, on neither side.
+  Sample sample = sampleOf(collinearRuns());
+  for (TriId t = 0; t < sample.mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      const VertexId a = sample.mesh.origin(e), b = sample.mesh.target(e);
+      if (sample.mesh.segment(e) == kNone || a < sample.mesh.input_vertices || b < sample.mesh.input_vertices) continue;
+      sample.mesh.triangles[t].seg[i] = kNone;
+      EXPECT_EQ(kindsIn(sample), Kinds{DefectKind::MissingSegment});
+      return;
+    }
+  }
+  FAIL() << "no segment has three pieces";
+}
+
+TEST(CheckMesh, VertexOffItsSegment) {
+  Sample sample = sampleOf(squareWithHole());
+  const VertexId v = firstOnSegment(sample.mesh);
+  ASSERT_NE(v, kNone);
+  sample.mesh.points[v] = sample.mesh.points[v] + Point{1e-9, 1e-9};
+  EXPECT_TRUE(kindsIn(sample, {.delaunay = false}).contains(DefectKind::MissingSegment));
+}
+
+TEST(CheckMesh, EdgeThatIsNotDelaunay) {
+  // A square's corner drawn in, its long diagonal kept.
+  const TriMesh mesh = meshOf({{0, 0}, {2, 0}, {1.1, 1.1}, {0, 2}}, {{0, 1, 2}, {0, 2, 3}});
+  EXPECT_EQ(kindsIn(checkMesh(mesh, nullptr, {})), Kinds{});
+  const TriMesh flipped = meshOf({{0, 0}, {2, 0}, {1.1, 1.1}, {0, 2}}, {{0, 1, 3}, {1, 2, 3}});
+  const auto defects = checkMesh(flipped, nullptr, {});
+  ASSERT_EQ(defects.size(), 1u);
+  EXPECT_EQ(defects[0].kind, DefectKind::NotDelaunay);
+  EXPECT_EQ(defects[0].place, (Point{1.0, 1.0}));
+  EXPECT_EQ(kindsIn(checkMesh(flipped, nullptr, {.delaunay = false})), Kinds{});
+}
+
+TEST(CheckMesh, AngleBeyondTheBound) {
+  const Sample sample = sampleOf(squareWithHole());
+  EXPECT_EQ(kindsIn(sample, {.min_angle_deg = 30.0}), Kinds{});
+  const TriMesh flat = meshOf({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0.2}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+  const auto small = checkMesh(flat, nullptr, {.min_angle_deg = 20.0, .delaunay = false});
+  ASSERT_FALSE(small.empty());
+  EXPECT_EQ(kindsIn(small), Kinds{DefectKind::AngleBelowBound});
+  EXPECT_NEAR(small.front().value, toDegrees(std::atan2(0.2, 1.0)), 1e-9);
+  EXPECT_EQ(kindsIn(checkMesh(flat, nullptr, {.max_angle_deg = 120.0, .delaunay = false})),
+            Kinds{DefectKind::AngleBelowBound});
+  EXPECT_EQ(kindsIn(checkMesh(flat, nullptr, {.min_angle_deg = 10.0, .delaunay = false})), Kinds{});
+}
+
+TEST(CheckMesh, InputAnglesExplainSmallOnes) {
+  const Pslg pslg = combPolygon(3);
+  const Sample sample = sampleOf(pslg);
+  EXPECT_EQ(kindsIn(sample, {.min_angle_deg = 30.0}), Kinds{});
+}
+
+TEST(CheckMesh, AngleOnTheBoundIsNoDefect) {
+  const double h = std::tan(toRadians(30.0));
+  const TriMesh mesh = meshOf({{0, 0}, {2, 0}, {1, h}, {1, -h}}, {{0, 1, 2}, {1, 0, 3}});
+  EXPECT_EQ(describe(checkMesh(mesh, nullptr, {.min_angle_deg = 30.0, .delaunay = false})), "");
+}
+
+TEST(CheckMesh, HoleThatIsMeshed) {
+  // The mesh of the square as a whole, compared with the square that has a hole.
+  Sample sample = sampleOf(squareWithHole());
+  Pslg whole = sample.pslg;
+  whole.holes.clear();
+  sample.mesh = constrainedDelaunay(whole);
+  EXPECT_EQ(kindsIn(sample), Kinds{DefectKind::WrongArea});
+}
+
+TEST(CheckMesh, TriangleThatIsMissing) {
+  const Sample sample = sampleOf(nestedRings());
+  std::vector<std::array<VertexId, 3>> corners;
+  for (const Triangle& t : sample.mesh.triangles) corners.push_back(t.v);
+  corners.pop_back();
+  const auto kinds = kindsIn(checkMesh(meshOf(sample.mesh.points, corners), &sample.pslg, {}));
+  EXPECT_TRUE(kinds.contains(DefectKind::WrongArea));
+}
+
+TEST(CheckMesh, TriangleTwice) {
+  // One that overlaps others: only the area tells.
+  Sample sample{squarePslg(), constrainedDelaunay(squarePslg())};
+  const VertexId n = static_cast<VertexId>(sample.mesh.points.size());
+  for (const Point& p : {Point{0.2, 0.2}, Point{0.4, 0.2}, Point{0.2, 0.4}}) sample.mesh.points.push_back(p);
+  Triangle extra;
+  extra.v = {n, n + 1, n + 2};
+  sample.mesh.triangles.push_back(extra);
+  sample.mesh.regions.push_back(0);
+  const auto defects = checkMesh(sample.mesh, &sample.pslg, {});
+  ASSERT_EQ(kindsIn(defects), Kinds{DefectKind::WrongArea});
+  EXPECT_NEAR(defects.front().value, 0.02, 1e-12);
+}
+
+TEST(CheckMesh, SteinerPointWithoutTriangles) {
+  Sample sample = sampleOf(squareWithHole());
+  sample.mesh.points.push_back({0.1, 0.1});
+  const auto defects = checkMesh(sample.mesh, &sample.pslg, {});
+  ASSERT_EQ(defects.size(), 1u);
+  EXPECT_EQ(defects[0].kind, DefectKind::UnusedVertex);
+  EXPECT_EQ(defects[0].place, (Point{0.1, 0.1}));
+}
+
+TEST(CheckMesh, NoTrianglesAtAll) {
+  const Pslg pslg = squarePslg();
+  EXPECT_TRUE(kindsIn(checkMesh({}, &pslg, {})).contains(DefectKind::WrongArea));
+  EXPECT_TRUE(checkMesh({}, nullptr, {}).empty());
+}
+
+TEST(CheckMesh, DefectsComeByKindAndThenInOrder) {
+  Sample sample = sampleOf(nestedRings());
+  sample.mesh.points.insert(sample.mesh.points.end(), {{0.1, 0.1}, {0.2, 0.1}});
+  sample.mesh.points[0].x = -0.1;
+  const auto defects = checkMesh(sample.mesh, &sample.pslg, {.min_angle_deg = 44.0});
+  std::vector<DefectKind> seen;
+  for (std::size_t i = 0; i < defects.size(); ++i) {
+    if (seen.empty() || seen.back() != defects[i].kind) seen.push_back(defects[i].kind);
+    if (i > 0 && defects[i].kind == defects[i - 1].kind && defects[i].triangle != kNone) {
+      EXPECT_LT(defects[i - 1].triangle, defects[i].triangle);
+    }
+  }
+  EXPECT_EQ(std::set(seen.begin(), seen.end()).size(), seen.size()) << "each kind in one run";
+  EXPECT_GE(seen.size(), 3u);
+}
+
+// Meshes read from files: known by coordinates alone.
+class CheckByPlaceOf : public ::testing::TestWithParam<NamedPslg> {};
+
+TEST_P(CheckByPlaceOf, RoundingIsNoDefect) {
+  const Sample sample = sampleOf(GetParam().pslg);
+  for (const double rounding : {0.0, 1e-13, 1e-12}) {
+    // Where input points are a billionth apart, so are the vertices, and rounding is to be finer yet.
+    const double share = smallestSpacing(sample.pslg) < 1e-6 ? 1e-6 : 1.0;
+    const TriMesh read = asRead(sample.mesh, share * rounding);
+    EXPECT_EQ(describe(checkMesh(read, &sample.pslg, {.min_angle_deg = 29.99999})), "") << "rounded to " << rounding;
+  }
+}
+
+TEST_P(CheckByPlaceOf, ShuffledVerticesAndTrianglesAreTheSame) {
+  const Sample sample = sampleOf(GetParam().pslg);
+  std::mt19937_64 random(4);
+  std::vector<VertexId> place(sample.mesh.points.size());
+  for (VertexId v = 0; v < place.size(); ++v) place[v] = v;
+  for (std::size_t i = place.size(); i > 1; --i) std::swap(place[i - 1], place[random() % i]);
+  std::vector<Point> points(place.size());
+  for (VertexId v = 0; v < place.size(); ++v) points[place[v]] = sample.mesh.points[v];
+  std::vector<std::array<VertexId, 3>> corners;
+  for (const Triangle& t : sample.mesh.triangles) corners.push_back({place[t.v[1]], place[t.v[2]], place[t.v[0]]});
+  std::ranges::reverse(corners);
+  const TriMesh read = meshOf(std::move(points), corners);
+  EXPECT_EQ(describe(checkMesh(read, &sample.pslg, {})), "");
+}
+
+TEST_P(CheckByPlaceOf, MissingVertexIsFound) {
+  const Sample sample = sampleOf(GetParam().pslg);
+  TriMesh read = asRead(sample.mesh, 0.0);
+  // An input vertex that belongs to the domain for sure: the first corner of the first triangle that has one.
+  for (const Triangle& t : read.triangles) {
+    const auto v = std::ranges::find_if(t.v, [&](VertexId c) { return c < sample.mesh.input_vertices; });
+    if (v == t.v.end()) continue;
+    const Point before = read.points[*v];
+    read.points[*v].x = std::nextafter(before.x, 1e9);
+    const auto defects = checkMesh(read, &sample.pslg, {.delaunay = false});
+    ASSERT_FALSE(defects.empty());
+    EXPECT_TRUE(kindsIn(defects).contains(DefectKind::MissingVertex));
+    return;
+  }
+  FAIL() << "no input vertex has a triangle";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CheckByPlaceOf, ::testing::ValuesIn([] {
+                           // Points alone leave bad triangles along their hull, rays of one vertex a few too many.
+                           std::vector<NamedPslg> chosen = assortedPslgs();
+                           std::erase_if(chosen, [](const NamedPslg& n) {
+                             return n.name == "RandomPoints" || n.name == "FanOfAngles";
+                           });
+                           return chosen;
+                         }()),
+                         [](const auto& param_info) { return nameOf(param_info.param); });
+
+TEST(CheckByPlace, SegmentCutShortIsFound) {
+  const Sample sample = sampleOf(squareWithHole());
+  TriMesh read = asRead(sample.mesh, 0.0);
+  const VertexId v = firstOnSegment(sample.mesh);
+  read.points[v] = read.points[v] + Point{0.01, 0.01};
+  EXPECT_TRUE(kindsIn(checkMesh(read, &sample.pslg, {.delaunay = false})).contains(DefectKind::MissingSegment));
+}
+
+TEST(CheckByPlace, MeshOfAnotherInputIsFound) {
+  const Pslg pslg = squareWithHole();
+  const TriMesh read = asRead(constrainedDelaunay(twoRegions()), 0.0);
+  const auto kinds = kindsIn(checkMesh(read, &pslg, {}));
+  EXPECT_TRUE(kinds.contains(DefectKind::MissingVertex));
+  EXPECT_TRUE(kinds.contains(DefectKind::MissingSegment));
+  EXPECT_TRUE(kinds.contains(DefectKind::WrongArea));
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,410 @@
+#include "core/refine/refine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "core/delaunay.hpp"
+#include "core/metric.hpp"
+#include "core/quality.hpp"
+#include "tests/support/excused_twin.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr Algorithm kAlgorithms[] = {Algorithm::Circumcenter, Algorithm::Offcenter, Algorithm::Optimal,
+                                     Algorithm::Relocate};
+
+using Places = std::set<std::pair<double, double>>;
+
+// All that holds of every refined mesh, whatever was asked.
+void expectRefined(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RefineStats& stats) {
+  // A valid mesh of the input, with the regions that it had.
+  expectValidMesh(mesh, pslg);
+  EXPECT_EQ(stats.steiner_points, mesh.points.size() - pslg.points.size());
+  const auto before = areasByRegion(constrainedDelaunay(pslg)), after = areasByRegion(mesh);
+  ASSERT_EQ(after.size(), before.size());
+  for (const auto& [region, area] : before) EXPECT_NEAR(after.at(region), area, 1e-9 * area) << "region " << region;
+
+  // Every triangle that falls short is excused or listed; what is listed falls short.
+  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
+
+  // The checker finds the same, but for those within rounding of the bound.
+  if (!std::isinf(options.size_max)) return;
+  constexpr double kHair = 1e-5;
+  Places listed;
+  for (const Shortfall& s : stats.unresolved) listed.insert({s.place.x, s.place.y});
+  const auto defects =
+      checkMesh(mesh, &pslg, {.min_angle_deg = options.min_angle_deg, .max_angle_deg = options.max_angle_deg});
+  std::size_t clear = 0;
+  for (const Shortfall& s : stats.unresolved)
+    clear += s.min_angle_deg < options.min_angle_deg - kHair || s.max_angle_deg > options.max_angle_deg + kHair;
+  EXPECT_GE(defects.size(), clear);
+  for (const MeshDefect& d : defects) {
+    EXPECT_EQ(d.kind, DefectKind::AngleBelowBound);
+    EXPECT_TRUE(listed.contains({d.place.x, d.place.y})) << d.place.x << ", " << d.place.y;
+  }
+}
+
+struct Refined {
+  TriMesh mesh;
+  RefineStats stats;
+};
+
+Refined refined(const Pslg& pslg, const RefineOptions& options, const RunControl& control = {}) {
+  Refined result{constrainedDelaunay(pslg), {}};
+  result.stats = refine(result.mesh, pslg, options, control);
+  return result;
+}
+
+std::string describe(const RefineOptions& o) {
+  const char* names[] = {"circumcenter", "offcenter", "optimal", "relocate"};
+  std::ostringstream text;
+  text << names[static_cast<unsigned>(o.algorithm)] << ", " << o.min_angle_deg << " to " << o.max_angle_deg
+       << " degrees, size " << o.size_max;
+  return text.str();
+}
+
+class RefineOf : public ::testing::TestWithParam<NamedPslg> {
+ protected:
+  // Points alone have a rim that is no segment, and that no point may split.
+  bool hasSegments() const { return !GetParam().pslg.segments.empty(); }
+  // Rays 2 degrees apart and of uneven lengths: at small bounds one triangle goes from the tip of one to that of the
+  // next, further than an angle excuses, and no point mends it.
+  std::size_t mostUnresolved(double angle) const { return GetParam().name == "FanOfAngles" && angle <= 20.0 ? 1 : 0; }
+
+  RefineStats expectRefinedWith(RefineOptions options) {
+    SCOPED_TRACE(describe(options));
+    // A run that does not end by itself is to fail, not to hang.
+    options.max_vertices = 20'000;
+    const Refined result = refined(GetParam().pslg, options);
+    expectRefined(result.mesh, GetParam().pslg, options, result.stats);
+    EXPECT_FALSE(result.stats.budget_reached);
+    // The input's own spacing, or the size asked for, bounds edges from below.
+    constexpr double kShare = 1e-3;
+    EXPECT_GE(measureQuality(result.mesh, 0.0).shortest_edge,
+              kShare * std::min(smallestSpacing(GetParam().pslg), options.size_max));
+    return result.stats;
+  }
+};
+
+TEST_P(RefineOf, AnyAlgorithmAndAngle) {
+  for (const Algorithm algorithm : kAlgorithms) {
+    for (const double angle : {0.0, 10.0, 20.0, 30.0, 33.0}) {
+      const RefineStats stats = expectRefinedWith({.min_angle_deg = angle, .algorithm = algorithm});
+      const bool in_reach = angle <= 20.0 || (angle <= 33.0 && algorithm >= Algorithm::Optimal);
+      if (in_reach && hasSegments()) {
+        EXPECT_LE(stats.unresolved.size(), mostUnresolved(angle))
+            << angle << " degrees, algorithm " << static_cast<unsigned>(algorithm);
+      }
+      EXPECT_TRUE(angle > 0.0 || stats.steiner_points == 0);
+      if (algorithm == Algorithm::Relocate) continue;
+      // Without relocation every vertex is accounted for.
+      const auto inserted = std::accumulate(stats.by_type.begin(), stats.by_type.end(), std::uint64_t{0});
+      EXPECT_EQ(stats.steiner_points, inserted + stats.segment_splits - stats.removals);
+      EXPECT_EQ(stats.relocations, 0u);
+      EXPECT_EQ(stats.merges, 0u);
+      if (algorithm == Algorithm::Circumcenter) {
+        EXPECT_EQ(inserted, stats.by_type[3]);
+      }
+      if (algorithm == Algorithm::Offcenter) {
+        EXPECT_EQ(inserted, stats.by_type[0] + stats.by_type[3]);
+      }
+    }
+  }
+}
+
+TEST_P(RefineOf, AnglesUpToWhereNoneHasReached) {
+  for (const double angle : {38.0, 40.0, 42.0, 45.0}) {
+    const RefineStats stats = expectRefinedWith({.min_angle_deg = angle});
+    if (angle > 42.0 || !hasSegments()) continue;
+    EXPECT_EQ(stats.unresolved.size(), 0u) << angle << " degrees";
+  }
+}
+
+TEST_P(RefineOf, LargestAngles) {
+  for (const auto& [low, high] : {std::pair(20.0, 130.0), {30.0, 100.0}, {0.0, 120.0}, {38.0, 90.0}})
+    expectRefinedWith({.min_angle_deg = low, .max_angle_deg = high});
+}
+
+TEST_P(RefineOf, Sizes) {
+  for (const Algorithm algorithm : kAlgorithms)
+    expectRefinedWith({.min_angle_deg = 25.0, .size_max = 0.15, .algorithm = algorithm});
+  expectRefinedWith({.min_angle_deg = 0.0, .size_max = 0.2});
+}
+
+TEST_P(RefineOf, IsTheSameTwice) {
+  for (const Algorithm algorithm : kAlgorithms) {
+    const RefineOptions options{.min_angle_deg = 30.0, .algorithm = algorithm};
+    const Refined first = refined(GetParam().pslg, options), second = refined(GetParam().pslg, options);
+    EXPECT_EQ(digestOf(first.mesh), digestOf(second.mesh));
+    EXPECT_EQ(first.mesh.regions, second.mesh.regions);
+  }
+}
+
+// Powers of two scale without rounding, so nothing may change at all.
+TEST_P(RefineOf, ScalesExactly) {
+  const RefineOptions options{.min_angle_deg = 33.0};
+  const Refined once = refined(GetParam().pslg, options);
+  for (const double factor : {0x1p-20, 0x1p20}) {
+    const Refined other = refined(scaled(GetParam().pslg, factor), options);
+    ASSERT_EQ(other.mesh.points.size(), once.mesh.points.size()) << factor;
+    for (std::size_t v = 0; v < once.mesh.points.size(); ++v)
+      ASSERT_EQ(other.mesh.points[v], factor * once.mesh.points[v]) << factor;
+  }
+}
+
+TEST_P(RefineOf, BudgetGivesAValidMesh) {
+  const Pslg& pslg = GetParam().pslg;
+  const std::uint64_t needed = refined(pslg, {.min_angle_deg = 30.0}).mesh.points.size();
+  for (const std::uint64_t most :
+       {std::uint64_t{1}, std::uint64_t{pslg.points.size()}, (pslg.points.size() + needed) / 2}) {
+    for (const Algorithm algorithm : kAlgorithms) {
+      const RefineOptions without_budget{.min_angle_deg = 30.0, .algorithm = algorithm};
+      RefineOptions options = without_budget;
+      options.max_vertices = most;
+      SCOPED_TRACE(describe(options));
+      const Refined result = refined(pslg, options);
+      expectRefined(result.mesh, pslg, options, result.stats);
+      EXPECT_LE(result.mesh.points.size(), std::max<std::uint64_t>(most, pslg.points.size()));
+      // Nothing but the budget makes another mesh.
+      if (!result.stats.budget_reached) {
+        EXPECT_EQ(digestOf(result.mesh), digestOf(refined(pslg, without_budget).mesh));
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RefineOf, ::testing::ValuesIn(assortedPslgs()),
+                         [](const auto& param_info) { return nameOf(param_info.param); });
+
+// Bounds that cannot be held end at the floor that the input's spacing sets, not at that of double precision.
+TEST(Refine, HopelessBoundsEnd) {
+  const auto expectEnd = [](const Pslg& pslg, RefineOptions options) {
+    options.max_vertices = 20'000;
+    const Refined result = refined(pslg, options);
+    SCOPED_TRACE(describe(options));
+    expectValidMesh(result.mesh, pslg);
+    EXPECT_FALSE(result.stats.budget_reached);
+    EXPECT_GE(measureQuality(result.mesh, 0.0).shortest_edge, 1e-3 * smallestSpacing(pslg));
+  };
+  expectEnd(combPolygon(11), {.min_angle_deg = 40.0, .algorithm = Algorithm::Circumcenter});
+  expectEnd(starPolygon(14, 40), {.min_angle_deg = 41.0, .max_angle_deg = 75.0, .algorithm = Algorithm::Offcenter});
+  expectEnd(squareWithHole(), {.min_angle_deg = 30.0, .max_angle_deg = 70.0, .algorithm = Algorithm::Optimal});
+  for (const double step_deg : {1.0, 5.0, 29.0})
+    for (int rays = 2; rays < 5; ++rays)
+      for (const double angle : {25.0, 33.0, 38.0, 44.0})
+        expectEnd(fanOfAngles(rays, step_deg), {.min_angle_deg = angle});
+}
+
+TEST(Refine, BudgetJustEnoughIsNotReached) {
+  const Pslg pslg = fractalCoast(3, 2, 2);
+  const RefineOptions options{.min_angle_deg = 30.0, .algorithm = Algorithm::Optimal};
+  const std::uint64_t needed = refined(pslg, options).mesh.points.size();
+  RefineOptions enough = options, short_by_one = options;
+  enough.max_vertices = needed + 1;
+  short_by_one.max_vertices = needed - 1;
+  EXPECT_FALSE(refined(pslg, enough).stats.budget_reached);
+  EXPECT_TRUE(refined(pslg, short_by_one).stats.budget_reached);
+}
+
+TEST(Refine, LongestEdgeHoldsTheSize) {
+  for (const Pslg& pslg : {squarePslg(), squareWithHole(), twoRegions(), narrowChannel(0.05)}) {
+    for (const double size : {0.5, 0.1, 0.04}) {
+      const Refined result = refined(pslg, {.min_angle_deg = 28.0, .size_max = size});
+      EXPECT_TRUE(result.stats.unresolved.empty());
+      const MeshQuality quality = measureQuality(result.mesh, 28.0);
+      EXPECT_LE(quality.longest_edge, size);
+      // And not with far more than it takes: an equilateral triangle of that size has 0.43 size².
+      EXPECT_LT(static_cast<double>(quality.triangles), 40.0 + 8.0 * quality.area / (0.43 * size * size));
+    }
+  }
+}
+
+// A canal: nothing tells how narrow it is but the opposite shore.
+TEST(Refine, ChannelsOfAnyWidth) {
+  for (const double width : {0.03, 0.01, 0.001, 0.0001}) {
+    for (const Algorithm algorithm : {Algorithm::Optimal, Algorithm::Relocate}) {
+      for (const double angle : {20.0, 30.0}) {
+        const RefineOptions options{.min_angle_deg = angle, .algorithm = algorithm};
+        SCOPED_TRACE(::testing::Message() << describe(options) << ", width " << width);
+        const Pslg pslg = narrowChannel(width);
+        const Refined result = refined(pslg, options);
+        expectRefined(result.mesh, pslg, options, result.stats);
+        EXPECT_EQ(result.stats.unresolved.size(), 0u);
+      }
+    }
+  }
+}
+
+// Neither huge nor tiny coordinates matter, nor how the input lies. A mesh depends on every rounding, so one count says
+// little; several together hardly change. A sea with an inlet that narrows to an angle, or as much water between two
+// features: the rays are of uneven lengths, and end near others. Only what fills the angle is excused, so all the rest
+// has to be good.
+Pslg narrowInlet(double angle_deg, bool water_beside) {
+  const double along = std::cos(toRadians(angle_deg)), across = std::sin(toRadians(angle_deg));
+  Pslg pslg;
+  pslg.points = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}, {-2, 0}, {-2 + 2.27, 0}, {-2 + 2.38 * along, 2.38 * across}};
+  pslg.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {4, 6}};
+  if (!water_beside) {
+    // Land behind the rays, with a tip of its own at the end of each.
+    pslg.points.insert(pslg.points.end(), {{-2.2, 1.1}, {-2.2, -0.9}});
+    pslg.segments.insert(pslg.segments.end(), {{6, 7}, {7, 8}, {8, 5}});
+    pslg.holes = {{-2.15, 0.1}};
+  }
+  return pslg;
+}
+
+TEST(Refine, InletsOfAnyAngle) {
+  for (const bool water_beside : {false, true}) {
+    for (const double angle : {0.03, 0.12, 0.4, 1.0, 2.0, 4.0, 7.0, 12.0, 20.0}) {
+      for (const double min_angle : {25.0, 33.0}) {
+        const Pslg pslg = narrowInlet(angle, water_beside);
+        const RefineOptions options{.min_angle_deg = min_angle};
+        SCOPED_TRACE("an angle of " + std::to_string(angle) + (water_beside ? ", water beside, " : ", ") +
+                     std::to_string(min_angle));
+        const auto [mesh, stats] = refined(pslg, options);
+        expectRefined(mesh, pslg, options, stats);
+        // Where water lies on both sides of a ray no good triangles lead from its length to the width of a tiny angle:
+        // of those round a point of the ray each can be a little wider than the one before, and half a turn has room
+        // for five. Wherever the ray's pieces change from long to short some fall short, and here that is beyond what
+        // the angle excuses.
+        const bool has_limits = water_beside && angle < 1.0;
+        EXPECT_LE(stats.unresolved.size(), has_limits ? mesh.triangles.size() / 12 : 0);
+        EXPECT_LT(mesh.triangles.size(), 2500u);
+      }
+    }
+  }
+}
+
+TEST(Refine, ScaleMoveAndTurnHardlyChangeTheCount) {
+  for (const Algorithm algorithm : {Algorithm::Optimal, Algorithm::Relocate}) {
+    const RefineOptions options{.min_angle_deg = 33.0, .algorithm = algorithm};
+    SCOPED_TRACE(describe(options));
+    std::map<std::string, double> counts;
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      for (const Pslg& pslg : {fractalCoast(seed, 3, 4), randomPointsInBox(seed, 400)}) {
+        const double far = 1e7 * smallestSpacing(pslg);
+        const std::vector<NamedPslg> variants{{"as it is", pslg},
+                                              {"scaled by 1e-6", scaled(pslg, 1e-6)},
+                                              {"scaled by 1e6", scaled(pslg, 1e6)},
+                                              {"moved", moved(pslg, {far, -0.7 * far})},
+                                              {"turned", turned(pslg, 33.0)}};
+        for (const auto& [name, variant] : variants) {
+          SCOPED_TRACE(name);
+          const Refined result = refined(variant, options);
+          expectValidMesh(result.mesh, variant);
+          counts[name] += static_cast<double>(result.stats.steiner_points);
+        }
+      }
+    }
+    const double count = counts["as it is"];
+    for (const auto& [name, other] : counts) EXPECT_NEAR(other, count, 0.03 * count) << name;
+  }
+}
+
+TEST(Refine, OptimalNeedsFewerPointsThanCircumcenters) {
+  const Pslg pslg = fractalCoast(5, 3, 3);
+  std::vector<std::uint64_t> counts;
+  for (const Algorithm algorithm : kAlgorithms)
+    counts.push_back(refined(pslg, {.min_angle_deg = 30.0, .algorithm = algorithm}).stats.steiner_points);
+  EXPECT_LT(counts[2], counts[0]);
+  EXPECT_LT(counts[3], counts[2]);
+}
+
+TEST(Refine, CancelledStopsIt) {
+  const Pslg pslg = fractalCoast(4, 4, 4);
+  for (const Algorithm algorithm : kAlgorithms) {
+    int asked = 0;
+    RunControl control;
+    control.cancelled = [&] { return ++asked == 2; };
+    EXPECT_THROW(refined(pslg, {.min_angle_deg = 33.0, .algorithm = algorithm}, control), Cancelled);
+    EXPECT_EQ(asked, 2) << "nothing runs on after the answer";
+  }
+}
+
+TEST(Refine, ControlThatNeverCancelsChangesNothing) {
+  const Pslg pslg = fractalCoast(4, 4, 4);
+  std::vector<double> shares;
+  RunControl control;
+  control.cancelled = [] { return false; };
+  control.progress = [&](double share) { shares.push_back(share); };
+  const Refined watched = refined(pslg, {}, control), alone = refined(pslg, {});
+  EXPECT_EQ(digestOf(watched.mesh), digestOf(alone.mesh));
+  EXPECT_GT(shares.size(), 1u);
+  for (const double share : shares) {
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0);
+  }
+}
+
+TEST(RefineStats, AddUp) {
+  RefineStats a, b;
+  a.steiner_points = 1;
+  b.steiner_points = 10;
+  a.by_type = {1, 2, 3, 4};
+  b.by_type = {10, 20, 30, 40};
+  a.segment_splits = 5;
+  b.segment_splits = 50;
+  a.relocations = 6;
+  b.relocations = 60;
+  a.removals = 7;
+  b.removals = 70;
+  a.merges = 8;
+  b.merges = 80;
+  b.budget_reached = true;
+  a.unresolved = {{{1, 2}, 3, 4}};
+  b.unresolved = {{{5, 6}, 7, 8}, {{9, 10}, 11, 12}};
+  a.add(b);
+  EXPECT_EQ(a.steiner_points, 11u);
+  EXPECT_EQ(a.by_type, (std::array<std::uint64_t, 4>{11, 22, 33, 44}));
+  EXPECT_EQ(a.segment_splits, 55u);
+  EXPECT_EQ(a.relocations, 66u);
+  EXPECT_EQ(a.removals, 77u);
+  EXPECT_EQ(a.merges, 88u);
+  EXPECT_TRUE(a.budget_reached);
+  ASSERT_EQ(a.unresolved.size(), 3u);
+  EXPECT_EQ(a.unresolved[2].place, (Point{9, 10}));
+}
+
+// The ends of the range of coordinates: a mesh of the same shape, as good.
+TEST(Refine, AtTheEndsOfTheRangeOfCoordinates) {
+  for (const double factor : {1e-68, 1e-40, 1e40, 0.9e70}) {
+    SCOPED_TRACE(factor);
+    const Pslg pslg = scaled(squareWithHole(), factor);
+    const RefineOptions options{.min_angle_deg = 33.0, .max_angle_deg = 110.0};
+    TriMesh mesh = constrainedDelaunay(pslg);
+    const RefineStats stats = refine(mesh, pslg, options);
+    EXPECT_TRUE(stats.unresolved.empty());
+    expectRefined(mesh, pslg, options, stats);
+  }
+}
+
+TEST(Refine, OptionsBeyondTheirRangesAreMisuse) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<RefineOptions> wrong;
+  for (const double angle : {-1.0, 45.5, 50.0, kNan, kInfinity}) wrong.push_back({.min_angle_deg = angle});
+  for (const double angle : {59.0, 181.0, kNan}) wrong.push_back({.max_angle_deg = angle});
+  for (const double size : {0.0, -1.0, kNan, -kInfinity}) wrong.push_back({.size_max = size});
+  for (const double scale : {0.0, -1.0, kNan, kInfinity}) wrong.push_back({.size_scale = scale});
+  const Pslg pslg = squarePslg();
+  for (const RefineOptions& options : wrong) {
+    TriMesh mesh = constrainedDelaunay(pslg);
+    EXPECT_THROW(refine(mesh, pslg, options), std::invalid_argument);
+    EXPECT_THROW(shrink(mesh, pslg, options), std::invalid_argument);
+    EXPECT_EQ(mesh.points, pslg.points) << "the mesh stays as it was";
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh

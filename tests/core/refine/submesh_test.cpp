@@ -1,0 +1,180 @@
+#include "core/refine/submesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "core/delaunay.hpp"
+#include "core/refine/refine.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+class SubmeshOf : public ::testing::TestWithParam<NamedPslg> {
+ protected:
+  SubmeshOf()
+      : mesh_([] {
+          TriMesh mesh = constrainedDelaunay(GetParam().pslg);
+          refine(mesh, GetParam().pslg, {.min_angle_deg = 30.0, .algorithm = Algorithm::Optimal});
+          return EditMesh(std::move(mesh));
+        }()) {
+    // Something to recognise.
+    for (VertexId v = 0; v < mesh_.vertexSlots(); ++v) notes_.spacing.push_back(1.0 + v);
+    for (VertexId v = 0; v < mesh_.inputVertices(); ++v) {
+      notes_.shell_unit.push_back(0.5 + v);
+      notes_.small_angle.push_back(v % 3 == 0);
+    }
+  }
+
+  // Some triangles all over the mesh.
+  std::vector<TriId> centres() const {
+    std::vector<TriId> some;
+    const TriId step = 1 + mesh_.triangleSlots() / 12;
+    for (TriId t = 0; t < mesh_.triangleSlots(); t += step)
+      if (mesh_.isLive(t)) some.push_back(t);
+    return some;
+  }
+
+  EditMesh mesh_;
+  VertexNotes notes_;
+};
+
+TEST_P(SubmeshOf, IsAMeshOfItsOwn) {
+  for (const TriId centre : centres()) {
+    std::size_t before = 0;
+    for (unsigned rings = 0; rings < 4; ++rings) {
+      const Submesh patch = extractAround(mesh_, notes_, {&centre, 1}, rings);
+      ASSERT_GE(patch.triangles.size(), before);
+      before = patch.triangles.size();
+      EXPECT_EQ(std::set<TriId>(patch.triangles.begin(), patch.triangles.end()).size(), patch.triangles.size());
+      expectValidMesh(patch.mesh);
+      ASSERT_EQ(patch.mesh.triangles.size(), patch.triangles.size());
+      ASSERT_EQ(patch.mesh.points.size(), patch.parent.size());
+      ASSERT_EQ(patch.notes.spacing.size(), patch.parent.size());
+      for (VertexId v = 0; v < patch.parent.size(); ++v) {
+        const VertexId own = patch.parent[v];
+        EXPECT_EQ(patch.mesh.points[v], mesh_.point(own));
+        EXPECT_EQ(patch.notes.spacing[v], notes_.spacing[own]);
+        if (v >= patch.mesh.input_vertices) continue;
+        const bool input = own < mesh_.inputVertices();
+        EXPECT_EQ(patch.notes.shell_unit[v], input ? notes_.shell_unit[own] : 0.0);
+        EXPECT_EQ(patch.notes.small_angle[v], input && notes_.small_angle[own]);
+      }
+      for (TriId t = 0; t < patch.triangles.size(); ++t)
+        for (unsigned i = 0; i < 3; ++i)
+          EXPECT_EQ(patch.parent[patch.mesh.triangles[t].v[i]], mesh_.triangle(patch.triangles[t]).v[i]);
+    }
+  }
+}
+
+TEST_P(SubmeshOf, RimIsFrozenUnlessItIsTheDomains) {
+  for (const TriId centre : centres()) {
+    const Submesh patch = extractAround(mesh_, notes_, {&centre, 1}, 2);
+    const std::set<TriId> inside(patch.triangles.begin(), patch.triangles.end());
+    std::set<VertexId> fixed;
+    std::size_t frozen = 0;
+    for (TriId t = 0; t < patch.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(patch.triangles[t], i);
+        const VertexId corner = mesh_.triangle(patch.triangles[t]).v[i];
+        if (mesh_.kind(corner) == VertexKind::Input) fixed.insert(corner);
+        const bool leaves = mesh_.twin(e) != kNone && !inside.contains(triOf(mesh_.twin(e)));
+        frozen += leaves;
+        EXPECT_EQ(patch.mesh.triangles[t].seg[i] == kFrozen, leaves);
+        EXPECT_EQ(patch.mesh.triangles[t].adj[i] == kNone, leaves || mesh_.twin(e) == kNone);
+        if (!leaves) {
+          EXPECT_EQ(patch.mesh.triangles[t].seg[i], mesh_.segment(e));
+          continue;
+        }
+        fixed.insert({mesh_.origin(e), mesh_.target(e)});
+        EXPECT_EQ(std::ranges::count(patch.frozen, e), 1);
+      }
+    }
+    EXPECT_EQ(patch.frozen.size(), frozen);
+    EXPECT_EQ(std::set<VertexId>(patch.parent.begin(), patch.parent.begin() + patch.mesh.input_vertices), fixed);
+  }
+}
+
+TEST_P(SubmeshOf, PutBackAsItWasChangesNothing) {
+  for (const TriId centre : centres()) {
+    EditMesh mesh = mesh_;
+    const Submesh patch = extractAround(mesh, notes_, {&centre, 1}, 2);
+    std::vector<VertexId> added;
+    std::vector<TriId> touched;
+    putBack(mesh, patch, patch.mesh, added, touched);
+    EXPECT_EQ(added.size(), patch.parent.size() - patch.mesh.input_vertices);
+    for (std::size_t i = 0; i < added.size(); ++i) {
+      const VertexId before = patch.parent[patch.mesh.input_vertices + i];
+      EXPECT_EQ(mesh.point(added[i]), mesh_.point(before));
+      EXPECT_EQ(mesh.kind(added[i]), mesh_.kind(before));
+    }
+    const TriMesh released = releasedCopy(mesh);
+    expectValidMesh(released, GetParam().pslg);
+    EXPECT_EQ(trianglesByPlace(released), trianglesByPlace(releasedCopy(mesh_)));
+  }
+}
+
+TEST_P(SubmeshOf, ChangedPatchFits) {
+  std::mt19937_64 random(3);
+  for (const TriId centre : centres()) {
+    EditMesh mesh = mesh_;
+    const Submesh patch = extractAround(mesh, notes_, {&centre, 1}, 2);
+    // Points put into the patch, free vertices of it taken out.
+    EditMesh local{TriMesh(patch.mesh)};
+    std::vector<TriId> touched;
+    Patch cavity;
+    for (TriId t = 0; t < patch.triangles.size(); t += 3) {
+      if (!local.isLive(t)) continue;
+      const double u = uniform(random, 0.2, 0.4), v = uniform(random, 0.2, 0.4);
+      const Point x = (1.0 - u - v) * local.corner(t, 0) + u * local.corner(t, 1) + v * local.corner(t, 2);
+      if (local.findCavity(x, t, cavity)) local.insertInCavity(x, cavity, touched);
+    }
+    for (VertexId v = local.inputVertices(); v < patch.parent.size(); ++v) {
+      if (!local.isLiveVertex(v) || local.kind(v) != VertexKind::Free || !local.gatherPatch({&v, 1}, cavity)) continue;
+      std::vector<VertexId> polygon;
+      for (const RimEdge& r : cavity.rim) polygon.push_back(r.a);
+      std::vector<Corners> fresh;
+      if (triangulatePolygon(local, polygon, fresh)) local.replace(cavity, fresh, {&v, 1}, touched);
+    }
+    const TriMesh solved = local.release();
+    std::vector<VertexId> added;
+    touched.clear();
+    putBack(mesh, patch, solved, added, touched);
+    EXPECT_EQ(added.size(), solved.points.size() - patch.mesh.input_vertices);
+    mesh.restoreDelaunay(touched);
+    expectValidMesh(releasedCopy(mesh), GetParam().pslg);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SubmeshOf, ::testing::ValuesIn(assortedPslgs()),
+                         [](const auto& param_info) { return nameOf(param_info.param); });
+
+// Where no vertex is pinched, a ring is what shares a vertex.
+TEST(Submesh, RingsGrowByVertices) {
+  const Pslg pslg = fractalCoast(2, 2, 3);
+  const EditMesh mesh(constrainedDelaunay(pslg));
+  VertexNotes notes;
+  notes.spacing.assign(mesh.vertexSlots(), 1.0);
+  notes.shell_unit.assign(mesh.inputVertices(), 0.0);
+  notes.small_angle.assign(mesh.inputVertices(), false);
+  for (TriId centre = 0; centre < mesh.triangleSlots(); centre += 17) {
+    std::set<TriId> naive{centre};
+    for (unsigned rings = 0; rings < 4; ++rings) {
+      const Submesh patch = extractAround(mesh, notes, {&centre, 1}, rings);
+      EXPECT_EQ(std::set<TriId>(patch.triangles.begin(), patch.triangles.end()), naive) << rings << " rings";
+      std::set<VertexId> corners;
+      for (const TriId t : naive) corners.insert(mesh.triangle(t).v.begin(), mesh.triangle(t).v.end());
+      for (TriId t = 0; t < mesh.triangleSlots(); ++t)
+        if (std::ranges::any_of(mesh.triangle(t).v, [&](VertexId v) { return corners.contains(v); })) naive.insert(t);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,282 @@
+#include "core/size/size_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "core/metric.hpp"
+#include "core/size/size_grading.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+// A function that grows no faster than `slope`, and its bounds from that.
+class FunctionSource final : public SizeSource {
+ public:
+  FunctionSource(double least, double slope, std::function<double(const Point&)> f)
+      : least_(least), slope_(slope), f_(std::move(f)) {}
+
+  void sample(std::span<const Point> places, std::span<double> sizes) const override {
+    std::ranges::transform(places, sizes.begin(), f_);
+  }
+  double least() const { return least_; }
+  void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const double at = f_(boxes[i].centre), reach = slope_ * std::sqrt(2.0) * boxes[i].half;
+      ranges[i] = {std::max(least_, at - reach), at + reach};
+    }
+  }
+
+ private:
+  double least_, slope_;
+  std::function<double(const Point&)> f_;
+};
+
+SizeTree treeOf(const FunctionSource& source, double grade) {
+  return {{-1.0, 0.0}, {1.0, 1.0}, source, {.grade = grade}};
+}
+
+Point randomPlace(std::mt19937_64& random) { return {uniform(random, -1.0, 1.0), uniform(random, 0.0, 1.0)}; }
+
+TEST(SizeTree, AConstantTakesNoRoom) {
+  const SizeTree tree = treeOf(FunctionSource(0.01, 0.0, [](const Point&) { return 0.01; }), 0.2);
+  EXPECT_EQ(tree.leaves(), 1u);
+  EXPECT_NEAR(tree.at({0.3, 0.4}), 0.01, 1e-8);
+  EXPECT_NEAR(tree.least(), 0.01, 1e-8);
+  EXPECT_NEAR(tree.most(), 0.01, 1e-8);
+}
+
+TEST(SizeTree, LinearSizesComeBack) {
+  const auto f = [](const Point& p) { return 0.02 + 0.1 * (p.x + 1.0) + 0.05 * p.y; };
+  const SizeTree tree = treeOf(FunctionSource(0.02, 0.12, f), 0.2);
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 10000; ++i) {
+    const Point p = randomPlace(random);
+    EXPECT_NEAR(tree.at(p), f(p), 1e-6);
+  }
+}
+
+TEST(SizeTree, MemoryFollowsTheMesh) {
+  const auto leaves = [](double size) {
+    return treeOf(FunctionSource(size, 0.2, [=](const Point& p) { return size + 0.2 * std::hypot(p.x, p.y); }), 0.3)
+        .leaves();
+  };
+  // Round one fine place the number of triangles grows with the logarithm of its size.
+  const std::size_t some = leaves(1e-3), more = leaves(1e-6);
+  EXPECT_LT(more, 3 * some);
+  EXPECT_LT(some, 5000u);
+}
+
+TEST(SizeTree, BeyondItsBoxTheRimCounts) {
+  const SizeTree tree = treeOf(FunctionSource(0.02, 0.1, [](const Point& p) { return 0.13 + 0.1 * p.x; }), 0.2);
+  EXPECT_NEAR(tree.at({-50.0, 0.5}), tree.at({-1.01, 0.5}), 1e-6);
+  EXPECT_NEAR(tree.at({50.0, 0.5}), tree.at({1.01, 0.5}), 1e-6);
+}
+
+TEST(SizeTree, WhereNothingIsWantedItIsAsLargeAsTheWhole) {
+  const double none = std::numeric_limits<double>::infinity();
+  const SizeTree tree = treeOf(FunctionSource(none, 0.0, [=](const Point&) { return none; }), 0.2);
+  EXPECT_GE(tree.at({0.0, 0.5}), 2.0);
+  EXPECT_TRUE(std::isfinite(tree.most()));
+}
+
+// Of lines and areas as soon as it is sure; of a place that asks for little not, however small it is.
+TEST(SizeTree, StopsWhereMoreIsAskedForThanAllowed) {
+  const auto cone = [](const Point& p) { return 1e-7 + 0.3 * std::hypot(p.x - 0.1, p.y - 0.4); };
+  const auto line = [](const Point& p) { return 1e-6 + 0.3 * std::abs(p.y - 0.4); };
+  const SizeTreeOptions options{.grade = 0.3, .most_vertices = 20'000.0};
+  const SizeTree round_one({-1.0, 0.0}, {1.0, 1.0}, FunctionSource(1e-7, 0.3, cone), options);
+  EXPECT_TRUE(round_one.isComplete());
+  EXPECT_LT(round_one.demand().vertices, 3'000.0);
+  const SizeTree along({-1.0, 0.0}, {1.0, 1.0}, FunctionSource(1e-6, 0.3, line), options);
+  EXPECT_FALSE(along.isComplete());
+  EXPECT_LT(along.cells(), 100'000u);
+  // Two sides of a line of length 2.02.
+  const double needed = 2.0 / std::sqrt(3.0) * 2.02 * 2.0 / (0.3 * 1e-6);
+  EXPECT_NEAR(std::log(along.demand().vertices / needed), 0.0, std::log(3.0));
+  EXPECT_NEAR(along.demand().most_in.centre.y, 0.4, along.demand().most_in.half + 1e-9);
+  const SizeTree flat({-1.0, 0.0}, {1.0, 1.0}, FunctionSource(1e-3, 0.0, [](const Point&) { return 1e-3; }), options);
+  EXPECT_FALSE(flat.isComplete());
+  EXPECT_NEAR(flat.demand().vertices, 2.0 / std::sqrt(3.0) * 2.02 * 2.02 / 1e-6, 1.0);
+}
+
+TEST(SizeTree, SaysWhereItIsTooSmall) {
+  const FunctionSource source(1e-4, 1.0, [](const Point& p) { return 1e-4 + std::abs(p.y - 0.3); });
+  const SizeTree tree({-1.0, 0.0}, {1.0, 1.0}, source, {.grade = 1.0, .most_cells = 1000});
+  EXPECT_FALSE(tree.isComplete());
+  EXPECT_LE(tree.cells(), 4000u);
+}
+
+double distanceTo(const Point& x, const Point& a, const Point& b) {
+  const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
+  return distance(x, a + share * (b - a));
+}
+
+class GradedTree : public ::testing::TestWithParam<double> {};
+
+// From a ten-thousandth of the whole to all of it, within cells and across many; sources with steps, cones, waves, cells of all levels
+// side by side, and places that nobody asks for.
+TEST_P(GradedTree, NoTwoPlacesDifferMore) {
+  const double grade = GetParam();
+  const double none = std::numeric_limits<double>::infinity();
+  const std::vector<FunctionSource> sources = {
+      // A step at an oblique edge.
+      FunctionSource(0.01, 1e3, [](const Point& p) { return p.x > 0.3 && p.y > 0.4 && p.x + p.y < 0.9 ? 0.01 : 0.2; }),
+      FunctionSource(0.002, 1.0, [](const Point& p) { return 0.002 + std::hypot(p.x - 0.123, p.y - 0.456); }),
+      FunctionSource(0.03, 2.0,
+                     [](const Point& p) { return 0.06 + 0.03 * std::sin(30.0 * p.x) * std::sin(20.0 * p.y); }),
+      // As steep as allowed: where nothing is to spare, interpolation between vertices must not exceed it.
+      FunctionSource(0.01, grade,
+                     [=](const Point& p) {
+                       return 0.01 + grade * std::min(distanceTo(p, {-0.5, 0.1}, {0.3, 0.7}),
+                                                      distanceTo(p, {0.3, 0.7}, {0.9, 0.3}));
+                     }),
+      FunctionSource(1e-4, 3.0,
+                     [](const Point& p) {
+                       return 1e-4 +
+                              3.0 * std::min({std::hypot(p.x, p.y - 0.5), 0.01 + std::hypot(p.x - 0.6, p.y - 0.2),
+                                              0.1 + std::abs(p.x + 0.7)});
+                     }),
+      // Nothing wanted in the east.
+      FunctionSource(0.02, 1e3, [=](const Point& p) { return p.x < 0.2 ? 0.02 : none; }),
+  };
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const SizeTree tree = treeOf(sources[s], grade);
+    std::mt19937_64 random(2);
+    double most = 0.0;
+    for (int i = 0; i < 50000; ++i) {
+      const Point p = randomPlace(random);
+      const double angle = uniform(random, 0.0, 6.2832), length = std::exp(uniform(random, std::log(1e-4), 0.0));
+      const Point q = p + Point{length * std::cos(angle), length * std::sin(angle)};
+      most = std::max(most, std::abs(tree.at(q) - tree.at(p)) / length);
+    }
+    EXPECT_LE(most, grade) << "source " << s;
+    EXPECT_GE(most, 0.5 * grade) << "graded more than asked, source " << s;
+    EXPECT_GE(tree.least(), sources[s].least() * (1.0 - 1e-6)) << "source " << s;
+  }
+}
+
+TEST_P(GradedTree, GrowsAsFastAsItMay) {
+  const double grade = GetParam();
+  // From a fine place as from a point; elsewhere anything.
+  const FunctionSource source(0.002, 5.0,
+                              [](const Point& p) { return 0.002 + 5.0 * std::hypot(p.x - 0.1, p.y - 0.4); });
+  const SizeTree tree = treeOf(source, grade);
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 10000; ++i) {
+    const Point p = randomPlace(random);
+    const double most = 0.002 + grade * std::hypot(p.x - 0.1, p.y - 0.4);
+    EXPECT_LE(tree.at(p), 1.02 * most + 1e-3);
+    EXPECT_GE(tree.at(p), 0.92 * most);
+  }
+}
+
+// Against the largest function that is nowhere above the wanted one and nowhere too steep.
+TEST_P(GradedTree, GrowsFromManyPlacesAsFastAsItMay) {
+  const double grade = GetParam();
+  std::mt19937_64 random(4);
+  std::vector<std::pair<Point, double>> sources;
+  for (int i = 0; i < 12; ++i) sources.push_back({randomPlace(random), 0.004 * std::exp(uniform(random, -1.0, 2.0))});
+  const auto f = [&](double rate) {
+    return [=](const Point& p) {
+      double least = 0.4;
+      for (const auto& [place, size] : sources) least = std::min(least, size + rate * distance(p, place));
+      return least;
+    };
+  };
+  const SizeTree tree = treeOf(FunctionSource(0.001, 3.0, f(3.0)), grade);
+  double sum = 0.0;
+  constexpr int kPlaces = 10000;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Point p = randomPlace(random);
+    const double share = tree.at(p) / f(grade)(p);
+    EXPECT_GE(share, 0.75) << p.x << ", " << p.y;
+    sum += share / kPlaces;
+  }
+  EXPECT_GE(sum, 0.93);
+  EXPECT_LE(sum, 1.05);
+}
+
+// Squares that nobody asks for stay coarse, and take nothing away from those beside them.
+TEST(SizeTree, CoarseWhereNobodyAsks) {
+  class Half final : public SizeSource {
+   public:
+    explicit Half(bool masked) : masked_(masked) {}
+    void sample(std::span<const Point> places, std::span<double> sizes) const override {
+      std::ranges::transform(places, sizes.begin(), [](const Point& p) { return 0.004 + 0.1 * std::abs(p.y - 0.5); });
+    }
+    void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const double at = 0.004 + 0.1 * std::abs(boxes[i].centre.y - 0.5), reach = 0.1 * boxes[i].half;
+        ranges[i] = {std::max(0.004, at - reach), at + reach};
+      }
+    }
+    bool isWanted(const SizeBox& box) const override { return !masked_ || box.centre.x - box.half < 0.0; }
+
+   private:
+    bool masked_;
+  };
+  const SizeTreeOptions options{.grade = 0.2};
+  const SizeTree all({-1.0, 0.0}, {1.0, 1.0}, Half(false), options);
+  const SizeTree half({-1.0, 0.0}, {1.0, 1.0}, Half(true), options);
+  EXPECT_LT(half.leaves(), 6 * all.leaves() / 10);
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 10000; ++i) {
+    const Point p = randomPlace(random);
+    if (p.x >= 0.0) continue;
+    EXPECT_NEAR(half.at(p), all.at(p), 1e-6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Grades, GradedTree, ::testing::Values(0.05, 0.15, 0.3));
+
+// Triangles that tilting alone would take long to mend: a pit of one vertex on a field that is nearly as steep as allowed.
+TEST(SizeGrading, EndsWithNothingSteep) {
+  SizePlaces places;
+  std::vector<LeafVertices> leaves;
+  constexpr std::uint32_t kCells = 32;
+  for (std::uint32_t j = 0; j < kCells; ++j) {
+    for (std::uint32_t i = 0; i < kCells; ++i) {
+      LeafVertices leaf;
+      leaf.fill(kNone);
+      for (const std::uint32_t k : {0u, 2u, 4u, 6u, 8u}) leaf[k] = places.add({2 * i + k % 3, 2 * j + k / 3});
+      leaves.push_back(leaf);
+    }
+  }
+  const auto leavesRound = [&](std::uint32_t v) {
+    LeavesRound round;
+    for (std::uint32_t l = 0; l < leaves.size(); ++l)
+      if (std::ranges::find(leaves[l], v) != leaves[l].end()) round.leaves[round.count++] = l;
+    return round;
+  };
+  GradedSizes sizes;
+  for (std::uint32_t v = 0; v < places.size(); ++v) sizes.own.push_back(1.0 + 0.2 * (places[v].x + 0.5 * places[v].y));
+  sizes.own[places.find({21, 21})] = 0.5;
+  sizes.size = sizes.own;
+  sizes.source.assign(places.size(), kNone);
+  const double grade = 0.201 * std::sqrt(1.25);
+  const ItemLoop loop = inOrder;
+  SizeGrading(sizes, places, 1.0, leaves, leavesRound, grade, loop).flatten();
+  for (const LeafVertices& leaf : leaves) {
+    forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      // Along and across: the slope from two edges at right angles.
+      const auto place = [&](std::uint32_t v) { return Point{1.0 * places[v].x, 1.0 * places[v].y}; };
+      const Point ab = place(b) - place(a), ac = place(c) - place(a);
+      ASSERT_EQ(dot(ab, ac), 0.0);
+      EXPECT_LE(std::hypot((sizes.size[b] - sizes.size[a]) / std::sqrt(squaredLength(ab)),
+                           (sizes.size[c] - sizes.size[a]) / std::sqrt(squaredLength(ac))),
+                grade * (1.0 + 1e-12));
+    });
+  }
+  // Down the slope from the pit next to nothing is lost.
+  const std::uint32_t below = places.find({10, 4});
+  EXPECT_NEAR(sizes.size[below], sizes.own[below], 0.01 * sizes.own[below]);
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,292 @@
+#include "gis/clean/clean.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gis/clean/geodesic_area.hpp"
+#include "gis/error.hpp"
+#include "tests/support/cleaned.hpp"
+#include "tests/support/gis_shapes.hpp"
+#include "tests/support/pslg_check.hpp"
+
+namespace coastmesh {
+namespace {
+
+TEST(Clean, KeepsAValidPolygonAsItIs) {
+  const Ring outer = square(0, 0, 10), hole = square(2, 2, 3);
+  for (const bool reversed : {false, true}) {
+    Ring given = outer;
+    if (reversed) std::reverse(given.begin(), given.end());
+    const Cleaned cleaned = cleanInPlane({polygonFeature(7, given, {hole})});
+    EXPECT_EQ(cleaned.edits(), 0u);
+    Ring expected = given;
+    expected.insert(expected.end(), hole.begin(), hole.end());
+    EXPECT_EQ(cleaned.domain.pslg.points, expected);
+    EXPECT_EQ(cleaned.domain.input_points, expected);
+    EXPECT_EQ(cleaned.segments(), 8u);
+    EXPECT_EQ(cleaned.area(0), 91.0);
+  }
+}
+
+TEST(Clean, DropsRepeatedPoints) {
+  const Cleaned cleaned =
+      cleanInPlane({polygonFeature(1, {{0, 0}, {0, 0}, {4, 0}, {4, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}})});
+  EXPECT_EQ(cleaned.count(EditKind::RepeatedPoint), 4u);
+  EXPECT_EQ(cleaned.edits(), 4u);
+  EXPECT_EQ(cleaned.points(), 4u);
+  EXPECT_EQ(cleaned.area(0), 16.0);
+}
+
+TEST(Clean, SnapsPointsNearerThanTheSnapDistanceToTheFirst) {
+  const Ring ring{{0, 0}, {4, 0}, {4, 0.05}, {4, 4}, {0, 4}, {-0.05, 0.05}};
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, ring)}, {.snap_m = 0.1});
+  EXPECT_EQ(cleaned.count(EditKind::RepeatedPoint), 2u);
+  EXPECT_EQ(cleaned.domain.input_points, (Ring{{0, 0}, {4, 0}, {4, 4}, {0, 4}}));
+  EXPECT_EQ(cleanInPlane({polygonFeature(1, ring)}, {.snap_m = 0.01}).points(), 6u);
+}
+
+TEST(Clean, SnapsEdgesToPointsNearerThanTheSnapDistance) {
+  // An island's corner comes within 0.05 of the shore.
+  const Ring island{{5, 0.05}, {6, 2}, {4, 2}};
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 10), {island})}, {.snap_m = 0.1});
+  EXPECT_EQ(cleaned.count(EditKind::OverlappingEdge), 1u);
+  EXPECT_EQ(cleaned.count(EditKind::TouchingRing), 1u);
+  EXPECT_EQ(cleaned.segments(), 8u);
+}
+
+TEST(Clean, DropsSpikes) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, {{0, 0}, {4, 0}, {9, 0}, {4, 0}, {4, 4}, {0, 4}})});
+  EXPECT_EQ(cleaned.count(EditKind::Spike), 1u);
+  EXPECT_EQ(cleaned.report.edits.front().place, (Point{9, 0}));
+  EXPECT_EQ(cleaned.domain.input_points, square(0, 0, 4));
+  // Where the ring closes: at its first and at its last point.
+  EXPECT_EQ(cleanInPlane({polygonFeature(1, {{9, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}})}).count(EditKind::Spike),
+            1u);
+  EXPECT_EQ(cleanInPlane({polygonFeature(1, {{4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}, {9, 0}})}).count(EditKind::Spike),
+            1u);
+}
+
+TEST(Clean, ASpikeAlongItsOwnShoreVanishes) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, {{0, 0}, {4, 0}, {4, 6}, {4, 4}, {0, 4}})});
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  EXPECT_EQ(cleaned.points(), 4u);
+  EXPECT_GT(cleaned.count(EditKind::OverlappingEdge), 0u);
+}
+
+TEST(Clean, MakesTwoLobesOfABowTie) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(3, {{0, 0}, {4, 4}, {4, 0}, {0, 4}})});
+  EXPECT_EQ(cleaned.count(EditKind::SelfCrossing), 1u);
+  EXPECT_EQ(cleaned.edits(), 1u);
+  EXPECT_EQ(cleaned.report.edits.front().place, (Point{2, 2}));
+  EXPECT_EQ(cleaned.report.edits.front().fid, 3);
+  EXPECT_EQ(cleaned.points(), 5u);
+  EXPECT_EQ(cleaned.domain.input_points.back(), (Point{2, 2}));
+  EXPECT_EQ(cleaned.area(0), 8.0);
+}
+
+TEST(Clean, IslandsMayTouchTheShoreAndEachOther) {
+  const Ring outer = square(0, 0, 10);
+  // One corner on the shore's corner.
+  Cleaned cleaned = cleanInPlane({polygonFeature(1, outer, {{{0, 0}, {3, 1}, {1, 3}}})});
+  EXPECT_EQ(cleaned.count(EditKind::TouchingRing), 1u);
+  EXPECT_EQ(cleaned.edits(), 1u);
+  EXPECT_EQ(cleaned.area(0), 96.0);
+  // Two corners on the shore's edges cut the lake in two.
+  cleaned = cleanInPlane({polygonFeature(1, outer, {{{5, 0}, {6, 5}, {5, 10}, {4, 5}}})});
+  EXPECT_EQ(cleaned.count(EditKind::TouchingRing), 2u);
+  EXPECT_EQ(cleaned.count(EditKind::OverlappingEdge), 2u);
+  EXPECT_EQ(cleaned.area(0), 90.0);
+  // Two islands share a corner.
+  cleaned = cleanInPlane({polygonFeature(1, outer, {square(2, 2, 2), square(4, 4, 2)})});
+  EXPECT_EQ(cleaned.count(EditKind::TouchingRing), 1u);
+  EXPECT_EQ(cleaned.area(0), 92.0);
+  // Two islands share an edge: they become one.
+  cleaned = cleanInPlane({polygonFeature(1, outer, {square(2, 2, 2), square(4, 2, 2)})});
+  EXPECT_EQ(cleaned.count(EditKind::OverlappingEdge), 1u);
+  EXPECT_EQ(cleaned.area(0), 92.0);
+  EXPECT_EQ(cleaned.segments(), 10u);
+  // An island with an edge on the shore is a bay.
+  cleaned = cleanInPlane({polygonFeature(1, outer, {square(2, 0, 2)})});
+  EXPECT_EQ(cleaned.area(0), 96.0);
+  EXPECT_EQ(cleaned.segments(), 8u);
+}
+
+TEST(Clean, TheFirstOfTwoEqualFeaturesWins) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4)), polygonFeature(2, square(0, 0, 4))});
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  EXPECT_EQ(cleaned.area(1), 0.0);
+  EXPECT_EQ(cleaned.count(EditKind::FeaturesOverlap), 1u);
+  EXPECT_EQ(cleaned.report.edits.front().fid, 2);
+  EXPECT_EQ(cleaned.segments(), 4u);
+}
+
+TEST(Clean, FeaturesThatCrossAreParted) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4)), polygonFeature(2, square(2, 2, 4))});
+  EXPECT_EQ(cleaned.count(EditKind::FeaturesCross), 2u);
+  EXPECT_EQ(cleaned.count(EditKind::FeaturesOverlap), 1u);
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  EXPECT_EQ(cleaned.area(1), 12.0);
+}
+
+TEST(Clean, FeaturesThatShareAShoreNeedNoEdit) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4)), polygonFeature(2, square(4, 0, 4))});
+  EXPECT_EQ(cleaned.edits(), 0u);
+  EXPECT_EQ(cleaned.segments(), 7u);
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  EXPECT_EQ(cleaned.area(1), 16.0);
+}
+
+TEST(Clean, AFeatureInAnotherIsSwallowed) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 9)), polygonFeature(2, square(2, 2, 2))});
+  EXPECT_EQ(cleaned.count(EditKind::FeaturesOverlap), 1u);
+  EXPECT_EQ(cleaned.points(), 4u);
+  EXPECT_EQ(cleaned.area(0), 81.0);
+}
+
+TEST(Clean, MisplacedRingsGoByTheEvenOddRule) {
+  Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4), {square(6, 0, 2)})});
+  EXPECT_EQ(cleaned.count(EditKind::MisplacedRing), 1u);
+  EXPECT_EQ(cleaned.area(0), 20.0);
+  Feature nested = polygonFeature(1, square(0, 0, 9));
+  nested.polygons.push_back({square(3, 3, 3), {}});
+  cleaned = cleanInPlane({nested});
+  EXPECT_EQ(cleaned.count(EditKind::MisplacedRing), 1u);
+  EXPECT_EQ(cleaned.area(0), 72.0);
+}
+
+TEST(Clean, DropsRingsWithoutArea) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(
+      1, square(0, 0, 4), {{{1, 1}}, {{1, 1}, {2, 2}}, {{1, 1}, {2, 2}, {1, 1}, {2, 2}}, {{1, 1}, {1, 1}, {1, 1}}})});
+  EXPECT_EQ(cleaned.count(EditKind::DegenerateRing), 4u);
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  EXPECT_EQ(cleaned.points(), 4u);
+  // Three collinear points: found out by the arrangement.
+  EXPECT_EQ(cleanInPlane({polygonFeature(1, square(0, 0, 4), {{{1, 1}, {2, 2}, {3, 3}}})}).points(), 4u);
+}
+
+TEST(Clean, FillsSmallIslands) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 9), {square(1, 1, 1), square(3, 3, 2)})},
+                                       {.snap_m = 0, .min_island_area_m2 = 2.0});
+  EXPECT_EQ(cleaned.count(EditKind::SmallIsland), 1u);
+  EXPECT_EQ(cleaned.area(0), 77.0);
+}
+
+TEST(Clean, KeepsOpenLinesInside) {
+  // A wharf from the shore, a breakwater inside, a line outside, one that crosses the shore.
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 10)), lineFeature(2, {{0, 5}, {3, 5}}),
+                                        lineFeature(3, {{5, 5}, {6, 6}, {7, 5}}), lineFeature(4, {{20, 0}, {30, 0}}),
+                                        lineFeature(5, {{8, 8}, {12, 8}})});
+  const auto& segments = cleaned.domain.pslg.segments;
+  EXPECT_EQ(std::count_if(segments.begin(), segments.end(), [](auto& s) { return s.left == 0 && s.right == 0; }), 4);
+  EXPECT_EQ(cleaned.segments(), 4u + 2u + 4u);
+  EXPECT_EQ(cleaned.count(EditKind::FeaturesCross), 1u);
+  EXPECT_EQ(cleaned.area(0), 100.0);
+}
+
+TEST(Clean, ALineAlongTheShoreChangesNothing) {
+  const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4)), lineFeature(2, {{1, 0}, {3, 0}})});
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  EXPECT_EQ(cleaned.segments(), 6u);
+}
+
+TEST(Clean, FarFromTheOriginAndVerySmall) {
+  for (const double offset : {0.0, 1e7, -1e7}) {
+    const double side = offset == 0 ? 1e-9 : 1e-3;
+    Ring bow_tie{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+    for (Point& p : bow_tie) p = {offset + p.x * side, offset + p.y * side};
+    const Cleaned cleaned = cleanInPlane({polygonFeature(1, bow_tie)});
+    EXPECT_EQ(cleaned.points(), 5u);
+    EXPECT_NEAR(cleaned.area(0) / (side * side), 0.5, 1e-5);
+  }
+}
+
+TEST(Clean, RefusesWhatEnclosesNoArea) {
+  EXPECT_THROW(cleanInPlane({polygonFeature(1, {{0, 0}, {1, 0}, {2, 0}})}), InputError);
+  EXPECT_THROW(cleanInPlane({polygonFeature(1, {{0, 0}, {1, 0}})}), InputError);
+  EXPECT_THROW(cleanInPlane({lineFeature(1, {{0, 0}, {1, 0}, {1, 1}})}), InputError);
+  EXPECT_THROW(cleanInPlane({polygonFeature(1, {})}), InputError);
+}
+
+TEST(Clean, RefusesAPointThatIsNoPlaceByNameAndPlace) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  try {
+    cleanInPlane({polygonFeature(12, {{0, 0}, {1, 0}, {nan, 5}})});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("feature 12"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("nan, 5"), std::string::npos);
+  }
+}
+
+TEST(Clean, EditsLieInTheInputsCoordinates) {
+  const Coastline coastline = coastlineOf({polygonFeature(1, {{-87, 45}, {-86, 46}, {-86, 45}, {-87, 46}})}, wgs84());
+  CleanReport report;
+  const Projection projection = Projection::fitted(coastline, {0});
+  const Domain domain = cleanFeatures(coastline, {0}, projection, {}, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "");
+  ASSERT_EQ(report.edits.size(), 1u);
+  EXPECT_NEAR(report.edits[0].place.x, -86.5, 1e-9);
+  EXPECT_NEAR(report.edits[0].place.y, 45.5, 1e-2);
+  ASSERT_EQ(domain.input_points.size(), 5u);
+  EXPECT_EQ(domain.input_points[1], (Point{-86, 46}));
+  const Point back = projection.forward(domain.input_points[4]);
+  EXPECT_NEAR(back.x, domain.pslg.points[4].x, 1e-4);
+  EXPECT_NEAR(back.y, domain.pslg.points[4].y, 1e-4);
+}
+
+TEST(Clean, WhatTouchesInTheInputTouchesInThePlane) {
+  // Two lakes cut along a parallel; the southern one has a vertex more on the cut, which no straight line hits once it
+  // is projected.
+  const Coastline coastline = coastlineOf({polygonFeature(1, {{0, 50}, {2, 50}, {2, 51}, {0, 51}}),
+                                           polygonFeature(2, {{0, 49}, {2, 49}, {2, 50}, {1, 50}, {0, 50}})},
+                                          wgs84());
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, {0, 1}, Projection::fitted(coastline, {0, 1}), {}, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "");
+  EXPECT_EQ(domain.pslg.points.size(), 7u);
+  EXPECT_EQ(domain.pslg.segments.size(), 8u);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::FeaturesOverlap)], 0u);
+}
+
+TEST(Clean, HealsTheCutAlongTheAntimeridian) {
+  // An island state in two halves; the eastern half has a vertex on the cut that the western one lacks.
+  Feature feature = polygonFeature(1, {{179, -17}, {180, -17}, {180, -16}, {179, -16}});
+  feature.polygons.push_back({{{-180, -17}, {-179, -17}, {-179, -16}, {-180, -16}, {-180, -16.4}}, {}});
+  const Coastline coastline = coastlineOf({feature}, wgs84());
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, {0}, Projection::fitted(coastline, {0}), {}, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "");
+  EXPECT_EQ(domain.pslg.points.size(), 6u);
+  EXPECT_EQ(domain.pslg.segments.size(), 6u);
+  EXPECT_NEAR(labelledArea(domain.pslg, 0) / geodesicArea(coastline, {0}), 1.0, 1e-3);
+}
+
+TEST(Clean, AnOceanRoundThePoleNeedsNoCut) {
+  // Water from 60°N to the pole as plate carrée has it: a rectangle of longitudes whose upper side is the pole.
+  Ring ring;
+  for (int lon = -180; lon <= 180; lon += 10) ring.push_back({static_cast<double>(lon), 60});
+  ring.push_back({180, 90});
+  ring.push_back({-180, 90});
+  const Coastline coastline = coastlineOf({polygonFeature(1, ring)}, wgs84());
+  CleanReport report;
+  const Projection projection = Projection::fitted(coastline, {0});
+  EXPECT_NE(projection.description().find("polar stereographic"), std::string::npos);
+  const Domain domain = cleanFeatures(coastline, {0}, projection, {}, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "");
+  EXPECT_EQ(domain.pslg.points.size(), 36u);
+  EXPECT_EQ(domain.pslg.segments.size(), 36u);
+}
+
+TEST(Clean, ReportsEveryKindByAName) {
+  std::vector<std::string> names;
+  for (std::size_t kind = 0; kind < kEditKinds; ++kind) names.emplace_back(toString(static_cast<EditKind>(kind)));
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+  EXPECT_NE(names.front(), "");
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,333 @@
+#include "gis/coast/frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <GeographicLib/Geodesic.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "gis/clean/clean.hpp"
+#include "gis/clean/geodesic_area.hpp"
+#include "gis/coast/group_features.hpp"
+#include "gis/coast/segment_tags.hpp"
+#include "gis/error.hpp"
+#include "tests/support/gis_shapes.hpp"
+#include "tests/support/pslg_check.hpp"
+
+namespace coastmesh {
+namespace {
+
+struct Framed {
+  Coastline coastline;
+  std::vector<Domain> domains;
+  CleanReport report;
+  FrameReport frame;
+
+  double area() const {
+    double sum = 0;
+    for (const Domain& domain : domains) sum += geodesicArea(domain, coastline.crs);
+    return sum;
+  }
+  double openLength() const {
+    double sum = 0;
+    for (const Domain& domain : domains) {
+      for (const Segment& s : domain.pslg.segments) {
+        const Point &a = domain.pslg.points[s.a], &b = domain.pslg.points[s.b];
+        if (s.tag == kOpenTag) sum += std::hypot(b.x - a.x, b.y - a.y);
+      }
+    }
+    return sum;
+  }
+};
+
+Framed frame(Coastline coastline, const FrameOptions& options) {
+  Framed result;
+  result.frame = frameCoastline(coastline, options);
+  result.coastline = std::move(coastline);
+  for (const auto& members : groupFeatures(result.coastline)) {
+    const Projection projection = Projection::fitted(result.coastline, members);
+    try {
+      result.domains.push_back(cleanFeatures(result.coastline, members, projection, {0.0}, result.report));
+      EXPECT_EQ(defectOfLabelled(result.domains.back().pslg), "");
+    } catch (const NothingWanted&) {
+    }
+  }
+  return result;
+}
+
+FrameOptions boxOf(double west, double south, double east, double north, DomainSide side = DomainSide::Auto) {
+  FrameOptions options;
+  options.side = side;
+  options.box = Box{west, south, east, north};
+  return options;
+}
+
+Feature coastFeature(std::vector<Point> line) {
+  Feature feature = lineFeature(7, std::move(line));
+  feature.from_lines = true;
+  return feature;
+}
+
+std::string refusalOf(Coastline coastline, const FrameOptions& options) {
+  try {
+    frame(std::move(coastline), options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(Frame, WaterRoundAnIsland) {
+  const Framed framed =
+      frame(coastlineOf({polygonFeature(1, square(2, 2, 3))}), boxOf(0, 0, 10, 10, DomainSide::Outside));
+  ASSERT_EQ(framed.domains.size(), 1u);
+  EXPECT_DOUBLE_EQ(framed.area(), 100 - 9);
+  EXPECT_DOUBLE_EQ(framed.openLength(), 40);
+}
+
+// Two lands that overlap, one across the frame's rim, and one that only the box of another reaches.
+TEST(Frame, LandAcrossTheRim) {
+  const Coastline coastline = coastlineOf(
+      {polygonFeature(1, square(-5, 2, 8)), polygonFeature(2, square(2, 3, 3)), polygonFeature(3, square(30, 30, 1))});
+  const Framed framed = frame(coastline, boxOf(0, 0, 10, 10, DomainSide::Outside));
+  EXPECT_DOUBLE_EQ(framed.area(), 100 - 3 * 8 - 2 * 3);
+  EXPECT_DOUBLE_EQ(framed.openLength(), 40 - 8 - 3);
+  EXPECT_EQ(framed.frame.beyond_frame, 1u);
+}
+
+// Lakes within, across and beyond the frame, and one round it all.
+TEST(Frame, InsideOfPolygons) {
+  const Coastline coastline = coastlineOf({polygonFeature(1, square(1, 1, 2)), polygonFeature(2, square(8, 8, 4)),
+                                           polygonFeature(3, square(20, 0, 2)), polygonFeature(4, square(10.5, 1, 1))});
+  const Framed framed = frame(coastline, boxOf(0, 0, 10, 10));
+  EXPECT_EQ(framed.domains.size(), 2u);
+  EXPECT_DOUBLE_EQ(framed.area(), 4 + 4);
+  EXPECT_DOUBLE_EQ(framed.openLength(), 4);
+  EXPECT_DOUBLE_EQ(frame(coastlineOf({polygonFeature(1, square(-50, -50, 100))}), boxOf(0, 0, 10, 10)).area(), 100);
+}
+
+TEST(Frame, WaterLiesToTheRightOfACoast) {
+  const std::vector<Point> north{{4, -3}, {4, 5}, {3, 13}}, south(north.rbegin(), north.rend());
+  const double east = 10 * 10 - (4 * 5 + (4 + 3.375) / 2 * 5);  // the line crosses y = 10 at x = 3.375
+  const Framed right = frame(coastlineOf({coastFeature(north)}), boxOf(0, 0, 10, 10));
+  EXPECT_NEAR(right.area(), east, 1e-9);
+  EXPECT_EQ(right.report.notes.size(), 1u);
+  EXPECT_NEAR(frame(coastlineOf({coastFeature(south)}), boxOf(0, 0, 10, 10)).area(), 100 - east, 1e-9);
+  FrameOptions options = boxOf(0, 0, 10, 10);
+  options.water_at = Point{1, 1};
+  EXPECT_NEAR(frame(coastlineOf({coastFeature(north)}), options).area(), 100 - east, 1e-9);
+}
+
+// A bay and an island: water on both sides of the land.
+TEST(Frame, TwoSeasOfOneRule) {
+  const std::vector<Point> west{{3, -1}, {3, 11}}, east{{6, 11}, {6, -1}};
+  const Framed framed = frame(coastlineOf({coastFeature(west), coastFeature(east)}), boxOf(0, 0, 10, 10));
+  EXPECT_DOUBLE_EQ(framed.area(), 30);  // the strait between them
+  const std::vector<Point> west_down(west.rbegin(), west.rend()), east_up(east.rbegin(), east.rend());
+  EXPECT_DOUBLE_EQ(frame(coastlineOf({coastFeature(west_down), coastFeature(east_up)}), boxOf(0, 0, 10, 10)).area(),
+                   70);
+  EXPECT_NE(refusalOf(coastlineOf({coastFeature(west), coastFeature(east_up)}), boxOf(0, 0, 10, 10)).find("--water-at"),
+            std::string::npos);
+}
+
+TEST(Frame, AGapInTheCoastIsRefusedByItsPlace) {
+  const Coastline coastline = coastlineOf({coastFeature({{4, -1}, {4, 5}}), coastFeature({{4, 5.25}, {4, 11}})});
+  const std::string text = refusalOf(coastline, boxOf(0, 0, 10, 10));
+  EXPECT_NE(text.find("feature 7: the coastline ends at 4, 5"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.25 m away"), std::string::npos) << text;
+}
+
+// A pier ends blindly, but begins at a coast.
+TEST(Frame, APierBecomesAnEdge) {
+  const Coastline coastline = coastlineOf({coastFeature({{4, -1}, {4, 5}, {4, 11}}), coastFeature({{4, 5}, {6, 5}})});
+  const Framed framed = frame(coastline, boxOf(0, 0, 10, 10));
+  EXPECT_DOUBLE_EQ(framed.area(), 60);
+  const auto& segments = framed.domains[0].pslg.segments;
+  EXPECT_EQ(std::ranges::count_if(segments, [](const Segment& s) { return isLineTag(s.tag); }), 1);
+}
+
+TEST(Frame, OnlyRingsOfLines) {
+  Feature island = polygonFeature(1, square(2, 2, 3));
+  island.from_lines = true;
+  EXPECT_DOUBLE_EQ(frame(coastlineOf({island}), boxOf(0, 0, 10, 10)).area(), 91);
+  EXPECT_DOUBLE_EQ(frame(coastlineOf({island}), boxOf(0, 0, 10, 10, DomainSide::Inside)).area(), 9);
+}
+
+TEST(Frame, TheWaterOfAPlaceWithoutAFrame) {
+  FrameOptions options;
+  options.water_at = Point{1.5, 1.5};
+  const Coastline coastline =
+      coastlineOf({polygonFeature(1, square(0, 0, 4), {square(1, 1, 1)}), polygonFeature(2, square(9, 9, 1))});
+  EXPECT_DOUBLE_EQ(frame(coastline, options).area(), 1);
+  options.water_at = Point{0.5, 0.5};
+  EXPECT_DOUBLE_EQ(frame(coastline, options).area(), 15);
+}
+
+TEST(Frame, OddBoxesAreRefused) {
+  const Coastline lake = coastlineOf({polygonFeature(1, square(1, 1, 2))}, wgs84());
+  EXPECT_NE(refusalOf(lake, boxOf(0, 10, 10, 0)).find("the south has to lie below"), std::string::npos);
+  EXPECT_NE(refusalOf(lake, boxOf(0, 0, 10, 100)).find("degrees"), std::string::npos);
+  EXPECT_NE(refusalOf(lake, boxOf(20, 20, 30, 30)).find("nothing of the input lies in it"), std::string::npos);
+  FrameOptions outside;
+  outside.side = DomainSide::Outside;
+  EXPECT_NE(refusalOf(lake, outside).find("--bbox"), std::string::npos);
+}
+
+double landArea(const Coastline& coastline) {
+  const RingArea area(coastline.crs);
+  double sum = 0;
+  for (const Feature& feature : coastline.features) {
+    for (const Polygon& polygon : feature.polygons) sum += area.of(polygon.outer);
+  }
+  return sum;
+}
+
+// The part of the ellipsoid between two parallels and so many degrees of longitude.
+double zone(double south, double north, double width) {
+  const auto below = [](double latitude) {
+    const double f = 1 / 298.257223563, e = std::sqrt(f * (2 - f)), s = std::sin(latitude * M_PI / 180);
+    return (s / (1 - e * e * s * s) + std::atanh(e * s) / e) / 2;
+  };
+  const double b = 6378137.0 * (1 - 1 / 298.257223563);
+  return b * b * (below(north) - below(south)) * width * M_PI / 180;
+}
+
+// Files that are not cut at the antimeridian: islands whose rings jump from one end of the map to the other, and a continent
+// round a pole without an edge along it. The places between, all round the globe, are no land.
+TEST(Frame, RingsThatJumpHoldNothingBetween) {
+  std::vector<Feature> land;
+  Ring antarctica;
+  for (int lon = -175; lon <= 175; lon += 10) antarctica.push_back({static_cast<double>(lon), -70});
+  land.push_back(polygonFeature(1, antarctica));
+  land.push_back(polygonFeature(2, square(20, 10, 30)));
+  double islands = 0;
+  const RingArea area(wgs84());
+  // One for each latitude at which the map might be turned away from the land.
+  for (int lat = -60; lat < 60; lat += 10) {
+    const double south = lat + 0.5, north = lat + 9.5;
+    land.push_back(polygonFeature(100 + lat, {{179.5, south}, {-179.5, south}, {-179.5, north}, {179.5, north}}));
+    islands += area.of({{179.5, south}, {180.5, south}, {180.5, north}, {179.5, north}});
+  }
+  const Framed framed = frame(coastlineOf(land, wgs84()), boxOf(-180, -90, 180, 90, DomainSide::Outside));
+  ASSERT_EQ(framed.domains.size(), 1u);
+  const double globe = GeographicLib::Geodesic::WGS84().EllipsoidArea();
+  const double expected = globe - islands - area.of(antarctica) - area.of(square(20, 10, 30));
+  EXPECT_NEAR(framed.area() / expected, 1, 1e-4);
+}
+
+// An island that its file cuts at the antimeridian, in data that run from -180 and from 0, and boxes in either turn.
+TEST(Frame, AcrossTheAntimeridian) {
+  const Ring west{{179, -18}, {180, -18}, {180, -17}, {179, -17}},
+      east{{-180, -18}, {-179, -18}, {-179, -17}, {-180, -17}};
+  Ring east_on = east;
+  for (Point& p : east_on) p.x += 360;
+  for (const Ring& second : {east, east_on}) {
+    const Coastline coastline = coastlineOf({polygonFeature(1, west), polygonFeature(2, second)}, wgs84());
+    for (const auto& [from, to] : {std::pair{177.0, -177.0}, {177.0, 183.0}, {-183.0, -177.0}}) {
+      const Framed framed = frame(coastline, boxOf(from, -20, to, -15, DomainSide::Outside));
+      ASSERT_EQ(framed.domains.size(), 1u);
+      const double wanted = zone(-20, -15, 6) - landArea(coastline);
+      EXPECT_NEAR(framed.area() / wanted, 1, 2e-6) << from;
+    }
+  }
+}
+
+// Round a pole, and the whole globe: nothing is left of the frame's rim but what lies in water.
+TEST(Frame, RoundThePoleAndTheGlobe) {
+  const Ring antarctica{{-180, -90}, {-180, -78}, {-90, -72}, {0, -70}, {90, -66}, {180, -78}, {180, -90}};
+  Ring fine;  // long edges are another line on the ellipsoid than in the plane
+  for (std::size_t i = 0; i < antarctica.size(); ++i) {
+    const Point &a = antarctica[i], &b = antarctica[(i + 1) % antarctica.size()];
+    const int n = a.y == -90 || b.y == -90 ? 1 : 400;
+    for (int k = 0; k < n; ++k) fine.push_back({a.x + (b.x - a.x) * k / n, a.y + (b.y - a.y) * k / n});
+  }
+  const Coastline coastline = coastlineOf({polygonFeature(1, fine)}, wgs84());
+  const Framed ring = frame(coastline, boxOf(-180, -90, 180, -60, DomainSide::Outside));
+  ASSERT_EQ(ring.domains.size(), 1u);
+  // The rim runs along the parallel in straight pieces of 0.3 degrees.
+  EXPECT_NEAR(ring.area() / (zone(-90, -60, 360) - landArea(coastline)), 1, 1e-5);
+  const Framed globe = frame(coastline, boxOf(-180, -90, 180, 90, DomainSide::Outside));
+  ASSERT_EQ(globe.domains.size(), 1u);
+  EXPECT_NEAR(globe.area() / (zone(-90, 90, 360) - landArea(coastline)), 1, 2e-6);
+  EXPECT_EQ(globe.openLength(), 0);
+}
+
+// A lake in three pieces: the cuts go, and so do the vertices that they left in the shore.
+TEST(Dissolve, LeavesNoTraceOfACut) {
+  const Coastline coastline = coastlineOf({polygonFeature(4, {{0, 0}, {5, 0}, {5, 5}, {0, 5}}),
+                                           polygonFeature(2, {{5, 0}, {9, 0}, {9, 5}, {5, 5}}),
+                                           polygonFeature(3, {{9, 0}, {12, 1}, {12, 5}, {9, 5}})});
+  CleanOptions options;
+  options.dissolve = true;
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(), options, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "");
+  // The corners, and the vertex at 9, 0, where the shore turns.
+  EXPECT_EQ(domain.pslg.points.size(), 5u);
+  EXPECT_DOUBLE_EQ(labelledArea(domain.pslg, 0), 60 - 1.5);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::DissolvedEdge)], 2u + 3u);
+}
+
+// Segments of the lines of a use.
+std::ptrdiff_t segmentsOf(const Domain& domain, FeatureUse use) {
+  return std::ranges::count_if(domain.pslg.segments, [&](const Segment& s) {
+    return isLineTag(s.tag) && domain.lines.at(lineOfTag(s.tag)).use == use;
+  });
+}
+
+// Where lines run along one another a weir comes before a constraint, and this before a region's border.
+TEST(Constraints, OverlappingLines) {
+  Feature wall = lineFeature(1, {{1, 5}, {9, 5}}), weir = lineFeature(2, {{3, 5}, {5, 5}});
+  wall.use = FeatureUse::Constraint;
+  weir.use = FeatureUse::Weir;
+  Feature region = polygonFeature(3, square(4, 5, 4));
+  region.use = FeatureUse::Region;
+  const Coastline coastline = coastlineOf({polygonFeature(0, square(0, 0, 10)), wall, weir, region});
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(), {0.0}, report);
+  const auto lengthOf = [&](FeatureUse use, bool border) {
+    double sum = 0;
+    for (const Segment& s : domain.pslg.segments) {
+      if (!isLineTag(s.tag)) continue;
+      const DomainLine& line = domain.lines.at(lineOfTag(s.tag));
+      const Point &a = domain.pslg.points[s.a], &b = domain.pslg.points[s.b];
+      if (line.use == use && line.borders_region == border) sum += std::hypot(b.x - a.x, b.y - a.y);
+    }
+    return sum;
+  };
+  EXPECT_DOUBLE_EQ(lengthOf(FeatureUse::Weir, false), 1);
+  EXPECT_DOUBLE_EQ(lengthOf(FeatureUse::Weir, true), 1);
+  EXPECT_DOUBLE_EQ(lengthOf(FeatureUse::Constraint, false), 3);
+  EXPECT_DOUBLE_EQ(lengthOf(FeatureUse::Constraint, true), 3);
+  EXPECT_DOUBLE_EQ(lengthOf(FeatureUse::Region, true), 12);
+}
+
+TEST(Constraints, LinesPointsAndRegionsInTheWater) {
+  Feature wall = lineFeature(1, {{1, 1}, {3, 1}, {30, 1}}), weir = lineFeature(2, {{1, 2}, {3, 2}});
+  wall.use = FeatureUse::Constraint;
+  wall.points = {{5, 5}, {50, 50}};
+  wall.attributes = {{"Name", "wall"}};
+  weir.use = FeatureUse::Weir;
+  Feature region = polygonFeature(3, square(6, 6, 20));
+  region.use = FeatureUse::Region;
+  const Coastline coastline = coastlineOf({polygonFeature(0, square(0, 0, 10)), wall, weir, region});
+  CleanReport report;
+  const auto groups = groupFeatures(coastline);
+  ASSERT_EQ(groups.size(), 1u);
+  const Domain domain = cleanFeatures(coastline, groups[0], Projection::plane(), {0.0}, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "vertex in no segment at 5, 5");  // as was asked for
+  EXPECT_EQ(segmentsOf(domain, FeatureUse::Weir), 1);
+  EXPECT_EQ(segmentsOf(domain, FeatureUse::Constraint), 2);
+  EXPECT_EQ(segmentsOf(domain, FeatureUse::Region), 2);
+  ASSERT_EQ(domain.lines.size(), 3u);
+  EXPECT_EQ(domain.lines[0].name, "wall");
+  EXPECT_EQ(domain.lines[1].name, "");
+  EXPECT_EQ(domain.lines[2].name, "3");  // the region's number, for want of a name
+  EXPECT_EQ(std::ranges::count(domain.pslg.points, Point{5, 5}), 1);
+  EXPECT_EQ(std::ranges::count(domain.pslg.points, Point{50, 50}), 0);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::OutsideWater)], 1u);
+  EXPECT_DOUBLE_EQ(labelledArea(domain.pslg, 0), 100);
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,145 @@
+#include "gis/coast/group_features.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "gis/geometry/chain_index.hpp"
+#include "gis/read/read_coastline.hpp"
+#include "tests/support/gis_shapes.hpp"
+
+namespace coastmesh {
+namespace {
+
+using Groups = std::vector<std::vector<std::size_t>>;
+
+Groups group(std::vector<Feature> features) { return groupFeatures(coastlineOf(std::move(features))); }
+
+TEST(GroupFeatures, WhatLiesApartStaysApart) {
+  EXPECT_EQ(
+      group({polygonFeature(0, square(0, 0, 1)), polygonFeature(1, square(2, 0, 1)), lineFeature(2, {{5, 5}, {6, 6}})}),
+      (Groups{{0}, {1}, {2}}));
+  EXPECT_EQ(group({}), Groups{});
+}
+
+TEST(GroupFeatures, TouchingInAVertexOrAlongAnEdge) {
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 1)), polygonFeature(1, square(9, 9, 1)),
+                   polygonFeature(2, square(1, 1, 1))}),
+            (Groups{{0, 2}, {1}}));
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 1)), polygonFeature(1, square(1, 0, 1))}), (Groups{{0, 1}}));
+  // A vertex inside an edge.
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 3)), polygonFeature(1, {{3, 1}, {5, 0}, {5, 2}})}), (Groups{{0, 1}}));
+}
+
+TEST(GroupFeatures, CrossingAndContaining) {
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 3)), polygonFeature(1, square(2, 2, 3))}), (Groups{{0, 1}}));
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 9)), polygonFeature(1, square(2, 2, 3))}), (Groups{{0, 1}}));
+  EXPECT_EQ(group({polygonFeature(1, square(2, 2, 3)), polygonFeature(0, square(0, 0, 9))}), (Groups{{0, 1}}));
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 9)), lineFeature(1, {{1, 1}, {2, 2}})}), (Groups{{0, 1}}));
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 9)), polygonFeature(1, square(0, 0, 9))}), (Groups{{0, 1}}));
+}
+
+TEST(GroupFeatures, ALakeOnAnIslandIsALakeOfItsOwn) {
+  const Feature sea = polygonFeature(0, square(0, 0, 9), {square(2, 2, 4)});
+  EXPECT_EQ(group({sea, polygonFeature(1, square(3, 3, 1))}), (Groups{{0}, {1}}));
+  // A lake that fills the island to its shore touches the sea.
+  EXPECT_EQ(group({sea, polygonFeature(1, square(2, 2, 4))}), (Groups{{0, 1}}));
+  // And one that lies in it but for a corner on its shore.
+  EXPECT_EQ(group({sea, polygonFeature(1, square(2, 2, 1))}), (Groups{{0, 1}}));
+}
+
+TEST(GroupFeatures, AFeatureOfWhichOnlyAPartLiesInAnother) {
+  Feature two_parts = polygonFeature(0, square(20, 20, 1));
+  two_parts.polygons.push_back({square(3, 3, 1), {}});
+  EXPECT_EQ(group({two_parts, polygonFeature(1, square(0, 0, 9))}), (Groups{{0, 1}}));
+}
+
+TEST(GroupFeatures, LinesJoinWhatTheyTouch) {
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 1)), polygonFeature(1, square(4, 0, 1)),
+                   lineFeature(2, {{1, 0.5}, {4, 0.5}})}),
+            (Groups{{0, 1, 2}}));
+}
+
+TEST(GroupFeatures, WhatACutAlongAMeridianPartsBelongsTogether) {
+  const std::vector<Feature> halves{polygonFeature(0, square(179, 10, 1)), polygonFeature(1, square(-180, 10.5, 1)),
+                                    polygonFeature(2, square(-180, 50, 1)), polygonFeature(3, square(178, 50, 1)),
+                                    polygonFeature(4, {{180, 11.5}, {179, 12}, {179, 11.6}})};
+  EXPECT_EQ(groupFeatures(coastlineOf(halves, wgs84())), (Groups{{0, 1, 4}, {2}, {3}}));
+  // In a plane there is no such thing.
+  EXPECT_EQ(group(halves).size(), 5u);
+}
+
+// Every vertex and edge against every other.
+bool slowlyBelongTogether(const Feature& a, const Feature& b) {
+  const auto ringsOf = [](const Feature& f) {
+    std::vector<Ring> rings;
+    for (const Polygon& p : f.polygons) {
+      rings.push_back(p.outer);
+      rings.insert(rings.end(), p.holes.begin(), p.holes.end());
+    }
+    return rings;
+  };
+  const auto touches = [&](const Ring& r, const Ring& s) {
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      for (std::size_t j = 0; j < s.size(); ++j) {
+        if (segmentsMeet(r[i], r[(i + 1) % r.size()], s[j], s[(j + 1) % s.size()])) return true;
+      }
+    }
+    return false;
+  };
+  const auto holds = [&](const Feature& outer, const Feature& inner) {
+    ChainIndex index(ChainIndex::Kind::Rings);
+    for (const Ring& ring : ringsOf(outer)) index.add(ring);
+    index.build();
+    for (const Ring& ring : ringsOf(inner)) {
+      if (index.locate(ring.front()) != Location::Outside) return true;
+    }
+    return false;
+  };
+  for (const Ring& r : ringsOf(a)) {
+    for (const Ring& s : ringsOf(b)) {
+      if (touches(r, s)) return true;
+    }
+  }
+  return holds(a, b) || holds(b, a);
+}
+
+TEST(GroupFeatures, AgreesWithASlowSearch) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> place(0, 30), radius(0.3, 3);
+    std::uniform_int_distribution<std::size_t> size(3, 120);
+    std::vector<Feature> features;
+    for (int f = 0; f < 60; ++f) {
+      const Point centre{place(random), place(random)};
+      const double r = radius(random);
+      std::vector<Ring> holes;
+      if (f % 3 == 0) holes.push_back(starRing(random, centre, 0.4 * r, size(random)));
+      features.push_back(polygonFeature(f, starRing(random, centre, r, size(random)), holes));
+    }
+    std::vector<std::size_t> group_of(features.size());
+    std::iota(group_of.begin(), group_of.end(), std::size_t{0});
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      for (std::size_t j = i + 1; j < features.size(); ++j) {
+        if (!slowlyBelongTogether(features[i], features[j])) continue;
+        const std::size_t from = std::max(group_of[i], group_of[j]), to = std::min(group_of[i], group_of[j]);
+        for (std::size_t& g : group_of) g = g == from ? to : g;
+      }
+    }
+    Groups expected;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (group_of[i] == i) expected.emplace_back();
+      for (Groups::value_type& members : expected) {
+        if (members.empty() || group_of[members.front()] == group_of[i]) {
+          members.push_back(i);
+          break;
+        }
+      }
+    }
+    EXPECT_EQ(group(features), expected) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,279 @@
+// Every format that is written and read gives back the grid that was written.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "gis/error.hpp"
+#include "gis/format/grid_io.hpp"
+#include "tests/gis/grid_samples.hpp"
+
+namespace coastmesh {
+namespace {
+
+using testing::sampleGrid;
+using testing::TemporaryFolder;
+
+struct Carried {
+  bool title = false, sources = false, fids = true, angles = false, features = true;
+};
+
+Carried carriedBy(const std::string& format) {
+  if (format == "gpkg" || format == "geojson" || format == "shp" || format == "fgb") return {false, true, true, true};
+  if (format == "ugrid") return {true, false, true, true};
+  if (format == "2dm") return {false, false, true, false};
+  if (format == "vtu") return {false, false, true, true};
+  if (format == "adcirc" || format == "schism" || format == "telemac") return {true, false, false, false, false};
+  if (format == "fvcom" || format == "ww3") return {false, false, false, false, false};
+  return {};
+}
+
+// Formats of models, which have their own ideas of where one boundary ends and the next begins.
+bool cutsBoundaries(const std::string& format) {
+  return format == "adcirc" || format == "schism" || format == "telemac" || format == "fvcom" || format == "ww3";
+}
+
+// Formats that tell openings only: all else of the rim is shore.
+bool impliesShores(const std::string& format) { return format == "telemac" || format == "fvcom" || format == "ww3"; }
+
+// What each edge of the boundaries is, in its direction.
+std::map<std::pair<std::uint32_t, std::uint32_t>, bool> openEdges(const Grid& grid) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> edges;
+  for (const Boundary& boundary : grid.boundaries) {
+    const std::size_t n = boundary.nodes.size();
+    for (std::size_t i = 0; i + (boundary.closed ? 0 : 1) < n; ++i)
+      edges[{boundary.nodes[i], boundary.nodes[(i + 1) % n]}] = boundary.role == BoundaryRole::Open;
+  }
+  return edges;
+}
+
+std::vector<std::uint64_t> bitsOf(const std::vector<double>& values) {
+  std::vector<std::uint64_t> bits;
+  for (double value : values) bits.push_back(std::bit_cast<std::uint64_t>(value));
+  return bits;
+}
+
+std::vector<std::uint64_t> bitsOf(const std::vector<Point>& points) {
+  std::vector<std::uint64_t> bits;
+  for (const Point& p : points) {
+    bits.push_back(std::bit_cast<std::uint64_t>(p.x));
+    bits.push_back(std::bit_cast<std::uint64_t>(p.y));
+  }
+  return bits;
+}
+
+const decltype(GridFeature::attributes) kNoAttributes;
+
+void expectSame(const Grid& got, const Grid& want, const std::string& format) {
+  const Carried carried = carriedBy(format);
+  EXPECT_EQ(bitsOf(got.nodes), bitsOf(want.nodes));
+  EXPECT_EQ(bitsOf(got.z), bitsOf(want.z));
+  EXPECT_EQ(got.triangles, want.triangles);
+  EXPECT_EQ(got.feature_of, carried.features ? want.feature_of : std::vector<std::uint32_t>());
+  EXPECT_TRUE(sameCrs(got.crs, want.crs)) << nameOf(got.crs);
+  EXPECT_EQ(got.crs.authority, want.crs.authority);
+  EXPECT_EQ(openEdges(got), openEdges(want));
+  if (!cutsBoundaries(format)) {
+    ASSERT_EQ(got.boundaries.size(), want.boundaries.size());
+    for (std::size_t b = 0; b < got.boundaries.size(); ++b) {
+      EXPECT_EQ(got.boundaries[b].role, want.boundaries[b].role) << b;
+      EXPECT_EQ(got.boundaries[b].closed, want.boundaries[b].closed) << b;
+      EXPECT_EQ(got.boundaries[b].nodes, want.boundaries[b].nodes) << b;
+    }
+  }
+  EXPECT_TRUE(got.notes.empty());
+  ASSERT_EQ(got.features.size(), carried.features ? want.features.size() : 0);
+  for (std::size_t f = 0; f < got.features.size(); ++f) {
+    EXPECT_EQ(got.features[f].fid, carried.fids ? want.features[f].fid : static_cast<std::int64_t>(f) + 1);
+    EXPECT_EQ(got.features[f].source, carried.sources ? want.features[f].source : "");
+    EXPECT_EQ(got.features[f].attributes, carried.sources ? want.features[f].attributes : kNoAttributes);
+  }
+  EXPECT_EQ(got.title, carried.title ? want.title : "");
+  if (!carried.angles) {
+    EXPECT_TRUE(got.min_angle_deg.empty());
+  } else if (format != "shp") {
+    EXPECT_EQ(bitsOf(got.min_angle_deg), bitsOf(want.min_angle_deg));
+    EXPECT_EQ(bitsOf(got.area_m2), bitsOf(want.area_m2));
+  } else {
+    // A .dbf keeps 15 decimals.
+    ASSERT_EQ(got.min_angle_deg.size(), want.min_angle_deg.size());
+    ASSERT_EQ(got.area_m2.size(), want.area_m2.size());
+    for (std::size_t t = 0; t < want.triangles.size(); ++t) {
+      EXPECT_NEAR(got.min_angle_deg[t], want.min_angle_deg[t], 1e-14);
+      EXPECT_NEAR(got.area_m2[t], want.area_m2[t], 1e-14 * want.area_m2[t] + 1e-14);
+    }
+  }
+}
+
+std::string endingOf(const GridFormat& format) { return std::string(format.endings.front()); }
+
+std::string bytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+struct Place {
+  const char* name;
+  const char* crs;
+  Point origin;
+  double size;
+};
+
+const Place kPlaces[] = {
+    {"geographic", "EPSG:4326", {-87.5, 43.1}, 0.01},
+    {"antimeridian", "EPSG:4326", {179.95, -16.6}, 0.01},
+    {"utm", "EPSG:32616", {448123.4, 4.8e6}, 250.0},
+    {"plane", "plane", {-3.0, 1e-7}, 1.0 / 3.0},
+};
+
+void PrintTo(const Place& place, std::ostream* out) { *out << place.name; }
+
+class RoundTrip : public ::testing::TestWithParam<std::tuple<GridFormat, Place>> {};
+
+TEST_P(RoundTrip, GivesTheSameGrid) {
+  const auto& [format, place] = GetParam();
+  const Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+  const TemporaryFolder folder;
+  const std::string path = folder / ("lakes" + endingOf(format));
+  StagedOutput output(path, format, false);
+  output.write(grid);
+  output.commit();
+  expectSame(readGrid(path), grid, std::string(format.name));
+}
+
+TEST_P(RoundTrip, KeepsExtremeNumbers) {
+  const auto& [format, place] = GetParam();
+  Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+  grid.nodes[0].y = 5e-324;  // the least number, one ulp beside a whole one, and one of many digits
+  grid.nodes[1].y = 1.0000000000000002;
+  grid.nodes[2].x = 1e-7 / 3.0;
+  grid.z[0] = -1.7976931348623157e+308;
+  const TemporaryFolder folder;
+  const std::string path = folder / ("lakes" + endingOf(format));
+  StagedOutput output(path, format, false);
+  output.write(grid);
+  output.commit();
+  const Grid got = readGrid(path);
+  EXPECT_EQ(bitsOf(got.nodes), bitsOf(grid.nodes));
+  EXPECT_EQ(bitsOf(got.z), bitsOf(grid.z));
+}
+
+// A gap in the depths comes back as one, or is refused: it never becomes a number.
+TEST_P(RoundTrip, KeepsGapsInZ) {
+  const auto& [format, place] = GetParam();
+  Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+  grid.z[3] = grid.z.back() = std::numeric_limits<double>::quiet_NaN();
+  const TemporaryFolder folder;
+  const std::string path = folder / ("lakes" + endingOf(format));
+  StagedOutput output(path, format, false);
+  if (format.says_depth || format.name == "2dm" || format.name == "triangle" || format.name == "shp") {
+    EXPECT_THROW(output.write(grid), OutputError);
+    return;
+  }
+  output.write(grid);
+  output.commit();
+  const Grid got = readGrid(path);
+  ASSERT_EQ(got.z.size(), grid.z.size());
+  for (std::size_t i = 0; i < grid.z.size(); ++i) {
+    if (std::isnan(grid.z[i])) {
+      EXPECT_TRUE(std::isnan(got.z[i])) << i << ' ' << got.z[i];
+    } else {
+      EXPECT_EQ(got.z[i], grid.z[i]) << i;
+    }
+  }
+}
+
+// Bare: no z, no features, no boundaries, no angles.
+TEST_P(RoundTrip, InventsNothing) {
+  const auto& [format, place] = GetParam();
+  const Grid full = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+  Grid grid;
+  grid.crs = full.crs;
+  grid.nodes = full.nodes;
+  grid.triangles = full.triangles;
+  const TemporaryFolder folder;
+  const std::string path = folder / ("lakes" + endingOf(format));
+  StagedOutput output(path, format, false);
+  output.write(grid);
+  output.commit();
+  const Grid got = readGrid(path);
+  EXPECT_EQ(bitsOf(got.nodes), bitsOf(grid.nodes));
+  EXPECT_EQ(got.triangles, grid.triangles);
+  EXPECT_TRUE(got.z.empty());
+  if (impliesShores(std::string(format.name))) {
+    for (const Boundary& boundary : got.boundaries) EXPECT_TRUE(boundary.closed && boundary.role != BoundaryRole::Open);
+  } else {
+    EXPECT_TRUE(got.boundaries.empty());
+  }
+  EXPECT_TRUE(got.features.empty());
+  EXPECT_TRUE(got.feature_of.empty());
+  EXPECT_TRUE(got.min_angle_deg.empty());
+  EXPECT_TRUE(got.title.empty());
+}
+
+// Two writings of one grid do not differ in a byte.
+TEST_P(RoundTrip, IsDeterministic) {
+  const auto& [format, place] = GetParam();
+  const Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+  const TemporaryFolder first, second;
+  for (const TemporaryFolder* folder : {&first, &second}) {
+    StagedOutput output(*folder / ("lakes" + endingOf(format)), format, false);
+    output.write(grid);
+    output.commit();
+  }
+  ASSERT_EQ(first.names(), second.names());
+  for (const std::string& name : first.names()) {
+    EXPECT_TRUE(bytesOf(first / name) == bytesOf(second / name)) << name;
+  }
+}
+
+// What was read is written again as the same bytes.
+TEST_P(RoundTrip, WritesAgainWhatItReads) {
+  const auto& [format, place] = GetParam();
+  const Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+  const TemporaryFolder first, second;
+  const std::string name = "lakes" + endingOf(format);
+  StagedOutput output(first / name, format, false);
+  output.write(grid);
+  output.commit();
+  StagedOutput again(second / name, format, false);
+  again.write(readGrid(first / name));
+  again.commit();
+  ASSERT_EQ(first.names(), second.names());
+  for (const std::string& file : first.names()) EXPECT_TRUE(bytesOf(first / file) == bytesOf(second / file)) << file;
+}
+
+std::vector<GridFormat> formatsThatReadAndWrite() {
+  std::vector<GridFormat> formats;
+  for (const GridFormat& format : gridFormats())
+    if (format.readable && format.writable) formats.push_back(format);
+  return formats;
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
+                         ::testing::Combine(::testing::ValuesIn(formatsThatReadAndWrite()),
+                                            ::testing::ValuesIn(kPlaces)),
+                         [](const auto& instance) {
+                           return std::string("to_") + std::string(std::get<0>(instance.param).name) + "_" +
+                                  std::get<1>(instance.param).name;
+                         });
+
+TEST(GridFormats, AreChosenByEndingOrName) {
+  EXPECT_EQ(gridFormatFor("a/b.GPKG").name, "gpkg");
+  EXPECT_EQ(gridFormatFor("lake.1.ele").name, "triangle");
+  EXPECT_EQ(gridFormatFor("lake.msh", "gmsh22").name, "gmsh22");
+  EXPECT_EQ(gridFormatFor("lake.msh").name, "gmsh");
+  EXPECT_EQ(gridFormatFor("lake_ww3.msh").name, "ww3");
+  EXPECT_EQ(gridFormatFor("fort.14").name, "adcirc");
+  EXPECT_EQ(gridFormatFor("run/hgrid.ll").name, "schism");
+  EXPECT_EQ(gridFormatFor("tst_grd.dat").name, "fvcom");
+  EXPECT_EQ(gridFormatFor("lake_net.nc").name, "ugrid");
+  EXPECT_THROW(gridFormatFor("lake.xyz"), OutputError);
+  EXPECT_THROW(gridFormatFor("lake"), OutputError);
+  EXPECT_THROW(gridFormatFor("lake.nc", "grib"), OutputError);
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,262 @@
+// Meshes of other programs, and what is wrong with those that cannot be read.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netcdf.h>
+
+#include "gis/error.hpp"
+#include "gis/format/grid_io.hpp"
+#include "tests/gis/grid_samples.hpp"
+
+namespace coastmesh {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+class ReadGrid : public ::testing::Test {
+ protected:
+  std::string put(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+
+  std::string errorOf(const std::string& path) {
+    try {
+      readGrid(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  std::string errorIn(const std::string& name, const std::string& text) { return errorOf(put(name, text)); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReadGrid, NamesWhatCannotBeRead) {
+  EXPECT_THAT(errorOf(folder_ / "no.msh"), HasSubstr("there is no file"));
+  EXPECT_THAT(errorIn("mesh.xyz", "1"), AllOf(HasSubstr("mesh.xyz"), HasSubstr(".2dm")));
+  EXPECT_THAT(errorIn("empty.2dm", ""), HasSubstr("empty.2dm' is empty"));
+  EXPECT_THAT(errorIn("lake.nc", "no netcdf"), HasSubstr("lake.nc"));
+  EXPECT_THAT(errorIn("lake.gpkg", "no sqlite"), HasSubstr("lake.gpkg"));
+  EXPECT_THAT(errorIn("lake.vtu", "<VTKFile/>"), HasSubstr("no unstructured grid"));
+}
+
+TEST_F(ReadGrid, TwoDmOfOtherPrograms) {
+  const Grid grid = readGrid(put("lake.2dm",
+                                 "MESH2D\r\nMESHNAME \"x\"\r\nNUM_MATERIALS_PER_ELEM 1\r\n"
+                                 "ND 10 0.0 0 1.5\r\nND 20 1.0E+0 0 +2.5\r\nND 5 1 1 3\r\nND 7 0 1 4\r\n"
+                                 "E3T 3 10 20 5 4\r\nE3T 9 10 5 7 2\r\n"
+                                 "NS 20 -10 1\r\nNS 10 5 -7\r\nNS 10 20 5\r\nNS 7 -10 8\r\n"));
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(grid.z, (std::vector<double>{1.5, 2.5, 3, 4}));
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(grid.feature_of, (std::vector<std::uint32_t>{1, 0}));
+  // The first string is turned, the second has an edge inside that is left out, the third is the whole shore.
+  ASSERT_EQ(grid.boundaries.size(), 3u);
+  EXPECT_EQ(grid.boundaries[0].role, BoundaryRole::Open);
+  EXPECT_THAT(grid.boundaries[0].nodes, ElementsAre(0, 1));
+  EXPECT_THAT(grid.boundaries[1].nodes, ElementsAre(2, 3));
+  EXPECT_EQ(grid.boundaries[2].role, BoundaryRole::Land);
+  EXPECT_TRUE(grid.boundaries[2].closed);
+  EXPECT_TRUE(grid.crs.isPlane());
+}
+
+TEST_F(ReadGrid, TwoDmErrorsNameTheLine) {
+  EXPECT_THAT(errorIn("a.2dm", "ND 1 0 0 0\n"), HasSubstr("line 1"));
+  EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 zero 0\n"), AllOf(HasSubstr("line 2"), HasSubstr("\"zero\"")));
+  EXPECT_THAT(errorIn("a.2dm", "MESH2D\n\nND 1 0 nan 0\n"), AllOf(HasSubstr("line 3"), HasSubstr("finite")));
+  EXPECT_THAT(errorIn("a.2dm", "MESH2D\nE4Q 1 1 2 3 4 1\n"), AllOf(HasSubstr("line 2"), HasSubstr("E4Q")));
+  EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 0 0\nND 2 0 1 0\nND 2 1 1 0\n"), HasSubstr("node 2"));
+  EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 0 0\nE3T 1 1 1 9 1\n"), HasSubstr("node 9"));
+  EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 0 0\nNS 1\n"), HasSubstr("NS"));
+}
+
+constexpr const char* kSquare22 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\nnot $Nodes\n$EndComments\n"
+    "$PhysicalNames\n2\n1 7 \"Open sea\"\n2 3 \"bay\"\n$EndPhysicalNames\n"
+    "$Nodes\n4\n4 0 1 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n$EndNodes\n"
+    "$Elements\n7\n1 15 2 0 1 1\n2 1 2 7 1 2 1\n3 1 2 8 2 2 3\n4 1 2 8 3 3 4\n5 1 2 8 4 4 1\n"
+    "7 2 2 3 1 1 3 4\n6 2 2 3 1 1 2 3\n$EndElements\n";
+
+TEST_F(ReadGrid, GmshOfOtherPrograms) {
+  const Grid grid = readGrid(put("bay.msh", kSquare22));
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_TRUE(grid.z.empty());
+  ASSERT_EQ(grid.features.size(), 1u);
+  EXPECT_EQ(grid.features[0].fid, 3);
+  ASSERT_EQ(grid.boundaries.size(), 2u);
+  EXPECT_EQ(grid.boundaries[0].role, BoundaryRole::Open);
+  EXPECT_THAT(grid.boundaries[0].nodes, ElementsAre(0, 1));
+  EXPECT_EQ(grid.boundaries[1].role, BoundaryRole::Land);
+  EXPECT_THAT(grid.boundaries[1].nodes, ElementsAre(1, 2, 3, 0));
+}
+
+TEST_F(ReadGrid, GmshWithDepthsAsThirdCoordinate) {
+  std::string text = kSquare22;
+  text.replace(text.find("1 0 0 0\n2 1"), 7, "1 0 0 -5");
+  EXPECT_EQ(readGrid(put("bay.msh", text)).z, (std::vector<double>{-5, 0, 0, 0}));
+}
+
+TEST_F(ReadGrid, GmshErrors) {
+  EXPECT_THAT(errorIn("a.msh", "$Nodes\n0\n$EndNodes\n"), AllOf(HasSubstr("line 1"), HasSubstr("$MeshFormat")));
+  EXPECT_THAT(errorIn("a.msh", "$MeshFormat\n4.1 1 8\n"), AllOf(HasSubstr("line 2"), HasSubstr("binary")));
+  EXPECT_THAT(errorIn("a.msh", "$MeshFormat\n4.0 0 8\n"), HasSubstr("4.0"));
+  EXPECT_THAT(errorIn("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n"),
+              HasSubstr("ends too early"));
+  std::string quad = kSquare22;
+  quad.replace(quad.find("6 2 2 3 1 1 2 3"), 15, "6 3 2 3 1 1 2 3 4");
+  EXPECT_THAT(errorIn("a.msh", quad), HasSubstr("type 3"));
+  std::string missing = kSquare22;
+  missing.replace(missing.find("6 2 2 3 1 1 2 3"), 15, "6 2 2 3 1 1 2 9");
+  EXPECT_THAT(errorIn("a.msh", missing), HasSubstr("no node 9"));
+}
+
+TEST_F(ReadGrid, TriangleOfOtherPrograms) {
+  put("a.1.node", "# from 0\n4 2 2 1\n0 0 0 9 9 1\n 1  1 0 9 9 1 # corner\n2 1 1 9 9 1\n\n3 0 1 9 9 0\n");
+  put("a.1.poly", "0 2 0 1\n2 1\n1 0 1 1\n2 1 2 1\n0\n");
+  const Grid grid = readGrid(put("a.1.ele", "2 3 1\n0 0 1 2 0.5\n1 0 2 3 1.5\n"));
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_TRUE(grid.z.empty());           // two attributes: which would it be
+  EXPECT_TRUE(grid.features.empty());    // a triangle's attribute that is no number of a feature
+  EXPECT_TRUE(grid.boundaries.empty());  // markers without a role
+  EXPECT_EQ(readGrid(folder_ / "a.1.node").triangles, grid.triangles);
+}
+
+TEST_F(ReadGrid, TriangleErrorsNameTheFile) {
+  put("a.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
+  EXPECT_THAT(errorOf(folder_ / "a.node"), HasSubstr("a.ele"));
+  EXPECT_THAT(errorIn("a.ele", "1 6 0\n1 1 2 3 1 2 3\n"), HasSubstr("three nodes"));
+  EXPECT_THAT(errorIn("a.ele", "1 3 0\n1 1 2 4\n"), AllOf(HasSubstr("line 2"), HasSubstr("no node 4")));
+  EXPECT_THAT(errorIn("a.ele", "2 3 0\n1 1 2 3\n"), HasSubstr("ends too early"));
+  put("a.node", "3 3 0 0\n");
+  EXPECT_THAT(errorOf(folder_ / "a.ele"), HasSubstr("two dimensions"));
+}
+
+TEST_F(ReadGrid, GisLayersOfOtherPrograms) {
+  const std::string head = R"({"type":"FeatureCollection","features":[)";
+  const auto feature = [](const std::string& rings) {
+    return R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":)" + rings + "}}";
+  };
+  const std::string first = feature("[[[0,0],[1,0],[1,1],[0,0]]]"), turned = feature("[[[0,0],[0,1],[1,1],[0,0]]]");
+  const Grid grid = readGrid(put("tin.geojson", head + first + "," + turned + "]}"));
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(grid.crs.authority, "EPSG:4326");
+  const std::string quad = feature("[[[0,0],[1,0],[1,1],[0,1],[0,0]]]");
+  EXPECT_THAT(errorIn("lake.geojson", head + first + "," + quad + "]}"),
+              AllOf(HasSubstr("lake.geojson"), HasSubstr("feature 1"), HasSubstr("4 corners")));
+  EXPECT_THAT(errorIn("point.geojson", head + R"({"type":"Feature","properties":{},"geometry":)"
+                                              R"({"type":"Point","coordinates":[1,2]}}]})"),
+              HasSubstr("no layer of polygons"));
+}
+
+// A UGRID file as others write it: names of their own, from 0, transposed, depth down, quads only in the columns.
+class Ugrid {
+ public:
+  Ugrid(const std::string& path, bool quad) {
+    nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_);
+    int nodes = 0, faces = 0, corners = 0;
+    nc_def_dim(id_, "n", 4, &nodes);
+    nc_def_dim(id_, "f", 2, &faces);
+    nc_def_dim(id_, "max", 4, &corners);
+    const int mesh = variable("Topology", NC_INT, {});
+    text(mesh, "cf_role", "mesh_topology");
+    const int two = 2, start = 0, fill = -1;
+    nc_put_att_int(id_, mesh, "topology_dimension", NC_INT, 1, &two);
+    text(mesh, "node_coordinates", "lat lon");
+    text(mesh, "face_node_connectivity", "conn");
+    text(mesh, "face_dimension", "f");
+    const int lat = variable("lat", NC_FLOAT, {nodes}), lon = variable("lon", NC_DOUBLE, {nodes});
+    text(lat, "standard_name", "latitude");
+    text(lon, "standard_name", "longitude");
+    const int depth = variable("depth", NC_DOUBLE, {nodes});
+    text(depth, "standard_name", "altitude");
+    text(depth, "mesh", "Topology");
+    text(depth, "location", "node");
+    text(depth, "positive", "down");
+    const int conn = variable("conn", NC_INT64, {corners, faces});
+    nc_put_att_int(id_, conn, "start_index", NC_INT, 1, &start);
+    const long long no_node = fill;
+    nc_put_att_longlong(id_, conn, "_FillValue", NC_INT64, 1, &no_node);
+    nc_enddef(id_);
+    const double y[] = {50, 50, 51, 51}, x[] = {5, 6, 6, 5}, z[] = {1, 2, 3, 4};
+    nc_put_var_double(id_, lat, y);
+    nc_put_var_double(id_, lon, x);
+    nc_put_var_double(id_, depth, z);
+    const int columns[] = {0, 0, 1, 2, 2, 3, -1, quad ? 1 : -1};
+    nc_put_var_int(id_, conn, columns);
+    nc_close(id_);
+  }
+
+ private:
+  int variable(const char* name, nc_type type, const std::vector<int>& dimensions) {
+    int variable_id = 0;
+    nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &variable_id);
+    return variable_id;
+  }
+  void text(int variable_id, const char* name, const std::string& value) {
+    nc_put_att_text(id_, variable_id, name, value.size(), value.data());
+  }
+
+  int id_ = 0;
+};
+
+TEST_F(ReadGrid, UgridOfOtherPrograms) {
+  const Ugrid file(folder_ / "other.nc", false);
+  const Grid grid = readGrid(folder_ / "other.nc");
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{5, 50}, {6, 50}, {6, 51}, {5, 51}}));
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(grid.z, (std::vector<double>{-1, -2, -3, -4}));
+  EXPECT_EQ(grid.crs.authority, "EPSG:4326");
+}
+
+TEST_F(ReadGrid, UgridWithQuadsIsRefused) {
+  const Ugrid file(folder_ / "quads.nc", true);
+  EXPECT_THAT(errorOf(folder_ / "quads.nc"), AllOf(HasSubstr("face 2"), HasSubstr("4 nodes")));
+}
+
+// The NetCDF library would allocate what this header claims for its attributes.
+TEST_F(ReadGrid, NetcdfHeadersThatClaimTooMuchAreRefused) {
+  const std::string header("CDF\x02\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x0C\x7F\xFF\xFF\xFF", 24);
+  EXPECT_THAT(errorIn("damaged.nc", header), AllOf(HasSubstr("damaged.nc"), HasSubstr("claims more")));
+}
+
+// Cut off anywhere, a file is refused or read short, but never crashes or hangs.
+TEST_F(ReadGrid, CutFilesDoNoHarm) {
+  const Grid grid = testing::sampleGrid(wgs84(), {-87.5, 43.1}, 0.01, 2);
+  for (const GridFormat& format : gridFormats()) {
+    if (!format.readable || !format.writable || format.endings.empty()) continue;
+    const std::string name = "whole" + std::string(format.endings[0]);
+    StagedOutput output(folder_ / name, format, true);
+    output.write(grid);
+    output.commit();
+    std::ifstream file(folder_ / name, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    std::filesystem::remove(folder_ / "cut.prj");
+    for (std::size_t size = 1; size < bytes.size(); size += 1 + bytes.size() / 40) {
+      const std::string path = put("cut" + std::string(format.endings[0]), bytes.substr(0, size));
+      for (const char* beside : {".ele", ".shx", ".dbf"})
+        if (std::filesystem::exists(folder_ / ("whole" + std::string(beside))) && !path.ends_with(beside))
+          std::filesystem::copy_file(folder_ / ("whole" + std::string(beside)), folder_ / ("cut" + std::string(beside)),
+                                     std::filesystem::copy_options::overwrite_existing);
+      ::testing::internal::CaptureStderr();
+      try {
+        readGrid(path);
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("cut")) << size;
+      }
+      EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << format.name << " cut at " << size;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,291 @@
+// An output appears whole or not at all, and never in place of another without leave.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "gis/error.hpp"
+#include "gis/file/prj_file.hpp"
+#include "gis/format/grid_io.hpp"
+#include "gis/format/write_ogr.hpp"
+#include "tests/gis/grid_samples.hpp"
+
+namespace coastmesh {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::sampleGrid;
+using testing::TemporaryFolder;
+
+Grid lakes(const char* crs = "EPSG:4326", int cells = 4) {
+  return sampleGrid(parseCrs(crs), {-87.5, 43.1}, 0.01, cells);
+}
+
+std::string endingOf(const GridFormat& format) {
+  return format.endings.empty() ? ".msh" : std::string(format.endings.front());
+}
+
+void put(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
+
+std::string textOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void writeWhole(const std::string& path, const Grid& grid, bool overwrite = false) {
+  StagedOutput output(path, gridFormatFor(path), overwrite);
+  output.write(grid);
+  output.commit();
+}
+
+template <typename Act>
+std::string errorOf(Act act) {
+  try {
+    act();
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// No file may grow past `bytes` for as long as this lives: what a full disk is, without one.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    signal_before_ = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, signal_before_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*signal_before_)(int) = nullptr;
+};
+
+std::vector<GridFormat> writableFormats() {
+  std::vector<GridFormat> formats;
+  for (const GridFormat& format : gridFormats())
+    if (format.writable) formats.push_back(format);
+  return formats;
+}
+
+class StagedFormats : public ::testing::TestWithParam<GridFormat> {};
+
+TEST_P(StagedFormats, NothingShowsBeforeCommit) {
+  const TemporaryFolder folder;
+  const std::string path = folder / ("lake" + endingOf(GetParam()));
+  {
+    StagedOutput output(path, GetParam(), false);
+    output.write(lakes());
+    EXPECT_THAT(folder.names(), ElementsAre(HasSubstr(".part-")));
+  }
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST_P(StagedFormats, CommitLeavesOnlyTheOutput) {
+  const TemporaryFolder folder;
+  StagedOutput output(folder / ("lake" + endingOf(GetParam())), GetParam(), false);
+  output.write(lakes());
+  output.commit();
+  EXPECT_THAT(folder.names(), Not(IsEmpty()));
+  for (const std::string& name : folder.names()) EXPECT_TRUE(name.starts_with("lake")) << name;
+}
+
+// Wherever the disk gets full, be it at the last byte.
+TEST_P(StagedFormats, AFullDiskLeavesNothingAndSaysSo) {
+  const TemporaryFolder folder, whole;
+  const std::string name = "lake" + endingOf(GetParam());
+  const Grid grid = lakes("EPSG:4326", 10);
+  StagedOutput complete(whole / name, GetParam(), false);
+  complete.write(grid);
+  complete.commit();
+  std::uintmax_t largest = 0;
+  for (const std::string& file : whole.names()) largest = std::max(largest, std::filesystem::file_size(whole / file));
+
+  constexpr int kLimits = 12;
+  for (int i = 1; i <= kLimits; ++i) {
+    ::testing::internal::CaptureStderr();
+    std::string error;
+    {
+      const FileSizeLimit limit(i == kLimits ? largest - 1 : largest * i / kLimits);
+      error = errorOf([&] {
+        StagedOutput output(folder / name, GetParam(), false);
+        output.write(grid);
+        output.commit();
+      });
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << i;
+    EXPECT_THAT(error, AllOf(HasSubstr("cannot write '" + (folder / "lake")), Not(HasSubstr(".part-")))) << i;
+    EXPECT_THAT(folder.names(), IsEmpty()) << i;
+  }
+}
+
+TEST_P(StagedFormats, AnExistingTargetIsKept) {
+  const TemporaryFolder folder;
+  const std::string path = folder / ("lake" + endingOf(GetParam()));
+  put(path, "precious");
+  EXPECT_THAT(errorOf([&] { StagedOutput(path, GetParam(), false); }),
+              AllOf(HasSubstr(path), HasSubstr("--overwrite")));
+  EXPECT_EQ(textOf(path), "precious");
+}
+
+TEST_P(StagedFormats, ATargetThatComesMeanwhileIsKept) {
+  const TemporaryFolder folder;
+  const std::string path = folder / ("lake" + endingOf(GetParam()));
+  {
+    StagedOutput output(path, GetParam(), false);
+    output.write(lakes());
+    put(path, "precious");
+    EXPECT_THAT(errorOf([&] { output.commit(); }), HasSubstr("--overwrite"));
+  }
+  EXPECT_EQ(textOf(path), "precious");
+  EXPECT_EQ(folder.names().size(), 1u);
+}
+
+TEST_P(StagedFormats, OverwriteReplacesAll) {
+  const TemporaryFolder folder, fresh;
+  const std::string name = "lake" + endingOf(GetParam());
+  for (const std::string& path : {folder / name, folder / name, fresh / name}) {
+    StagedOutput output(path, GetParam(), true);
+    output.write(path == fresh / name ? lakes() : lakes("EPSG:4326", path == folder / name ? 4 : 5));
+    output.commit();
+  }
+  ASSERT_EQ(folder.names(), fresh.names());
+  for (const std::string& file : folder.names()) EXPECT_TRUE(textOf(folder / file) == textOf(fresh / file)) << file;
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, StagedFormats, ::testing::ValuesIn(writableFormats()),
+                         [](const auto& instance) { return "as_" + std::string(instance.param.name); });
+
+TEST(StagedOutput, RefusesMissingFoldersAndFoldersAsTargets) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / "no/lake.gpkg", lakes()); }), HasSubstr("there is no folder"));
+  std::filesystem::create_directory(folder / "lake.msh");
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.msh", lakes(), true); }), HasSubstr("it is a folder"));
+  EXPECT_THAT(folder.names(), ElementsAre("lake.msh"));
+}
+
+TEST(StagedOutput, RefusesAMeshWithoutTriangles) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.nc", Grid()); }), HasSubstr("no triangles"));
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+// The last of the files cannot come into place: the others go away again, and what was there comes back.
+TEST(StagedOutput, CommitOfSeveralFilesIsAllOrNothing) {
+  const TemporaryFolder folder;
+  writeWhole(folder / "lake.node", lakes());
+  const std::string before = textOf(folder / "lake.node");
+  std::filesystem::create_directory(folder / "zone");
+  {
+    StagedOutput output(folder / "lake.node", gridFormatFor("lake.node"), true);
+    output.write(lakes("EPSG:4326", 5));
+    put(output.stagingFolder() + "/zone", "cannot take the place of a folder");
+    EXPECT_THAT(errorOf([&] { output.commit(); }), HasSubstr(folder / "zone"));
+  }
+  EXPECT_EQ(textOf(folder / "lake.node"), before);
+  EXPECT_THAT(folder.names(), ElementsAre("lake.ele", "lake.node", "lake.poly", "lake.prj", "zone"));
+}
+
+TEST(StagedOutput, NeverReplacesAFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "lake.poly");
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.node", lakes(), true); }), HasSubstr("it is a folder"));
+  EXPECT_THAT(folder.names(), ElementsAre("lake.poly"));
+}
+
+TEST(StagedOutput, OverwritingAShapefileRemovesItsIndexes) {
+  const TemporaryFolder folder;
+  writeWhole(folder / "lake.shp", lakes());
+  for (const char* stale : {"lake.qix", "lake_nodes.sbn", "lake.shp.xml"}) put(folder / stale, "old");
+  put(folder / "lake.txt", "precious");
+  Grid plane = lakes();
+  plane.crs = {};
+  writeWhole(folder / "lake.shp", plane, true);
+  EXPECT_THAT(folder.names(),
+              ElementsAre("lake.cpg", "lake.dbf", "lake.shp", "lake.shx", "lake.txt", "lake_boundaries.cpg",
+                          "lake_boundaries.dbf", "lake_boundaries.shp", "lake_boundaries.shx", "lake_nodes.cpg",
+                          "lake_nodes.dbf", "lake_nodes.shp", "lake_nodes.shx"));
+}
+
+// SQLite would play the log of the old file into the new one.
+TEST(StagedOutput, OverwritingAGeoPackageRemovesItsLogs) {
+  const TemporaryFolder folder;
+  for (const char* stale : {"lake.gpkg", "lake.gpkg-wal", "lake.gpkg-shm", "lake.gpkg-journal"})
+    put(folder / stale, "old");
+  writeWhole(folder / "lake.gpkg", lakes(), true);
+  EXPECT_THAT(folder.names(), ElementsAre("lake.gpkg"));
+}
+
+// "lake.shp" meshed to "lake.2dm": the .prj serves both.
+TEST(StagedOutput, KeepsAPrjThatSaysTheSame) {
+  const TemporaryFolder folder;
+  const std::string esri = R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
+                           R"(PRIMEM["Greenwich",0.0], UNIT["Degree",0.0174532925199433]])";
+  put(folder / "lake.shp", "someone's");
+  put(folder / "lake.prj", esri);
+  writeWhole(folder / "lake.2dm", lakes());
+  EXPECT_EQ(textOf(folder / "lake.prj"), esri);
+  EXPECT_EQ(readGrid(folder / "lake.2dm").crs.authority, "EPSG:4326");
+}
+
+TEST(StagedOutput, NeverReplacesThePrjOfAShapefile) {
+  const TemporaryFolder folder;
+  put(folder / "lake.shp", "someone's");
+  writePrjBeside(folder / "lake.prj", parseCrs("EPSG:32616"));
+  const std::string prj = textOf(folder / "lake.prj");
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.2dm", lakes()); }), HasSubstr("--overwrite"));
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.2dm", lakes(), true); }), HasSubstr("another CRS"));
+  Grid plane = lakes();
+  plane.crs = {};
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.2dm", plane, true); }), HasSubstr("another CRS"));
+  EXPECT_EQ(textOf(folder / "lake.prj"), prj);
+  EXPECT_THAT(folder.names(), ElementsAre("lake.prj", "lake.shp"));
+}
+
+TEST(StagedOutput, OverwritingWithAPlaneTakesThePrjAway) {
+  const TemporaryFolder folder;
+  writeWhole(folder / "lake.2dm", lakes());
+  Grid plane = lakes();
+  plane.crs = {};
+  writeWhole(folder / "lake.2dm", plane, true);
+  EXPECT_THAT(folder.names(), ElementsAre("lake.2dm"));
+  EXPECT_TRUE(readGrid(folder / "lake.2dm").crs.isPlane());
+}
+
+TEST(StagedOutput, CanBeMoved) {
+  const TemporaryFolder folder;
+  std::vector<StagedOutput> outputs;
+  for (const char* name : {"a.nc", "b.2dm", "c.msh"}) outputs.emplace_back(folder / name, gridFormatFor(name), false);
+  for (StagedOutput& output : outputs) output.write(lakes());
+  for (StagedOutput& output : outputs) output.commit();
+  EXPECT_THAT(folder.names(), ElementsAre("a.nc", "b.2dm", "b.prj", "c.msh", "c.prj"));
+}
+
+TEST(StagedOutput, GeoJsonRefusesACrsThatItCannotName) {
+  const TemporaryFolder folder;
+  Grid grid = lakes();
+  grid.crs = parseCrs("+proj=laea +lat_0=44 +lon_0=-87 +ellps=GRS80");
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.geojson", grid); }), HasSubstr(".gpkg"));
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Shapefile, RefusesMoreThanItsOffsetsHold) {
+  EXPECT_NO_THROW(requireShapefileSize("lake.shp", 10'000'000, 120, 100));
+  EXPECT_THROW(requireShapefileSize("lake.shp", 18'000'000, 120, 100), OutputError);
+  EXPECT_THAT(errorOf([] { requireShapefileSize("lake.shp", 10'000'000, 120, 300); }), HasSubstr(".gpkg"));
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,78 @@
+#include "gis/geometry/box_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace coastmesh {
+namespace {
+
+std::vector<Box> randomBoxes(std::mt19937_64& random, std::size_t n, double extent, double size) {
+  std::uniform_real_distribution<double> place(-extent, extent), side(0, size);
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = place(random), y = place(random);
+    boxes.push_back({x, y, x + side(random), y + side(random)});
+  }
+  return boxes;
+}
+
+std::string nameOf(const ::testing::TestParamInfo<BoxTree::Order>& order) {
+  return order.param == BoxTree::Order::Hilbert ? "hilbert" : "given";
+}
+
+class BoxTreeTest : public ::testing::TestWithParam<BoxTree::Order> {};
+
+TEST_P(BoxTreeTest, FindsWhatAScanFinds) {
+  std::mt19937_64 random(1);
+  for (const std::size_t n : {1, 2, 7, 8, 9, 64, 65, 513, 3000}) {
+    const std::vector<Box> boxes = randomBoxes(random, n, 10, 1);
+    const BoxTree tree(boxes, GetParam());
+    EXPECT_EQ(tree.size(), n);
+    for (const Box& query : randomBoxes(random, 50, 12, 4)) {
+      std::vector<std::uint32_t> found, expected;
+      tree.visit(query, [&](std::uint32_t item) { found.push_back(item); });
+      for (std::uint32_t i = 0; i < n; ++i) {
+        if (boxes[i].meets(query)) expected.push_back(i);
+      }
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(found, expected);
+    }
+  }
+}
+
+TEST_P(BoxTreeTest, HoldsPointsAndEqualBoxes) {
+  const std::vector<Box> boxes(100, Box{1, 1, 1, 1});
+  const BoxTree tree(boxes, GetParam());
+  std::size_t found = 0;
+  tree.visit({1, 1, 1, 1}, [&](std::uint32_t) { ++found; });
+  EXPECT_EQ(found, 100u);
+  tree.visit({1.5, 1, 2, 1}, [&](std::uint32_t) { FAIL(); });
+}
+
+TEST_P(BoxTreeTest, AnEmptyTreeFindsNothing) {
+  const BoxTree tree({}, GetParam());
+  EXPECT_EQ(tree.size(), 0u);
+  EXPECT_TRUE(tree.bounds().empty());
+  tree.visit({-1, -1, 1, 1}, [&](std::uint32_t) { FAIL(); });
+}
+
+TEST(BoxTreeOrder, NodesOfTheOrderGivenTellTheirItems) {
+  std::mt19937_64 random(2);
+  const std::vector<Box> boxes = randomBoxes(random, 100, 10, 1);
+  const BoxTree tree(boxes, BoxTree::Order::Given);
+  tree.descend(
+      [&](const Box& box, std::size_t first, std::size_t last) {
+        EXPECT_LT(first, last);
+        for (std::size_t i = first; i < last; ++i) EXPECT_TRUE(box.contains(boxes[i]));
+        return true;
+      },
+      [](std::uint32_t) {});
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, BoxTreeTest, ::testing::Values(BoxTree::Order::Given, BoxTree::Order::Hilbert),
+                         nameOf);
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,178 @@
+// What the rim is, told by polygons, lines and depths.
+#include "gis/model/assign_boundaries.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gis/error.hpp"
+#include "tests/gis/grid_samples.hpp"
+
+namespace coastmesh {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::lattice;
+using testing::TemporaryFolder;
+
+// A square from (10, 50) to (20, 60), squares of one degree, with an island of one square.
+Grid sea() {
+  const TriMesh mesh = lattice(
+      10, 10, [](int i, int j) { return i != 4 || j != 4; },
+      [](int i, int j) {
+        return Point{10.0 + i, 50.0 + j};
+      });
+  Grid grid;
+  grid.crs = wgs84();
+  grid.nodes = mesh.points;
+  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  grid.boundaries = findBoundaries(mesh);
+  return grid;
+}
+
+std::size_t edgesOfRole(const Grid& grid, BoundaryRole role) {
+  std::size_t count = 0;
+  for (const Boundary& boundary : grid.boundaries)
+    if (boundary.role == role) count += edgesOf(boundary).size();
+  return count;
+}
+
+// Every edge of the rim in one boundary, boundaries one after another end to end.
+void expectWholeRim(const Grid& grid) {
+  std::vector<NodePair> told, rim;
+  for (const Boundary& boundary : grid.boundaries)
+    for (const NodePair& edge : edgesOf(boundary)) told.push_back(edge);
+  for (const auto& loop : rimOf(grid))
+    for (std::size_t i = 0; i < loop.size(); ++i) rim.push_back({loop[i], loop[(i + 1) % loop.size()]});
+  std::ranges::sort(told);
+  std::ranges::sort(rim);
+  EXPECT_EQ(told, rim);
+}
+
+class AssignBoundaries : public ::testing::Test {
+ protected:
+  std::string put(const std::string& name, const std::string& features) {
+    std::ofstream(folder_ / name) << R"({"type":"FeatureCollection","features":[)" << features << "]}";
+    return folder_ / name;
+  }
+  static std::string feature(const std::string& type, const std::string& geometry, const std::string& coordinates) {
+    return R"({"type":"Feature","properties":{"type":)" + type + R"(},"geometry":{"type":")" + geometry +
+           R"(","coordinates":)" + coordinates + "}}";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(AssignBoundaries, PolygonsTellWhatLiesInThem) {
+  Grid grid = sea();
+  const auto file =
+      put("types.geojson", feature("\"Ocean\"", "Polygon", "[[[9,52.5],[11,52.5],[11,57.5],[9,57.5],[9,52.5]]]") + "," +
+                               feature("\"22\"", "Polygon", "[[[19,53],[21,53],[21,55],[19,55],[19,53]]]"));
+  BoundaryOptions options;
+  options.files = {file};
+  const BoundaryReport report = assignBoundaries(grid, options);
+  // Middles at 53.5, 54.5, 55.5, 56.5 and 52.5 (on the polygon's rim, which may be either).
+  EXPECT_GE(edgesOfRole(grid, BoundaryRole::Open), 4u);
+  EXPECT_LE(edgesOfRole(grid, BoundaryRole::Open), 6u);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::River), 2u);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);
+  EXPECT_EQ(report.edges_told, edgesOfRole(grid, BoundaryRole::Open) + 2);
+  expectWholeRim(grid);
+}
+
+TEST_F(AssignBoundaries, LinesTellWhatRunsAlongThem) {
+  Grid grid = sea();
+  // Along the southern side up to half of it, not quite on it; the corner's other side is not meant.
+  const auto file = put("types.geojson", feature("\"open\"", "LineString", "[[10,50.01],[13,49.98],[15,50]]"));
+  BoundaryOptions options;
+  options.files = {file};
+  assignBoundaries(grid, options);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 5u);
+  expectWholeRim(grid);
+}
+
+TEST_F(AssignBoundaries, LinesOpenIslands) {
+  Grid grid = sea();
+  BoundaryOptions options;
+  options.files = {
+      put("island.geojson", feature("\"open\"", "LineString", "[[14,54],[15,54],[15,55],[14,55],[14,54]]"))};
+  assignBoundaries(grid, options);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 4u);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 0u);
+}
+
+TEST_F(AssignBoundaries, TheLastFeatureCounts) {
+  Grid grid = sea();
+  const std::string square = "[[[9,49],[21,49],[21,61],[9,61],[9,49]]]";
+  BoundaryOptions options;
+  options.files = {put("a.geojson", feature("\"open\"", "Polygon", square)),
+                   put("b.geojson", feature("\"10\"", "Polygon", "[[[9,59.5],[21,59.5],[21,61],[9,61],[9,59.5]]]"))};
+  assignBoundaries(grid, options);
+  std::size_t no_slip = 0;
+  for (const Boundary& boundary : grid.boundaries)
+    if (boundary.ibtype == 10) no_slip += edgesOf(boundary).size();
+  EXPECT_GE(no_slip, 10u);  // the north, and perhaps half an edge at either end
+  EXPECT_LE(no_slip, 12u);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 40u - no_slip);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);  // closed, though the polygon holds it
+  expectWholeRim(grid);
+}
+
+TEST_F(AssignBoundaries, LayersOfAnyCrsAndOtherTurns) {
+  Grid grid = sea();
+  BoundaryOptions options;
+  options.files = {
+      put("turn.geojson", feature("\"open\"", "Polygon", "[[[369,49],[371,49],[371,61],[369,61],[369,49]]]"))};
+  assignBoundaries(grid, options);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 12u);  // the west, and an edge at each of its ends
+}
+
+TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
+  Grid grid = sea();
+  for (const Point& node : grid.nodes) grid.z.push_back(-10.0 * (node.x - 10.0));
+  BoundaryOptions options;
+  options.open_deeper_m = 25.0;
+  assignBoundaries(grid, options);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 7u + 10u + 7u);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);
+  expectWholeRim(grid);
+  grid.z.clear();
+  EXPECT_THROW(assignBoundaries(grid, options), InputError);
+}
+
+TEST_F(AssignBoundaries, ShortOnesBecomePartOfLongerOnes) {
+  Grid grid = sea();
+  for (const Point& node : grid.nodes) {
+    const bool shallow = node.y == 50.0 && (node.x == 14.0 || node.x == 17.0);  // cut the southern side in three
+    grid.z.push_back(shallow || node.y > 50.0 ? -1.0 : -100.0);
+  }
+  BoundaryOptions options;
+  options.open_deeper_m = 50.0;
+  assignBoundaries(grid, options);
+  EXPECT_EQ(grid.boundaries.size(), 7u);  // three open, three of land between and around them, the island
+  grid.boundaries.clear();
+  options.least_length_m = 100'000.0;  // an edge there is 71 km, two are 143
+  const BoundaryReport report = assignBoundaries(grid, options);
+  EXPECT_GT(report.merged, 0u);
+  for (const Boundary& boundary : grid.boundaries) {
+    if (!boundary.closed) {
+      EXPECT_GE(boundary.nodes.size(), 3u);
+    }
+  }
+  expectWholeRim(grid);
+}
+
+TEST_F(AssignBoundaries, TellsWhichFeatureHasNoType) {
+  Grid grid = sea();
+  BoundaryOptions options;
+  options.files = {put("bad.geojson", feature("\"moon\"", "Polygon", "[[[9,49],[21,49],[21,61],[9,49]]]"))};
+  try {
+    assignBoundaries(grid, options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("moon"));
+    EXPECT_THAT(error.what(), HasSubstr("bad.geojson"));
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,203 @@
+// Depths at nodes from rasters whose values are known functions of the place.
+#include "gis/model/depth.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gis/error.hpp"
+#include "gis/projection/projection.hpp"
+#include "tests/gis/grid_samples.hpp"
+#include "tests/support/rasters.hpp"
+
+namespace coastmesh {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::kNoValue;
+using testing::lattice;
+using testing::RasterShape;
+using testing::TemporaryFolder;
+using testing::writeRaster;
+
+// Squares of two triangles each, with corners at `origin` and `size` apart.
+Grid squares(const std::string& crs, Point origin, double size, int columns, int rows) {
+  const TriMesh mesh = lattice(
+      columns, rows, [](int, int) { return true; },
+      [&](int i, int j) {
+        return Point{origin.x + size * i, origin.y + size * j};
+      });
+  Grid grid;
+  grid.crs = parseCrs(crs);
+  grid.nodes = mesh.points;
+  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  grid.boundaries = findBoundaries(mesh);
+  return grid;
+}
+
+double slope(double x, double y) { return -50.0 + 3.0 * x - 2.0 * y; }
+
+class Depth : public ::testing::Test {
+ protected:
+  std::string raster(const std::string& name, const std::string& crs, const RasterShape& shape,
+                     const std::function<double(double, double)>& value) {
+    writeRaster(folder_ / name, crs, shape, value);
+    return folder_ / name;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Depth, BilinearIsExactOnAPlane) {
+  Grid grid = squares("EPSG:4326", {10.03, 50.07}, 0.31, 7, 5);
+  const DepthReport report =
+      setDepths(grid, {{raster("dem.tif", "EPSG:4326", {40, 40, 9.0, 53.0, 0.1}, slope)}, DepthMethod::Bilinear});
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 1e-9);
+  EXPECT_THAT(report.nodes_of_file, ElementsAre(grid.nodes.size()));
+  EXPECT_EQ(report.filled + report.unknown + report.partial, 0u);
+}
+
+TEST_F(Depth, SignAndWaterLevel) {
+  Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.5, 4, 4);
+  DepthOptions options{{raster("dem.tif", "EPSG:4326", {40, 40, 9.0, 53.0, 0.1}, slope)}};
+  options.positive_down = true;
+  options.water_level_m = 2.5;
+  setDepths(grid, options);
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    EXPECT_NEAR(grid.z[i], -slope(grid.nodes[i].x, grid.nodes[i].y) - 2.5, 1e-9);
+}
+
+// A raster in degrees under a projected mesh: values are those of the places, not of the numbers.
+TEST_F(Depth, AnyCrs) {
+  Grid grid = squares("EPSG:32632", {400000.0, 5500000.0}, 5000.0, 8, 8);
+  setDepths(grid, {{raster("dem.tif", "EPSG:4326", {400, 400, 7.0, 51.0, 0.01}, slope)}});
+  const Projection toDegrees = Projection::to(parseCrs("EPSG:32632"), wgs84());
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    const Point place = toDegrees.forward(grid.nodes[i]);
+    EXPECT_NEAR(grid.z[i], slope(place.x, place.y), 1e-6);
+  }
+}
+
+// The mean of a plane over all triangles round a node is its value at their common centre of gravity.
+TEST_F(Depth, AverageIsTheMeanOverTheTriangles) {
+  Grid grid = squares("plane", {0.0, 0.0}, 16.0, 6, 5);
+  const auto file = raster("dem.tif", "", {1200, 1000, -10.0, 90.0, 0.125}, slope);
+  const DepthReport report = setDepths(grid, {{file}, DepthMethod::Average});
+  EXPECT_EQ(report.averaged, grid.nodes.size());
+  std::vector<double> area(grid.nodes.size()), sum(grid.nodes.size());
+  for (const auto& [a, b, c] : grid.triangles) {
+    const Point &p = grid.nodes[a], &q = grid.nodes[b], &r = grid.nodes[c];
+    const double twice = (q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y);
+    for (const std::uint32_t node : {a, b, c}) {
+      area[node] += twice;
+      sum[node] += twice * slope((p.x + q.x + r.x) / 3.0, (p.y + q.y + r.y) / 3.0);
+    }
+  }
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) EXPECT_NEAR(grid.z[i], sum[i] / area[i], 0.15) << i;
+}
+
+// Pixels are far smaller than triangles: a wild surface averages out, where a point of it does not.
+TEST_F(Depth, AverageSmooths) {
+  const auto wild = [](double x, double y) { return -100.0 + 60.0 * std::sin(9.7 * x) * std::sin(8.3 * y); };
+  const auto file = raster("dem.tif", "", {1000, 1000, 0.0, 100.0, 0.1}, wild);
+  Grid grid = squares("plane", {10.0, 10.0}, 12.0, 5, 5);
+  setDepths(grid, {{file}, DepthMethod::Average});
+  for (const double z : grid.z) EXPECT_NEAR(z, -100.0, 3.0);
+  // Triangles smaller than a pixel tell nothing: bilinear there.
+  Grid fine = squares("plane", {50.0, 50.0}, 0.02, 4, 4);
+  const DepthReport report = setDepths(fine, {{file}, DepthMethod::Average});
+  EXPECT_EQ(report.averaged, 0u);
+  EXPECT_NEAR(fine.z[0], wild(50.0, 50.0), 20.0);
+}
+
+TEST_F(Depth, FirstRasterThatHasAValueCounts) {
+  Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 8, 8);
+  // The fine one covers the west, with a hole in it.
+  const auto hole = [](double x, double y) { return std::hypot(x - 10.5, y - 51.0) < 0.3; };
+  const auto fine = raster("fine.tif", "EPSG:4326", {1000, 2100, 9.99, 52.1, 0.001},
+                           [&](double x, double y) { return hole(x, y) ? kNoValue : -10.0; });
+  const auto coarse = raster("coarse.tif", "EPSG:4326", {60, 60, 8.0, 54.0, 0.1}, [](double, double) { return -20.0; });
+  const DepthReport report = setDepths(grid, {{fine, coarse}});
+  std::size_t of_fine = 0;
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    const bool in_fine = grid.nodes[i].x < 10.99 && !hole(grid.nodes[i].x, grid.nodes[i].y);
+    of_fine += in_fine;
+    EXPECT_EQ(grid.z[i], in_fine ? -10.0 : -20.0) << grid.nodes[i].x << ' ' << grid.nodes[i].y;
+  }
+  EXPECT_THAT(report.nodes_of_file, ElementsAre(of_fine, grid.nodes.size() - of_fine));
+  EXPECT_EQ(report.filled, 0u);
+}
+
+TEST_F(Depth, GapsAreFilledAndCounted) {
+  const auto half = raster("half.tif", "EPSG:4326", {200, 200, 10.0, 52.0, 0.01},
+                           [](double x, double) { return x < 11.0 ? -x : kNoValue; });
+  for (const DepthFill fill : {DepthFill::Neighbours, DepthFill::Nearest, DepthFill::None}) {
+    Grid grid = squares("EPSG:4326", {10.05, 50.05}, 0.15, 12, 12);
+    DepthOptions options{{half}};
+    options.fill = fill;
+    const DepthReport report = setDepths(grid, options);
+    const auto beyond =
+        static_cast<std::size_t>(std::ranges::count_if(grid.nodes, [](const Point& p) { return p.x > 11.0; }));
+    EXPECT_GT(beyond, 0u);
+    EXPECT_EQ(report.filled, fill == DepthFill::None ? 0 : beyond);
+    EXPECT_EQ(report.unknown, fill == DepthFill::None ? beyond : 0);
+    for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+      if (grid.nodes[i].x < 11.0) {
+        EXPECT_NEAR(grid.z[i], -grid.nodes[i].x, 0.006);
+      } else if (fill == DepthFill::None) {
+        EXPECT_TRUE(std::isnan(grid.z[i]));
+      } else {
+        EXPECT_NEAR(grid.z[i], -10.95, 0.02);  // the last column of nodes with a value
+      }
+    }
+  }
+}
+
+// Longitudes of another turn, and a raster whose last column meets its first.
+TEST_F(Depth, GoesRoundTheEarth) {
+  const auto wave = [](double x, double) { return -100.0 + 50.0 * std::cos(x * M_PI / 180.0); };
+  const auto world = raster("world.tif", "EPSG:4326", {720, 360, 0.0, 90.0, 0.5}, wave);
+  for (const DepthMethod method : {DepthMethod::Bilinear, DepthMethod::Average}) {
+    Grid grid = squares("EPSG:4326", {-11.0, -10.0}, 2.0, 10, 8);
+    const DepthReport report = setDepths(grid, {{world}, method});
+    EXPECT_EQ(report.filled + report.partial, 0u);
+    for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+      EXPECT_NEAR(grid.z[i], wave(grid.nodes[i].x, 0.0), method == DepthMethod::Bilinear ? 0.01 : 0.8);
+  }
+}
+
+TEST_F(Depth, LeastDepth) {
+  Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 8, 8);
+  DepthOptions options{
+      {raster("dem.tif", "EPSG:4326", {60, 60, 8.0, 54.0, 0.1}, [](double x, double) { return 11.0 - x; })}};
+  options.min_depth_m = 0.5;
+  const DepthReport report = setDepths(grid, options);
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    EXPECT_NEAR(grid.z[i], std::min(-0.5, 11.0 - grid.nodes[i].x), 1e-9);
+  EXPECT_GT(report.lowered, 0u);
+  EXPECT_EQ(report.above_water, 0u);
+}
+
+TEST_F(Depth, WarnsOfTheWrongSign) {
+  Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 8, 8);
+  const auto depths = raster("dep.tif", "EPSG:4326", {60, 60, 8.0, 54.0, 0.1}, [](double, double) { return 40.0; });
+  ASSERT_EQ(setDepths(grid, {{depths}}).warnings.size(), 1u);
+  EXPECT_THAT(setDepths(grid, {{depths}}).warnings[0], HasSubstr("--depth-sign"));
+}
+
+TEST_F(Depth, TellsWhatCannotBeUsed) {
+  Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 2, 2);
+  EXPECT_THROW(setDepths(grid, {{folder_ / "none.tif"}}), InputError);
+  std::ofstream(folder_ / "text.tif") << "no raster";
+  EXPECT_THROW(setDepths(grid, {{folder_ / "text.tif"}}), InputError);
+  const auto far = raster("far.tif", "EPSG:4326", {10, 10, 100.0, 10.0, 0.1}, slope);
+  const DepthReport report = setDepths(grid, {{far}});
+  EXPECT_EQ(report.unknown, grid.nodes.size());
+  EXPECT_THAT(report.warnings, ElementsAre(HasSubstr("no raster has a value")));
+}
+
+}  // namespace
+}  // namespace coastmesh

@@ -1,0 +1,199 @@
+// Depths and sizes from one raster: what is missing for the one is missing for the other, however the file says it.
+#include "gis/raster/raster_band.hpp"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "gis/error.hpp"
+#include "gis/model/depth.hpp"
+#include "gis/size/size_raster.hpp"
+#include "tests/gis/grid_samples.hpp"
+
+namespace coastmesh {
+namespace {
+
+using testing::TemporaryFolder;
+
+constexpr int kSide = 12;
+constexpr double kNoData = -9999.0;
+constexpr double kScale = 0.01, kOffset = 10.0;  // of the raster of whole numbers
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Sizes of half a pixel and less, so that none of them is lost among its neighbours.
+double valueOf(int column, int row) { return -(0.1 + 0.02 * column + 0.01 * row); }
+bool isHidden(int column, int row) { return (column * 5 + row * 7) % 4 == 0; }
+bool isNoData(int column, int row) { return (column + row) % 5 == 0; }
+
+enum class Told { NoData, NotANumber, MaskOfRaster, MaskFile, Alpha, AlphaOfFloats, MaskAndNoData };
+
+// kSide by kSide pixels of one unit from (0, 0); `told` says how hidden pixels are.
+void writeMasked(const std::string& path, Told told) {
+  GDALAllRegister();
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  const bool with_alpha = told == Told::Alpha || told == Told::AlphaOfFloats;
+  GDALDataset* const dataset = driver->Create(path.c_str(), kSide, kSide, with_alpha ? 2 : 1,
+                                              told == Told::Alpha ? GDT_UInt16 : GDT_Float32, nullptr);
+  ASSERT_NE(dataset, nullptr);
+  double transform[6] = {0.0, 1.0, 0.0, kSide, 0.0, -1.0};
+  dataset->SetGeoTransform(transform);
+  const bool with_no_data = told == Told::NoData || told == Told::MaskAndNoData;
+  if (told == Told::Alpha) {
+    dataset->GetRasterBand(1)->SetScale(kScale);
+    dataset->GetRasterBand(1)->SetOffset(-kOffset);
+  }
+  if (with_no_data) dataset->GetRasterBand(1)->SetNoDataValue(kNoData);
+  if (with_alpha) dataset->GetRasterBand(2)->SetColorInterpretation(GCI_AlphaBand);
+  const bool with_mask = told == Told::MaskOfRaster || told == Told::MaskFile || told == Told::MaskAndNoData;
+  if (with_mask) {
+    CPLSetThreadLocalConfigOption("GDAL_TIFF_INTERNAL_MASK", told == Told::MaskFile ? "NO" : "YES");
+    ASSERT_EQ(dataset->CreateMaskBand(GMF_PER_DATASET), CE_None);
+    CPLSetThreadLocalConfigOption("GDAL_TIFF_INTERNAL_MASK", nullptr);
+  }
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      const bool hidden = isHidden(column, row);
+      double value = valueOf(column, row);
+      if (told == Told::Alpha) value = (value + kOffset) / kScale;  // as a whole number
+      if (told == Told::NoData && hidden) value = kNoData;
+      if (told == Told::NotANumber && hidden) value = kNaN;
+      if (told == Told::MaskAndNoData && isNoData(column, row)) value = kNoData;
+      double shown = hidden ? 0.0 : told == Told::Alpha ? 65535.0 : told == Told::AlphaOfFloats ? 0.3 : 255.0;
+      const auto put = [&](GDALRasterBand* band, double& pixel) {
+        EXPECT_EQ(band->RasterIO(GF_Write, column, row, 1, 1, &pixel, 1, 1, GDT_Float64, 0, 0, nullptr), CE_None);
+      };
+      put(dataset->GetRasterBand(1), value);
+      if (with_alpha) put(dataset->GetRasterBand(2), shown);
+      if (with_mask) put(dataset->GetRasterBand(1)->GetMaskBand(), shown);
+    }
+  }
+  GDALClose(dataset);
+}
+
+// Sizes are the values, positive; nothing is wanted where there is none.
+TileRule valuesAsSizes() {
+  return {
+      0.0, [](const RasterTile& tile, std::span<float> sizes) {
+        for (int y = 0; y < tile.height; ++y)
+          for (int x = 0; x < tile.width; ++x)
+            if (!std::isnan(tile.at(x, y)))
+              sizes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x)] =
+                  -tile.at(x, y);
+      }};
+}
+
+RasterField fieldOf(const std::string& path, const Crs& crs, const Box& box, const TileRule& rule) {
+  return {readRasterGeometry(path), crs, Projection::plane(), box, rule, inOrder};
+}
+
+double sizeAt(const RasterField& field, const Point& place) {
+  double size = 0.0;
+  field.sample(std::span(&place, 1), std::span(&size, 1));
+  return size;
+}
+
+// The depths of nodes at these places; NaN where the raster has none.
+std::vector<double> depthsAt(const std::string& path, const Crs& crs, const std::vector<Point>& places) {
+  Grid grid;
+  grid.crs = crs;
+  grid.nodes = places;
+  DepthOptions options{{path}, DepthMethod::Bilinear};
+  options.fill = DepthFill::None;
+  setDepths(grid, options);
+  return grid.z;
+}
+
+TEST(RasterBand, WhatIsMissingIsMissingForDepthsAndSizes) {
+  const TemporaryFolder folder;
+  for (const Told told : {Told::NoData, Told::NotANumber, Told::MaskOfRaster, Told::MaskFile, Told::Alpha,
+                          Told::AlphaOfFloats, Told::MaskAndNoData}) {
+    SCOPED_TRACE(static_cast<int>(told));
+    const std::string path = folder / ("masked" + std::to_string(static_cast<int>(told)) + ".tif");
+    writeMasked(path, told);
+    // What sizes are made from; between centres they are bilinear.
+    std::vector<bool> missing_for_sizes;
+    TileRule rule = valuesAsSizes();
+    rule.sizes = [&, inner = rule.sizes](const RasterTile& tile, std::span<float> sizes) {
+      for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) missing_for_sizes.push_back(std::isnan(tile.at(x, y)));
+      inner(tile, sizes);
+    };
+    const RasterField field = fieldOf(path, {}, Box::of({0.0, 0.0}, {kSide, kSide}), rule);
+    ASSERT_EQ(missing_for_sizes.size(), static_cast<std::size_t>(kSide * kSide));
+    std::vector<Point> centres;
+    for (int row = 0; row < kSide; ++row)
+      for (int column = 0; column < kSide; ++column) centres.push_back({column + 0.5, kSide - row - 0.5});
+    const std::vector<double> depths = depthsAt(path, {}, centres);
+    std::size_t i = 0;
+    for (int row = 0; row < kSide; ++row) {
+      for (int column = 0; column < kSide; ++column, ++i) {
+        const bool missing = isHidden(column, row) || (told == Told::MaskAndNoData && isNoData(column, row));
+        EXPECT_EQ(std::isnan(depths[i]), missing) << column << ", " << row;
+        EXPECT_EQ(missing_for_sizes[i], missing) << column << ", " << row;
+        if (missing) continue;
+        EXPECT_NEAR(depths[i], valueOf(column, row), 1e-6);
+        EXPECT_NEAR(sizeAt(field, centres[i]), -valueOf(column, row), 1e-6);
+      }
+    }
+  }
+}
+
+// Degrees a pixel that are rounded: the columns go round the Earth all the same.
+TEST(RasterBand, GoesRoundTheEarthForDepthsAndSizes) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "world.tif";
+  GDALAllRegister();
+  constexpr int kColumns = 36, kRows = 18;
+  constexpr double kPixel = 10.002;
+  GDALDataset* const dataset =
+      GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), kColumns, kRows, 1, GDT_Float64, nullptr);
+  double transform[6] = {-180.0, kPixel, 0.0, 90.0, 0.0, -10.0};
+  dataset->SetGeoTransform(transform);
+  OGRSpatialReference srs;
+  srs.SetFromUserInput("EPSG:4326");
+  dataset->SetSpatialRef(&srs);
+  std::vector<double> row(kColumns, -2.0);
+  row.front() = -1.0;
+  row.back() = -1.4;
+  for (int r = 0; r < kRows; ++r)
+    EXPECT_EQ(dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, r, kColumns, 1, row.data(), kColumns, 1, GDT_Float64, 0,
+                                                  0, nullptr),
+              CE_None);
+  GDALClose(dataset);
+  EXPECT_TRUE(readRasterGeometry(path).wraps);
+  // On the seam, half of the last column and half of the first.
+  const Point seam{-180.0, 5.0}, inside{-175.0, 5.0};
+  const std::vector<double> depths = depthsAt(path, wgs84(), {seam, inside});
+  EXPECT_NEAR(depths[0], -1.2, 1e-6);
+  EXPECT_NEAR(depths[1], -1.0, 0.01);
+  float west_of_first = 0.0F;
+  TileRule rule = valuesAsSizes();
+  rule.sizes = [inner = rule.sizes, &west_of_first](const RasterTile& tile, std::span<float> sizes) {
+    west_of_first = tile.at(-1, 0);
+    inner(tile, sizes);
+  };
+  const RasterField field = fieldOf(path, wgs84(), Box::of({-180.0, -40.0}, {-100.0, 40.0}), rule);
+  EXPECT_NEAR(sizeAt(field, seam), 1.2, 0.01);
+  EXPECT_NEAR(sizeAt(field, inside), 1.0, 0.02);
+  EXPECT_EQ(west_of_first, -1.4F);
+}
+
+TEST(RasterBand, ComplexNumbersAreRefused) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "complex.tif";
+  GDALAllRegister();
+  GDALDataset* const dataset =
+      GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 2, 2, 1, GDT_CFloat32, nullptr);
+  double transform[6] = {0.0, 1.0, 0.0, 2.0, 0.0, -1.0};
+  dataset->SetGeoTransform(transform);
+  GDALClose(dataset);
+  EXPECT_THROW(RasterBand{path}, InputError);
+  EXPECT_THROW(readRasterGeometry(path), InputError);
+}
+
+}  // namespace
+}  // namespace coastmesh

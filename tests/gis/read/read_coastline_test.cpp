@@ -1,0 +1,349 @@
+#include "gis/read/read_coastline.hpp"
+
+#include <cpl_conv.h>
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+
+#include "gis/error.hpp"
+#include "tests/support/gis_shapes.hpp"
+
+namespace coastmesh {
+namespace {
+
+class ReadCoastline : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    GDALAllRegister();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("coastmesh-read-") + info->name() + "-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+  // A GeoJSON of the geometries given, each a feature with a name.
+  std::string geojson(const std::string& name, const std::vector<std::string>& geometries) const {
+    std::string text = R"({"type":"FeatureCollection","features":[)";
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      text += (i ? "," : "") + std::string(R"({"type":"Feature","properties":{"name":"f)") + std::to_string(i) +
+              R"("},"geometry":)" + geometries[i] + "}";
+    }
+    return write(name, text + "]}");
+  }
+  // A layer made by OGR from WKT; empty text is a null geometry.
+  std::string layer(const std::string& name, const char* driver, const char* crs, const std::vector<std::string>& wkt,
+                    const char* layer_name = "coast", bool append = false) const {
+    GDALDriver* const found = GetGDALDriverManager()->GetDriverByName(driver);
+    const std::unique_ptr<GDALDataset> dataset(
+        append ? GDALDataset::Open(path(name).c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE)
+               : found->Create(path(name).c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    OGRSpatialReference srs;
+    if (crs) srs.SetFromUserInput(crs);
+    srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const bool shape = std::string(driver) == "ESRI Shapefile";
+    OGRLayer* const made =
+        dataset->CreateLayer(layer_name, crs ? &srs : nullptr, shape ? wkbPolygon : wkbUnknown, nullptr);
+    OGRFieldDefn field("depth", OFTReal);
+    EXPECT_EQ(made->CreateField(&field), OGRERR_NONE);
+    for (const std::string& text : wkt) {
+      OGRFeature feature(made->GetLayerDefn());
+      OGRGeometry* geometry = nullptr;
+      if (!text.empty()) OGRGeometryFactory::createFromWkt(text.c_str(), nullptr, &geometry);
+      if (geometry) feature.SetGeometryDirectly(geometry);
+      EXPECT_EQ(made->CreateFeature(&feature), OGRERR_NONE);
+    }
+    return path(name);
+  }
+
+  Coastline read(const std::vector<std::string>& sources) { return readCoastline(sources, report_ = {}); }
+  Coastline read(const std::string& source) { return read(std::vector{source}); }
+
+  void expectRefused(const std::vector<std::string>& sources, const std::vector<std::string>& words) {
+    ::testing::internal::CaptureStderr();
+    try {
+      read(sources);
+      ADD_FAILURE() << "was read";
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      for (const std::string& word : words) EXPECT_NE(text.find(word), std::string::npos) << text;
+      EXPECT_EQ(text.find('\n'), std::string::npos);
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  }
+
+  ReadReport report_;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+const char* const kSquare = R"({"type":"Polygon","coordinates":[[[0,0],[0.1,0],[0.1,0.3],[0,0.3],[0,0]]]})";
+
+TEST_F(ReadCoastline, PolygonsComeBitForBitWithNamesAndNumbers) {
+  const Coastline coastline = read(geojson(
+      "a.geojson",
+      {kSquare,
+       R"({"type":"MultiPolygon","coordinates":[[[[5,5],[6,5],[6,6],[5,5]]],[[[7,7,1],[9,7,2],[9,9,3],[7,7,1]],[[8,7.5],[8.5,7.5],[8.5,8],[8,7.5]]]]})"}));
+  ASSERT_EQ(coastline.features.size(), 2u);
+  EXPECT_EQ(coastline.crs.authority, "EPSG:4326");
+  const Feature& first = coastline.features[0];
+  EXPECT_EQ(first.fid, 0);
+  EXPECT_EQ(first.source, path("a.geojson"));
+  EXPECT_EQ(first.polygons[0].outer, (Ring{{0, 0}, {0.1, 0}, {0.1, 0.3}, {0, 0.3}}));
+  EXPECT_EQ(first.attributes, (std::vector<std::pair<std::string, std::string>>{{"name", "f0"}}));
+  ASSERT_EQ(coastline.features[1].polygons.size(), 2u);
+  EXPECT_EQ(coastline.features[1].polygons[1].outer, (Ring{{7, 7}, {9, 7}, {9, 9}}));
+  ASSERT_EQ(coastline.features[1].polygons[1].holes.size(), 1u);
+  EXPECT_EQ(report_.features, 2u);
+  EXPECT_EQ(report_.rings, 4u);
+  EXPECT_EQ(report_.points, 5u + 4u + 4u + 4u);
+  EXPECT_TRUE(report_.warnings.empty());
+}
+
+TEST_F(ReadCoastline, ABareGeometryIsAFeatureAPolygon) {
+  const Coastline coastline = read(write("bare.geojson", R"({"type":"GeometryCollection","geometries":[
+      {"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1],[0,0]]],[[[5,5],[6,5],[6,6],[5,5]]]]},
+      {"type":"Polygon","coordinates":[[[8,8],[9,8],[9,9],[8,8]]]}]})"));
+  ASSERT_EQ(coastline.features.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(coastline.features[i].fid, static_cast<std::int64_t>(i));
+    EXPECT_EQ(coastline.features[i].polygons.size(), 1u);
+  }
+  EXPECT_EQ(coastline.features[2].polygons[0].outer[0], (Point{8, 8}));
+}
+
+TEST_F(ReadCoastline, SkipsAndCountsWhatIsNoShore) {
+  const Coastline coastline = read(geojson("mixed.geojson", {"null", kSquare, R"({"type":"Point","coordinates":[3,3]})",
+                                                             R"({"type":"MultiPoint","coordinates":[[3,3],[4,4]]})",
+                                                             R"({"type":"Polygon","coordinates":[]})"}));
+  EXPECT_EQ(coastline.features.size(), 1u);
+  EXPECT_EQ(coastline.features[0].fid, 1);
+  EXPECT_EQ(report_.skipped_empty, 2u);
+  EXPECT_EQ(report_.skipped_points, 3u);
+}
+
+TEST_F(ReadCoastline, ClosesRings) {
+  const Coastline coastline =
+      read(write("open.csv", "WKT,name\n\"POLYGON((0 0,1 0,1 1,0 1))\",a\n\"POLYGON((5 5,6 5,6 6,5 5))\",b\n"));
+  ASSERT_EQ(coastline.features.size(), 2u);
+  EXPECT_EQ(coastline.features[0].polygons[0].outer.size(), 4u);
+  EXPECT_EQ(report_.unclosed_rings, 1u);
+  ASSERT_FALSE(report_.warnings.empty());
+  EXPECT_NE(report_.warnings[0].find("not closed"), std::string::npos);
+}
+
+TEST_F(ReadCoastline, CurvesBecomeStraightPieces) {
+  const Coastline coastline =
+      read(layer("curves.gpkg", "GPKG", "EPSG:32631", {"CURVEPOLYGON(CIRCULARSTRING(0 0,10 0,0 0))"}));
+  ASSERT_EQ(coastline.features.size(), 1u);
+  EXPECT_GT(coastline.features[0].polygons[0].outer.size(), 60u);
+  for (const Point& p : coastline.features[0].polygons[0].outer) EXPECT_NEAR(std::hypot(p.x - 5, p.y), 5, 1e-6);
+}
+
+TEST_F(ReadCoastline, LinesAreJoinedOverAllSources) {
+  const std::string a = geojson("west.geojson", {R"({"type":"LineString","coordinates":[[0,0],[0,4],[4,4]]})",
+                                                 R"({"type":"LineString","coordinates":[[20,20],[21,21]]})"});
+  const std::string b =
+      geojson("east.geojson", {R"({"type":"MultiLineString","coordinates":[[[4,0],[4,4]],[[4,0],[0,0]]]})",
+                               R"({"type":"LineString","coordinates":[[1,1],[2,1],[2,2],[1,1]]})"});
+  const Coastline coastline = read({a, b});
+  ASSERT_EQ(coastline.features.size(), 2u);
+  const Feature& lake = coastline.features[0];
+  EXPECT_EQ(lake.source, a);
+  EXPECT_EQ(lake.fid, 0);
+  EXPECT_EQ(lake.attributes[0].second, "f0");
+  EXPECT_EQ(lake.polygons[0].outer.size(), 4u);
+  ASSERT_EQ(lake.polygons[0].holes.size(), 1u);
+  EXPECT_EQ(lake.polygons[0].holes[0].size(), 3u);
+  const Feature& line = coastline.features[1];
+  EXPECT_EQ(line.fid, 1);
+  EXPECT_TRUE(line.polygons.empty());
+  EXPECT_EQ(line.lines[0], (std::vector<Point>{{20, 20}, {21, 21}}));
+  EXPECT_EQ(report_.rings, 2u);
+}
+
+TEST_F(ReadCoastline, AllLayersOfASource) {
+  layer("two.gpkg", "GPKG", "EPSG:4326", {"POLYGON((0 0,1 0,1 1,0 0))"}, "lakes");
+  layer("two.gpkg", "GPKG", "EPSG:4326", {"POLYGON((5 5,6 5,6 6,5 5))"}, "ponds", true);
+  const Coastline coastline = read(path("two.gpkg"));
+  ASSERT_EQ(coastline.features.size(), 2u);
+  EXPECT_EQ(coastline.features[0].source, path("two.gpkg") + "|lakes");
+  EXPECT_EQ(coastline.features[1].source, path("two.gpkg") + "|ponds");
+  EXPECT_EQ(coastline.features[0].polygons[0].outer[1], (Point{1, 0}));
+}
+
+TEST_F(ReadCoastline, BringsAllToTheCrsOfTheFirst) {
+  const std::string geographic = geojson("first.geojson", {kSquare});
+  const std::string utm =
+      layer("utm.gpkg", "GPKG", "EPSG:32631", {"POLYGON((500000 0,600000 0,600000 100000,500000 0))"});
+  const Coastline coastline = read({geographic, utm});
+  EXPECT_EQ(coastline.crs.authority, "EPSG:4326");
+  EXPECT_EQ(coastline.features[0].polygons[0].outer[1], (Point{0.1, 0}));
+  EXPECT_NEAR(coastline.features[1].polygons[0].outer[0].x, 3, 1e-9);
+  EXPECT_NEAR(coastline.features[1].polygons[0].outer[0].y, 0, 1e-9);
+  const Coastline other_way = read({utm, geographic});
+  EXPECT_EQ(other_way.crs.authority, "EPSG:32631");
+  EXPECT_EQ(other_way.features[0].polygons[0].outer[1], (Point{600000, 0}));
+  EXPECT_LT(other_way.features[1].polygons[0].outer[1].x, 500000);
+}
+
+TEST_F(ReadCoastline, WithoutACrs) {
+  // Degrees by the look of it: taken for WGS 84, and said so.
+  const std::string degrees = layer("degrees.shp", "ESRI Shapefile", nullptr, {"POLYGON((0 0,0 1,1 1,0 0))"});
+  EXPECT_EQ(read(degrees).crs.authority, "EPSG:4326");
+  ASSERT_EQ(report_.warnings.size(), 1u);
+  EXPECT_NE(report_.warnings[0].find("degrees.shp"), std::string::npos);
+  EXPECT_NE(report_.warnings[0].find("WGS 84"), std::string::npos);
+  // Metres: a plane, and said so.
+  const std::string metres = layer("metres.shp", "ESRI Shapefile", nullptr, {"POLYGON((0 0,0 1000,1000 1000,0 0))"});
+  EXPECT_TRUE(read(metres).crs.isPlane());
+  EXPECT_EQ(report_.warnings.size(), 1u);
+  // After a source that has one: the same.
+  const std::string utm = layer("utm.gpkg", "GPKG", "EPSG:32631", {"POLYGON((5 5,6 5,6 6,5 5))"});
+  EXPECT_EQ(read({utm, metres}).features[1].polygons[0].outer.size(), 3u);
+  ASSERT_EQ(report_.warnings.size(), 2u);
+  EXPECT_NE(report_.warnings[0].find("if they are degrees"), std::string::npos);
+  expectRefused({geojson("first.geojson", {kSquare}), metres}, {"metres.shp", "CRS"});
+  expectRefused({metres, utm}, {"metres.shp", "utm.gpkg", "CRS"});
+}
+
+TEST_F(ReadCoastline, NamesTheVertexThatIsNoPlace) {
+  const std::string file = layer("nan.gpkg", "GPKG", "EPSG:4326", {"POLYGON((0 0,1 0,1 1,0 0))"});
+  {
+    const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+    OGRLayer* const coast = dataset->GetLayer(0);
+    OGRLinearRing outer, hole;
+    for (const Point& p : square(0, 0, 9)) outer.addPoint(p.x, p.y);
+    outer.closeRings();
+    hole.addPoint(1, 1);
+    hole.addPoint(2, 1);
+    hole.addPoint(2, std::numeric_limits<double>::quiet_NaN());
+    hole.addPoint(1, 1);
+    OGRPolygon polygon;
+    polygon.addRing(&outer);
+    polygon.addRing(&hole);
+    OGRFeature feature(coast->GetLayerDefn());
+    feature.SetGeometry(&polygon);
+    ASSERT_EQ(coast->CreateFeature(&feature), OGRERR_NONE);
+  }
+  expectRefused({file}, {"nan.gpkg", "feature 2", "hole 1", "vertex 3 of 4", "nan"});
+}
+
+TEST_F(ReadCoastline, RefusesInOneSentenceAndKeepsGdalQuiet) {
+  expectRefused({path("missing.shp")}, {"missing.shp", "no such file"});
+  expectRefused({write("empty.geojson", "")}, {"empty.geojson", "empty"});
+  expectRefused({write("picture.png", "not a picture at all")}, {"picture.png", "not a vector file"});
+  expectRefused({write("broken.geojson", R"({"type":"FeatureCollection","features":[{"type":)")}, {"broken.geojson"});
+  expectRefused({geojson("points.geojson", {R"({"type":"Point","coordinates":[3,3]})"})},
+                {"points.geojson", "points only"});
+  expectRefused({geojson("nothing.geojson", {})}, {"nothing.geojson", "no feature"});
+  expectRefused({geojson("nulls.geojson", {"null"})}, {"nulls.geojson", "no feature"});
+  expectRefused(
+      {geojson("ok.geojson", {kSquare}), geojson("points.geojson", {R"({"type":"Point","coordinates":[3,3]})"})},
+      {"points.geojson"});
+  expectRefused({}, {"no input"});
+}
+
+TEST_F(ReadCoastline, LargeObjectsAreReadWhateverTheirSize) {
+  // Past the size at which GDAL refuses a GeoJSON object unless told otherwise, scaled down by its own option.
+  CPLSetThreadLocalConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", "0.001");
+  std::string ring = "[";
+  for (int i = 0; i < 2000; ++i) {
+    const double angle = i * 2 * M_PI / 2000;
+    ring += "[" + std::to_string(std::cos(angle)) + "," + std::to_string(std::sin(angle)) + "],";
+  }
+  ring += "[1.000000,0.000000]]";
+  const Coastline coastline = read(geojson("large.geojson", {R"({"type":"Polygon","coordinates":[)" + ring + "]}"}));
+  CPLSetThreadLocalConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", nullptr);
+  EXPECT_EQ(coastline.features[0].polygons[0].outer.size(), 2000u);
+}
+
+// A square with its south-western corner at x, 0.
+std::string squareAt(int x) {
+  const auto at = [](int u, int v) { return "[" + std::to_string(u) + "," + std::to_string(v) + "]"; };
+  return R"({"type":"Polygon","coordinates":[[)" + at(x, 0) + "," + at(x + 1, 0) + "," + at(x + 1, 1) + "," + at(x, 1) +
+         "," + at(x, 0) + "]]}";
+}
+
+TEST_F(ReadCoastline, LayersByName) {
+  layer("two.gpkg", "GPKG", "EPSG:4326", {"POLYGON((0 0,1 0,1 1,0 0))"}, "lakes");
+  const std::string file = layer("two.gpkg", "GPKG", "EPSG:4326",
+                                 {"POLYGON((5 0,6 0,6 1,5 0))", "POLYGON((8 0,9 0,9 1,8 0))"}, "ponds", true);
+  ReadReport report;
+  EXPECT_EQ(readCoastline({{file}}, {}, report).features.size(), 3u);
+  EXPECT_EQ(readCoastline({{file}}, {{"ponds"}, ""}, report).features.size(), 2u);
+  EXPECT_EQ(readCoastline({{file + "|lakes"}}, {}, report).features.size(), 1u);
+  EXPECT_EQ(readCoastline({{file + "|layername=lakes"}}, {}, report).features.size(), 1u);
+  try {
+    readCoastline({{file}}, {{"seas"}, ""}, report);
+    FAIL() << "took a layer that is not there";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no layer 'seas'; there are lakes, ponds"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(ReadCoastline, FeaturesByAttribute) {
+  const std::string file = geojson("three.geojson", {squareAt(0), squareAt(3), squareAt(6)});
+  ReadReport report;
+  const Coastline kept = readCoastline({{file}}, {{}, "name <> 'f1'"}, report);
+  ASSERT_EQ(kept.features.size(), 2u);
+  EXPECT_EQ(kept.features[1].polygons[0].outer[0].x, 6);
+  EXPECT_EQ(report.filtered, 1u);
+  EXPECT_THROW(readCoastline({{file}}, {{}, "depth > 5"}, report), InputError);  // no such field
+  EXPECT_THROW(readCoastline({{file}}, {{}, "name <"}, report), InputError);     // no SQL
+  EXPECT_THROW(readCoastline({{file}}, {{}, "name = 'none'"}, report), InputError);
+}
+
+TEST_F(ReadCoastline, Archives) {
+  geojson("lake.geojson", {squareAt(0)});
+  ASSERT_EQ(std::system(("cd '" + path("") + "' && mkdir -p deep && cp lake.geojson deep && gzip -k lake.geojson && " +
+                         "tar czf lake.tgz deep")
+                            .c_str()),
+            0);
+  const auto zip = [&](const std::string& archive, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      const std::string target = "/vsizip/" + path(archive) + "/" + name;
+      ASSERT_EQ(CPLCopyFile(target.c_str(), path("lake.geojson").c_str()), 0);
+    }
+  };
+  zip("one.zip", {"some/folder/lake.geojson", "some/readme.txt"});
+  zip("two.zip", {"a.geojson", "b.geojson"});
+  ReadReport report;
+  for (const std::string archive : {"lake.geojson.gz", "lake.tgz", "one.zip"}) {
+    EXPECT_EQ(readCoastline({path(archive)}, report).features.size(), 1u) << archive;
+  }
+  EXPECT_EQ(readCoastline({path("two.zip") + "/b.geojson"}, report).features.size(), 1u);
+  EXPECT_THROW(readCoastline({path("two.zip")}, report), InputError);
+}
+
+// Sources of other uses keep their lines apart from the coast's, and points where they are wanted.
+TEST_F(ReadCoastline, SourcesOfOtherUses) {
+  const std::string coast = geojson("coast.geojson", {squareAt(0)});
+  const std::string wharf = geojson("wharf.geojson", {R"({"type":"LineString","coordinates":[[0,0],[0.5,0.5]]})",
+                                                      R"({"type":"Point","coordinates":[0.25,0.75]})"});
+  ReadReport report;
+  const Coastline read = readCoastline({{coast}, {wharf, FeatureUse::Constraint}}, {}, report);
+  ASSERT_EQ(read.features.size(), 3u);
+  EXPECT_EQ(report.features, 1u);
+  EXPECT_EQ(read.features[1].use, FeatureUse::Constraint);
+  EXPECT_EQ(read.features[1].lines.size(), 1u);
+  EXPECT_EQ(read.features[2].points, (std::vector<Point>{{0.25, 0.75}}));
+}
+
+}  // namespace
+}  // namespace coastmesh
