@@ -26,7 +26,7 @@ SizeBox childOf(const SizeBox& box, unsigned i) {
 double distanceBetween(const SizeBox& a, const SizeBox& b) {
   const double dx = std::max(0.0, std::abs(a.centre.x - b.centre.x) - a.half - b.half);
   const double dy = std::max(0.0, std::abs(a.centre.y - b.centre.y) - a.half - b.half);
-  return std::hypot(dx, dy);
+  return std::sqrt(dx * dx + dy * dy);
 }
 
 }  // namespace
@@ -98,8 +98,7 @@ void SizeFloor::descend(std::uint32_t node, const SizeBox& box, const SizeBox& a
   }
 }
 
-double SizeFloor::steepMost(const SizeBox& asked) const {
-  double most = 0.0;
+double SizeFloor::steepMost(const SizeBox& asked, double most) const {
   descend(0, root_, asked, rate_ / scale_(asked.centre), most);
   return most;
 }
@@ -112,7 +111,7 @@ void SizeFloor::raiseNear(std::unique_ptr<SizeField> distances, double factor) {
 void SizeFloor::sample(std::span<const Point> places, std::span<double> sizes) const {
   field_->sample(places, sizes);
   for (std::size_t i = 0; i < places.size(); ++i)
-    sizes[i] = std::max(std::isfinite(sizes[i]) ? sizes[i] : 0.0, steepMost({places[i], 0.0}));
+    sizes[i] = steepMost({places[i], 0.0}, std::isfinite(sizes[i]) ? sizes[i] : 0.0);
   if (!distances_) return;
   std::vector<double> from(places.size());
   distances_->sample(places, from);
@@ -126,8 +125,8 @@ void SizeFloor::bound(std::span<const SizeBox> boxes, std::span<SizeRange> range
     auto& [low, high] = ranges[i];
     const bool none = low == kInfinity, part = !none && high == kInfinity;
     const double change = rate_ * std::numbers::sqrt2 * box.half / scale_(box.centre);
-    low = std::max(none || part ? 0.0 : low, steepMost({box.centre, 0.0}) - change);
-    high = std::max(none ? 0.0 : high, steepMost(box));
+    low = steepMost({box.centre, 0.0}, change + (none || part ? 0.0 : low)) - change;
+    high = steepMost(box, none ? 0.0 : high);
   }
   if (!distances_) return;
   std::vector<SizeRange> from(boxes.size());

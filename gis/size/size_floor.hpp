@@ -40,7 +40,8 @@ class SizeFloor final : public SizeField {
   };
 
   void build(const DomainMask& mask, const ItemLoop& loop);
-  double steepMost(const SizeBox& asked) const;  // in it, metres
+  // The most that steep squares leave in a box, or `most` where that is more; metres.
+  double steepMost(const SizeBox& asked, double most) const;
   void descend(std::uint32_t node, const SizeBox& box, const SizeBox& asked, double rate, double& most) const;
 
   std::unique_ptr<SizeField> field_;
