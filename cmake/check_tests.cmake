@@ -1,5 +1,6 @@
 # Tests that are scripts: that the checks fail where they must, and that an installed coastmesh can be used by others.
 add_test(NAME scripts.check-rooms COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-rooms --self-test)
+add_test(NAME scripts.draw-rooms COMMAND ${PROJECT_SOURCE_DIR}/scripts/draw-rooms --check)
 add_test(NAME scripts.check-words COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-words --self-test)
 add_test(NAME scripts.check-format COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-format --self-test)
 # Compiling a consumer with sanitizers would only test the same again.
