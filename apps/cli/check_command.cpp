@@ -14,6 +14,8 @@
 #include "apps/job/places.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
+#include "core/metric.hpp"
+#include "gis/model/apart_waters.hpp"
 #include "gis/model/check_target.hpp"
 
 namespace coastmesh {
@@ -52,6 +54,14 @@ DefectRow rowOf(const GridDefect& defect) {
     std::snprintf(text, sizeof text, "%.3f degrees", defect.value);
     row.detail = text;
   }
+  return row;
+}
+
+DefectRow rowOf(const ApartWater& water, const Grid& grid) {
+  const auto& [a, b, c] = grid.triangles[water.triangle];
+  const Point centre = centroid(grid.nodes[a], grid.nodes[b], grid.nodes[c]);
+  DefectRow row{"water apart", {}, centre, water.triangle, -1, static_cast<double>(water.triangles), {}};
+  row.detail = std::to_string(water.triangles) + " triangles that nothing joins to an open boundary";
   return row;
 }
 
@@ -134,6 +144,8 @@ int runCheck(const CheckUsage& usage, Run& run) {
     for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check))
       rows.push_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
   }
+  if (!targets.empty())
+    for (const ApartWater& water : apartWaters(grid)) rows.push_back(rowOf(water, grid));
   if (targets.empty() && usage.target_check.time_step_s > 0.0)
     for (const TargetDefect& defect : checkTimeStep(grid, usage.target_check.time_step_s))
       rows.push_back(rowOf(defect, {}));

@@ -68,6 +68,30 @@ TEST_F(CoastFollow, StraitsAreNamedAndPassagesKeepThemOpen) {
   EXPECT_EQ(sea({{kCoast}, {island}}, with)["boundaries"]["island"], 0);
 }
 
+// A lagoon behind the coast, which nothing joins to the sea: kept, it is a defect; by default it is left out for a model.
+TEST_F(CoastFollow, WaterThatNothingJoinsToAnOpenBoundaryIsADefect) {
+  const std::vector<std::string> sizes{"--size",
+                                       "3000",
+                                       "--target",
+                                       "adcirc",
+                                       "-o",
+                                       file("fort.14"),
+                                       "--bathymetry",
+                                       write("depths.asc",
+                                             "ncols 2\nnrows 2\nxllcorner -1\nyllcorner -1\ncellsize 2\n"
+                                             "-20 -20\n-20 -20\n")};
+  const LonLatRing shore{{-0.1, -0.1}, {1.1, -0.1}, {1.1, 0.4}, {-0.1, 0.4}};
+  const LonLatRing lagoon{{0.3, 0.1}, {0.3, 0.3}, {0.7, 0.3}, {0.7, 0.1}};
+  for (const bool all : {true, false}) {
+    std::vector<std::string> options = sizes;
+    options.insert(options.end(), {"--keep-water", all ? "all" : "auto"});
+    sea({{shore, lagoon}}, options);
+    const ProgramRun check = runProgram({"check", file("fort.14"), "--target", "adcirc"});
+    EXPECT_EQ(check.code, all ? 1 : 0) << check.output;
+    EXPECT_EQ(check.output.find("water apart") != std::string::npos, all) << check.output;
+  }
+}
+
 TEST_F(CoastFollow, GuidesWithoutLinesAreRefused) {
   const std::string polygons = write("polygons.geojson", geoJsonPolygons({{kCoast}}));
   const ProgramRun run =
