@@ -1,32 +1,42 @@
-# Installs the program, a static library and the headers of each room, and the package that find_package(coastmesh)
-# reads. Each room is an export of its own, so that who asks for core alone needs no GDAL.
+# Installs the program, a static library and the headers of each part, and the package that find_package(coastmesh)
+# reads. Each part is an export of its own, so that who asks for core alone needs no GDAL.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The interface of each room; its other headers are its own affair.
-set(core_headers delaunay ids item_loop linked_triangles metric point pslg quality run_control size_function tri_mesh
-  refine/check refine/mesh_defect refine/refine refine/refine_options)
-set(gis_headers error clean/clean clean/clean_options clean/clean_report clean/domain coast/coastline crs/crs
-  crs/crs_definition crs/resolution file/output_files file/staged_files format/grid_format format/grid_io format/poly_io
-  grid/grid grid/grid_parts projection/projection read/read_coastline read/read_report read/source)
-set(parallel_headers mesh_regions work_log workers)
+# The interface of each part; what these headers include is installed with them, all else is the part's own affair.
+set(core_headers core/delaunay core/quality core/refine/check core/refine/refine)
+set(gis_headers gis/clean/clean gis/coast/frame gis/format/grid_io gis/format/poly_io gis/read/read_coastline)
+set(parallel_headers parallel/mesh_regions parallel/workers)
+set(job_headers apps/job/mesh_job)
 
 set(coastmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/coastmesh)
-foreach(room core gis parallel)
-  set_target_properties(coastmesh_${room} PROPERTIES EXPORT_NAME ${room})
-  target_compile_features(coastmesh_${room} PUBLIC cxx_std_20)
-  install(TARGETS coastmesh_${room} EXPORT coastmesh-${room}
+foreach(part core gis parallel job)
+  set_target_properties(coastmesh_${part} PROPERTIES EXPORT_NAME ${part})
+  target_compile_features(coastmesh_${part} PUBLIC cxx_std_20)
+  install(TARGETS coastmesh_${part} EXPORT coastmesh-${part}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh)
-  foreach(header ${${room}_headers})
-    cmake_path(GET header PARENT_PATH folder)
-    install(FILES ${PROJECT_SOURCE_DIR}/${room}/${header}.hpp
-      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh/${room}/${folder})
-  endforeach()
+  list(TRANSFORM ${part}_headers APPEND .hpp)
+  list(APPEND due_headers ${${part}_headers})
 endforeach()
+set(known_headers ${due_headers})
+while(due_headers)
+  list(POP_FRONT due_headers header)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/coastmesh/${folder})
+  file(STRINGS ${PROJECT_SOURCE_DIR}/${header} includes REGEX "^#include \"")
+  foreach(line ${includes})
+    string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" included "${line}")
+    if(NOT included IN_LIST known_headers)
+      list(APPEND known_headers ${included})
+      list(APPEND due_headers ${included})
+    endif()
+  endforeach()
+endwhile()
 install(TARGETS coastmesh EXPORT coastmesh-program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(part core gis parallel program)
+foreach(part core gis parallel job program)
   install(EXPORT coastmesh-${part} NAMESPACE coastmesh:: DESTINATION ${coastmesh_package_dir})
 endforeach()
 

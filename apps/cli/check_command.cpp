@@ -179,8 +179,7 @@ Command declareCheck(CLI::App& root) {
   line.flag("--pinches", usage->check.pinches, "also look for nodes in which the mesh touches itself");
   line.needing({"--input"}, [&] {
     declareInputOptions(line, usage->input);
-    line.choice("--input-pinches", usage->input.pinches, {"keep", "open"},
-                "the --pinches that the mesh was made with from the --input");
+    declarePinches(line, "--input-pinches", "the --pinches that the mesh was made with from the --input", usage->input);
   });
   line.output("-o,--output", usage->output, {}, "write the defects as a layer of points: .gpkg, .geojson or .fgb");
   line.flag("--overwrite", usage->overwrite, "replace a file that exists").needs({"--output"});

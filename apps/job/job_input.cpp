@@ -1,10 +1,7 @@
 #include "apps/job/job_input.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <locale>
-#include <sstream>
 
 #include "apps/job/places.hpp"
 #include "gis/clean/geodesic_area.hpp"
@@ -37,42 +34,13 @@ Crs parseWorkingCrs(const std::string& text) {
   }
 }
 
-// "1,2.5" as so many numbers.
-std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t count,
-                                 const std::string& form) {
-  std::vector<double> numbers;
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  for (double number; stream >> number;) {
-    if (!(std::abs(number) <= kLargestCoordinate)) break;
-    numbers.push_back(number);
-    char comma = 0;
-    if (numbers.size() < count && !(stream >> comma && comma == ',')) break;
-    if (numbers.size() == count) break;
-  }
-  std::string rest;
-  if (numbers.size() == count && !(stream >> rest)) return numbers;
-  throw OptionError(option + ": '" + text + "' is not " + form);
-}
-
-FrameOptions frameOptions(const InputOptions& options) {
-  FrameOptions frame;
-  if (options.domain == "inside") frame.side = DomainSide::Inside;
-  if (options.domain == "outside") frame.side = DomainSide::Outside;
-  if (!options.bbox.empty()) {
-    const std::vector<double> n = parseNumbers("--bbox", options.bbox, 4, "four numbers W,S,E,N");
-    frame.box = Box{n[0], n[1], n[2], n[3]};
-  }
-  if (!options.water_at.empty()) {
-    const std::vector<double> n = parseNumbers("--water-at", options.water_at, 2, "two numbers LON,LAT");
-    frame.water_at = Point{n[0], n[1]};
-  }
-  if (frame.box && !options.clip.empty())
+void requireOneFrame(const InputOptions& options) {
+  if (options.frame.box && !options.clip.empty())
     throw OptionError("--bbox and --clip both bound the domain: give one of them");
-  if (frame.side == DomainSide::Outside && !frame.box && options.clip.empty() && !frame.water_at)
+  if (options.frame.side == DomainSide::Outside && !options.frame.box && options.clip.empty() &&
+      !options.frame.water_at)
     throw OptionError(
         "--domain outside: water outside of land has to end somewhere: give --bbox W,S,E,N or --clip FILE");
-  return frame;
 }
 
 std::vector<Source> sourcesOf(const InputOptions& options) {
@@ -128,10 +96,10 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
   }
   std::optional<Crs> working;
   if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
-  const FrameOptions frame = frameOptions(options_);
+  requireOneFrame(options_);
   coastline_ = readCoastline(sourcesOf(options_), options_.filter, report_);
   if (options_.crs == "plane") forgetImpossibleCrs(coastline_, report_);
-  FrameReport framed = frameCoastline(coastline_, frame);
+  FrameReport framed = frameCoastline(coastline_, options_.frame);
   report_.beyond_frame = framed.beyond_frame;
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
   if (working) chosen_ = Projection::to(coastline_.crs, *working);
@@ -139,8 +107,8 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
 }
 
 void JobInput::readPolyFile(const std::string& path) {
-  if (sourcesOf(options_).size() > 1 || options_.domain != "auto" || !options_.bbox.empty() ||
-      !options_.water_at.empty()) {
+  if (sourcesOf(options_).size() > 1 || options_.frame.side != DomainSide::Auto || options_.frame.box ||
+      options_.frame.water_at) {
     throw OptionError("'" + path +
                       "' says itself what is meshed; leave out --domain, --bbox, --clip, --water-at, --constraints, "
                       "--weirs and --regions");
@@ -148,7 +116,7 @@ void JobInput::readPolyFile(const std::string& path) {
   if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
     throw OptionError("'" + path + "' has neither layers nor attributes; leave out --layer and --where");
   }
-  if (options_.pinches == "open" || options_.dissolve || options_.simplify_m > 0.0 ||
+  if (options_.pinches == Pinches::Open || options_.dissolve || options_.simplify_m > 0.0 ||
       options_.min_island_area_m2 > 0.0 || options_.snap_in_plane) {
     throw OptionError("'" + path +
                       "' is a ready plane graph and is not cleaned; leave out --pinches open, --dissolve, --simplify, "
@@ -192,7 +160,7 @@ Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& 
   clean.simplify_m = options_.simplify_m;
   clean.min_island_area_m2 = options_.min_island_area_m2;
   clean.dissolve = options_.dissolve;
-  clean.pinches = options_.pinches == "open" ? Pinches::Open : Pinches::Keep;
+  clean.pinches = options_.pinches;
   return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report, loop);
 }
 

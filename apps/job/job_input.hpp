@@ -18,10 +18,8 @@ struct InputOptions {
   std::vector<std::string> files;        // vector files, or one .poly
   std::shared_ptr<const Pslg> pslg;      // in place of files: a ready plane graph; cleaning it is the caller's
   ReadFilter filter;                     // what of the files is read
-  std::string domain = "auto";           // "auto", "inside" or "outside": see DomainSide
-  std::string bbox;                      // "W,S,E,N" in the input's CRS; empty: none
-  std::string clip;                      // polygons that bound the domain; empty: none
-  std::string water_at;                  // "LON,LAT" in the input's CRS; empty: none
+  FrameOptions frame;                    // what bounds the domain besides the shores
+  std::string clip;                      // a file of polygons that bound it, in place of `frame.box`; empty: none
   std::vector<std::string> constraints;  // files of lines and points that become edges and vertices
   std::vector<std::string> weirs;        // files of lines
   std::vector<std::string> regions;      // files of polygons
@@ -30,7 +28,7 @@ struct InputOptions {
   bool snap_in_plane = false;            // `snap_m` holds for a plane input too, where else nothing is snapped
   double simplify_m = 0.0;               // metres, 0 or more
   bool dissolve = false;                 // features that share an edge become one
-  std::string pinches = "keep";          // "keep" or "open": see Pinches
+  Pinches pinches = Pinches::Keep;       // what becomes of places where shores touch
   double min_island_area_m2 = 0.0;       // square metres, 0 or more
 };
 

@@ -270,6 +270,14 @@ CommandLine::Option CommandLine::text(const std::string& names, std::string& val
   return {*this, entry["name"]};
 }
 
+CommandLine::Option CommandLine::text(const std::string& names, const std::string& unit,
+                                      const std::function<void(const std::string&)>& store, const std::string& help) {
+  impl_->app->add_option_function<std::string>(names, store, help)->type_name(shownUnit(unit));
+  Json& entry = impl_->record(names, "text", unit, help);
+  entry["default"] = nullptr;
+  return {*this, entry["name"]};
+}
+
 CommandLine::Option CommandLine::requiredText(const std::string& names, std::string& value, const std::string& unit,
                                               const std::string& help) {
   impl_->app->add_option(names, value, help)->type_name(shownUnit(unit))->required();

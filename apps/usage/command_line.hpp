@@ -73,6 +73,9 @@ class CommandLine {
   Option integer(const std::string& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
                  std::uint64_t high, const std::string& help);
   Option text(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
+  // The same for a value that is no text: `store` takes what the user gave, and throws OptionError where it cannot.
+  Option text(const std::string& names, const std::string& unit, const std::function<void(const std::string&)>& store,
+              const std::string& help);
   Option texts(const std::string& names, std::vector<std::string>& values, const std::string& unit, bool required,
                const std::string& help);
   Option requiredText(const std::string& names, std::string& value, const std::string& unit, const std::string& help);

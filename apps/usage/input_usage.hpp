@@ -11,5 +11,6 @@ void declareInputOptions(CommandLine& line, InputOptions& options);
 
 // --pinches; apart, since `check` means something else by it.
 void declarePinches(CommandLine& line, InputOptions& options);
+void declarePinches(CommandLine& line, const std::string& name, const std::string& help, InputOptions& options);
 
 }  // namespace coastmesh

@@ -72,7 +72,7 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
 }
 
 void settle(MeshUsage& usage) {
-  const bool framed = !usage.job.input.bbox.empty() || !usage.job.input.clip.empty();
+  const bool framed = usage.job.input.frame.box.has_value() || !usage.job.input.clip.empty();
   settleSizing(usage.sizing, usage.job.finish.depth, framed && !usage.job.finish.targets.empty(), usage.job.sizes);
   usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
   // The classical algorithms are there to compare with: they insert what their papers say.

@@ -13,6 +13,7 @@ run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${work}/installed)
 # Moved after the installation: nothing in it may hold its own place.
 file(RENAME ${work}/installed ${work}/moved)
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/package -B ${work}/consumer -G ${GENERATOR}
-  -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${work}/moved)
+  -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${work}/moved
+  -DLAKE=${SOURCE_DIR}/data/lake_superior.geojson -DDEM=${SOURCE_DIR}/tests/package/depths.asc)
 run(${CMAKE_COMMAND} --build ${work}/consumer)
 run(${CMAKE_CTEST_COMMAND} --test-dir ${work}/consumer --output-on-failure)
