@@ -17,6 +17,7 @@ namespace {
 constexpr double kLongestIsland = 3.0;           // in elements: what is longer stays
 constexpr double kShallow = 0.3;                 // of the size: what reaches no deeper is left to simplifying
 constexpr double kPassage = 0.55;                // of its width: what is nearer to its line is part of a passage
+constexpr double kLeastOpening = 1.0;            // elements of open boundary: a shorter one may become shore
 constexpr double kLeastWater = 6.0;              // triangles of the size wanted
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
@@ -114,7 +115,7 @@ class Opening {
     for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
       Part& part = of_part.emplace_back();
       for (const TriId t : parts.triangles[i]) part.area += groundAreaOf(t);
-      part.at_open = (usesOf(parts.triangles[i]) & kOnOpen) != 0;
+      part.at_open = openingOf(parts.triangles[i]) >= kLeastOpening;
       const auto [most, first] = best.try_emplace(mesh().regions[parts.triangles[i].front()], i);
       if (!first && less(of_part[most->second], part)) most->second = i;
     }
@@ -169,6 +170,19 @@ class Opening {
   bool isAt(const LineZone& lines, TriId t, double reach) const {
     const auto& v = mesh().triangles[t].v;
     return lines.holds(mesh().point(v[0]), mesh().point(v[1]), mesh().point(v[2]), reach);
+  }
+  // How long its open boundary is, in elements.
+  double openingOf(const std::vector<TriId>& patch) const {
+    double opening = 0.0;
+    for (const TriId t : patch) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        const VertexId a = mesh().origin(e), b = mesh().target(e);
+        if (isLand(triOf(mesh().twin(e))) && (t_.use[a] & t_.use[b] & kOnOpen) != 0)
+          opening += distance(mesh().point(a), mesh().point(b)) / t_.size[t];
+      }
+    }
+    return opening;
   }
   // In triangles of the size wanted.
   double elementsIn(const std::vector<TriId>& patch) const {

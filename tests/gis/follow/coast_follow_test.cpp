@@ -243,6 +243,24 @@ TEST(FollowSizes, OfWaterThatIsCutApartWhatIsAskedForStays) {
   for (const Point& p : none_open.pslg.points) EXPECT_LT(p.x, 25.0);
 }
 
+// Water whose opening is too short for an element would be left without any.
+TEST(FollowSizes, AShortOpeningKeepsNoWater) {
+  Domain domain = twoLakes(1.0);
+  domain.pslg.segments[5].tag = kOpenTag;  // the eastern side of the eastern lake
+  const auto count = static_cast<VertexId>(domain.pslg.points.size());
+  domain.pslg.points.push_back({0, 10.3});
+  domain.pslg.points.push_back({0, 9.7});
+  domain.pslg.segments[11].b = count;
+  domain.pslg.segments.push_back({count, count + 1, kOpenTag, 0, kOutside});
+  domain.pslg.segments.push_back({count + 1, 0, 0, 0, kOutside});
+  domain.input_points = domain.pslg.points;
+  CleanReport report;
+  const Domain coarse =
+      followSizes(std::move(domain), ConstantSize(2.0), {.keep = KeepWater::Open}, oneFeature(), report);
+  EXPECT_EQ(countOf(report, EditKind::CutOffWater), 1u);
+  for (const Point& p : coarse.pslg.points) EXPECT_GT(p.x, 25.0);
+}
+
 TEST(FollowSizes, ASpitNarrowerThanAnElementGoesAndABarThatPartsWatersStays) {
   const std::vector<Point> spit{{0, 0}, {19.5, 0}, {19.5, 12}, {20.5, 12}, {20.5, 0}, {40, 0}, {40, 20}, {0, 20}};
   const ConstantSize size(2.0);
