@@ -9,6 +9,7 @@
 #include <set>
 
 #include "gis/error.hpp"
+#include "gis/virtual_source.hpp"
 
 namespace coastmesh {
 
@@ -67,7 +68,12 @@ class Inputs {
  public:
   explicit Inputs(const std::vector<CommandLine::NamedFile>& named) {
     for (const auto& [option, path] : named) {
-      for (const std::string& file : filesNamed(path)) {
+      std::vector<std::string> all = filesNamed(path);
+      for (const std::string& behind : filesBehind(path)) {
+        const std::vector<std::string> files = filesNamed(behind);
+        all.insert(all.end(), files.begin(), files.end());
+      }
+      for (const std::string& file : all) {
         files_.try_emplace(identityOf(file), Owner{option, path});
         for (const std::string& companion : companionsOf(file))
           if (isThere(companion)) companions_.try_emplace(identityOf(companion), Owner{option, path});

@@ -14,8 +14,8 @@
 namespace coastmesh {
 
 // Throws OptionError where outputs of the run that `line` asks for share a file, or one would replace what the run
-// reads: any file that an option or an argument names, and those that belong to it. To be called before anything is
-// read or written.
+// reads: any file that an option or an argument names, those that belong to it, and those that it takes its data from.
+// To be called before anything is read or written.
 void requireOutputsApart(const CommandLine& line);
 
 // All outputs of a run: none comes into place before all are written, and then all do or none.

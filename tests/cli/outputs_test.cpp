@@ -73,6 +73,37 @@ TEST_F(Outputs, NeverReplaceWhatBelongsToAnInput) {
   expectRefused({"mesh", file("sea.shp"), "-o", file("out.nc"), "--report", file("sea.dbf")}, "sea.shp");
 }
 
+// Virtual data sets hold nothing themselves: what they name is read.
+TEST_F(Outputs, NeverReplaceWhatAVirtualInputTakesItsDataFrom) {
+  std::filesystem::copy_file(lake(), file("inner.geojson"));
+  const std::string layers =
+      write("layers.vrt",
+            "<OGRVRTDataSource><OGRVRTLayer name=\"inner\"><SrcDataSource relativeToVRT=\"1\">inner.geojson"
+            "</SrcDataSource></OGRVRTLayer></OGRVRTDataSource>");
+  expectRefused({"mesh", layers, "-o", file("inner.geojson")}, "INPUT reads it");
+  expectRefused({"mesh", lake(), "--constraints", layers, "-o", file("m.nc"), "--report", file("inner.geojson")},
+                "--constraints");
+  const auto raster = [&](const std::string& name, const std::string& source) {
+    return write(name,
+                 "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><GeoTransform>-88, 1, 0, 42, 0, -1</GeoTransform>"
+                 "<VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource><SourceFilename relativeToVRT=\"1\">" +
+                     source +
+                     "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>");
+  };
+  write("depths.asc", "ncols 2\nnrows 2\nxllcorner -88\nyllcorner 40\ncellsize 1\n5 6\n7 8\n");
+  const std::string inner = raster("inner.vrt", "depths.asc"), outer = raster("outer.vrt", "inner.vrt");
+  for (const std::string option : {"--bathymetry", "--size-raster"}) {
+    expectRefused({"mesh", lake(), option, outer, "-o", file("m.nc"), "--report", file("depths.asc")}, option);
+    expectRefused({"mesh", lake(), option, outer, "-o", file("m.nc"), "--report", inner}, option);
+    expectRefused({"mesh", lake(), option, "vrt://" + inner, "-o", file("m.nc"), "--report", file("depths.asc")},
+                  option);
+  }
+  // They are read, too, and others beside them may be replaced.
+  const ProgramRun run =
+      runProgram({"mesh", layers, "--bathymetry", outer, "-o", file("other.geojson"), "--overwrite"});
+  EXPECT_EQ(run.code, 0) << run.errors;
+}
+
 // What is there beside an input, and has nothing to do with it, may be replaced: a run can be repeated.
 TEST_F(Outputs, OfAnEarlierRunAreReplaced) {
   const std::vector<std::string> arguments{"mesh", lake(),           "-o",         file("lake.shp"),
