@@ -32,9 +32,9 @@ def sine_at(a, b, c):
     """The sine of the angle at a from b to c, along great circles. Free of cancellation: on the plane that touches at a."""
     def place(p):
         away = math.radians(degrees_east(a[0], p[0]))
-        lat, here = math.radians(p[1]), math.radians(a[1])
+        lat, here, step = math.radians(p[1]), math.radians(a[1]), math.radians(p[1] - a[1])
         x = math.cos(lat) * math.sin(away)
-        y = math.sin(lat - here) + 2 * math.sin(here) * math.cos(lat) * math.sin(away / 2) ** 2
+        y = math.sin(step) + 2 * math.sin(here) * math.cos(lat) * math.sin(away / 2) ** 2
         return x, y
 
     (bx, by), (cx, cy) = place(b), place(c)
@@ -47,15 +47,24 @@ def turn_on_globe(a, b, c):
     return max((sine_at(a, b, c), sine_at(b, c, a), sine_at(c, a, b)), key=abs)
 
 
-def bend_of(corners):
-    """How much, in radians, lines that are straight in degrees turn from great circles over a triangle's longest side."""
-    longest = max(math.hypot((b[0] - a[0] + 540) % 360 - 180, b[1] - a[1]) for a, b in zip(corners, corners[1:] + corners[:1]))
-    return math.radians(longest)
+def sides_of(corners, geographic):
+    pairs = list(zip(corners, corners[1:] + corners[:1]))
+    return [math.hypot(degrees_east(a[0], b[0]) if geographic else b[0] - a[0], b[1] - a[1]) for a, b in pairs]
 
 
-def check_mesh(nodes, triangles, geographic, bent=0):
-    """Counter-clockwise triangles, each edge once in each direction, each node used. `bent` triangles may be turned over
-    as far as sides bend that are straight in a CRS of the user's choice."""
+def is_flat(corners, turned, geographic, chosen):
+    """Turned over no further than rounding to the file's coordinates does it or, where the user chose the plane to work in,
+    sides that are straight there and not on the ground: these turn from great circles by about their length."""
+    sides = sides_of(corners, geographic)
+    grain = 8 * max(math.ulp(abs(v)) for p in corners for v in p)
+    if not geographic:
+        return -turned <= grain * max(sides)
+    return -turned < 4 * grain / min(sides) + (math.radians(max(sides)) if chosen else 0)
+
+
+def check_mesh(nodes, triangles, geographic, told=0, chosen=False):
+    """Counter-clockwise triangles, each edge once in each direction, each node used. As many as the program told of may be
+    flat instead."""
     turn = turn_on_globe if geographic else turn_in_plane
     edges, used = set(), set()
     for number, t in enumerate(triangles):
@@ -63,9 +72,10 @@ def check_mesh(nodes, triangles, geographic, bent=0):
         corners = [nodes[n] for n in t]
         require(all(math.isfinite(v) for p in corners for v in p), f"triangle {number}: {corners}")
         turned = turn(*corners)
-        if bent > 0 and -bend_of(corners) < turned <= 0:
-            bent, turned = bent - 1, 1
-        require(turned > 0, f"triangle {number} is not counter-clockwise ({turned:.2g}): {corners}")
+        if turned <= 0:
+            told -= 1
+            require(told >= 0 and is_flat(corners, turned, geographic, chosen),
+                    f"triangle {number} is not counter-clockwise ({turned:.2g}): {corners}")
         used.update(t)
         for edge in zip(t, t[1:] + t[:1]):
             require(edge not in edges, f"edge {edge} runs the same way twice")
