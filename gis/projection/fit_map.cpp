@@ -170,32 +170,87 @@ class LeftOut {
   std::vector<ChainIndex> land_, water_;
 };
 
+// Of places offered the one that is left out and lies furthest from all vertices.
+class Clearest {
+ public:
+  Clearest(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions)
+      : left_out_(groups), west_(west), directions_(directions) {}
+
+  void offer(const Point& trial) {
+    const Direction d = toDirection(trial);
+    double nearest = -1;
+    for (const Direction& vertex : directions_) nearest = std::max(nearest, dot(d, vertex));
+    const double clearance = std::acos(std::clamp(nearest, -1.0, 1.0)) / Math::degree();
+    if (clearance <= clearance_) return;
+    const Point as_given{west_ + std::fmod(trial.x - west_ + 720, 360.0), trial.y};
+    if (!left_out_.holds(as_given)) return;
+    best_ = trial, clearance_ = clearance;
+  }
+
+  const std::optional<Point>& best() const { return best_; }
+
+ private:
+  static constexpr double kLeastClearance = 0.5;
+
+  LeftOut left_out_;
+  double west_;
+  const std::vector<Direction>& directions_;
+  std::optional<Point> best_;
+  double clearance_ = kLeastClearance;  // degrees
+};
+
+// Spiral from pole to pole, with both poles on it; its places lie some 3 degrees apart.
+void offerSpiral(Clearest& clearest) {
+  constexpr int kTrials = 4000;
+  for (int i = 0; i < kTrials; ++i) {
+    const double z = 1 - 2.0 * i / (kTrials - 1);
+    const double lon = std::fmod(i * 180 * (3 - std::sqrt(5.0)), 360.0);
+    clearest.offer({lon, std::asin(std::clamp(z, -1.0, 1.0)) / Math::degree()});
+  }
+}
+
+// Places in the boxes round the largest rings, for land or holes that lie between those of the spiral.
+void offerInsides(const std::vector<RingGroup>& groups, Clearest& clearest) {
+  constexpr std::size_t kMostRings = 200;
+  constexpr int kAlong = 7;
+  struct Bounds {
+    double west = 540, east = -540, south = 90, north = -90;
+    double smaller() const { return std::min(east - west, north - south); }
+  };
+  std::vector<Bounds> extents;
+  for (const RingGroup& group : groups) {
+    for (const Ring* ring : group.rings) {
+      Bounds& e = extents.emplace_back();
+      for (const Point& p : *ring) {
+        e.west = std::min(e.west, p.x), e.east = std::max(e.east, p.x);
+        e.south = std::min(e.south, p.y), e.north = std::max(e.north, p.y);
+      }
+    }
+  }
+  std::ranges::stable_sort(extents, std::ranges::greater(), &Bounds::smaller);
+  extents.resize(std::min(extents.size(), kMostRings));
+  for (const Bounds& e : extents) {
+    for (int i = 1; i <= kAlong; ++i) {
+      for (int j = 1; j <= kAlong; ++j) {
+        constexpr double kParts = kAlong + 1;
+        clearest.offer({e.west + (e.east - e.west) * i / kParts, e.south + (e.north - e.south) * j / kParts});
+      }
+    }
+  }
+}
+
 // The centre of a stereographic projection for what is larger than a hemisphere: its antipode, which has no image, lies
 // as far inside of what is left out as possible.
 Point centreAwayFromLand(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions) {
-  const LeftOut left_out(groups);
-  constexpr int kTrials = 4000;            // some 3 degrees apart
-  constexpr double kLeastClearance = 0.5;  // degrees
-  std::optional<Point> best;
-  double best_clearance = kLeastClearance;
-  for (int i = 0; i < kTrials; ++i) {
-    // A spiral from pole to pole, with both poles on it.
-    const double z = 1 - 2.0 * i / (kTrials - 1);
-    const double lon = std::fmod(i * 180 * (3 - std::sqrt(5.0)), 360.0);
-    const Point trial{lon, std::asin(std::clamp(z, -1.0, 1.0)) / Math::degree()};
-    const Direction d = toDirection(trial);
-    double nearest = -1;
-    for (const Direction& vertex : directions) nearest = std::max(nearest, dot(d, vertex));
-    const double clearance = std::acos(std::clamp(nearest, -1.0, 1.0)) / Math::degree();
-    if (clearance <= best_clearance) continue;
-    const Point as_given{west + std::fmod(trial.x - west + 720, 360.0), trial.y};
-    if (!left_out.holds(as_given)) continue;
-    best = trial, best_clearance = clearance;
+  Clearest clearest(groups, west, directions);
+  offerSpiral(clearest);
+  if (!clearest.best()) offerInsides(groups, clearest);
+  if (!clearest.best()) {
+    throw InputError(
+        "the features cover the whole globe but for places less than some 100 km wide, and a plane needs a wider one: "
+        "leave one out, as --bbox=-180,-85,180,90 does round the south pole");
   }
-  if (!best) {
-    throw InputError("the features cover the whole globe: a plane needs a place of some 100 km that they leave out");
-  }
-  return {Math::AngNormalize(best->x + 180), -best->y};
+  return {Math::AngNormalize(clearest.best()->x + 180), -clearest.best()->y};
 }
 
 std::string degreesInWords(double degrees) {
