@@ -164,8 +164,8 @@ Grid readFvcom(const std::string& path) {
   readCells(fileOfSet(path, "grd"), grid);
   readDepths(fileOfSet(path, "dep"), grid);
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
-  grid.boundaries = boundariesOfOpenNodes(grid, readOpenNodes(fileOfSet(path, "obc"), grid));
   grid.crs = readPrjBeside(fileOfSet(path, "grd"));
+  grid.boundaries = boundariesOfOpenNodes(grid, readOpenNodes(fileOfSet(path, "obc"), grid));
   return grid;
 }
 

@@ -15,6 +15,7 @@
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/grid/loop_role.hpp"
 
 namespace coastmesh {
 namespace {
@@ -325,7 +326,7 @@ void readCurves(const Contents& contents, const IdMap& node_index, const std::st
     const std::string name = nameOf(contents, 1, physical);
     const auto role = roleOfName(name);
     for (Boundary& chain : chainEdges(edges)) {
-      const BoundaryRole by_shape = chain.closed ? roleOfLoop(grid.nodes, chain.nodes) : BoundaryRole::Land;
+      const BoundaryRole by_shape = chain.closed ? roleOfLoop(grid.nodes, chain.nodes, grid.crs) : BoundaryRole::Land;
       chain.role = role.value_or(by_shape);
       chain.ibtype = role ? ibtypeOfName(name) : -1;
       grid.boundaries.push_back(std::move(chain));
@@ -348,8 +349,8 @@ Grid readGmsh(const std::string& path) {
   }
   readZ(contents, node_index, path, grid);
   readFeatures(contents, grid);
-  readCurves(contents, node_index, path, grid);
   grid.crs = readPrjBeside(path);
+  readCurves(contents, node_index, path, grid);
   return grid;
 }
 

@@ -11,6 +11,7 @@
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/grid/loop_role.hpp"
 
 namespace coastmesh {
 namespace {
@@ -140,7 +141,7 @@ void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& 
       if (const BoundaryRole* const role = std::get_if<BoundaryRole>(&kinds[g])) {
         chain.role = *role;
       } else if (chain.closed) {
-        chain.role = roleOfLoop(grid.nodes, chain.nodes);
+        chain.role = roleOfLoop(grid.nodes, chain.nodes, grid.crs);
       }
       grid.boundaries.push_back(std::move(chain));
     }
@@ -169,8 +170,8 @@ Grid read2dm(const std::string& path) {
   }
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
   readMaterials(cards, grid);
-  readStrings(cards, node_index, file, grid);
   grid.crs = readPrjBeside(path);
+  readStrings(cards, node_index, file, grid);
   return grid;
 }
 

@@ -8,6 +8,7 @@
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/format/grid_formats.hpp"
+#include "gis/grid/loop_role.hpp"
 #include "gis/grid/rim_boundaries.hpp"
 
 namespace coastmesh {
@@ -111,11 +112,11 @@ Grid readTelemac(const std::string& path) {
   const std::vector<BoundaryRole> roles = readConditions(withEnding(path, ".cli"), ranks, grid);
   auto loops = rimOf(grid);
   sortByRank(loops, ranks);
+  grid.crs = readPrjBeside(path);
   // An edge is open where both its nodes are; between two kinds it is of the second.
-  grid.boundaries = cutLoops(grid.nodes, loops, [&](std::uint32_t from, std::uint32_t to) {
+  grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t from, std::uint32_t to) {
     return RimKind{roles[from] == BoundaryRole::Land ? BoundaryRole::Land : roles[to]};
   });
-  grid.crs = readPrjBeside(path);
   return grid;
 }
 
@@ -133,7 +134,7 @@ std::vector<std::vector<std::uint32_t>> orderedLoops(const Grid& grid) {
   const auto southWest = [&](std::uint32_t node) { return grid.nodes[node].x + grid.nodes[node].y; };
   for (auto& loop : loops) std::ranges::rotate(loop, std::ranges::min_element(loop, {}, southWest));
   std::ranges::stable_partition(loops,
-                                [&](const auto& loop) { return roleOfLoop(grid.nodes, loop) == BoundaryRole::Land; });
+                                [&](const auto& loop) { return roleOfLoop(grid.nodes, loop, grid.crs) == BoundaryRole::Land; });
   return loops;
 }
 

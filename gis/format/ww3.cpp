@@ -96,8 +96,8 @@ Grid readWw3(const std::string& path) {
     }
   }
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
-  grid.boundaries = boundariesOfOpenNodes(grid, is_open);
   grid.crs = readPrjBeside(path);
+  grid.boundaries = boundariesOfOpenNodes(grid, is_open);
   return grid;
 }
 

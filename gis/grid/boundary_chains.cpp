@@ -6,20 +6,10 @@
 
 namespace coastmesh {
 
-BoundaryRole roleOfLoop(std::span<const Point> nodes, std::span<const std::uint32_t> loop) {
-  // At its least vertex a loop turns left if it goes counter-clockwise, however often it passes there: the mesh lies to
-  // its left, and all of it on one side of that vertex.
-  const auto less = [&](std::uint32_t a, std::uint32_t b) { return lexLess(nodes[a], nodes[b]); };
-  const std::size_t least = static_cast<std::size_t>(std::ranges::min_element(loop, less) - loop.begin());
-  const std::size_t n = loop.size();
-  const Point &before = nodes[loop[(least + n - 1) % n]], &after = nodes[loop[(least + 1) % n]];
-  return orient2d(before, nodes[loop[least]], after) > 0 ? BoundaryRole::Land : BoundaryRole::Island;
-}
-
 std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop) {
   std::vector<Boundary> boundaries;
   for (std::vector<VertexId>& vertices : rimLoops(mesh, loop)) {
-    const BoundaryRole role = roleOfLoop(mesh.points, vertices);
+    const BoundaryRole role = roleOfLoop(mesh.points, vertices, Crs{});
     boundaries.push_back({role, true, std::move(vertices)});
   }
   return boundaries;

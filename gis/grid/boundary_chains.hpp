@@ -14,10 +14,6 @@ namespace coastmesh {
 
 using NodePair = std::array<std::uint32_t, 2>;
 
-// Land for a loop that goes counter-clockwise in the plane of `nodes`, else an island. REQUIRES: the mesh lies to the
-// loop's left; a vertex that the loop passes twice is allowed.
-BoundaryRole roleOfLoop(std::span<const Point> nodes, std::span<const std::uint32_t> loop);
-
 // Rim loops as boundaries: the loop that goes counter-clockwise round each connected piece is land, the others islands.
 std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gis/grid/loop_role.hpp"
+
 namespace coastmesh {
 namespace {
 
@@ -16,7 +18,7 @@ std::vector<std::vector<std::uint32_t>> rimOf(const Grid& grid) {
   return rimLoops(linkTriangles(grid.nodes, grid.triangles, conflicts));
 }
 
-std::vector<Boundary> cutLoops(std::span<const Point> nodes, const std::vector<std::vector<std::uint32_t>>& loops,
+std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<std::uint32_t>>& loops,
                                const RimKindOf& kind_of) {
   std::vector<Boundary> boundaries;
   std::vector<RimKind> kinds;
@@ -29,7 +31,7 @@ std::vector<Boundary> cutLoops(std::span<const Point> nodes, const std::vector<s
     while (first < n && !changesAt(first)) ++first;
     if (first == n) {
       const RimKind& kind = kinds.front();
-      const BoundaryRole role = isShore(kind.role) ? roleOfLoop(nodes, loop) : kind.role;
+      const BoundaryRole role = isShore(kind.role) ? roleOfLoop(grid.nodes, loop, grid.crs) : kind.role;
       boundaries.push_back({role, true, loop, kind.ibtype});
       continue;
     }
@@ -60,7 +62,7 @@ const RimKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const {
 }
 
 std::vector<Boundary> boundariesOfOpenNodes(const Grid& grid, const std::vector<bool>& is_open) {
-  return cutLoops(grid.nodes, rimOf(grid), [&](std::uint32_t from, std::uint32_t to) {
+  return cutLoops(grid, rimOf(grid), [&](std::uint32_t from, std::uint32_t to) {
     return RimKind{is_open[from] && is_open[to] ? BoundaryRole::Open : BoundaryRole::Land};
   });
 }

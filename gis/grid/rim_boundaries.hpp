@@ -22,9 +22,9 @@ struct RimKind {
 std::vector<std::vector<std::uint32_t>> rimOf(const Grid& grid);
 
 // Loops cut into boundaries where the kind of their edges changes. A loop of one kind stays closed; one of shore alone
-// is land or an island by its direction, whichever the kind says; the shore of a loop that opens somewhere is land.
+// is land or an island by `roleOfLoop`, whichever the kind says; the shore of a loop that opens somewhere is land.
 using RimKindOf = std::function<RimKind(std::uint32_t from, std::uint32_t to)>;
-std::vector<Boundary> cutLoops(std::span<const Point> nodes, const std::vector<std::vector<std::uint32_t>>& loops,
+std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<std::uint32_t>>& loops,
                                const RimKindOf& kind_of);
 
 // The kinds of edges that the grid's boundaries tell, whichever way they go.

@@ -15,6 +15,7 @@
 #include "gis/error.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/grid/ibtype.hpp"
+#include "gis/grid/loop_role.hpp"
 #include "gis/read/cleaned_layers.hpp"
 #include "gis/read/read_layers.hpp"
 
@@ -251,7 +252,7 @@ Rim rimWithKinds(const Grid& grid) {
   rim.loops = rimOf(grid);
   const EdgeKinds before(grid);
   for (const auto& loop : rim.loops) {
-    const bool outer = roleOfLoop(grid.nodes, loop) == BoundaryRole::Land;
+    const bool outer = roleOfLoop(grid.nodes, loop, grid.crs) == BoundaryRole::Land;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const NodePair edge{loop[i], loop[(i + 1) % loop.size()]};
       const RimKind* const kind = before.find(edge[0], edge[1]);
@@ -269,7 +270,7 @@ std::vector<Boundary> boundariesOf(const Grid& grid, const Rim& rim) {
   std::vector<std::pair<NodePair, std::size_t>> index;
   for (std::size_t e = 0; e < rim.edges.size(); ++e) index.emplace_back(rim.edges[e], e);
   std::ranges::sort(index);
-  return cutLoops(grid.nodes, rim.loops, [&](std::uint32_t from, std::uint32_t to) {
+  return cutLoops(grid, rim.loops, [&](std::uint32_t from, std::uint32_t to) {
     const auto at =
         std::ranges::lower_bound(index, NodePair{from, to}, {}, [](const auto& entry) { return entry.first; });
     return rim.kinds[at->second];

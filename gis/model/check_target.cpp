@@ -12,6 +12,7 @@
 #include "gis/geometry/box_tree.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/grid/loop_role.hpp"
 #include "gis/grid/rim_boundaries.hpp"
 #include "gis/model/flow_links.hpp"
 #include "gis/model/target_limits.hpp"
@@ -203,7 +204,7 @@ class TargetCheck {
   void checkLoop(const Boundary& boundary, bool turned) {
     if (!boundary.closed || boundary.nodes.size() < 3) return;
     const std::uint32_t first = boundary.nodes.front();
-    const BoundaryRole by_shape = roleOfLoop(grid_.nodes, boundary.nodes);
+    const BoundaryRole by_shape = roleOfLoop(grid_.nodes, boundary.nodes, grid_.crs);
     const bool shore = !isOpening(boundary.role);
     if (shore && !turned && boundary.role != by_shape) add(TargetDefectKind::WrongShore, grid_.nodes[first], -1, first);
     // Islands close themselves; for the others SCHISM wants two linked segments.

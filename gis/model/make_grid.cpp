@@ -9,6 +9,7 @@
 #include "gis/coast/segment_tags.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/grid/loop_role.hpp"
 
 namespace coastmesh {
 namespace {
@@ -192,6 +193,8 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
     for (Boundary& rim : findBoundaries(*part.mesh, loop)) {
       for (Boundary& boundary : splitLoop(std::move(rim), open)) {
         for (std::uint32_t& node : boundary.nodes) node = index_of[node];
+        if (boundary.closed && boundary.role != BoundaryRole::Open)
+          boundary.role = roleByArea(grid.nodes, boundary.nodes, grid.crs).value_or(boundary.role);
         grid.boundaries.push_back(std::move(boundary));
       }
     }

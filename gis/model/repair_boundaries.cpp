@@ -60,7 +60,7 @@ void rebuildBoundaries(RepairState& state) {
     const auto at = state.links.kinds.find(edgeKey(a, b));
     return at == state.links.kinds.end() ? RimKind{} : at->second;
   };
-  state.grid.boundaries = cutLoops(state.grid.nodes, rimOf(state.grid), kindOfEdge);
+  state.grid.boundaries = cutLoops(state.grid, rimOf(state.grid), kindOfEdge);
 }
 
 void reportRebuilt(RepairState& state, std::span<const FoundDefect> pending, std::size_t boundaries_before) {

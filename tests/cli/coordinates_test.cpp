@@ -2,6 +2,8 @@
 // at all.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -13,6 +15,10 @@ namespace coastmesh::test {
 namespace {
 
 using Json = nlohmann::json;
+
+struct Point2 {
+  double x, y;
+};
 
 class Coordinates : public ProgramTest {
  protected:
@@ -80,6 +86,40 @@ TEST_F(Coordinates, LayersAcross180) { expectAlikeInLayers(lakeAt180(), 0); }
 
 TEST_F(Coordinates, LayersAroundAPole) { expectAlikeInLayers(polarCap(), 0); }
 
+// Which shore is an island every reader and every check say alike, roles in the file or none.
+TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
+  LonLatRing cap, hole;
+  for (int lon = -180; lon < 180; lon += 20) cap.emplace_back(lon, 70.0), hole.emplace_back(-lon, 85.0);
+  const std::string polar = write("polar.geojson", geoJsonPolygons({{cap, hole}}));
+  for (const std::string& input : {lakeAt180(), polar}) {
+    SCOPED_TRACE(input);
+    std::vector<std::string> arguments{"mesh", input, "--dissolve", "--overwrite", "--quiet"};
+    const std::vector<std::string> outputs{"m.14",      "m.gr3", "m.slf", "m_grd.dat",
+                                           "m_ww3.msh", "m.2dm", "m.msh", "m.nc"};
+    for (const std::string& output : outputs) arguments.insert(arguments.end(), {"-o", file(output)});
+    ASSERT_EQ(runProgram(arguments).code, 0);
+    // Without names Gmsh's curves tell no roles.
+    std::string unnamed = readText(file("m.msh"));
+    const std::size_t begin = unnamed.find("$PhysicalNames"), end = unnamed.find("$EndPhysicalNames");
+    ASSERT_NE(end, std::string::npos);
+    unnamed.erase(begin, unnamed.find('\n', end) + 1 - begin);
+    write("unnamed.msh", unnamed);
+    std::filesystem::copy_file(file("m.prj"), file("unnamed.prj"), std::filesystem::copy_options::overwrite_existing);
+    for (const char* name :
+         {"m.14", "m.gr3", "m.slf", "m_grd.dat", "m_ww3.msh", "m.2dm", "m.msh", "unnamed.msh", "m.nc"}) {
+      const Json boundaries = infoOf(file(name))["boundaries"];
+      // ADCIRC and SCHISM take an outer shore as two segments.
+      const bool in_two = std::string(name).ends_with(".14") || std::string(name).ends_with(".gr3");
+      EXPECT_EQ(boundaries["land"], in_two ? 2 : 1) << name << boundaries;
+      EXPECT_EQ(boundaries["island"], 1) << name << boundaries;
+    }
+    for (const char* model : {"adcirc", "schism"}) {
+      const ProgramRun check = runProgram({"check", file("m.14"), "--target", model});
+      EXPECT_EQ(check.output.find("shore"), std::string::npos) << check.output;
+    }
+  }
+}
+
 // Between the spikes' sides a triangle comes out turned over on the ground: told, by `mesh` as by `check`.
 TEST_F(Coordinates, TrianglesTurnedOverOnTheGroundAreTold) {
   expectAlikeInLayers(spikes(), 1);
@@ -122,6 +162,33 @@ TEST_F(Coordinates, ACrsThatShowsAWideInputInOnePieceIsTaken) {
     const ProgramRun run = runProgram({"mesh", belt, "--crs", crs, "-o", file("m.2dm"), "--overwrite", "--quiet"});
     EXPECT_LE(run.code, 1) << crs << run.errors;
   }
+}
+
+// A plane shows all of the globe but a place on an island, wherever that is and small as it may be, down to a degree.
+TEST_F(Coordinates, TheGlobeLessAnIsland) {
+  const auto mesh = [&](const Point2& at, double side, std::vector<std::string> options) {
+    const std::string island =
+        ring("island.geojson", {{at.x, at.y}, {at.x + side, at.y}, {at.x + side, at.y + side}, {at.x, at.y + side}});
+    options.insert(options.begin(), {"mesh", island, "--domain", "outside", "--size", "500000", "-o", file("globe.nc"),
+                                     "--overwrite", "--quiet"});
+    return runProgram(options);
+  };
+  const std::string all = "--bbox=-180,-90,180,90";
+  for (const Point2& at : {Point2{33.3, 27.2}, Point2{-101.7, -13.1}, Point2{178.1, 61.3}}) {
+    const ProgramRun run = mesh(at, 1.7, {all});
+    EXPECT_EQ(run.code, 0) << at.x << run.errors;
+    const Json info = infoOf(file("globe.nc"));
+    // Square metres of WGS 84, less the island's.
+    EXPECT_NEAR(info["area_m2"].get<double>(), 5.10065e14 - 3.5e10 * std::cos(at.y * 0.01745), 2e-3 * 5.1e14);
+    EXPECT_EQ(info["boundaries"]["island"], 1) << info["boundaries"];
+    EXPECT_EQ(runProgram({"check", file("globe.nc"), "--target", "schism"}).output.find("shore"), std::string::npos);
+  }
+  const ProgramRun small = mesh({33.3, 27.2}, 0.2, {all});
+  EXPECT_EQ(small.code, 3);
+  EXPECT_TRUE(isOneErrorLine(small.errors));
+  EXPECT_NE(small.errors.find("--bbox=-180,-85,180,90"), std::string::npos) << small.errors;
+  const ProgramRun advised = mesh({33.3, 27.2}, 0.2, {"--bbox=-180,-85,180,90"});
+  EXPECT_EQ(advised.code, 0) << advised.errors;
 }
 
 // What GeoJSON calls longitudes, in metres: taken as a plane where that is asked for.

@@ -47,7 +47,7 @@ Grid soundGrid() {
 Grid openGrid() {
   Grid grid = soundGrid();
   const auto loops = rimOf(grid);
-  grid.boundaries = cutLoops(grid.nodes, loops, [&](std::uint32_t a, std::uint32_t b) {
+  grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t a, std::uint32_t b) {
     return RimKind{grid.nodes[a].y == 0.0 && grid.nodes[b].y == 0.0 ? BoundaryRole::Open : BoundaryRole::Land};
   });
   return grid;
@@ -266,7 +266,7 @@ Grid corner(bool both_open) {
   grid.nodes = mesh.points;
   for (const Triangle& t : mesh.triangles) grid.triangles.push_back({t.v[1], t.v[0], t.v[2]});
   grid.z.assign(grid.nodes.size(), -20.0);
-  grid.boundaries = cutLoops(grid.nodes, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
+  grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
     const auto on = [&](double Point::*axis) { return grid.nodes[a].*axis == 0.0 && grid.nodes[b].*axis == 0.0; };
     return RimKind{on(&Point::y) || (both_open && on(&Point::x)) ? BoundaryRole::Open : BoundaryRole::Land};
   });
@@ -286,7 +286,7 @@ TEST(CheckTarget, OpenAndSolid) {
 
 TEST(CheckTarget, LoneWall) {
   Grid grid = soundGrid();
-  grid.boundaries = cutLoops(grid.nodes, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
+  grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
     const bool south = grid.nodes[a].y == 0.0 && grid.nodes[b].y == 0.0;
     const bool wall = std::min(grid.nodes[a].x, grid.nodes[b].x) == 3000.0;
     return RimKind{south && !wall ? BoundaryRole::Open : BoundaryRole::Land};

@@ -31,7 +31,7 @@ Grid shakenGrid(unsigned seed, const Crs& crs) {
   grid.crs = crs;
   grid.nodes = mesh.points;
   for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
-  grid.boundaries = cutLoops(grid.nodes, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
+  grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
     return RimKind{std::min(a, b) % 3 == 0 ? BoundaryRole::Open : BoundaryRole::Land};
   });
   return grid;
@@ -66,7 +66,7 @@ Grid edited(Grid grid, const GridLinks& links, const PatchEdit& edit) {
       grid.triangles[triangle.slot] = triangle.v;
     }
   }
-  grid.boundaries = cutLoops(grid.nodes, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
+  grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
     const NodePair key = edgeKey(a, b);
     return edit.halves.contains(key) ? edit.halves.at(key) : links.kinds.at(key);
   });

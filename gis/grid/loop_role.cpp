@@ -1,0 +1,89 @@
+#include "gis/grid/loop_role.hpp"
+
+#include <GeographicLib/Accumulator.hpp>
+#include <GeographicLib/Math.hpp>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using GeographicLib::Math;
+
+BoundaryRole roleInPlane(std::span<const Point> ring) {
+  // At its least vertex a loop turns left if it goes counter-clockwise, however often it passes there: the mesh lies to
+  // its left, and all of it on one side of that vertex.
+  const std::size_t n = ring.size();
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(ring, lexLess) - ring.begin());
+  const Point &before = ring[(least + n - 1) % n], &after = ring[(least + 1) % n];
+  return orient2d(before, ring[least], after) > 0 ? BoundaryRole::Land : BoundaryRole::Island;
+}
+
+std::vector<Point> placesOf(std::span<const Point> nodes, std::span<const std::uint32_t> loop) {
+  std::vector<Point> ring;
+  ring.reserve(loop.size());
+  for (const std::uint32_t node : loop) ring.push_back(nodes[node]);
+  return ring;
+}
+
+// With longitudes that go on where the loop crosses ±180 or has points of other revolutions. They are moved by whole
+// revolutions alone.
+std::vector<Point> unrolled(std::vector<Point> ring) {
+  double turns = 0.0;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    turns -= 360.0 * std::round((ring[i].x + turns - ring[i - 1].x) / 360.0);
+    ring[i].x += turns;
+  }
+  return ring;
+}
+
+// The area to the left of a ring with great circles as edges, on the sphere of radius 1. That between an edge and the
+// equator is Bevis and Cambareri's (1987), which holds over poles and for edges along a meridian too.
+double areaToTheLeft(std::span<const Point> ring) {
+  GeographicLib::Accumulator<double> below, turn;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &from = ring[i], &to = ring[(i + 1) % ring.size()];
+    const double step = Math::AngDiff(from.x, to.x) * Math::degree();
+    const double s = std::tan(0.5 * from.y * Math::degree()), t = std::tan(0.5 * to.y * Math::degree());
+    below += 2.0 * std::atan2(std::sin(0.5 * step) * (s + t), std::cos(0.5 * step) * (1.0 + s * t));
+    turn += step;
+  }
+  constexpr double kSphere = 4.0 * std::numbers::pi;
+  const double rounds = std::round(turn() / (2.0 * std::numbers::pi));
+  const double area = std::fmod(2.0 * std::numbers::pi * rounds - below(), kSphere);
+  return area < 0.0 ? area + kSphere : area;
+}
+
+// Whether straight lines in degrees make the same loop as great circles, but for slivers.
+bool degreesTell(std::span<const Point> unrolled_ring) {
+  constexpr double kWidest = 180.0, kHighest = 89.0;
+  const auto [west, east] = std::ranges::minmax(unrolled_ring, {}, &Point::x);
+  const auto [south, north] = std::ranges::minmax(unrolled_ring, {}, &Point::y);
+  return east.x - west.x < kWidest && std::max(north.y, -south.y) < kHighest;
+}
+
+}  // namespace
+
+std::optional<BoundaryRole> roleByArea(std::span<const Point> nodes, std::span<const std::uint32_t> loop,
+                                       const Crs& crs) {
+  if (!crs.geographic) return std::nullopt;
+  constexpr double kSphere = 4.0 * std::numbers::pi;
+  constexpr double kSure = 1e-4;  // of the sphere of radius 1: beyond all that bent sides of slivers could be wrong by
+  const std::vector<Point> ring = unrolled(placesOf(nodes, loop));
+  const double left = areaToTheLeft(ring);
+  if (degreesTell(ring) && std::min(left, kSphere - left) < kSure) return std::nullopt;
+  return left < 0.5 * kSphere ? BoundaryRole::Land : BoundaryRole::Island;
+}
+
+BoundaryRole roleOfLoop(std::span<const Point> nodes, std::span<const std::uint32_t> loop, const Crs& crs) {
+  if (const std::optional<BoundaryRole> role = roleByArea(nodes, loop, crs)) return *role;
+  std::vector<Point> ring = placesOf(nodes, loop);
+  return roleInPlane(crs.geographic ? unrolled(std::move(ring)) : std::move(ring));
+}
+
+}  // namespace coastmesh
