@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -168,7 +167,7 @@ Command declareCheck(CLI::App& root) {
   line.texts("--input", usage->input.files, kVectorFile, false,
              "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
   declareTargets(line, usage->targets, "also look for all that makes the model refuse the mesh; repeat it for several");
-  line.number("--time-step", usage->target_check.time_step_s, "S", {0.0, std::numeric_limits<double>::infinity()},
+  line.number("--time-step", usage->target_check.time_step_s, "S", {0.0, 1e6},
               "also look for triangles whose Courant number with this time step is above 1, or as --target has it; 0 "
               "leaves them out");
   line.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");

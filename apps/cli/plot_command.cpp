@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -7,6 +6,7 @@
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/plot/plot_mesh.hpp"
+#include "core/computable.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -28,7 +28,7 @@ std::array<double, 4> parseBox(const std::string& text) {
   const int read = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &box[0], &box[1], &box[2], &box[3], &length);
   const bool whole = read == 4 && static_cast<std::size_t>(length) == text.size();
   bool finite = true;
-  for (double side : box) finite = finite && std::isfinite(side);
+  for (double side : box) finite = finite && isComputable(side);
   if (!whole || !finite || box[0] >= box[2] || box[1] >= box[3]) {
     throw OptionError("--bbox: '" + text + "' is not W,S,E,N with W below E and S below N");
   }

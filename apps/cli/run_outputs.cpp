@@ -9,7 +9,7 @@
 #include <set>
 
 #include "gis/error.hpp"
-#include "gis/virtual_source.hpp"
+#include "gis/read/virtual_source.hpp"
 
 namespace coastmesh {
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/computable.hpp"
+
 namespace coastmesh {
 
 namespace {
@@ -45,9 +47,12 @@ CLI::Validator rangeCheck(const NumberRange& range) {
       [range](const std::string& text) -> std::string {
         double value = 0.0;
         const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-        if (number && value <= range.high && (range.low_open ? value > range.low : value >= range.low)) return {};
+        const bool within = number && value <= range.high && (range.low_open ? value > range.low : value >= range.low);
         const std::string wanted = rangeText(range);
-        return "'" + text + "' is not a number" + (wanted.empty() ? "" : " in the range " + wanted);
+        if (!within) return "'" + text + "' is not a number" + (wanted.empty() ? "" : " in the range " + wanted);
+        if (isComputable(value)) return {};
+        return "'" + text + "' is " + (std::abs(value) < 1 ? "nearer to 0 than 1e-70" : "beyond -1e70 to 1e70") +
+               ", where coordinates end" + (wanted.empty() ? "" : "; the range is " + wanted);
       },
       "");
 }

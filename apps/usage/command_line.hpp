@@ -65,7 +65,7 @@ class CommandLine {
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
 
   // Options. Names are as CLI11 takes them: "-o,--output". `unit` is what the value is counted in ("DEG", "M"), or what
-  // it is ("FILE"). Numbers must be finite and within their range; an infinite default, or
+  // it is ("FILE"). Numbers must be within their range and `isComputable`; an infinite default, or
   // the greatest of integers, means none. `given`, where there
   // is one, becomes true when the user gives the option.
   Option number(const std::string& names, double& value, const std::string& unit, const NumberRange& range,

@@ -1,7 +1,6 @@
 #include "apps/usage/input_usage.hpp"
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <locale>
@@ -9,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/pslg.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -23,7 +21,7 @@ std::vector<double> parseNumbers(const std::string& option, const std::string& t
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   for (double number; stream >> number;) {
-    if (!(std::abs(number) <= kLargestCoordinate)) break;
+    if (!isComputable(number)) break;
     numbers.push_back(number);
     char comma = 0;
     if (numbers.size() < count && !(stream >> comma && comma == ',')) break;

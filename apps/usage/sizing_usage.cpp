@@ -13,13 +13,15 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // "10,200,500" or "200,inf,500".
 DepthBand parseBand(const std::string& text) {
-  double numbers[3];
+  double numbers[3] = {};
   const char* at = text.data();
   const char* const end = text.data() + text.size();
   for (int i = 0; i < 3; ++i) {
     const auto [next, error] = std::from_chars(at, end, numbers[i]);
     const bool last = i == 2;
-    if (error != std::errc() || std::isnan(numbers[i]) || (last ? next != end : next == end || *next != ','))
+    const bool open = !last && std::isinf(numbers[i]);
+    if (error != std::errc() || !(open || isComputable(numbers[i])) ||
+        (last ? next != end : next == end || *next != ','))
       throw OptionError("--depth-band: '" + text + "' is not FROM,TO,SIZE, three numbers in metres");
     at = next + 1;
   }
@@ -52,10 +54,10 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
               "sizes at two places differ by at most this times their distance", &usage.grade_given)
       .needs(kSizes);
   line.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
-  line.number("--shore-rate", sizes.shore_rate, "R", kNotNegative,
+  line.number("--shore-rate", sizes.shore_rate, "R", {0.0, 1000.0},
               "how fast that grows with the distance from the shore")
       .needs({"--size-shore"});
-  line.number("--channel-elements", sizes.channel_elements, "N", kNotNegative,
+  line.number("--channel-elements", sizes.channel_elements, "N", {0.0, 1000.0},
               "elements across channels and straits; 0 asks for none");
   line.texts("--size-features", sizes.features, kVectorFile, false,
              "points, lines and polygons with a size in metres on them as the attribute 'size', and how fast it grows "
@@ -63,12 +65,11 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
              "distance as 'rate', else --grade");
   line.texts("--size-raster", sizes.rasters, kRasterFile, false,
              "raster of sizes in metres; of several the first that covers a place counts");
-  line.number("--wave-elements", sizes.depth.wave_elements, "N", kNotNegative,
-              "elements a wavelength; 0 asks for none");
+  line.number("--wave-elements", sizes.depth.wave_elements, "N", {0.0, 1e9}, "elements a wavelength; 0 asks for none");
   line.number("--wave-period", sizes.depth.period_s, "S", {0.1, 1e8},
               "period of that wave; the default is that of the M2 tide")
       .needs({"--wave-elements"});
-  line.number("--slope-elements", sizes.depth.slope_elements, "N", kNotNegative,
+  line.number("--slope-elements", sizes.depth.slope_elements, "N", {0.0, 1000.0},
               "elements on 2 pi times the depth over its slope; 0 asks for none");
   line.number("--slope-filter", sizes.depth.slope_filter_m, "M", kNotNegative,
               "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given)

@@ -133,8 +133,8 @@ std::vector<std::vector<std::uint32_t>> orderedLoops(const Grid& grid) {
   std::vector<std::vector<std::uint32_t>> loops = rimOf(grid);
   const auto southWest = [&](std::uint32_t node) { return grid.nodes[node].x + grid.nodes[node].y; };
   for (auto& loop : loops) std::ranges::rotate(loop, std::ranges::min_element(loop, {}, southWest));
-  std::ranges::stable_partition(loops,
-                                [&](const auto& loop) { return roleOfLoop(grid.nodes, loop, grid.crs) == BoundaryRole::Land; });
+  std::ranges::stable_partition(
+      loops, [&](const auto& loop) { return roleOfLoop(grid.nodes, loop, grid.crs) == BoundaryRole::Land; });
   return loops;
 }
 

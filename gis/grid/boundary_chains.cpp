@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/predicates.hpp"
+#include "gis/grid/loop_role.hpp"
 
 namespace coastmesh {
 

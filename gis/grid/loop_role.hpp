@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "gis/crs.hpp"
-#include "gis/grid.hpp"
+#include "gis/crs/crs.hpp"
+#include "gis/grid/grid.hpp"
 
 namespace coastmesh {
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/grid/loop_role.hpp"
 #include "gis/grid/wind_triangles.hpp"
 #include "tests/gis/grid_samples.hpp"
 
@@ -75,6 +76,58 @@ Grid randomGrid(std::mt19937_64& random) {
   std::vector<Point> nodes;
   for (const Point& p : plane.points) nodes.push_back(onGlobe(centre, p, west));
   return gridOf(plane, std::move(nodes));
+}
+
+// Which loop goes round the mesh the plane says that it was made in.
+TEST(LoopRole, OnTheGlobeAsInThePlaneThatTouchesIt) {
+  std::mt19937_64 random(20261122);
+  std::size_t by_area = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Grid grid = randomGrid(random);
+    ASSERT_EQ(grid.boundaries.size(), 2u);
+    for (const Boundary& boundary : grid.boundaries) {
+      EXPECT_EQ(roleOfLoop(grid.nodes, boundary.nodes, grid.crs), boundary.role) << "grid " << k;
+      by_area += roleByArea(grid.nodes, boundary.nodes, grid.crs).has_value();
+    }
+  }
+  EXPECT_GT(by_area, 200u);
+  EXPECT_LT(by_area, 3000u);
+}
+
+// Parallels with the mesh to their left, eastward to the north: the side with less than half the globe is inside.
+TEST(LoopRole, HalfTheGlobeIsTheMost) {
+  for (const double west : {-180.0, 0.0, 170.0}) {
+    for (const double latitude : {-89.9, -60.0, -0.1, 0.1, 60.0, 89.9}) {
+      std::vector<Point> nodes;
+      std::vector<std::uint32_t> loop;
+      for (int i = 0; i < 72; ++i) {
+        const double longitude = west + 5.0 * i;
+        nodes.push_back({longitude > 180.0 ? longitude - 360.0 : longitude, latitude});
+        loop.push_back(static_cast<std::uint32_t>(i));
+      }
+      EXPECT_EQ(roleOfLoop(nodes, loop, wgs84()), latitude > 0 ? BoundaryRole::Land : BoundaryRole::Island) << latitude;
+      std::ranges::reverse(loop);
+      EXPECT_EQ(roleOfLoop(nodes, loop, wgs84()), latitude > 0 ? BoundaryRole::Island : BoundaryRole::Land) << latitude;
+    }
+  }
+}
+
+TEST(LoopRole, APoleMayBeANode) {
+  // A third of the cap round the north pole, which has any longitude; the last one is turned inside out.
+  for (const double pole_longitude : {0.0, 77.0, -180.0}) {
+    const std::vector<Point> nodes{{0, 70}, {60, 70}, {120, 70}, {pole_longitude, 90}};
+    const std::vector<std::uint32_t> around{0, 1, 2, 3}, back{3, 2, 1, 0};
+    EXPECT_EQ(roleOfLoop(nodes, around, wgs84()), BoundaryRole::Land);
+    EXPECT_EQ(roleOfLoop(nodes, back, wgs84()), BoundaryRole::Island);
+  }
+}
+
+// In a plane degrees do not go round.
+TEST(LoopRole, APlaneHasNoEnds) {
+  const std::vector<Point> nodes{{-179, 0}, {179, 0}, {179, 10}, {-179, 10}};
+  const std::vector<std::uint32_t> loop{0, 1, 2, 3};
+  EXPECT_EQ(roleOfLoop(nodes, loop, Crs{}), BoundaryRole::Land);
+  EXPECT_EQ(roleOfLoop(nodes, loop, wgs84()), BoundaryRole::Island);  // the mesh is all but two degrees
 }
 
 class LayersOnTheGlobe : public ::testing::TestWithParam<const char*> {

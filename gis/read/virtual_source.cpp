@@ -1,4 +1,4 @@
-#include "gis/virtual_source.hpp"
+#include "gis/read/virtual_source.hpp"
 
 #include <cpl_string.h>
 #include <gdal_priv.h>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <string_view>
 
-#include "gis/ogr_support.hpp"
+#include "gis/crs/ogr_support.hpp"
 
 namespace coastmesh {
 
