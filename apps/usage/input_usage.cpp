@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/computable.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/computable.hpp"
+
 namespace coastmesh {
 
 namespace {
