@@ -1,22 +1,14 @@
 #include "apps/job/grid_pieces.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "gis/coast/coastline.hpp"
+#include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t node) {
-  while (parent[node] != node) {
-    parent[node] = parent[parent[node]];
-    node = parent[node];
-  }
-  return node;
-}
 
 std::vector<std::uint32_t> nodesOf(const Grid& grid, const std::vector<std::uint32_t>& triangles) {
   std::vector<std::uint32_t> nodes;
@@ -56,19 +48,13 @@ void markBorders(TriMesh& mesh) {
 }  // namespace
 
 std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid) {
-  std::vector<std::uint32_t> parent(grid.nodes.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  for (const auto& corners : grid.triangles) {
-    for (int i : {1, 2}) {
-      const std::uint32_t a = findRoot(parent, corners[0]);
-      const std::uint32_t b = findRoot(parent, corners[i]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  }
+  UnionFind joined(grid.nodes.size());
+  for (const auto& corners : grid.triangles)
+    for (int i : {1, 2}) joined.unite(corners[0], corners[i]);
   std::vector<std::vector<std::uint32_t>> pieces;
   std::vector<std::uint32_t> piece_of(grid.nodes.size(), kNone);
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
-    std::uint32_t& piece = piece_of[findRoot(parent, grid.triangles[t][0])];
+    std::uint32_t& piece = piece_of[joined.find(grid.triangles[t][0])];
     if (piece == kNone) {
       piece = static_cast<std::uint32_t>(pieces.size());
       pieces.emplace_back();

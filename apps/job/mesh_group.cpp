@@ -228,6 +228,41 @@ Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, c
   return followed;
 }
 
+// The sizes of a domain, which is made as coarse as they are where that is asked for.
+std::unique_ptr<SizeFunction> sizeGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes,
+                                        const GroupRoom& room, const RunControl& control, Domain& domain,
+                                        GroupResult& result) {
+  Recorder recorder;
+  const Stopwatch sizing;
+  const ItemLoop loop = recorder.loop("size", control);
+  const SizeOptions wanted = job.sizes.choose ? chooseSizes(job.sizes, sizes, domain, loop) : job.sizes;
+  if (job.sizes.choose)
+    result.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(wanted) +
+                           "; give --size-shore or any other size to choose them yourself");
+  const auto makeSizes = [&](const Domain& of) {
+    return makeSizeFunction(wanted, sizes, of, mostVertices(room), loop);
+  };
+  DomainSizes sized = makeSizes(domain);
+  if (job.sizes.coast == CoastDetail::Follow) {
+    FollowOptions follow = job.sizes.follow;
+    if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Open;
+    const ShoreGuides guides{projected(sizes.passages, domain.projection), projected(sizes.barriers, domain.projection),
+                             job.sizes.passage_elements};
+    CleanReport coarser;
+    domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), coarser);
+    std::ranges::move(coarser.notes, std::back_inserter(result.notes));
+    for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
+  }
+  VertexDemand& demand = sized.demand;
+  demand.vertices +=
+      verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * mostVertices(room) - demand.vertices));
+  result.estimated_vertices = demand.vertices;
+  if (demand.vertices > mostVertices(room)) throw TooManyVertices(demand);
+  result.size_s = sizing.seconds();
+  result.log.append(recorder.finish());
+  return std::move(sized.function);
+}
+
 void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
                const GroupRoom& room, const RunControl& control, GroupResult& result) {
   const Stopwatch cleaning;
@@ -251,38 +286,8 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   requireMemory(job, domain, room, result.input_area_m2);
   MeshOptions options = optionsFor(job, domain, room.vertices);
   std::unique_ptr<SizeFunction> size;
-  if (job.sizes.any()) {
-    Recorder recorder;
-    const Stopwatch sizing;
-    const ItemLoop loop = recorder.loop("size", control);
-    const SizeOptions wanted = job.sizes.choose ? chooseSizes(job.sizes, sizes, domain, loop) : job.sizes;
-    if (job.sizes.choose)
-      result.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(wanted) +
-                             "; give --size-shore or any other size to choose them yourself");
-    DomainSizes sized = makeSizeFunction(wanted, sizes, domain, mostVertices(room), loop);
-    if (job.sizes.coast == CoastDetail::Follow) {
-      FollowOptions follow = job.sizes.follow;
-      if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Open;
-      const auto makeSizes = [&](const Domain& followed) {
-        return makeSizeFunction(wanted, sizes, followed, mostVertices(room), loop);
-      };
-      const ShoreGuides guides{projected(sizes.passages, domain.projection),
-                               projected(sizes.barriers, domain.projection), job.sizes.passage_elements};
-      CleanReport coarser;
-      domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), coarser);
-      std::ranges::move(coarser.notes, std::back_inserter(result.notes));
-      for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
-    }
-    size = std::move(sized.function);
-    VertexDemand& demand = sized.demand;
-    options.refine.size = size.get();
-    demand.vertices +=
-        verticesOfSegments(domain.pslg, *size, std::max(0.0, 2.0 * mostVertices(room) - demand.vertices));
-    result.estimated_vertices = demand.vertices;
-    if (demand.vertices > mostVertices(room)) throw TooManyVertices(demand);
-    result.size_s = sizing.seconds();
-    result.log.append(recorder.finish());
-  }
+  if (job.sizes.any()) size = sizeGroup(job, input, sizes, room, control, domain, result);
+  options.refine.size = size.get();
   MeshedRegion region = meshRegion(domain.pslg, options, control);
   result.mesh_s = region.seconds;
   result.refine = std::move(region.stats);

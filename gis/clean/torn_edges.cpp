@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "core/metric.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-double distance(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 // The part `t` of the way from a to b, in longitudes the shorter way round.
 Point along(const Point& a, const Point& b, double t, bool geographic) {

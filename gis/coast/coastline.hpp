@@ -52,6 +52,7 @@ struct Coastline {
   std::vector<Feature> features;
   Crs crs;
   std::optional<Point> water_at;  // a place in the water: what crosses no shore from there is meshed, and nothing else
+  bool framed_by_box = false;     // its Frame was given as a box
 };
 
 }  // namespace coastmesh

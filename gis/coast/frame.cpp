@@ -260,6 +260,7 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
     refuseOddBox(*options.box, coastline.crs);
     const double turn = turnOf(boundsOf(coastline, false));
     coastline.features.push_back(frameOf(*options.box, coastline.crs, turn));
+    coastline.framed_by_box = true;
   }
   const bool framed = any(coastline, FeatureUse::Frame);
   if (options.water_at) {

@@ -27,15 +27,15 @@ std::string lengthText(double length_m, const Projection& projection) {
 }
 
 std::string noteOn(const std::vector<CutOffWater>& waters, const FollowOptions& options, const Projection& projection) {
-  std::string note =
-      "closing narrow water cut off " + std::to_string(waters.size()) +
-      (options.keep == KeepWater::All ? " waters, which are meshed apart" : " waters, which are left out");
+  std::string note = std::to_string(waters.size()) + " waters that nothing joins to the others" +
+                     (options.keep == KeepWater::Open ? " or to an open boundary" : "") +
+                     (options.keep == KeepWater::All ? " are meshed apart" : " are left out");
   for (std::size_t i = 0; i < std::min(kNamedWaters, waters.size()); ++i) {
     note += i == 0 ? ": the largest " : ", ";
     note += projection.isIdentity() ? formatted("%.3g", waters[i].area) : formatted("%.3g km²", 1e-6 * waters[i].area);
     note += " at " + placeText(waters[i].place, projection);
   }
-  return note + "; a smaller --channel-min or --passages keep what joins them, --keep-water decides what stays";
+  return note + "; --passages or a smaller --channel-min keep what joins them, --keep-water all keeps them as they are";
 }
 
 std::string noteOn(const std::vector<ClosedStrait>& straits, const Projection& projection) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "core/quality.hpp"
@@ -15,15 +14,14 @@
 namespace coastmesh {
 
 void keepInFrame(Grid& grid, const Coastline& coastline) {
+  if (!coastline.framed_by_box) return;
   Box box;
   bool in_parts = false;
   for (const Feature& feature : coastline.features) {
     if (feature.use != FeatureUse::Frame) continue;
-    if (!feature.source.starts_with("--bbox")) return;
     box.add(boundsOf(feature));
     in_parts = in_parts || feature.polygons.size() > 1;
   }
-  if (box.empty()) return;
   const auto inBox = [&](const Point& p) {
     return Point{in_parts ? p.x : std::clamp(p.x, box.xmin, box.xmax), std::clamp(p.y, box.ymin, box.ymax)};
   };
@@ -39,9 +37,17 @@ void keepInFrame(Grid& grid, const Coastline& coastline) {
     const auto& [a, b, c] = grid.triangles[t];
     return orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) <= 0;
   };
-  for (const std::size_t t : changed)
-    if (isTurned(t))
-      for (const std::uint32_t n : grid.triangles[t]) grid.nodes[n] = before[n];
+  // Nodes that go back may turn over what was looked at before; each can go back once.
+  for (bool again = true; again;) {
+    again = false;
+    for (const std::size_t t : changed) {
+      if (!isTurned(t)) continue;
+      for (const std::uint32_t n : grid.triangles[t]) {
+        again = again || !(grid.nodes[n] == before[n]);
+        grid.nodes[n] = before[n];
+      }
+    }
+  }
   std::vector<std::array<std::uint32_t, 3>> corners;
   for (const std::size_t t : changed) corners.push_back(grid.triangles[t]);
   if (!grid.area_m2.empty() && !corners.empty()) {

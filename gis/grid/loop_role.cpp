@@ -15,6 +15,8 @@ namespace {
 
 using GeographicLib::Math;
 
+constexpr double kSphere = 4.0 * std::numbers::pi;  // the area of one of radius 1
+
 BoundaryRole roleInPlane(std::span<const Point> ring) {
   // At its least vertex a loop turns left if it goes counter-clockwise, however often it passes there: the mesh lies to
   // its left, and all of it on one side of that vertex.
@@ -53,7 +55,6 @@ double areaToTheLeft(std::span<const Point> ring) {
     below += 2.0 * std::atan2(std::sin(0.5 * step) * (s + t), std::cos(0.5 * step) * (1.0 + s * t));
     turn += step;
   }
-  constexpr double kSphere = 4.0 * std::numbers::pi;
   const double rounds = std::round(turn() / (2.0 * std::numbers::pi));
   const double area = std::fmod(2.0 * std::numbers::pi * rounds - below(), kSphere);
   return area < 0.0 ? area + kSphere : area;
@@ -72,7 +73,6 @@ bool degreesTell(std::span<const Point> unrolled_ring) {
 std::optional<BoundaryRole> roleByArea(std::span<const Point> nodes, std::span<const std::uint32_t> loop,
                                        const Crs& crs) {
   if (!crs.geographic) return std::nullopt;
-  constexpr double kSphere = 4.0 * std::numbers::pi;
   constexpr double kSure = 1e-4;  // of the sphere of radius 1: beyond all that bent sides of slivers could be wrong by
   const std::vector<Point> ring = unrolled(placesOf(nodes, loop));
   const double left = areaToTheLeft(ring);

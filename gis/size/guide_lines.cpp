@@ -1,64 +1,35 @@
 #include "gis/size/guide_lines.hpp"
 
-#include <gdal_priv.h>
-#include <ogrsf_frmts.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
-#include "gis/read/ogr_geometry.hpp"
+#include "gis/read/read_layers.hpp"
 
 namespace coastmesh {
 
-namespace {
-
-void readLayer(OGRLayer& layer, const std::string& source, const Crs& crs, std::vector<ShoreLine>& lines) {
-  const int name_field = layer.GetLayerDefn()->GetFieldIndex("name");
-  std::optional<CrsMap> map;
-  const OGRSpatialReference* srs = layer.GetSpatialRef();
-  if (srs && !srs->IsEmpty() && !crs.isPlane()) {
-    OGRSpatialReference from(*srs);
-    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    map.emplace(from, toOgr(crs));
-  }
-  layer.ResetReading();
-  for (const OGRFeatureUniquePtr& feature : layer) {
-    const OGRGeometry* geometry = feature->GetGeometryRef();
-    if (!geometry || geometry->IsEmpty()) continue;
-    const std::string what = source + ", feature " + std::to_string(feature->GetFID());
-    GeometryParts parts;
-    takeApart(*geometry, what, parts);
-    for (std::vector<Point>& points : parts.lines) {
-      for (Point& p : points) {
+std::vector<ShoreLine> readGuideLines(const std::string& source, const Crs& crs) {
+  ReadReport ignored;
+  std::vector<ShoreLine> lines;
+  for (RawLayer& layer : readLayers({source, FeatureUse::Area}, {}, ignored)) {
+    std::optional<CrsMap> map;
+    if (layer.crs && !layer.crs->isPlane() && !crs.isPlane()) map.emplace(toOgr(*layer.crs), toOgr(crs));
+    for (RawLayer::Line& line : layer.lines) {
+      const Feature& feature = layer.line_features[line.feature];
+      for (Point& p : line.points) {
         if (map) p = map->forward(p);
         if (!std::isfinite(p.x) || !std::isfinite(p.y))
-          throw InputError(what + ": has a place that the input's coordinate system does not reach; take it out");
+          throw InputError(feature.source + ", feature " + std::to_string(feature.fid) +
+                           ": has a place that the input's coordinate system does not reach; take it out");
       }
-      const bool named = name_field >= 0 && feature->IsFieldSetAndNotNull(name_field);
-      lines.push_back({std::move(points), named ? feature->GetFieldAsString(name_field) : ""});
+      lines.push_back({std::move(line.points), std::string(nameOf(feature.attributes))});
     }
   }
-}
-
-}  // namespace
-
-std::vector<ShoreLine> readGuideLines(const std::string& source, const Crs& crs) {
-  GDALAllRegister();
-  const OgrErrors errors;
-  const std::unique_ptr<GDALDataset> dataset(
-      GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset) {
-    throw InputError(source + ": cannot be read as lines" +
-                     (errors.text().empty() ? "; check the path" : " (" + errors.text() + ")"));
-  }
-  std::vector<ShoreLine> lines;
-  for (OGRLayer* layer : dataset->GetLayers())
-    readLayer(*layer, dataset->GetLayerCount() > 1 ? source + "|" + layer->GetName() : source, crs, lines);
   if (lines.empty()) throw InputError(source + ": holds no lines; draw each passage or barrier as a line");
   return lines;
 }

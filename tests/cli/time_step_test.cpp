@@ -116,7 +116,8 @@ TEST_F(TimeStep, SizeMinThatTheCoastUndercutsIsSaid) {
   EXPECT_FALSE(step().at("size_min").at("missed").get<bool>());
   const ProgramRun follows = mesh({"--size", "3000", "--size-min", "2000", "--coast", "follow"});
   EXPECT_EQ(follows.code, 0) << follows.errors;
-  for (const Json& place : step().at("size_min").at("places")) EXPECT_GE(place.at("length_m").get<double>(), 1000.0);
+  const Json undercut = step().at("size_min");
+  for (const Json& place : undercut.at("places")) EXPECT_GE(place.at("length_m").get<double>(), 1000.0);
 }
 
 TEST_F(TimeStep, CheckListsTheWorstFirstAndKeepsAdviceApart) {

@@ -90,6 +90,7 @@ def judge_outputs(case, folder, outputs):
         else:
             require(as_places(*read_grid(folder / name)) == places, f"{name} holds another mesh than {outputs[0]}")
     judge_area(case, nodes, triangles, report)
+    return report["mesh"]["turned"]["count"]
 
 
 def check_case(program, case, folder):
@@ -116,7 +117,8 @@ def check_case(program, case, folder):
                 judge_refusal(ran, out)
             else:
                 require(ran.returncode == 0 or said.strip(), "exit code 1 without a reason")
-                judge_outputs(case, out, outputs)
+                turned = judge_outputs(case, out, outputs)
+                require(not turned or ran.returncode == 1, f"{turned} triangles turned over, but exit code 0")
         seen = found
         if turn > 0:
             shutil.rmtree(out)
