@@ -164,6 +164,18 @@ std::vector<Apex> smallSectors(const TriMesh& mesh, const TriangleBound& bound, 
 
 }  // namespace
 
+void BoundCounts::add(Excuse excuse) {
+  ++below;
+  corner += excuse == Excuse::Corner;
+  near += excuse == Excuse::Near;
+}
+
+void BoundCounts::add(const BoundCounts& other) {
+  below += other.below;
+  corner += other.corner;
+  near += other.near;
+}
+
 InputCorners::InputCorners(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop) {
   const std::vector<Apex> candidates = smallSectors(mesh, bound, loop);
   if (candidates.empty()) return;

@@ -31,6 +31,19 @@ enum class Excuse : std::uint8_t {
   Near,    // its three vertices lie within the radius of a corner
 };
 
+// How many triangles break the bounds, and how many of them what excuses.
+struct BoundCounts {
+  std::uint64_t below = 0;   // all that break them
+  std::uint64_t corner = 0;  // of them, by Excuse::Corner
+  std::uint64_t near = 0;    // and by Excuse::Near
+
+  std::uint64_t excused() const { return corner + near; }
+  std::uint64_t unresolved() const { return below - excused(); }
+  // One more triangle.
+  void add(Excuse excuse);
+  void add(const BoundCounts& other);
+};
+
 // The corners of a mesh's input, found from that input alone: where refinement put points does not matter. The local
 // feature size of an apex is the distance to the nearest input vertex or constraint that does not meet it, through the
 // domain or not; of constraints that meet it the other end counts. What lies off the domain is not in the mesh, and

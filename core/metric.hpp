@@ -20,10 +20,14 @@ inline double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b
 inline double squaredLength(const Point& a) { return dot(a, a); }
 inline double squaredDistance(const Point& a, const Point& b) { return squaredLength(b - a); }
 inline double distance(const Point& a, const Point& b) { return std::sqrt(squaredDistance(a, b)); }
+// From the nearer end: a foot of the perpendicular is rounded to the grain of coordinates, differences are not.
 inline double squaredDistanceToSegment(const Point& p, const Point& a, const Point& b) {
-  const double square = squaredDistance(a, b);
-  const double share = square > 0.0 ? std::clamp(dot(p - a, b - a) / square, 0.0, 1.0) : 0.0;
-  return squaredDistance(p, a + share * (b - a));
+  const Point ab = b - a, ap = p - a, bp = p - b;
+  const double from_a = dot(ap, ab), from_b = -dot(bp, ab);
+  if (!(from_a > 0.0)) return squaredLength(ap);
+  if (!(from_b > 0.0)) return squaredLength(bp);
+  const double area = cross(ab, from_a < from_b ? ap : bp);
+  return area * area / squaredLength(ab);
 }
 // The foot of the perpendicular from p on the line through a and b, which differ.
 inline Point projectedOnLine(const Point& p, const Point& a, const Point& b) {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/input_corners.hpp"
 #include "core/metric.hpp"
 
 namespace coastmesh {
@@ -24,9 +23,7 @@ void MeshQuality::add(const MeshQuality& other) {
   max_angle_deg = std::max(max_angle_deg, other.max_angle_deg);
   shortest_edge = std::min(shortest_edge, other.shortest_edge);
   longest_edge = std::max(longest_edge, other.longest_edge);
-  below_bound += other.below_bound;
-  excused_corner += other.excused_corner;
-  excused_near += other.excused_near;
+  bounds.add(other.bounds);
   for (std::size_t i = 0; i < angle_histogram.size(); ++i) angle_histogram[i] += other.angle_histogram[i];
 }
 
@@ -56,25 +53,20 @@ MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max
       }
       quality.min_angle_deg = std::min(quality.min_angle_deg, least);
       quality.max_angle_deg = std::max(quality.max_angle_deg, most);
-      if (least < min_angle_deg || most > max_angle_deg) {
-        ++quality.below_bound;
-        part.below.push_back(static_cast<TriId>(t));
-      }
+      if (least < min_angle_deg || most > max_angle_deg) part.below.push_back(static_cast<TriId>(t));
     }
     return part;
   };
   const std::vector<Part> parts = overStretches(loop, mesh.triangles.size(), measure);
   MeshQuality whole;
   for (const Part& part : parts) whole.add(part.quality);
-  if (whole.below_bound > 0) {
+  if (std::ranges::any_of(parts, [](const Part& part) { return !part.below.empty(); })) {
     const TriangleBound asked(min_angle_deg, max_angle_deg, std::numeric_limits<double>::infinity());
     const InputCorners corners(mesh, asked, loop);
     for (const Part& part : parts) {
       for (const TriId t : part.below) {
         const auto& v = mesh.triangles[t].v;
-        const Excuse excuse = corners.excuseOf(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-        whole.excused_corner += excuse == Excuse::Corner;
-        whole.excused_near += excuse == Excuse::Near;
+        whole.bounds.add(corners.excuseOf(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]));
       }
     }
   }

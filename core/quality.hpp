@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
 #include "core/tri_mesh.hpp"
 
@@ -22,12 +23,9 @@ struct MeshQuality {
   double max_angle_deg = 0.0;
   double shortest_edge = std::numeric_limits<double>::infinity();  // plane units
   double longest_edge = 0.0;
-  std::uint64_t below_bound = 0;     // triangles with an angle below `min_angle_deg` or above `max_angle_deg`
-  std::uint64_t excused_corner = 0;  // of them, those that fill an input angle too small for the bound
-  std::uint64_t excused_near = 0;    // and those near to one (Excuse::Near)
+  BoundCounts bounds;  // triangles with an angle below `min_angle_deg` or above `max_angle_deg`
   std::array<std::uint64_t, 36> angle_histogram{};  // all angles of all triangles, in classes of five degrees
 
-  std::uint64_t excused() const { return excused_corner + excused_near; }
   void add(const MeshQuality& other);
 };
 

@@ -11,6 +11,7 @@
 #include "apps/cli/vector_output.hpp"
 #include "apps/job/check_grid.hpp"
 #include "apps/job/places.hpp"
+#include "apps/report/report_sections.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
 #include "core/metric.hpp"
@@ -83,9 +84,11 @@ DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
 
 bool isDefect(const DefectRow& row) { return !row.advice; }
 
-void printDefects(const CheckUsage& usage, const Grid& grid, const std::vector<DefectRow>& defects) {
+void printDefects(const CheckUsage& usage, const Grid& grid, const BoundCounts& bounds,
+                  const std::vector<DefectRow>& defects) {
   std::printf("%s: %zu nodes, %zu triangles, %td defects\n", usage.mesh.path.c_str(), grid.nodes.size(),
               grid.triangles.size(), std::ranges::count_if(defects, isDefect));
+  if (bounds.excused() > 0) std::printf("%s\n", boundText(bounds).c_str());
   for (std::size_t begin = 0, end = 0; begin < defects.size(); begin = end) {
     const DefectRow& first = defects[begin];
     const auto group = [](const DefectRow& row) { return std::tie(row.kind, row.target, row.advice); };
@@ -129,15 +132,11 @@ int runCheck(const CheckUsage& usage, Run& run) {
   const Grid grid = readMeshFile(usage.mesh, run);
   interrupt.check();
   GridCheckOptions options = usage.check;
-  std::vector<GridDefect> defects;
-  if (usage.input.files.empty()) {
-    defects = checkGrid(grid, options);
-  } else {
-    options.delaunay = true;
-    defects = checkGridAgainst(grid, JobInput(usage.input), options);
-  }
+  if (!usage.input.files.empty()) options.delaunay = true;
+  const GridCheck check =
+      usage.input.files.empty() ? checkGrid(grid, options) : checkGridAgainst(grid, JobInput(usage.input), options);
   std::vector<DefectRow> rows;
-  for (const GridDefect& defect : defects) rows.push_back(rowOf(defect));
+  for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
   for (const Target target : targets) {
     interrupt.check();
     for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check))
@@ -154,7 +153,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
     layer->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(rows)}); });
   }
   outputs.commit();
-  if (!usage.quiet) printDefects(usage, grid, rows);
+  if (!usage.quiet) printDefects(usage, grid, check.bounds, rows);
   return std::ranges::any_of(rows, isDefect) ? kExitShort : kExitDone;
 }
 

@@ -59,8 +59,8 @@ bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
   return mesh.twin(e) != kNone && delaunayExcess(mesh, e) > kAngleSlackDeg;
 }
 
-void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options,
-                std::vector<GridDefect>& defects) {
+void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options, GridCheck& result) {
+  std::vector<GridDefect>& defects = result.defects;
   const auto inverse = [&piece](const Point& place) { return piece.projection.inverse(place); };
   for (const EdgeConflict& conflict : piece.conflicts) {
     const Point& a = piece.mesh.points[conflict.a];
@@ -72,7 +72,10 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
   check.max_angle_deg = std::min(180.0, options.max_angle_deg + kAngleSlackDeg);
   check.delaunay = options.delaunay;
   check.pinches = options.pinches;
-  for (const MeshDefect& defect : checkMesh(piece.mesh, pslg, check)) {
+  BoundCounts bounds;
+  const std::vector<MeshDefect> found = checkMesh(piece.mesh, pslg, check, inOrder, &bounds);
+  result.bounds.add(bounds);
+  for (const MeshDefect& defect : found) {
     if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, defect)) continue;
     if (defect.kind == DefectKind::NotCounterClockwise) continue;  // what counts is the ground, not this plane
     const std::int64_t triangle = defect.triangle == kNone ? -1 : std::int64_t{piece.triangles[defect.triangle]};
@@ -106,15 +109,15 @@ std::optional<std::size_t> groupOf(const Grid& grid, const std::vector<std::uint
 
 }  // namespace
 
-std::vector<GridDefect> checkGrid(const Grid& grid, const GridCheckOptions& options) {
-  std::vector<GridDefect> defects;
-  for (const GridPiece& piece : splitGrid(grid)) checkPiece(piece, nullptr, options, defects);
-  checkOrientation(grid, defects);
-  sortByKind(defects);
-  return defects;
+GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options) {
+  GridCheck result;
+  for (const GridPiece& piece : splitGrid(grid)) checkPiece(piece, nullptr, options, result);
+  checkOrientation(grid, result.defects);
+  sortByKind(result.defects);
+  return result;
 }
 
-std::vector<GridDefect> checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options) {
+GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options) {
   std::vector<std::optional<Domain>> domains(input.groups());
   InputVertices vertices;
   for (std::size_t g = 0; g < domains.size(); ++g) {
@@ -127,7 +130,8 @@ std::vector<GridDefect> checkGridAgainst(const Grid& grid, const JobInput& input
     for (VertexId v = 0; v < domains[g]->input_points.size(); ++v) vertices[domains[g]->input_points[v]] = {g, v};
   }
 
-  std::vector<GridDefect> defects;
+  GridCheck result;
+  std::vector<GridDefect>& defects = result.defects;
   std::vector<std::vector<std::uint32_t>> triangles_of(domains.size());
   for (const std::vector<std::uint32_t>& triangles : connectedTriangles(grid)) {
     if (const auto g = groupOf(grid, triangles, vertices)) {
@@ -152,11 +156,11 @@ std::vector<GridDefect> checkGridAgainst(const Grid& grid, const JobInput& input
         piece.mesh.points[v] = domains[g]->pslg.points[found->second.vertex];
       }
     }
-    checkPiece(piece, &domains[g]->pslg, options, defects);
+    checkPiece(piece, &domains[g]->pslg, options, result);
   }
   checkOrientation(grid, defects);
   sortByKind(defects);
-  return defects;
+  return result;
 }
 
 }  // namespace coastmesh

@@ -29,12 +29,18 @@ struct GridCheckOptions {
 // an edge as not Delaunay, only by more than this.
 inline constexpr double kAngleSlackDeg = 0.01;
 
+struct GridCheck {
+  std::vector<GridDefect> defects;
+  BoundCounts
+      bounds;  // triangles that break the bounds on angles, those that are no defects too: input angles excuse them
+};
+
 // Every defect of the grid, each of its connected pieces in a plane of its own; a border between features counts as a
 // constraint.
-std::vector<GridDefect> checkGrid(const Grid& grid, const GridCheckOptions& options);
+GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options);
 
 // The same against the input that the grid was made from, with the input's own planes: vertices and segments have to be
-// there, and small angles of the input explain those of the mesh. Nodes are matched with vertices bit for bit.
-std::vector<GridDefect> checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options);
+// there, and small angles of the input excuse those of the mesh. Nodes are matched with vertices bit for bit.
+GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options);
 
 }  // namespace coastmesh

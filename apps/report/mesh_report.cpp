@@ -87,9 +87,10 @@ Json meshSection(const MeshJobResult& result) {
           {"area_m2", result.mesh_area_m2},
           {"min_angle_deg", any ? Json(quality.min_angle_deg) : Json(nullptr)},
           {"max_angle_deg", any ? Json(quality.max_angle_deg) : Json(nullptr)},
-          {"below_bound", quality.below_bound},
-          {"below_bound_explained", quality.excused()},
-          {"excused", {{"corner", quality.excused_corner}, {"near", quality.excused_near}}},
+          {"below_bound", quality.bounds.below},
+          {"below_bound_explained", quality.bounds.excused()},
+          {"excused", {{"corner", quality.bounds.corner}, {"near", quality.bounds.near}}},
+          {"unresolved", quality.bounds.unresolved()},
           {"angle_histogram", quality.angle_histogram},
           {"turned", turnedSection(result)},
           {"digest", digestText(result.digest)}};
@@ -147,16 +148,6 @@ Json parallelSection(const WorkLog& log) {
   return section;
 }
 
-// 1234567 as "1,234,567".
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3;) {
-    at -= 3;
-    text.insert(at, ",");
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string digestText(std::uint64_t digest) {
@@ -196,11 +187,7 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
   if (job.sizes.any())
     text += "about " + grouped(static_cast<std::uint64_t>(std::min(result.estimated_vertices, 1e18))) +
             " vertices were to be expected of these sizes\n";
-  if (quality.excused() > 0) {
-    text += grouped(quality.excused()) +
-            " triangles at input angles too small for the bound: " + grouped(quality.excused_corner) + " in them, " +
-            grouped(quality.excused_near) + " near to them\n";
-  }
+  if (quality.bounds.below > 0) text += boundText(quality.bounds) + "\n";
   if (result.unresolved > 0) {
     char bound[40];
     std::snprintf(bound, sizeof bound, "%g", job.mesh.refine.min_angle_deg);

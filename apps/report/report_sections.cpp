@@ -41,6 +41,21 @@ Json editsSection(const std::array<std::uint64_t, kEditKinds>& counts) {
   return section;
 }
 
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3;) {
+    at -= 3;
+    text.insert(at, ",");
+  }
+  return text;
+}
+
+std::string boundText(const BoundCounts& bounds) {
+  return grouped(bounds.below) + " triangles break the bounds on angles: " + grouped(bounds.corner) +
+         " in input angles too small for them, " + grouped(bounds.near) + " near to such an angle, " +
+         grouped(bounds.unresolved()) + " unresolved";
+}
+
 std::string textOf(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 double peakMemoryMib() {

@@ -109,7 +109,7 @@ void checkUnused(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
     if (!used[v]) defects.push_back({DefectKind::UnusedVertex, mesh.points[v]});
 }
 
-void checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
+BoundCounts checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
   // The refinement aims a hair above the bound; here the bound itself counts. Corners are the same
   // in both: one of exactly the bound cannot be divided at a hair above it.
   constexpr double kHair = 2.0 * TriangleBound::kMarginDeg;
@@ -117,15 +117,20 @@ void checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoo
   const double least = options.min_angle_deg, most = options.max_angle_deg;
   const TriangleBound asked(std::max(0.0, least - kHair), std::min(180.0, most + kHair), kAnySize);
   const TriangleBound in_reach(least, most, kAnySize);
-  for (const Shortfall& s : findShortfalls(mesh, asked, in_reach, loop))
+  const BoundJudgement judgement = judgeBounds(mesh, asked, in_reach, loop);
+  for (const Shortfall& s : judgement.unresolved)
     defects.push_back({DefectKind::AngleBelowBound, s.place, kNone, s.min_angle_deg});
+  return judgement.counts;
 }
 
 }  // namespace
 
 std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const CheckOptions& options,
-                                  const ItemLoop& loop) {
+                                  const ItemLoop& loop, BoundCounts* bounds) {
   Defects defects;
+  BoundCounts ignored;
+  BoundCounts& counts = bounds != nullptr ? *bounds : ignored;
+  counts = {};
   checkTopology(mesh, loop, defects);
   if (!defects.empty()) return defects;  // nothing else can be told of a mesh that does not hold together
   checkOrientation(mesh, loop, defects);
@@ -135,12 +140,12 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
     TriMesh marked = mesh;
     checkAgainstInputByPlace(marked, *pslg, defects);
     if (options.delaunay) checkDelaunay(marked, loop, defects);
-    checkBounds(marked, options, loop, defects);
+    counts = checkBounds(marked, options, loop, defects);
     return defects;
   }
   if (pslg != nullptr) checkAgainstInput(mesh, *pslg, loop, defects);
   if (options.delaunay) checkDelaunay(mesh, loop, defects);
-  checkBounds(mesh, options, loop, defects);
+  counts = checkBounds(mesh, options, loop, defects);
   return defects;
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/refine/mesh_defect.hpp"
@@ -20,8 +21,9 @@ struct CheckOptions {
 
 // Every defect of the mesh, by kind and then in order of triangles. `pslg` may be null: then the mesh is checked for
 // itself. With it, a mesh of ours (`input_vertices` set) is compared by index; one that was read from a file by
-// coordinates.
+// coordinates. `bounds` may be null: it receives how many triangles break the bounds, those that are excused too; none
+// where the mesh does not hold together.
 std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const CheckOptions& options,
-                                  const ItemLoop& loop = inOrder);
+                                  const ItemLoop& loop = inOrder, BoundCounts* bounds = nullptr);
 
 }  // namespace coastmesh

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <array>
 
-#include "core/input_corners.hpp"
 #include "core/quality.hpp"
 
 namespace coastmesh {
 
 std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
   const TriangleBound bound = strictBoundOf(options);
-  return findShortfalls(mesh, bound, bound, loop);
+  return judgeBounds(mesh, bound, bound, loop).unresolved;
 }
 
-std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
-                                      const ItemLoop& loop) {
+BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
+                           const ItemLoop& loop) {
   const auto cornersOf = [&](TriId t) -> std::array<Point, 3> {
     const auto& v = mesh.triangles[t].v;
     return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
@@ -28,14 +27,16 @@ std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& 
       }));
   if (bad.empty()) return {};
   const InputCorners corners(mesh, in_reach, loop);
-  std::vector<Shortfall> shortfalls;
+  BoundJudgement judgement;
   for (const TriId t : bad) {
     const auto [a, b, c] = cornersOf(t);
-    if (corners.excuseOf(a, b, c) != Excuse::None) continue;
+    const Excuse excuse = corners.excuseOf(a, b, c);
+    judgement.counts.add(excuse);
+    if (excuse != Excuse::None) continue;
     const auto [low, high] = std::ranges::minmax(anglesDeg(a, b, c));
-    shortfalls.push_back({(1.0 / 3.0) * (a + b + c), low, high});
+    judgement.unresolved.push_back({(1.0 / 3.0) * (a + b + c), low, high});
   }
-  return shortfalls;
+  return judgement;
 }
 
 }  // namespace coastmesh

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
 #include "core/metric.hpp"
 #include "core/refine/refine_options.hpp"
@@ -13,8 +14,13 @@ namespace coastmesh {
 std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options,
                                       const ItemLoop& loop = inOrder);
 
-// The same with two bounds: those that break `asked`; corners are those of `in_reach`.
-std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
-                                      const ItemLoop& loop = inOrder);
+struct BoundJudgement {
+  BoundCounts counts;
+  std::vector<Shortfall> unresolved;  // what nothing excuses, in order
+};
+
+// All triangles that break `asked`; corners are those of `in_reach`.
+BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
+                           const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -73,9 +74,10 @@ TEST_F(MeshRun, ReportHasItsKeys) {
                              "relocations", "removals", "merges", "regions", "budget_reached", "unresolved"}));
   EXPECT_EQ(keysOf(json["refine"]["by_type"]), (std::set<std::string>{"I", "II", "III", "IV"}));
   EXPECT_EQ(keysOf(json["refine"]["unresolved"]), (std::set<std::string>{"count", "places"}));
-  EXPECT_EQ(keysOf(json["mesh"]),
-            (std::set<std::string>{"vertices", "triangles", "area_m2", "min_angle_deg", "max_angle_deg", "below_bound",
-                                   "below_bound_explained", "excused", "angle_histogram", "turned", "digest"}));
+  EXPECT_EQ(
+      keysOf(json["mesh"]),
+      (std::set<std::string>{"vertices", "triangles", "area_m2", "min_angle_deg", "max_angle_deg", "below_bound",
+                             "below_bound_explained", "excused", "unresolved", "angle_histogram", "turned", "digest"}));
   EXPECT_EQ(keysOf(json["time_s"]), (std::set<std::string>{"read", "clean", "size", "triangulate", "refine", "shrink",
                                                            "fit", "stitch", "check", "finish", "write", "total"}));
 }
@@ -94,6 +96,33 @@ TEST_F(MeshRun, ReportAgreesWithItself) {
   EXPECT_EQ(angles, 3 * json["mesh"]["triangles"].get<int>());
   const double area = json["input"]["area_m2"].get<double>();
   EXPECT_NEAR(json["mesh"]["area_m2"].get<double>() / area, 1.0, 1e-6);
+}
+
+// A needle of 10 degrees, and a strip that no mesh of so few vertices can fill well.
+TEST_F(MeshRun, TrianglesThatBreakTheBoundsAreCountedByWhatExcusesThem) {
+  const std::string needle = write("needle.geojson", geoJsonPolygons({{{{0, 0}, {0.1, 0}, {0.1, 0.0176}}}}));
+  const auto counts = [&](const std::string& input, const std::string& budget) {
+    const ProgramRun run = runProgram({"mesh", input, "-o", file("m.nc"), "--overwrite", "--max-vertices", budget,
+                                       "--min-angle", "30", "--report", file("m.json")});
+    const Json mesh = Json::parse(readText(file("m.json")))["mesh"];
+    const int below = mesh["below_bound"], corner = mesh["excused"]["corner"], near = mesh["excused"]["near"];
+    EXPECT_EQ(mesh["unresolved"], below - corner - near);
+    EXPECT_EQ(mesh["below_bound_explained"], corner + near);
+    const std::string text = std::to_string(below) +
+                             " triangles break the bounds on angles: " + std::to_string(corner) +
+                             " in input angles too small for them, " + std::to_string(near) +
+                             " near to such an angle, " + std::to_string(below - corner - near) + " unresolved\n";
+    EXPECT_NE(run.output.find(text), std::string::npos) << run.output;
+    const ProgramRun check = runProgram({"check", file("m.nc"), "--input", input, "--min-angle", "30"});
+    EXPECT_EQ(check.output.find(text) != std::string::npos, corner + near > 0) << check.output;
+    EXPECT_EQ(check.code, run.code);
+    return std::array{below, corner, near};
+  };
+  EXPECT_EQ(counts(needle, "1000"), (std::array{1, 1, 0}));
+  const std::string strip = write("strip.geojson", geoJsonPolygons({{{{0, 0}, {0.1, 0}, {0.1, 0.0005}, {0, 0.0005}}}}));
+  const auto [below, corner, near] = counts(strip, "10");
+  EXPECT_GT(below, 0);
+  EXPECT_EQ(corner + near, 0);
 }
 
 TEST_F(MeshRun, SizeBoundIsInMetres) {

@@ -71,9 +71,9 @@ TEST(MeasureQuality, OneTriangle) {
   EXPECT_NEAR(quality.max_angle_deg, 90.0, 1e-12);
   EXPECT_EQ(quality.shortest_edge, 1.0);
   EXPECT_NEAR(quality.longest_edge, 2.0, 1e-15);
-  EXPECT_EQ(quality.below_bound, 0u);
-  EXPECT_EQ(measureQuality(mesh, 31.0).below_bound, 1u);
-  EXPECT_EQ(measureQuality(mesh, 20.0, 89.0).below_bound, 1u);
+  EXPECT_EQ(quality.bounds.below, 0u);
+  EXPECT_EQ(measureQuality(mesh, 31.0).bounds.below, 1u);
+  EXPECT_EQ(measureQuality(mesh, 20.0, 89.0).bounds.below, 1u);
 }
 
 TEST(MeasureQuality, EmptyMesh) {
@@ -117,8 +117,8 @@ TEST(MeasureQuality, AgreesWithANaiveTwin) {
     EXPECT_EQ(quality.max_angle_deg, std::ranges::max(all));
     EXPECT_EQ(quality.shortest_edge, std::ranges::min(lengths));
     EXPECT_EQ(quality.longest_edge, std::ranges::max(lengths));
-    EXPECT_EQ(quality.below_bound, below);
-    EXPECT_LE(quality.excused(), below);
+    EXPECT_EQ(quality.bounds.below, below);
+    EXPECT_LE(quality.bounds.excused(), below);
     EXPECT_NEAR(quality.area, area, 1e-12 * area);
     for (std::size_t i = 0; i < quality.angle_histogram.size(); ++i) {
       const auto low = 5.0 * static_cast<double>(i), high = low + 5.0;
@@ -141,8 +141,8 @@ TEST(MeasureQuality, AddsUpOverParts) {
   EXPECT_EQ(sum.max_angle_deg, std::max(qa.max_angle_deg, qb.max_angle_deg));
   EXPECT_EQ(sum.shortest_edge, std::min(qa.shortest_edge, qb.shortest_edge));
   EXPECT_EQ(sum.longest_edge, std::max(qa.longest_edge, qb.longest_edge));
-  EXPECT_EQ(sum.below_bound, qa.below_bound + qb.below_bound);
-  EXPECT_EQ(sum.excused(), qa.excused() + qb.excused());
+  EXPECT_EQ(sum.bounds.below, qa.bounds.below + qb.bounds.below);
+  EXPECT_EQ(sum.bounds.excused(), qa.bounds.excused() + qb.bounds.excused());
   for (std::size_t i = 0; i < sum.angle_histogram.size(); ++i)
     EXPECT_EQ(sum.angle_histogram[i], qa.angle_histogram[i] + qb.angle_histogram[i]);
   MeshQuality none;
@@ -155,13 +155,13 @@ TEST(MeasureQuality, SmallInputAnglesExplainAndOthersDoNot) {
   // A needle of 10 degrees at the origin.
   const Point tip{std::cos(toRadians(10.0)), std::sin(toRadians(10.0))};
   const MeshQuality needle = measureQuality(meshOf({{0, 0}, {1, 0}, tip}, {{0, 1, 2}}), 30.0);
-  EXPECT_EQ(needle.below_bound, 1u);
-  EXPECT_EQ(needle.excused_corner, 1u);
+  EXPECT_EQ(needle.bounds.below, 1u);
+  EXPECT_EQ(needle.bounds.corner, 1u);
   // A square cut into thin strips from a corner: 90 degrees can be divided better.
   const TriMesh strips = meshOf({{0, 0}, {1, 0}, {1, 0.2}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
   const MeshQuality cut = measureQuality(strips, 30.0);
-  EXPECT_EQ(cut.below_bound, 1u);
-  EXPECT_EQ(cut.excused(), 0u);
+  EXPECT_EQ(cut.bounds.below, 1u);
+  EXPECT_EQ(cut.bounds.excused(), 0u);
 }
 
 }  // namespace

@@ -19,5 +19,5 @@ int main() {
   withThreads(ParallelOptions{}, [&] { region = meshRegion(read, MeshOptions{}); });
   const MeshQuality quality = measureQuality(region.mesh, MeshOptions{}.refine.min_angle_deg);
   std::printf("%zu triangles, smallest angle %.3f degrees\n", region.mesh.triangles.size(), quality.min_angle_deg);
-  return quality.below_bound == 0 && quality.triangles > 0 ? 0 : 1;
+  return quality.bounds.below == 0 && quality.triangles > 0 ? 0 : 1;
 }

@@ -15,6 +15,7 @@
 
 #include "core/delaunay.hpp"
 #include "parallel/workers.hpp"
+#include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 
@@ -172,6 +173,7 @@ TEST(MeshRegion, IsTriangulateRefineAndShrink) {
     EXPECT_EQ(region.stats.steiner_points, mesh.points.size() - pslg.points.size());
     EXPECT_EQ(region.stats.by_type, stats.by_type);
     EXPECT_TRUE(region.stats.unresolved.empty());
+    EXPECT_EQ(wrongShortfalls(region.mesh, pslg, options.refine, {}), "");
     EXPECT_EQ(region.stats.merges > 0, shrinks);
     EXPECT_GE(region.seconds.refine, 0.0);
   }
@@ -187,6 +189,7 @@ TEST(MeshRegion, WhatFallsShortIsListedOnce) {
   EXPECT_EQ(places.size(), region.stats.unresolved.size());
   const auto defects = checkMesh(region.mesh, &pslg, {.min_angle_deg = 45.0});
   EXPECT_LE(defects.size(), region.stats.unresolved.size());
+  EXPECT_EQ(wrongShortfalls(region.mesh, pslg, {.min_angle_deg = 45.0}, region.stats.unresolved), "");
 }
 
 TEST(MeshRegion, BadInputAndCancellationComeThrough) {

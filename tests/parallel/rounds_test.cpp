@@ -12,6 +12,7 @@
 #include "core/metric.hpp"
 #include "core/refine/shortfalls.hpp"
 #include "parallel/workers.hpp"
+#include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 
@@ -67,6 +68,7 @@ TEST_P(InRounds, IsOneMeshWithoutASeam) {
   EXPECT_GT(run.shrunk.pieces, 1u);
   expectValid(run.mesh, c.pslg, {.min_angle_deg = c.options.min_angle_deg});
   EXPECT_TRUE(findShortfalls(run.mesh, c.options).empty());
+  EXPECT_EQ(wrongShortfalls(run.mesh, c.pslg, c.options, {}), "");
 }
 
 TEST_P(InRounds, ThreadsChangeNoBit) {

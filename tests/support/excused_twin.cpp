@@ -29,11 +29,13 @@ double turn(double from, double to) {
 
 double length(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
+// In long doubles: the point may lie a millionth of the segment's length from it.
 double lengthToSegment(const Point& p, const Point& a, const Point& b) {
-  const double ab = length(a, b), along = ((p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y)) / ab;
-  if (along <= 0.0) return length(p, a);
+  const long double ax = a.x, ay = a.y, x = b.x - ax, y = b.y - ay, ab = std::hypot(x, y);
+  const long double along = ((p.x - ax) * x + (p.y - ay) * y) / ab;
+  if (along <= 0.0L) return length(p, a);
   if (along >= ab) return length(p, b);
-  return std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / ab;
+  return static_cast<double>(std::abs(x * (p.y - ay) - y * (p.x - ax)) / ab);
 }
 
 // Whether some number of equal pieces lies within the bounds, which refinement takes a millionth of a degree stricter.

@@ -81,13 +81,13 @@ TEST(CheckGrid, SoundGridHasNoDefect) {
   options.max_angle_deg = 91.0;
   options.delaunay = true;
   options.pinches = true;
-  EXPECT_TRUE(checkGrid(twoStrips(), options).empty());
+  EXPECT_TRUE(checkGrid(twoStrips(), options).defects.empty());
 }
 
 TEST(CheckGrid, TurnedTriangleIsFoundWithItsNumber) {
   Grid grid = twoStrips();
   std::swap(grid.triangles[7][1], grid.triangles[7][2]);
-  const auto defects = checkGrid(grid, {});
+  const auto defects = checkGrid(grid, {}).defects;
   ASSERT_FALSE(defects.empty());
   const auto turned = std::ranges::find(defects, DefectKind::NotCounterClockwise, &GridDefect::kind);
   ASSERT_NE(turned, defects.end());
@@ -102,17 +102,17 @@ TEST(CheckGrid, EdgeOfThreeTrianglesIsFound) {
   grid.triangles.push_back({extra, 2, 0});
   grid.nodes.push_back({10.005, -0.02});
   grid.triangles.push_back({extra + 1, 2, 0});
-  EXPECT_THAT(kindsOf(checkGrid(grid, {})), testing::Contains(DefectKind::BrokenTopology));
+  EXPECT_THAT(kindsOf(checkGrid(grid, {}).defects), testing::Contains(DefectKind::BrokenTopology));
 }
 
 TEST(CheckGrid, PinchIsFoundOnlyWhereAskedFor) {
   Grid grid;
   grid.nodes = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   grid.triangles = {{0, 1, 2}, {0, 3, 4}};
-  EXPECT_TRUE(checkGrid(grid, {}).empty());
+  EXPECT_TRUE(checkGrid(grid, {}).defects.empty());
   GridCheckOptions options;
   options.pinches = true;
-  EXPECT_THAT(kindsOf(checkGrid(grid, options)), testing::ElementsAre(DefectKind::PinchedVertex));
+  EXPECT_THAT(kindsOf(checkGrid(grid, options).defects), testing::ElementsAre(DefectKind::PinchedVertex));
 }
 
 TEST(CheckGrid, BorderOfFeaturesIsNoDelaunayDefect) {
@@ -121,10 +121,10 @@ TEST(CheckGrid, BorderOfFeaturesIsNoDelaunayDefect) {
   grid.triangles = {{0, 1, 2}, {1, 0, 3}};
   GridCheckOptions options;
   options.delaunay = true;
-  EXPECT_THAT(kindsOf(checkGrid(grid, options)), testing::ElementsAre(DefectKind::NotDelaunay));
+  EXPECT_THAT(kindsOf(checkGrid(grid, options).defects), testing::ElementsAre(DefectKind::NotDelaunay));
   grid.features = {{1, "a", {}}, {2, "b", {}}};
   grid.feature_of = {0, 1};
-  EXPECT_TRUE(checkGrid(grid, options).empty());
+  EXPECT_TRUE(checkGrid(grid, options).defects.empty());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/label_regions.hpp"
 #include "core/quality.hpp"
 #include "core/refine/split_segments.hpp"
+#include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 #include "tests/support/size_figures.hpp"
@@ -53,6 +54,7 @@ TEST(Fit, EdgesComeOutAsWanted) {
         shrink(mesh, pslg, options);
         const RefineStats stats = fit(mesh, pslg, options, sweeps);
         EXPECT_TRUE(stats.unresolved.empty());
+        EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
         expectValidMesh(mesh, pslg, {.min_angle_deg = angle});
         const SizeFigures figures = sizeFigures(mesh, wanted.size);
         EXPECT_GE(figures.share_within, 0.97);
@@ -74,6 +76,7 @@ TEST(Fit, KeepsAFineCoastAndItsAngles) {
   EXPECT_LT(mesh.points.size(), before);
   const RefineStats stats = fit(mesh, pslg, options, kSmoothSweeps);
   EXPECT_LE(stats.unresolved.size(), refined.unresolved.size());
+  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
   expectValidMesh(mesh, pslg);
 }
 
@@ -93,6 +96,7 @@ TEST(Fit, WithoutSizesEvensAnglesOut) {
   EXPECT_TRUE(stats.unresolved.empty());
   EXPECT_EQ(mesh.points.size(), vertices);
   EXPECT_LT(sharp(mesh), before);
+  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
   expectValidMesh(mesh, pslg, {.min_angle_deg = 30.0});
 }
 

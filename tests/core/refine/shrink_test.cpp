@@ -9,6 +9,7 @@
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "core/refine/refine.hpp"
+#include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
@@ -68,6 +69,7 @@ class ShrinkOf : public ::testing::TestWithParam<NamedPslg> {
     const auto defects =
         checkMesh(run.shrunk, &pslg, {.min_angle_deg = options.min_angle_deg, .max_angle_deg = options.max_angle_deg});
     EXPECT_LE(defects.size(), run.shrink_stats.unresolved.size());
+    EXPECT_EQ(wrongShortfalls(run.shrunk, pslg, options, run.shrink_stats.unresolved), "");
     // The same again.
     const BothRuns again = runBoth(pslg, options);
     EXPECT_EQ(digestOf(again.shrunk), digestOf(run.shrunk));
