@@ -5,7 +5,7 @@
 
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
-#include "core/refine/fit.hpp"
+#include "core/refine/optimise.hpp"
 #include "core/refine/shortfalls.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/rounds.hpp"
@@ -28,9 +28,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-int fitSweeps(const MeshOptions& options) {
-  if (options.smooth) return kSmoothSweeps;
-  return options.refine.size != nullptr && options.shrink ? kFitSweeps : 0;
+int optimiseSweeps(const MeshOptions& options) {
+  if (options.smooth) return kMostOptimiseSweeps;
+  return options.refine.size != nullptr && options.shrink ? kOptimiseSweeps : 0;
 }
 
 void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
@@ -44,11 +44,11 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
     region.stats.unresolved.clear();
     region.stats.add(shrunk);
   }
-  if (const int sweeps = fitSweeps(options); sweeps > 0) {
-    RefineStats fitted = fit(region.mesh, pslg, options.refine, sweeps, control);
-    region.seconds.fit = watch.lap();
+  if (const int sweeps = optimiseSweeps(options); sweeps > 0) {
+    RefineStats optimised = optimise(region.mesh, pslg, options.refine, sweeps, control);
+    region.seconds.optimise = watch.lap();
     region.stats.unresolved.clear();
-    region.stats.add(fitted);
+    region.stats.add(optimised);
   }
   region.log.append(recorder.finish("refine"));
 }
@@ -71,9 +71,9 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
     add(shrinkInRounds(region.mesh, pslg, options.refine, control, workspace));
     region.seconds.shrink = watch.lap();
   }
-  if (const int sweeps = fitSweeps(options); sweeps > 0) {
-    add(fitInRounds(region.mesh, pslg, options.refine, sweeps, control, workspace));
-    region.seconds.fit = watch.lap();
+  if (const int sweeps = optimiseSweeps(options); sweeps > 0) {
+    add(optimiseInRounds(region.mesh, pslg, options.refine, sweeps, control, workspace));
+    region.seconds.optimise = watch.lap();
   }
   Recorder recorder;
   region.stats.unresolved = findShortfalls(region.mesh, options.refine, recorder.loop("label", control));

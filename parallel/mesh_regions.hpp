@@ -13,7 +13,7 @@ namespace coastmesh {
 struct MeshOptions {
   RefineOptions refine;
   bool shrink = true;
-  bool smooth = false;       // sweeps on towards the lengths wanted; where none are, towards even ones
+  bool smooth = false;       // optimises for longer; where no lengths are wanted, at all
   bool one_piece = false;    // never cuts a region, however large
   bool mark_pieces = false;  // fill `MeshedRegion::piece_of`
 };
@@ -23,7 +23,7 @@ struct MeshSeconds {
   double triangulate = 0.0;
   double refine = 0.0;
   double shrink = 0.0;
-  double fit = 0.0;
+  double optimise = 0.0;
   double stitch = 0.0;
 };
 

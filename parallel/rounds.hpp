@@ -38,8 +38,8 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
 RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
                             RoundsWorkspace& workspace);
 
-// Fits edges to the lengths wanted, in rounds of the same kind: see `fit`.
-RoundsReport fitInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
-                         const RunControl& control, RoundsWorkspace& workspace);
+// Optimises, in rounds of the same kind: see `optimise`.
+RoundsReport optimiseInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
+                              const RunControl& control, RoundsWorkspace& workspace);
 
 }  // namespace coastmesh

@@ -115,7 +115,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   result.seconds.size += part.size_s;
   result.seconds.refine += part.mesh_s.refine;
   result.seconds.shrink += part.mesh_s.shrink;
-  result.seconds.fit += part.mesh_s.fit;
+  result.seconds.optimise += part.mesh_s.optimise;
   result.seconds.stitch += part.mesh_s.stitch;
   result.seconds.check += part.check_s;
   appendGrid(result.grid, std::move(part.grid));

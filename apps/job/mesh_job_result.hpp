@@ -47,7 +47,7 @@ struct PhaseSeconds {
   double triangulate = 0.0;
   double refine = 0.0;
   double shrink = 0.0;
-  double fit = 0.0;
+  double optimise = 0.0;
   double stitch = 0.0;
   double check = 0.0;
   double finish = 0.0;

@@ -108,12 +108,12 @@ Json lineSection(const Grid& grid) {
 }
 
 Json timeSection(const PhaseSeconds& seconds) {
-  return {{"read", seconds.read},     {"clean", seconds.clean},
-          {"size", seconds.size},     {"triangulate", seconds.triangulate},
-          {"refine", seconds.refine}, {"shrink", seconds.shrink},
-          {"fit", seconds.fit},       {"stitch", seconds.stitch},
-          {"check", seconds.check},   {"finish", seconds.finish},
-          {"write", seconds.write},   {"total", seconds.total}};
+  return {{"read", seconds.read},         {"clean", seconds.clean},
+          {"size", seconds.size},         {"triangulate", seconds.triangulate},
+          {"refine", seconds.refine},     {"shrink", seconds.shrink},
+          {"optimise", seconds.optimise}, {"stitch", seconds.stitch},
+          {"check", seconds.check},       {"finish", seconds.finish},
+          {"write", seconds.write},       {"total", seconds.total}};
 }
 
 // What more cores would give.
@@ -138,12 +138,12 @@ Json parallelSection(const WorkLog& log) {
                       {"longest_s", longest}});
     constexpr std::size_t kMostListed = 1000;
     const bool listed =
-        stage.name == "refine" || stage.name == "shrink" || stage.name == "fit" || stage.name == "regions";
+        stage.name == "refine" || stage.name == "shrink" || stage.name == "optimise" || stage.name == "regions";
     if (listed && stage.items.size() <= kMostListed) stages.back()["item_s"] = stage.items;
   }
   Json section = speedupSection(log);
-  section["meshing"] =
-      speedupSection(log.only({"triangulate", "cut", "refine", "stitch", "shrink", "fit", "rest", "label", "regions"}));
+  section["meshing"] = speedupSection(
+      log.only({"triangulate", "cut", "refine", "stitch", "shrink", "optimise", "rest", "label", "regions"}));
   section["stages"] = std::move(stages);
   return section;
 }

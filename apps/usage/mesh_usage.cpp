@@ -36,7 +36,7 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
             &usage.shrink_given);
   declareSizing(line, usage.job.sizes, usage.sizing);
   line.flag("--smooth,!--no-smooth", usage.job.mesh.smooth,
-            "move vertices on towards the sizes asked for, or towards even ones, where the angles allow it");
+            "optimise the shapes of triangles for longer; where no sizes are asked for, at all");
   declareInputOptions(line, usage.job.input);
   declarePinches(line, usage.job.input);
   declareFinishOptions(line, usage.job.finish);

@@ -34,7 +34,7 @@ struct RefineOptions {
 void requireInRange(const RefineOptions& options);
 
 // A triangle with an edge longer than this share of the length wanted there is refined: edges then come out about as wanted.
-inline constexpr double kLongestShare = 1.45;
+inline constexpr double kLongestShare = 1.5;
 
 // What these options ask of a triangle; and what of that a mesh may not fall short of, which wanted lengths are no part of.
 TriangleBound boundOf(const RefineOptions& options);

@@ -17,7 +17,7 @@ struct MeshState {
   TriMesh mesh;                             // no regions
   VertexNotes notes;                        // each list empty where no one needs it
   std::vector<std::uint8_t> due_triangles;  // one a triangle, or empty: to be looked at by refinement
-  std::vector<std::uint8_t> due_vertices;   // one a vertex, or empty: to be looked at by shrinking and fitting
+  std::vector<std::uint8_t> due_vertices;   // one a vertex, or empty: to be looked at by shrinking and the optimiser
 };
 
 // Some triangles of a mesh, its parent, as a mesh of their own. The edges that they share with the parent's other triangles are frozen:

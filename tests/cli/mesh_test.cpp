@@ -79,7 +79,7 @@ TEST_F(MeshRun, ReportHasItsKeys) {
       (std::set<std::string>{"vertices", "triangles", "area_m2", "min_angle_deg", "max_angle_deg", "below_bound",
                              "below_bound_explained", "excused", "unresolved", "angle_histogram", "turned", "digest"}));
   EXPECT_EQ(keysOf(json["time_s"]), (std::set<std::string>{"read", "clean", "size", "triangulate", "refine", "shrink",
-                                                           "fit", "stitch", "check", "finish", "write", "total"}));
+                                                           "optimise", "stitch", "check", "finish", "write", "total"}));
 }
 
 TEST_F(MeshRun, ReportAgreesWithItself) {

@@ -1,0 +1,222 @@
+#include "core/refine/optimise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/delaunay.hpp"
+#include "core/quality.hpp"
+#include "core/refine/exchange_diagonal.hpp"
+#include "tests/support/excused_twin.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/mesh_figures.hpp"
+#include "tests/support/pslgs.hpp"
+#include "tests/support/size_cases.hpp"
+
+namespace coastmesh {
+namespace {
+
+TriMesh refined(const Pslg& pslg, const RefineOptions& options) {
+  TriMesh mesh = constrainedDelaunay(pslg);
+  refine(mesh, pslg, options);
+  shrink(mesh, pslg, options);
+  return mesh;
+}
+
+struct Shapes {
+  double mean = 0.0;          // of 4√3 area / Σ edge²
+  double least_angle = 60.0;  // degrees, below which one triangle of a hundred is
+  double six = 0.0;           // share of the vertices inside that have six neighbours
+  double odd = 0.0;           // share of them that have neither five nor six nor seven
+};
+
+Shapes shapesOf(const TriMesh& mesh) {
+  std::vector<double> least;
+  std::vector<int> triangles(mesh.points.size(), 0);
+  std::vector<bool> inside(mesh.points.size(), true);
+  Shapes shapes;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t].v;
+    const Point &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+    const auto angles = anglesDeg(a, b, c);
+    least.push_back(*std::ranges::min_element(angles));
+    const double area = 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    const auto square = [](const Point& p, const Point& q) { return std::pow(q.x - p.x, 2) + std::pow(q.y - p.y, 2); };
+    shapes.mean += 4.0 * std::sqrt(3.0) * area / (square(a, b) + square(b, c) + square(c, a));
+    for (unsigned i = 0; i < 3; ++i) {
+      ++triangles[v[i]];
+      if (mesh.segment(edgeRef(t, i)) == kNone) continue;
+      inside[mesh.origin(edgeRef(t, i))] = inside[mesh.target(edgeRef(t, i))] = false;
+    }
+  }
+  shapes.mean /= static_cast<double>(mesh.triangles.size());
+  std::ranges::sort(least);
+  shapes.least_angle = least[least.size() / 100];
+  double count = 0.0;
+  for (VertexId v = 0; v < mesh.points.size(); ++v) {
+    if (!inside[v]) continue;
+    ++count;
+    shapes.six += triangles[v] == 6;
+    shapes.odd += triangles[v] < 5 || triangles[v] > 7;
+  }
+  shapes.six /= count;
+  shapes.odd /= count;
+  return shapes;
+}
+
+TEST(Optimise, EdgesComeOutAsWanted) {
+  for (const Wanted& wanted : smoothSizes()) {
+    for (const double angle : {25.0, 33.0, 38.0}) {
+      for (const int sweeps : {kOptimiseSweeps, kMostOptimiseSweeps}) {
+        SCOPED_TRACE(wanted.name + " " + std::to_string(angle) + " " + std::to_string(sweeps));
+        const Pslg pslg = wideLake();
+        const RefineOptions options{.min_angle_deg = angle, .size = &wanted.size};
+        TriMesh mesh = refined(pslg, options);
+        const RefineStats stats = optimise(mesh, pslg, options, sweeps);
+        EXPECT_TRUE(stats.unresolved.empty());
+        EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
+        expectValidMesh(mesh, pslg, {.min_angle_deg = angle});
+        const SizeFigures figures = sizeFigures(mesh, wanted.size);
+        EXPECT_GE(figures.share_within, 0.98);
+        EXPECT_NEAR(figures.median, 1.0, 0.03);
+        EXPECT_LE(figures.vertices_share, 1.15);
+      }
+    }
+  }
+}
+
+TEST(Optimise, TrianglesComeOutNearlyEquilateral) {
+  for (const Wanted& wanted : smoothSizes()) {
+    SCOPED_TRACE(wanted.name);
+    const Pslg pslg = wideLake();
+    const RefineOptions options{.size = &wanted.size};
+    TriMesh mesh = refined(pslg, options);
+    const Shapes before = shapesOf(mesh);
+    optimise(mesh, pslg, options, kOptimiseSweeps);
+    const Shapes after = shapesOf(mesh);
+    EXPECT_GT(after.mean, before.mean);
+    EXPECT_GE(after.mean, 0.975);
+    EXPECT_GE(after.least_angle, 40.0);
+    EXPECT_GT(after.six, before.six);
+    EXPECT_GE(after.six, 0.75);
+    EXPECT_LE(after.odd, 0.002);
+  }
+}
+
+TEST(Optimise, HoldsEveryBound) {
+  const SizeOf size(0.01, 0.1, [](const Point& p) { return 0.02 + 0.05 * std::hypot(p.x - 1.0, p.y - 1.0); });
+  for (const double largest : {100.0, 120.0}) {
+    SCOPED_TRACE(largest);
+    const Pslg pslg = wideLake();
+    const RefineOptions options{.min_angle_deg = 30.0, .max_angle_deg = largest, .size_max = 0.07, .size = &size};
+    TriMesh mesh = refined(pslg, options);
+    const std::size_t vertices = mesh.points.size();
+    const RefineStats stats = optimise(mesh, pslg, options, kMostOptimiseSweeps);
+    EXPECT_GT(stats.relocations, 0u);
+    EXPECT_TRUE(stats.unresolved.empty());
+    EXPECT_LE(mesh.points.size(), vertices);
+    expectValidMesh(mesh, pslg, {.min_angle_deg = 30.0, .max_angle_deg = largest});
+    for (const Triangle& t : mesh.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const Point &a = mesh.points[t.v[i]], &b = mesh.points[t.v[(i + 1) % 3]];
+        EXPECT_LE(std::hypot(b.x - a.x, b.y - a.y), 0.07);
+      }
+  }
+}
+
+TEST(Optimise, KeepsAFineCoastAndItsAngles) {
+  const Pslg pslg = fractalCoast(3, 3, 2);
+  const SizeOf size(0.2, 0.2, [](const Point&) { return 0.2; });
+  const RefineOptions options{.min_angle_deg = 33.0, .size = &size};
+  TriMesh mesh = constrainedDelaunay(pslg);
+  const RefineStats made = refine(mesh, pslg, options);
+  const std::size_t before = mesh.points.size();
+  shrink(mesh, pslg, options);
+  EXPECT_LT(mesh.points.size(), before);
+  const RefineStats stats = optimise(mesh, pslg, options, kMostOptimiseSweeps);
+  EXPECT_LE(stats.unresolved.size(), made.unresolved.size());
+  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
+  expectValidMesh(mesh, pslg);
+}
+
+TEST(Optimise, WithoutSizesEvensAnglesOut) {
+  const Pslg pslg = fractalCoast(1, 3, 2);
+  const RefineOptions options{.min_angle_deg = 30.0};
+  TriMesh mesh = constrainedDelaunay(pslg);
+  refine(mesh, pslg, options);
+  const auto sharp = [](const TriMesh& m) {
+    std::size_t count = 0;
+    for (const Triangle& t : m.triangles)
+      for (const double angle : anglesDeg(m.points[t.v[0]], m.points[t.v[1]], m.points[t.v[2]])) count += angle < 40.0;
+    return count;
+  };
+  const std::size_t before = sharp(mesh), vertices = mesh.points.size();
+  const RefineStats stats = optimise(mesh, pslg, options, kMostOptimiseSweeps);
+  EXPECT_TRUE(stats.unresolved.empty());
+  EXPECT_LE(mesh.points.size(), vertices);
+  EXPECT_LT(sharp(mesh), before);
+  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
+  expectValidMesh(mesh, pslg, {.min_angle_deg = 30.0});
+}
+
+// Rows of equilateral triangles, two of which share a diagonal the other way round: its ends lie nearer to one another than they
+// should, so that it is the Delaunay one.
+TEST(DiagonalExchange, TakesAwayFivesAndSevens) {
+  constexpr int kSide = 8;
+  Pslg pslg;
+  const auto at = [&](int i, int j) { return static_cast<VertexId>(j * kSide + i); };
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) pslg.points.push_back({i + 0.5 * j, 0.5 * std::sqrt(3.0) * j});
+  for (const auto& [from, to] : {std::pair{at(0, 0), at(kSide - 1, 0)},
+                                 {at(kSide - 1, 0), at(kSide - 1, kSide - 1)},
+                                 {at(kSide - 1, kSide - 1), at(0, kSide - 1)},
+                                 {at(0, kSide - 1), at(0, 0)}}) {
+    const int steps = kSide - 1;
+    const auto step = (static_cast<int>(to) - static_cast<int>(from)) / steps;
+    for (int k = 0; k < steps; ++k)
+      pslg.segments.push_back({static_cast<VertexId>(from + k * step), static_cast<VertexId>(from + (k + 1) * step)});
+  }
+  // The rhombus of (3,3), (4,3), (3,4) and (4,4): from (4,3) to (3,4) goes its short diagonal.
+  const VertexId left = at(3, 3), right = at(4, 4), low = at(4, 3), high = at(3, 4);
+  const auto towards = [&](VertexId v, VertexId w, double share) {
+    const Point a = pslg.points[v], b = pslg.points[w];
+    return Point{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+  };
+  const Point moved_left = towards(left, right, 0.2), moved_right = towards(right, left, 0.2);
+  const Point moved_low = towards(low, high, -0.15), moved_high = towards(high, low, -0.15);
+  pslg.points[left] = moved_left;
+  pslg.points[right] = moved_right;
+  pslg.points[low] = moved_low;
+  pslg.points[high] = moved_high;
+
+  TriMesh made = constrainedDelaunay(pslg);
+  made.input_vertices = 0;  // all inside the boundary may move
+  EditMesh mesh(std::move(made));
+  const auto trianglesRound = [&](VertexId v) {
+    std::vector<EdgeRef> star;
+    mesh.star(v, star);
+    return star.size();
+  };
+  ASSERT_EQ(trianglesRound(left), 7u);
+  ASSERT_EQ(trianglesRound(right), 7u);
+  ASSERT_EQ(trianglesRound(low), 5u);
+  ASSERT_EQ(trianglesRound(high), 5u);
+  const TriangleBound bound(30.0, 180.0, std::numeric_limits<double>::infinity());
+  const VertexOps ops(mesh, pslg, bound);
+  const std::vector<double> wanted(mesh.vertexSlots(), 1.0);
+  DiagonalExchange exchange(mesh, ops, bound, wanted);
+  std::vector<TriId> touched;
+  const std::uint64_t digest = digestOf(releasedCopy(mesh));
+  EXPECT_FALSE(exchange.tryExchange(low, left, right, high, touched)) << "that leaves a triangle turned over";
+  EXPECT_EQ(digestOf(releasedCopy(mesh)), digest);
+  ASSERT_TRUE(exchange.tryExchange(left, right, high, low, touched));
+  EXPECT_FALSE(touched.empty());
+  for (const VertexId v : {left, right, low, high}) EXPECT_EQ(trianglesRound(v), 6u);
+  EXPECT_EQ(describe(checkMesh(releasedCopy(mesh), nullptr, {.min_angle_deg = 50.0})), "");
+}
+
+}  // namespace
+}  // namespace coastmesh
