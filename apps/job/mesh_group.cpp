@@ -245,12 +245,13 @@ std::unique_ptr<SizeFunction> sizeGroup(const MeshJob& job, const JobInput& inpu
   DomainSizes sized = makeSizes(domain);
   if (job.sizes.coast == CoastDetail::Follow) {
     FollowOptions follow = job.sizes.follow;
-    if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Open;
-    const ShoreGuides guides{projected(sizes.passages, domain.projection), projected(sizes.barriers, domain.projection),
-                             job.sizes.passage_elements};
+    if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Modelled;
+    const ShoreGuides guides{projected(sizes.passages, domain.projection),
+                             projected(sizes.barriers, domain.projection)};
     CleanReport coarser;
     domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), coarser);
     std::ranges::move(coarser.notes, std::back_inserter(result.notes));
+    std::ranges::move(coarser.warnings, std::back_inserter(result.warnings));
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
   }
   VertexDemand& demand = sized.demand;

@@ -29,7 +29,8 @@ struct GroupResult {
   bool over_budget = false;         // refused because its sizes ask for clearly more than `--max-vertices`
   std::optional<Point> refusal_place;
   std::string unwanted;            // why nothing of it was wanted, where that is so
-  std::vector<std::string> notes;  // what cleaning decided
+  std::vector<std::string> notes;  // what cleaning, and following sizes, decided
+  std::vector<std::string> warnings;
 };
 
 // What a group's mesh may take.

@@ -80,6 +80,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   result.seconds.clean += part.clean_s;
   result.estimated_vertices += part.estimated_vertices;
   std::ranges::move(part.notes, std::back_inserter(result.read.notes));
+  std::ranges::move(part.warnings, std::back_inserter(result.read.warnings));
   if (!part.unwanted.empty()) {
     ++result.read.beyond_frame;
     result.last_unwanted = part.unwanted;

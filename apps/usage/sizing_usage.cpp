@@ -89,6 +89,11 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
   line.number("--channel-min", sizes.follow.channel_min, "N", {0.0, 100.0},
               "with --coast follow: water narrower than N times the size there is closed; 0 closes none")
       .needs({"--coast follow"});
+  line.number("--strait-min", sizes.follow.strait_min, "N", {0.0, 100.0},
+              "with --coast follow: narrow water that alone joins waters is not closed but made --channel-min times "
+              "the size there wide, where it is no narrower than N times that and to widen it takes less than a "
+              "quarter of the water behind; what --channel-min says widens none")
+      .needs({"--coast follow"});
   line.number("--land-min", sizes.follow.land_min, "N", {0.0, 100.0},
               "with --coast follow: spits and capes narrower than N times the size there go; 0 keeps them")
       .needs({"--coast follow"});
@@ -101,8 +106,8 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
                                                     : KeepWater::All;
           },
           "with --coast follow: of water that closing cuts into parts, the largest stays, what reaches an open "
-          "boundary (or "
-          "else the largest), or all; auto is open with --target, else all")
+          "boundary (or else the largest), or all; auto is all, but with --target open, or the largest where the "
+          "frame only grazes other waters: a tenth of the area")
       .needs({"--coast follow"});
   line.texts("--passages", sizes.passages, kVectorFile, false,
              "with --coast follow: lines along which water stays open, made as wide as --passage-elements where it is "

@@ -31,8 +31,8 @@ enum class EditKind {
   DroppedSpit,      // land narrower than these that ends in water: dropped by `followSizes`
   CutOffWater,      // water cut off where narrow water was closed: left out by `followSizes`
   MovedPoint,       // a point of the shore: moved by `followSizes` within half the size wanted there
-  WidenedPassage,   // a passage that the user named: land beside it gave way, by `followSizes`
-  Barrier,          // water on a line that the user named: closed by `followSizes`
+  WidenedPassage,  // a passage that the user named, or that alone joins waters: land beside it gave way, by `followSizes`
+  Barrier,         // water on a line that the user named: closed by `followSizes`
 };
 inline constexpr std::size_t kEditKinds = 20;
 std::string_view toString(EditKind kind);  // "repeated point"
@@ -46,7 +46,8 @@ struct Edit {
 
 struct CleanReport {
   std::vector<Edit> edits;
-  std::vector<std::string> notes;  // what was decided where the input left a choice
+  std::vector<std::string> notes;     // what was decided where the input left a choice
+  std::vector<std::string> warnings;  // what of that costs more than people may expect
   std::array<std::uint64_t, kEditKinds> counts{};
 
   void add(EditKind kind, const Point& place, std::int64_t fid) {
@@ -56,6 +57,7 @@ struct CleanReport {
   void append(CleanReport&& more) {
     edits.insert(edits.end(), more.edits.begin(), more.edits.end());
     std::ranges::move(more.notes, std::back_inserter(notes));
+    std::ranges::move(more.warnings, std::back_inserter(warnings));
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) counts[kind] += more.counts[kind];
   }
 };

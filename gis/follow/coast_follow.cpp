@@ -10,11 +10,11 @@
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
 #include "gis/follow/follow_notes.hpp"
-#include "gis/follow/shore_balance.hpp"
 #include "gis/follow/shore_chains.hpp"
 #include "gis/follow/shore_coarsen.hpp"
 #include "gis/follow/shore_ends.hpp"
 #include "gis/follow/shore_graph.hpp"
+#include "gis/follow/shore_joins.hpp"
 #include "gis/follow/shore_mend.hpp"
 #include "gis/follow/shore_shift.hpp"
 
@@ -39,14 +39,19 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOption
   };
   sampleShores(graph, size, guides.tree());
   FollowNotes noted;
-  graph = widenPassages(graph, sizes, guides, edit, noted.widened, noted.dry);
+  WaterAreas by_the_user;
+  graph = widenPassages(graph, sizes, guides.passages, edit, by_the_user, noted.widened, noted.dry);
   graph = closeBarriers(graph, sizes, guides, edit);
-  OpenedShores opened = openShores(graph, sizes, guides, options);
+  JoinedShores joined = openJoined(std::move(graph), sizes, guides, options, edit);
+  OpenedShores& opened = joined.opened;
   for (const auto& [kind, place, water] : opened.edits) edit(kind, place, water);
   noted.straits = std::move(opened.straits);
-  noted.cut_off = std::move(opened.cut_off);
-  for (std::string& text : notesOf(std::move(noted), guides, options, projection))
-    report.notes.push_back(std::move(text));
+  noted.joined = std::move(joined.joined);
+  for (std::size_t i = 0; i < opened.waters.size(); ++i) {
+    noted.area += opened.waters[i].area;
+    if (!opened.waters[i].kept) noted.cut_off.push_back({std::move(opened.waters[i]), std::move(joined.ways[i])});
+  }
+  noteFollowing(std::move(noted), guides, options, projection, report);
 
   ShoreChains chains = chainsOf(std::move(opened.graph), size);
   const auto reportAs = [&](EditKind kind, VertexId v) {

@@ -8,7 +8,10 @@ namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kNamedWaters = 3, kNamedStraits = 10;
+constexpr std::size_t kNamedWaters = 3, kMostWaters = 20, kNamedStraits = 10;
+// Of all the water.
+constexpr double kLargeWater = 0.005;  // is named, though not one of the largest
+constexpr double kWarned = 0.02;       // left out: more than models forgive
 
 std::string formatted(const char* format, double a, double b = 0.0) {
   char text[80];
@@ -26,16 +29,47 @@ std::string lengthText(double length_m, const Projection& projection) {
   return length_m < 1000.0 ? formatted("%.0f m", length_m) : formatted("%.3g km", 1e-3 * length_m);
 }
 
-std::string noteOn(const std::vector<CutOffWater>& waters, const FollowOptions& options, const Projection& projection) {
-  std::string note = std::to_string(waters.size()) + " waters that nothing joins to the others" +
-                     (options.keep == KeepWater::Open ? " or to an open boundary" : "") +
-                     (options.keep == KeepWater::All ? " are meshed apart" : " are left out");
-  for (std::size_t i = 0; i < std::min(kNamedWaters, waters.size()); ++i) {
-    note += i == 0 ? ": the largest " : ", ";
-    note += projection.isIdentity() ? formatted("%.3g", waters[i].area) : formatted("%.3g km²", 1e-6 * waters[i].area);
-    note += " at " + placeText(waters[i].place, projection);
+std::string areaText(double area_m2, double whole_m2, const Projection& projection) {
+  return (projection.isIdentity() ? formatted("%.3g", area_m2) : formatted("%.3g km²", 1e-6 * area_m2)) + " (" +
+         formatted("%.2g %%", 100.0 * area_m2 / whole_m2) + ")";
+}
+
+std::string noteOn(const FollowNotes& notes, const FollowOptions& options, const Projection& projection) {
+  const std::vector<CutOffWater>& waters = notes.cut_off;
+  const bool none_kept_open = options.keep == KeepWater::Modelled &&
+                              std::ranges::any_of(waters, [](const CutOffWater& w) { return w.water.at_open; });
+  double area = 0.0;
+  for (const CutOffWater& cut_off : waters) area += cut_off.water.area;
+  std::string note = areaText(area, notes.area, projection) + " of the water " +
+                     (options.keep == KeepWater::All ? "is meshed apart" : "is left out") + ", " +
+                     std::to_string(waters.size()) + " waters that nothing joins to the " +
+                     (options.keep == KeepWater::Largest || none_kept_open ? "largest" : "others");
+  std::size_t named = 0;
+  for (const auto& [water, way] : waters) {
+    if (named == kMostWaters || (named >= kNamedWaters && water.area < kLargeWater * notes.area)) break;
+    note += named++ == 0 ? ": the largest " : "; ";
+    note += areaText(water.area, notes.area, projection) + " at " + placeText(water.inside.front(), projection);
+    if (water.at_open) note += ", which has an open boundary";
+    note += way.exists ? ", behind water " + lengthText(way.width_m, projection) + " wide at " +
+                             placeText(way.place, projection)
+                       : ", which nothing joins to them in the data";
   }
-  return note + "; --passages or a smaller --channel-min keep what joins them, --keep-water all keeps them as they are";
+  note += "; --passages or a smaller --channel-min keep what joins them, a smaller --strait-min widens it";
+  if (options.keep != KeepWater::All) note += ", --keep-water all keeps them as they are";
+  return note;
+}
+
+std::string noteOn(const std::vector<JoinedWater>& joined, double area, const Projection& projection) {
+  std::string note =
+      "straits that alone join waters were widened to an element instead of closed, for the largest of " +
+      std::to_string(joined.size()) + " waters: ";
+  for (std::size_t i = 0; i < std::min(kNamedStraits, joined.size()); ++i) {
+    const WaterWay& way = joined[i].way;
+    if (i > 0) note += "; ";
+    note += placeText(way.place, projection) + ", " + lengthText(way.width_m, projection) + " wide, about " +
+            lengthText(way.length_m, projection) + " long, to " + areaText(joined[i].area, area, projection);
+  }
+  return note + "; a larger --strait-min closes them";
 }
 
 std::string noteOn(const std::vector<ClosedStrait>& straits, const Projection& projection) {
@@ -55,9 +89,9 @@ std::string nameOf(const ShoreGuides& guides, std::size_t line) {
 
 }  // namespace
 
-std::vector<std::string> notesOf(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
-                                 const Projection& projection) {
-  std::vector<std::string> texts;
+void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
+                   const Projection& projection, CleanReport& report) {
+  std::vector<std::string>& texts = report.notes;
   for (const WidenedPassage& passage : notes.widened) {
     texts.push_back(nameOf(guides, passage.line) + " was widened to " + lengthText(passage.width_m, projection) +
                     " along " + lengthText(passage.length_m, projection) + ", up to " +
@@ -65,11 +99,16 @@ std::vector<std::string> notesOf(FollowNotes&& notes, const ShoreGuides& guides,
   }
   for (const std::size_t line : notes.dry)
     texts.push_back(nameOf(guides, line) + " meets no water here: it has no effect");
+  std::ranges::stable_sort(notes.joined, std::ranges::greater{}, &JoinedWater::area);
+  if (!notes.joined.empty()) texts.push_back(noteOn(notes.joined, notes.area, projection));
   std::ranges::stable_sort(notes.straits, std::ranges::greater{}, &ClosedStrait::length_m);
   if (!notes.straits.empty()) texts.push_back(noteOn(notes.straits, projection));
-  std::ranges::stable_sort(notes.cut_off, std::ranges::greater{}, &CutOffWater::area);
-  if (!notes.cut_off.empty()) texts.push_back(noteOn(notes.cut_off, options, projection));
-  return texts;
+  std::ranges::stable_sort(notes.cut_off, std::ranges::greater{}, [](const CutOffWater& w) { return w.water.area; });
+  if (notes.cut_off.empty()) return;
+  double left_out = 0.0;
+  for (const CutOffWater& cut_off : notes.cut_off)
+    left_out += options.keep == KeepWater::All ? 0.0 : cut_off.water.area;
+  (left_out > kWarned * notes.area ? report.warnings : texts).push_back(noteOn(notes, options, projection));
 }
 
 }  // namespace coastmesh

@@ -1,24 +1,32 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "gis/clean/clean_report.hpp"
 #include "gis/follow/follow_options.hpp"
-#include "gis/follow/shore_opening.hpp"
+#include "gis/follow/shore_joins.hpp"
 #include "gis/projection/projection.hpp"
 
 namespace coastmesh {
 
+struct CutOffWater {
+  WaterPart water;
+  WaterWay way;  // to the others, in the data
+};
+
 // What people should know of a shore that was made to follow sizes.
 struct FollowNotes {
+  double area = 0.0;  // square metres of water, with what is cut off
   std::vector<CutOffWater> cut_off;
+  std::vector<JoinedWater> joined;
   std::vector<ClosedStrait> straits;
   std::vector<WidenedPassage> widened;
   std::vector<std::size_t> dry;  // passages that meet no water
 };
 
-// Sentences that name the largest, with their places in the input's CRS.
-std::vector<std::string> notesOf(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
-                                 const Projection& projection);
+// Gives the report sentences that name the largest, with their places in the input's CRS: a warning where more of the water is left out
+// than models forgive, notes else.
+void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
+                   const Projection& projection, CleanReport& report);
 
 }  // namespace coastmesh

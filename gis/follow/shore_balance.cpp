@@ -14,10 +14,12 @@ constexpr double kClose = 0.01;  // of the area of the water: so near the order 
 constexpr double kStep = 0.1, kLeastFirst = 0.45;
 constexpr int kHalvings = 3;
 
-// Land narrower than `first` times the narrowest that stays goes, then narrow water, then the rest of the land, and again water.
-OpenedShores openBoth(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
-                      const FollowOptions& options, double first) {
+}  // namespace
+
+OpenedShores openShores(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
+                        const FollowOptions& options, double first) {
   OpenedShores opened;
+  opened.first = first;
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
     opened.edits.emplace_back(kind, place, water);
   };
@@ -30,7 +32,7 @@ OpenedShores openBoth(const ShoreGraph& graph, const ShoreSizes& sizes, const Sh
   }
   OpenedWater water = openWater(land, sizes, guides, options.channel_min, options.keep, edit, opened.gained);
   opened.graph = std::move(water.graph);
-  opened.cut_off = std::move(water.cut_off);
+  opened.waters = std::move(water.waters);
   opened.areas = std::move(water.areas);
   std::ranges::move(water.straits, std::back_inserter(opened.straits));
   double gained = 0.0, area = 0.0;
@@ -40,16 +42,14 @@ OpenedShores openBoth(const ShoreGraph& graph, const ShoreSizes& sizes, const Sh
   return opened;
 }
 
-}  // namespace
-
-OpenedShores openShores(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
-                        const FollowOptions& options) {
+OpenedShores balanceShores(OpenedShores&& opened, const ShoreGraph& graph, const ShoreSizes& sizes,
+                           const ShoreGuides& guides, const FollowOptions& options) {
   double high = 1.0, low = 1.0;
-  OpenedShores best = openBoth(graph, sizes, guides, options, high);
+  OpenedShores best = std::move(opened);
   const auto attempt = [&](double first) {
-    OpenedShores opened = openBoth(graph, sizes, guides, options, first);
-    (opened.error > 0.0 ? high : low) = first;
-    if (std::abs(opened.error) < std::abs(best.error)) best = std::move(opened);
+    OpenedShores other = openShores(graph, sizes, guides, options, first);
+    (other.error > 0.0 ? high : low) = first;
+    if (std::abs(other.error) < std::abs(best.error)) best = std::move(other);
   };
   if (options.land_min == 0.0 || best.error < kClose) return best;
   while (low == 1.0 && high > kLeastFirst && std::abs(best.error) > kClose) attempt(high - kStep);

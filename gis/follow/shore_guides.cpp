@@ -158,7 +158,8 @@ LineZone::LineZone(const std::vector<ShoreLine>& lines) {
   std::vector<Box> boxes;
   for (const ShoreLine& line : lines) {
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-      pieces_.emplace_back(line.points[i], line.points[i + 1]);
+      pieces_.push_back({line.points[i], line.points[i + 1], line.elements});
+      most_elements_ = std::max(most_elements_, line.elements);
       boxes.push_back(Box::of(line.points[i], line.points[i + 1]));
     }
   }
@@ -168,28 +169,35 @@ LineZone::LineZone(const std::vector<ShoreLine>& lines) {
 bool LineZone::holds(const Point& a, const Point& b, const Point& c, double reach) const {
   if (pieces_.empty()) return false;
   const Point centre = centroid(a, b, c);
-  Box box = Box::of(centre, centre).grownBy(reach);
+  Box box = Box::of(centre, centre).grownBy(most_elements_ * reach);
   for (const Point& p : {a, b, c}) box.add(p);
   bool found = false;
   tree_.visit(box, [&](std::uint32_t i) {
-    const auto& [p, q] = pieces_[i];
-    found = found || squaredDistanceToSegment(centre, p, q) <= reach * reach || meets(p, q, a, b, c);
+    const auto& [p, q, elements] = pieces_[i];
+    const double far = elements * reach;
+    found = found || squaredDistanceToSegment(centre, p, q) <= far * far || meets(p, q, a, b, c);
   });
   return found;
 }
 
-ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
-                         const ShoreEdit& edit, std::vector<WidenedPassage>& widened, std::vector<std::size_t>& dry) {
-  if (guides.passages.empty()) return graph;
+ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
+                         const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
+                         std::vector<std::size_t>& dry) {
+  if (passages.empty()) return graph;
   const ShoreTriangles before = triangulateShores(graph, sizes.wanted);
   ShoreGraph helped = graph;
   Helpers helpers(helped);
-  std::vector<std::pair<Point, Point>> pieces;
-  std::vector<RegionId> water_of;
+  struct Piece {
+    Point a, b;
+    double elements;
+    RegionId water;
+  };
+  std::vector<Piece> pieces;
   std::vector<Box> boxes;
-  for (std::size_t line = 0; line < guides.passages.size(); ++line) {
-    std::vector<Sample> samples = samplesOf(guides.passages[line], sizes.wanted);
-    locate(samples, before, guides.elements);
+  for (std::size_t line = 0; line < passages.size(); ++line) {
+    const double elements = passages[line].elements;
+    std::vector<Sample> samples = samplesOf(passages[line], sizes.wanted);
+    locate(samples, before, elements);
     const auto isWet = [](const Sample& sample) { return sample.water != kUnlabelled; };
     const auto first = std::ranges::find_if(samples, isWet);
     const auto last = std::find_if(samples.rbegin(), samples.rend(), isWet).base();
@@ -203,13 +211,12 @@ ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const
     for (std::size_t i = 0; i + 1 < wet.size(); ++i) {
       if (isWet(wet[i])) water = wet[i].water;
       if (!wet[i].wanting && !wet[i + 1].wanting) continue;
-      pieces.emplace_back(wet[i].at, wet[i + 1].at);
-      water_of.push_back(water);
-      boxes.push_back(Box::of(wet[i].at, wet[i + 1].at).grownBy(guides.elements * wet[i].size));
-      helpers.addAround({wet[i], wet[i + 1]}, 0.5 * guides.elements);
+      pieces.push_back({wet[i].at, wet[i + 1].at, elements, water});
+      boxes.push_back(Box::of(wet[i].at, wet[i + 1].at).grownBy(elements * wet[i].size));
+      helpers.addAround({wet[i], wet[i + 1]}, 0.5 * elements);
       const double scale = sizes.projection.scaleAt(wet[i].at);
       passage.length_m += (wet[i + 1].way - wet[i].way) / scale;
-      passage.width_m = std::max(passage.width_m, guides.elements * wet[i].size / scale);
+      passage.width_m = std::max(passage.width_m, elements * wet[i].size / scale);
       passage.place = wet[i].at;
     }
     if (passage.length_m > 0.0) widened.push_back(passage);
@@ -221,17 +228,20 @@ ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const
   for (TriId t = 0; t < after.mesh.triangles.size(); ++t) {
     if (after.mesh.regions[t] != after.land || (usesOf(after, t) & (kAround | kOnOpen)) != 0) continue;
     const auto& v = after.mesh.triangles[t].v;
-    const Point centre = centroid(after.mesh.point(v[0]), after.mesh.point(v[1]), after.mesh.point(v[2]));
-    const double reach = kLittleMore * 0.5 * guides.elements * after.size[t];
-    double nearest = reach * reach;
+    const Point &a = after.mesh.point(v[0]), &b = after.mesh.point(v[1]), &c = after.mesh.point(v[2]);
+    const Point centre = centroid(a, b, c);
+    double nearest = kLittleMore * 0.5 * after.size[t];  // for an element across
     tree.visit(Box::of(centre, centre), [&](std::uint32_t i) {
-      const double square = squaredDistanceToSegment(centre, pieces[i].first, pieces[i].second);
-      if (square > nearest) return;
-      nearest = square;
-      after.mesh.regions[t] = water_of[i];
+      const double far = std::sqrt(squaredDistanceToSegment(centre, pieces[i].a, pieces[i].b)) / pieces[i].elements;
+      if (far > nearest) return;
+      nearest = far;
+      after.mesh.regions[t] = pieces[i].water;
     });
+    if (after.mesh.regions[t] == after.land) continue;
+    const double scale = sizes.projection.scaleAt(centre);
+    gained[after.mesh.regions[t]] += 0.5 * cross(b - a, c - a) / scale / scale;
   }
-  for (const WidenedPassage& passage : widened) edit(EditKind::WidenedPassage, passage.place, water_of.front());
+  for (const WidenedPassage& passage : widened) edit(EditKind::WidenedPassage, passage.place, pieces.front().water);
   ShoreGraph opened = graphOf(helped, after);
   dropLoosePoints(opened);
   return opened;

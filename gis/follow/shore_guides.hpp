@@ -13,14 +13,13 @@ namespace coastmesh {
 // A line of the plane along which the user decides what becomes of the water.
 struct ShoreLine {
   std::vector<Point> points;
-  std::string name;  // empty: none was given
+  std::string name;       // empty: none was given
+  double elements = 1.0;  // across a passage
 };
 
 struct ShoreGuides {
-  std::vector<ShoreLine>
-      passages;  // kept open, and made as wide as `elements` of the size wanted where they are narrower
+  std::vector<ShoreLine> passages;  // kept open, and made as wide as their elements where they are narrower
   std::vector<ShoreLine> barriers;  // closed
-  double elements = 1.0;
 
   BoxTree tree() const;  // of the boxes of what the lines are made of
 };
@@ -30,11 +29,16 @@ class LineZone {
  public:
   explicit LineZone(const std::vector<ShoreLine>& lines);
 
-  // Whether a line comes as near to the triangle's centroid, or meets the triangle.
+  // Whether a line comes as near to the triangle's centroid as `reach` for each of its elements, or meets the triangle.
   bool holds(const Point& a, const Point& b, const Point& c, double reach) const;
 
  private:
-  std::vector<std::pair<Point, Point>> pieces_;
+  struct Piece {
+    Point a, b;
+    double elements;
+  };
+  std::vector<Piece> pieces_;
+  double most_elements_ = 0.0;
   BoxTree tree_;
 };
 
@@ -47,9 +51,10 @@ struct WidenedPassage {
 };
 
 // Where a passage runs over land, or through water narrower than it has to be, land beside it becomes water: from the first water on
-// the line to the last. `dry` is given the passages that meet no water.
-ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
-                         const ShoreEdit& edit, std::vector<WidenedPassage>& widened, std::vector<std::size_t>& dry);
+// the line to the last. `dry` is given the passages that meet no water. What waters gain is added to `gained`.
+ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
+                         const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
+                         std::vector<std::size_t>& dry);
 
 // Closes the water that barriers run through, half an element wide.
 ShoreGraph closeBarriers(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,

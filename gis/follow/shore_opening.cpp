@@ -19,6 +19,8 @@ constexpr double kShallow = 0.3;                 // of the size: what reaches no
 constexpr double kPassage = 0.55;                // of its width: what is nearer to its line is part of a passage
 constexpr double kLeastOpening = 1.0;            // elements of open boundary: a shorter one may become shore
 constexpr double kLeastWater = 6.0;              // triangles of the size wanted
+constexpr double kGrazed = 0.1;                  // of the water: less at open boundaries is not what is meant
+constexpr std::size_t kPlaces = 8;               // that are told of a water
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
 class Opening {
@@ -29,7 +31,6 @@ class Opening {
         projection_(sizes.projection),
         passages_(guides.passages),
         barriers_(guides.barriers),
-        passage_elements_(guides.elements),
         edit_(edit),
         gained_(gained) {}
 
@@ -84,7 +85,7 @@ class Opening {
     const auto narrow = [&](TriId t) {
       const std::uint8_t use = usesOf(t);
       return !isLand(t) && t_.width[t] < narrowest && (use & kInWater) == 0 && !allOpen(t) &&
-             !isAt(passages_, t, kPassage * passage_elements_ * t_.size[t]);
+             !isAt(passages_, t, kPassage * t_.size[t]);
     };
     bool any_wide = false;
     for (TriId t = 0; t < mesh().triangles.size() && !any_wide; ++t) any_wide = !isLand(t) && !narrow(t);
@@ -100,33 +101,29 @@ class Opening {
   }
 
   // Parts of a region belong together.
-  void keepWater(KeepWater keep, std::vector<CutOffWater>& cut_off) {
+  void keepWater(KeepWater keep, std::vector<WaterPart>& waters) {
     const Patches parts = patchesOf(mesh(), [&](TriId t) { return !isLand(t); });
-    struct Part {
-      double area = 0.0;
-      bool at_open = false;
+    struct Whole {
+      double area = 0.0, at_open = 0.0;
+      std::size_t largest = 0;
     };
-    std::vector<Part> of_part;
-    std::map<RegionId, std::uint32_t> best;
-    const bool open_first = keep != KeepWater::Largest;
-    const auto less = [&](const Part& a, const Part& b) {
-      return open_first && a.at_open != b.at_open ? b.at_open : a.area < b.area;
-    };
-    for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
-      Part& part = of_part.emplace_back();
-      for (const TriId t : parts.triangles[i]) part.area += groundAreaOf(t);
-      part.at_open = openingOf(parts.triangles[i]) >= kLeastOpening;
-      const auto [most, first] = best.try_emplace(mesh().regions[parts.triangles[i].front()], i);
-      if (!first && less(of_part[most->second], part)) most->second = i;
+    std::map<RegionId, Whole> wholes;
+    for (const std::vector<TriId>& part : parts.triangles) {
+      const WaterPart& water = waters.emplace_back(partOf(part));
+      Whole& whole = wholes.try_emplace(water.region, Whole{0.0, 0.0, waters.size() - 1}).first->second;
+      whole.area += water.area;
+      if (water.at_open) whole.at_open += water.area;
+      if (water.area > waters[whole.largest].area) whole.largest = waters.size() - 1;
     }
-    for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) {
-      const std::vector<TriId>& part = parts.triangles[i];
-      if (best[mesh().regions[part.front()]] == i || (open_first && of_part[i].at_open)) continue;
-      const TriId largest = *std::ranges::max_element(part, {}, [&](TriId t) { return areaOf(t); });
-      cut_off.push_back({centreOf(largest), of_part[i].area});
-      if (keep == KeepWater::All) continue;
-      gained_[mesh().regions[largest]] += of_part[i].area;
-      flip(part, t_.land, EditKind::CutOffWater, mesh().triangles[largest].v[0]);
+    for (std::size_t i = 0; i < waters.size(); ++i) {
+      WaterPart& water = waters[i];
+      const Whole& whole = wholes[water.region];
+      const double least_open = keep == KeepWater::Open ? 0.0 : kGrazed * whole.area;
+      const bool by_opening = keep != KeepWater::Largest && whole.at_open > 0.0 && whole.at_open >= least_open;
+      water.kept = by_opening ? water.at_open : i == whole.largest;
+      if (water.kept || keep == KeepWater::All) continue;
+      gained_[water.region] += water.area;
+      flip(parts.triangles[i], t_.land, EditKind::CutOffWater, firstVertexOf(parts.triangles[i]));
     }
   }
 
@@ -166,6 +163,19 @@ class Opening {
   double groundAreaOf(TriId t) const {
     const double scale = projection_.scaleAt(centreOf(t));
     return areaOf(t) / scale / scale;
+  }
+  WaterPart partOf(const std::vector<TriId>& patch) const {
+    WaterPart part;
+    part.region = mesh().regions[patch.front()];
+    for (const TriId t : patch) part.area += groundAreaOf(t);
+    part.at_open = openingOf(patch) >= kLeastOpening;
+    std::vector<TriId> largest(std::min(kPlaces, patch.size()));
+    std::ranges::partial_sort_copy(patch, largest, [&](TriId a, TriId b) {
+      const double area = areaOf(a), other = areaOf(b);
+      return area != other ? area > other : a < b;
+    });
+    for (const TriId t : largest) part.inside.push_back(centreOf(t));
+    return part;
   }
   bool isAt(const LineZone& lines, TriId t, double reach) const {
     const auto& v = mesh().triangles[t].v;
@@ -278,7 +288,6 @@ class Opening {
   ShoreTriangles t_;
   const Projection& projection_;
   const LineZone passages_, barriers_;
-  const double passage_elements_;
   const ShoreEdit& edit_;
   WaterAreas& gained_;
   double narrowest_ = 0.0;
@@ -299,7 +308,7 @@ OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const Sh
   Opening opening(graph, sizes, guides, edit, gained);
   OpenedWater opened;
   opening.openWater(narrowest);
-  opening.keepWater(keep, opened.cut_off);
+  opening.keepWater(keep, opened.waters);
   opened.straits = closedStraits(opening.triangles(), sizes.projection);
   opened.areas = opening.areas();
   opened.graph = graphOf(graph, opening.triangles());

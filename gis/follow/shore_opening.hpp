@@ -17,23 +17,25 @@ namespace coastmesh {
 ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                     const ShoreEdit& edit, WaterAreas& gained);
 
-// A part of a region of water that nothing joins to the one that stays, mostly since what did was closed.
-struct CutOffWater {
-  Point place;        // inside
-  double area = 0.0;  // square metres
+// A part of a region of water that nothing joins to the others, mostly since what did was closed.
+struct WaterPart {
+  RegionId region = kUnlabelled;
+  double area = 0.0;          // square metres
+  bool at_open = false;       // its open boundary is long enough for an element
+  bool kept = false;          // what `KeepWater` says, save that All takes what Modelled does not
+  std::vector<Point> inside;  // places in its largest triangles, the largest first
 };
 
 struct OpenedWater {
   ShoreGraph graph;
-  std::vector<CutOffWater> cut_off;
+  std::vector<WaterPart> waters;
   std::vector<ClosedStrait> straits;
   WaterAreas areas;
 };
 
 // The same for the water: what is narrower is closed (channels, heads of bays, corners), and so is water smaller than a few triangles.
 // Triangles at lines inside the water and at a corner of an open boundary stay. Where nothing would be left, all stays.
-// Of the parts of each region of water, what `keep` says stays; `cut_off` are those that would not if not all were kept. What is left
-// out so is not taken from `gained`.
+// Of the parts of each region of water, what `keep` says stays. What is left out so is not taken from `gained`.
 OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ShoreEdit& edit, WaterAreas& gained);
 

@@ -242,6 +242,7 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
     for (const std::string& path : paths) std::ranges::move(readGuideLines(path, crs), std::back_inserter(lines));
   };
   readLines(options.passages, inputs.passages);
+  for (ShoreLine& line : inputs.passages) line.elements = options.passage_elements;
   readLines(options.barriers, inputs.barriers);
   for (const std::string& path : options.rasters) inputs.rasters.push_back(readRasterGeometry(path));
   if (options.depth.any() || options.time_step_s > 0.0)

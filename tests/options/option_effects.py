@@ -178,6 +178,7 @@ def cases():
                                    extra=["--size", "150", "--coast", "follow", "--passages", "passage.geojson"]),
         "--barriers": Case("passage.geojson", input="straits.geojson",
                            extra=["--size", "150", "--coast", "follow", "--channel-min", "0"]),
+        "--strait-min": Case("0.2", input="straits.geojson", extra=["--size", "150", "--coast", "follow"]),
         "--time-step": Case("20", extra=stepped),
         "--courant": Case("0.4", extra=[*stepped, "--time-step", "20"]),
         "--smooth": Case(),

@@ -1,0 +1,158 @@
+#include "gis/follow/shore_ways.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+#include "gis/geometry/box_tree.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kWide = 1e-3;  // what a way through wide water costs, for its length in elements
+
+class WayFinder {
+ public:
+  WayFinder(const ShoreTriangles& triangles, const Projection& projection, double narrowest, double least)
+      : t_(triangles),
+        projection_(projection),
+        narrowest_(narrowest),
+        least_(least),
+        cost_(mesh().triangles.size(), kInfinity),
+        from_(mesh().triangles.size(), kNone) {}
+
+  std::vector<WaterWay> run(const std::vector<WaterPart>& waters) {
+    const std::vector<std::vector<TriId>> places = locate(waters);
+    for (std::size_t i = 0; i < waters.size(); ++i) {
+      for (const TriId t : places[i]) {
+        if (!waters[i].kept) continue;
+        cost_[t] = 0.0;
+        queue_.emplace(0.0, t);
+      }
+    }
+    spread();
+    std::vector<WaterWay> ways(waters.size());
+    for (std::size_t i = 0; i < waters.size(); ++i) {
+      if (waters[i].kept || places[i].empty()) continue;
+      const TriId end = *std::ranges::min_element(places[i], {}, [&](TriId t) { return cost_[t]; });
+      if (cost_[end] < kInfinity) ways[i] = wayFrom(end);
+    }
+    return ways;
+  }
+
+ private:
+  const TriMesh& mesh() const { return t_.mesh; }
+  const Point& pointOf(TriId t, unsigned corner) const { return mesh().point(mesh().triangles[t].v[corner]); }
+  Point centreOf(TriId t) const { return centroid(pointOf(t, 0), pointOf(t, 1), pointOf(t, 2)); }
+  Point middleOf(EdgeRef e) const { return midpoint(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
+  double lengthOf(EdgeRef e) const { return distance(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
+  double sizeAt(EdgeRef e) const { return std::max(t_.size[triOf(e)], t_.size[triOf(mesh().twin(e))]); }
+  // Edges of triangles reach from shore to shore.
+  double shareOf(EdgeRef e) const { return lengthOf(e) / sizeAt(e); }
+
+  // The triangles of water that hold the places in each of the waters.
+  std::vector<std::vector<TriId>> locate(const std::vector<WaterPart>& waters) const {
+    std::vector<Box> boxes;
+    std::vector<std::pair<std::size_t, Point>> places;
+    for (std::size_t i = 0; i < waters.size(); ++i)
+      for (const Point& x : waters[i].inside) boxes.push_back(Box::of(x, x)), places.emplace_back(i, x);
+    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+    std::vector<std::vector<TriId>> found(waters.size());
+    for (TriId t = 0; t < mesh().triangles.size(); ++t) {
+      if (mesh().regions[t] == t_.land) continue;
+      const Point &a = pointOf(t, 0), &b = pointOf(t, 1), &c = pointOf(t, 2);
+      Box box = Box::of(a, b);
+      box.add(c);
+      tree.visit(box, [&](std::uint32_t place) {
+        const auto& [water, x] = places[place];
+        if (mesh().regions[t] == waters[water].region && orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 &&
+            orient2d(c, a, x) >= 0)
+          found[water].push_back(t);
+      });
+    }
+    return found;
+  }
+
+  // To all of the water, at the least cost: a way's length, where it is narrow the more the narrower it is.
+  void spread() {
+    while (!queue_.empty()) {
+      const auto [cost, t] = queue_.top();
+      queue_.pop();
+      if (cost > cost_[t]) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        const TriId next = triOf(mesh().twin(e));
+        const double share = shareOf(e);
+        if (mesh().regions[next] != mesh().regions[t] || share < least_) continue;
+        const double step = (distance(centreOf(t), middleOf(e)) + distance(middleOf(e), centreOf(next))) / sizeAt(e);
+        const double there = cost + step * (kWide + std::max(0.0, narrowest_ / share - 1.0));
+        if (!(there < cost_[next])) continue;
+        cost_[next] = there;
+        from_[next] = e;
+        queue_.emplace(there, next);
+      }
+    }
+  }
+
+  WaterWay wayFrom(TriId end) const {
+    WaterWay way;
+    way.exists = true;
+    way.least = kInfinity;
+    std::vector<Point> line{centreOf(end)};
+    bool narrow_before = false;
+    const auto finishLine = [&] {
+      if (narrow_before) way.narrow.push_back({line, "", narrowest_});
+    };
+    for (TriId t = end; from_[t] != kNone; t = triOf(from_[t])) {
+      const EdgeRef e = from_[t];
+      const Point x = middleOf(e);
+      if (shareOf(e) < way.least) {
+        way.least = shareOf(e);
+        way.place = x;
+        way.width_m = lengthOf(e) / projection_.scaleAt(x);
+      }
+      if (t_.width[t] < narrowest_) {
+        if (!narrow_before) line.assign(1, line.back());
+        const double scale = projection_.scaleAt(x), length = distance(line.back(), x) / scale;
+        way.length_m += length;
+        way.widening_m2 += length * std::max(0.0, narrowest_ * sizeAt(e) - lengthOf(e)) / scale;
+        narrow_before = true;
+      } else {
+        finishLine();
+        narrow_before = false;
+      }
+      line.push_back(x);
+    }
+    finishLine();
+    return way;
+  }
+
+  const ShoreTriangles& t_;
+  const Projection& projection_;
+  const double narrowest_, least_;
+  std::vector<double> cost_;
+  std::vector<EdgeRef> from_;  // the edge that was crossed
+  std::priority_queue<std::pair<double, TriId>, std::vector<std::pair<double, TriId>>, std::greater<>> queue_;
+};
+
+}  // namespace
+
+std::vector<WaterWay> waysToWaters(const ShoreGraph& graph, const OpenedShores& opened, const ShoreSizes& sizes,
+                                   const ShoreGuides& guides, const FollowOptions& options, double least) {
+  // As water was when it was closed: land that went before makes none narrow.
+  WaterAreas ignored;
+  const ShoreEdit edit = [](EditKind, const Point&, RegionId) {};
+  const ShoreGraph land = openLand(graph, sizes, guides, opened.first * options.land_min, edit, ignored);
+  const ShoreTriangles triangles = triangulateShores(land, sizes.wanted);
+  return WayFinder(triangles, sizes.projection, options.channel_min, least).run(opened.waters);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "gis/follow/shore_balance.hpp"
+
+namespace coastmesh {
+
+// How a water that closing cuts off is joined to one that stays: the way that is widest for its length.
+struct WaterWay {
+  bool exists = false;            // else nothing joins them in the data
+  std::vector<ShoreLine> narrow;  // along what of it is narrower than the narrowest that stays
+  double least = 0.0;             // the narrowest, as a multiple of the size wanted there
+  Point place;                    // where
+  double width_m = 0.0;           // there
+  double length_m = 0.0;          // of what is narrow
+  double widening_m2 = 0.0;       // of land that goes where that is made wide enough
+};
+
+// One for each of the waters that opening has made of `graph`; those that are kept have none. Ways narrower than `least` times the size
+// wanted do not count. Private to gis.
+std::vector<WaterWay> waysToWaters(const ShoreGraph& graph, const OpenedShores& opened, const ShoreSizes& sizes,
+                                   const ShoreGuides& guides, const FollowOptions& options, double least);
+
+}  // namespace coastmesh
