@@ -29,10 +29,11 @@ constexpr double kWantedPieces = 512.0;
 // Edges come to the length asked by steps of this factor: a piece begins with a ninth of its triangles. Larger steps leave strips of long
 // triangles along cuts, smaller ones are more rounds.
 constexpr double kSizeStep = 3.0;
-// Where lengths are wanted, the last step before they are asked for has edges so many times as long. Points of a step stay where they
-// are and spoil the rows of the next: one in seven hundred does little harm, one in nine costs a tenth of the vertices with six
-// neighbours. Longer ones leave pieces of few large triangles.
-constexpr double kLastStep = 27.0;
+// Where lengths are wanted, the last step before they are asked for has edges so many times as long. Its points stay where they are,
+// and rows of equal triangles grow from each: of 1.6 million triangles of one size 84 % of the vertices have six neighbours with 3, 92 %
+// with 9, 93 % with 16, 96 % without a step. Pieces of longer edges are few large triangles, most of them beside a cut: with 16 the
+// critical path is twice as long.
+constexpr double kLastStep = 9.0;
 // Triangles with a smaller angle than this, in degrees, are refined before anything is cut: those that reach from shore to shore. Larger
 // values cost vertices and time on one thread; smaller ones leave triangles that lie across several pieces.
 constexpr double kFirstAngleDeg = 0.5;

@@ -47,6 +47,8 @@ class Optimiser {
     ops_.keepBadInPlace();
     for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
       if (mesh_.isLiveVertex(v)) wanted_[v] = wantedAt(v);
+    for (TriId t = 0; t < mesh_.triangleSlots() && !any_bad_; ++t)
+      any_bad_ = isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_);
   }
 
   Optimiser(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
@@ -91,9 +93,9 @@ class Optimiser {
   }
 
   double wantedAt(VertexId v);
-  double costRound(const Point& place, double wanted) const;
+  double costRound(const Point& place, double wanted, double limit) const;
+  double costHere(VertexId v, Point& centre) const;
   double leastShape(const Point& place, std::size_t& at) const;
-  Point centre(VertexId v) const;
   std::optional<Point> betterPlace(VertexId v) const;
   bool flipsAt(VertexId v, const Point& place) const;
   void move(VertexId v);
@@ -120,6 +122,7 @@ class Optimiser {
   DiagonalExchange exchange_;
   bool flips_may_harm_;  // they keep the smallest angle, but not the largest, nor the longest edge
   bool is_submesh_ = false;
+  bool any_bad_ = false;  // whether there is a triangle, excused by the input, that nothing may change
   bool mends_poor_ = false;
   RefineStats stats_;
   std::vector<double> wanted_;        // one a vertex: the length wanted there
@@ -153,15 +156,44 @@ double Optimiser::wantedAt(VertexId v) {
   return count == 0 ? wanted : std::min(wanted, sum / count);
 }
 
-// What the triangles round a vertex cost where it lies at `place`; infinite where a bound is broken.
-double Optimiser::costRound(const Point& place, double wanted) const {
+// What the triangles round a vertex cost where it lies at `place`; infinite where a bound is broken or more than `limit` is due.
+double Optimiser::costRound(const Point& place, double wanted, double limit) const {
+  constexpr double kTooMuch = std::numeric_limits<double>::infinity();
   double sum = 0.0;
+  Point a = mesh_.point(ring_.corners.front());
+  double size = wanted_[ring_.corners.front()];
   for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
-    const Point &a = corner(i), &b = corner(i + 1);
-    if (orient2d(a, b, place) <= 0 || isBad(a, b, place, bound_)) return std::numeric_limits<double>::infinity();
-    sum += costOf(a, b, place, (wanted + wantedOf(i) + wantedOf(i + 1)) / 3.0);
+    const Point& b = corner(i + 1);
+    const double next = wantedOf(i + 1);
+    if (orient2d(a, b, place) <= 0 || isBad(a, b, place, bound_)) return kTooMuch;
+    sum += costOf(a, b, place, (wanted + size + next) / 3.0);
+    if (sum > limit) return kTooMuch;
+    a = b;
+    size = next;
   }
   return sum;
+}
+
+// What the triangles round a vertex cost, and the mean of their centroids, each weighted by how many triangles of the size wanted its
+// own is worth.
+double Optimiser::costHere(VertexId v, Point& centre) const {
+  const Point here = mesh_.point(v);
+  Point mean, a = mesh_.point(ring_.corners.front());
+  double sum = 0.0, weight = 0.0, size = wanted_[ring_.corners.front()];
+  bool breaks = false;
+  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
+    const Point& b = corner(i + 1);
+    const double next = wantedOf(i + 1), wanted = (wanted_[v] + size + next) / 3.0;
+    breaks = breaks || isBad(a, b, here, bound_);
+    sum += costOf(a, b, here, wanted);
+    const double own = cross(a - here, b - here) / (wanted * wanted);
+    mean = mean + own * (a - here + (b - here));
+    weight += own;
+    a = b;
+    size = next;
+  }
+  centre = here + (1.0 / (3.0 * weight)) * mean;
+  return breaks ? std::numeric_limits<double>::infinity() : sum;
 }
 
 double Optimiser::leastShape(const Point& place, std::size_t& at) const {
@@ -176,30 +208,15 @@ double Optimiser::leastShape(const Point& place, std::size_t& at) const {
   return least;
 }
 
-// The mean of the centroids round a vertex, each weighted by how many triangles of the size wanted its own is worth.
-Point Optimiser::centre(VertexId v) const {
-  const Point here = mesh_.point(v);
-  Point sum;
-  double weight = 0.0;
-  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
-    const Point &a = corner(i), &b = corner(i + 1);
-    const double size = wanted_[v] + wantedOf(i) + wantedOf(i + 1);
-    const double own = cross(a - here, b - here) / (size * size);
-    sum = sum + own * (centroid(here, a, b) - here);
-    weight += own;
-  }
-  return here + (1.0 / weight) * sum;
-}
-
 // Where the star of a vertex costs less or, later on, its poorest triangle gains and the others lose next to nothing.
 std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   const Point here = mesh_.point(v);
-  const double cost = costRound(here, wanted_[v]);
-  Point to = centre(v);
+  Point to;
+  const double cost = costHere(v, to);
   if (!std::isfinite(to.x) || !std::isfinite(to.y)) return std::nullopt;
   const double still = kStill * wanted_[v];
   for (int attempt = 0; attempt < kAttempts && squaredDistance(here, to) >= still * still; ++attempt) {
-    if (costRound(to, wanted_[v]) < cost) return to;
+    if (costRound(to, wanted_[v], cost) < cost) return to;
     to = midpoint(here, to);
   }
   if (!mends_poor_) return std::nullopt;
@@ -212,7 +229,8 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   double share = 0.4;
   for (int attempt = 0; attempt < kAttempts; ++attempt, share *= 0.5) {
     to = here + share * (apex - here);
-    if (leastShape(to, any) > shape + kLeastGain && costRound(to, wanted_[v]) < kMostCost * cost) return to;
+    if (leastShape(to, any) > shape + kLeastGain && costRound(to, wanted_[v], kMostCost * cost) < kMostCost * cost)
+      return to;
   }
   return std::nullopt;
 }
@@ -234,7 +252,7 @@ void Optimiser::move(VertexId v) {
   const std::optional<Point> to = betterPlace(v);
   if (!to) return;
   const auto isBesideBad = [&](TriId t) { return ops_.isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
-  if (std::ranges::any_of(ring_.triangles, isBesideBad) || (flips_may_harm_ && flipsAt(v, *to))) return;
+  if ((any_bad_ && std::ranges::any_of(ring_.triangles, isBesideBad)) || (flips_may_harm_ && flipsAt(v, *to))) return;
   mesh_.setPoint(v, *to);
   if (size_ != nullptr) wanted_[v] = size_->at(*to);
   touched_.assign(ring_.triangles.begin(), ring_.triangles.end());
