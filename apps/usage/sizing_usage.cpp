@@ -106,8 +106,9 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
                                                     : KeepWater::All;
           },
           "with --coast follow: of water that closing cuts into parts, the largest stays, what reaches an open "
-          "boundary (or else the largest), or all; auto is all, but with --target open, or the largest where the "
-          "frame only grazes other waters: a tenth of the area")
+          "boundary (or else the largest), or all; auto is all, but with --target open without what the frame only "
+          "grazes: less than a tenth of the largest at an open boundary, or all of those where they are less than a "
+          "tenth of the water")
       .needs({"--coast follow"});
   line.texts("--passages", sizes.passages, kVectorFile, false,
              "with --coast follow: lines along which water stays open, made as wide as --passage-elements where it is "

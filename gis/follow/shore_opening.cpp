@@ -19,7 +19,7 @@ constexpr double kShallow = 0.3;                 // of the size: what reaches no
 constexpr double kPassage = 0.55;                // of its width: what is nearer to its line is part of a passage
 constexpr double kLeastOpening = 1.0;            // elements of open boundary: a shorter one may become shore
 constexpr double kLeastWater = 6.0;              // triangles of the size wanted
-constexpr double kGrazed = 0.1;                  // of the water: less at open boundaries is not what is meant
+constexpr double kGrazed = 0.1;                  // less water at an open boundary is not what is meant
 constexpr std::size_t kPlaces = 8;               // that are told of a water
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
@@ -104,7 +104,7 @@ class Opening {
   void keepWater(KeepWater keep, std::vector<WaterPart>& waters) {
     const Patches parts = patchesOf(mesh(), [&](TriId t) { return !isLand(t); });
     struct Whole {
-      double area = 0.0, at_open = 0.0;
+      double area = 0.0, at_open = 0.0, largest_at_open = 0.0;
       std::size_t largest = 0;
     };
     std::map<RegionId, Whole> wholes;
@@ -112,15 +112,18 @@ class Opening {
       const WaterPart& water = waters.emplace_back(partOf(part));
       Whole& whole = wholes.try_emplace(water.region, Whole{0.0, 0.0, waters.size() - 1}).first->second;
       whole.area += water.area;
-      if (water.at_open) whole.at_open += water.area;
+      if (water.at_open) {
+        whole.at_open += water.area;
+        whole.largest_at_open = std::max(whole.largest_at_open, water.area);
+      }
       if (water.area > waters[whole.largest].area) whole.largest = waters.size() - 1;
     }
     for (std::size_t i = 0; i < waters.size(); ++i) {
       WaterPart& water = waters[i];
       const Whole& whole = wholes[water.region];
-      const double least_open = keep == KeepWater::Open ? 0.0 : kGrazed * whole.area;
-      const bool by_opening = keep != KeepWater::Largest && whole.at_open > 0.0 && whole.at_open >= least_open;
-      water.kept = by_opening ? water.at_open : i == whole.largest;
+      const double grazed = keep == KeepWater::Open ? 0.0 : kGrazed;
+      const bool by_opening = keep != KeepWater::Largest && whole.at_open > 0.0 && whole.at_open >= grazed * whole.area;
+      water.kept = by_opening ? water.at_open && water.area >= grazed * whole.largest_at_open : i == whole.largest;
       if (water.kept || keep == KeepWater::All) continue;
       gained_[water.region] += water.area;
       flip(parts.triangles[i], t_.land, EditKind::CutOffWater, firstVertexOf(parts.triangles[i]));

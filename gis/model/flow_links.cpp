@@ -35,7 +35,9 @@ FlowLink flowLinkAcross(const Point& a, const Point& b, const Point& left, const
   const double length = std::hypot(lx, ly), lengths = std::hypot(ex, ey) * length;
   const double size =
       0.5 * (std::sqrt(std::abs(signedArea(a, b, left))) + std::sqrt(std::abs(signedArea(b, a, right))));
-  return {lengths > 0.0 ? std::abs(ex * lx + ey * ly) / lengths : 0.0, size > 0.0 ? length / size : 0.0};
+  const Point circle = circumcentre(a, b, left), other = circumcentre(b, a, right);
+  const double shorter = std::min(length, std::hypot(other.x - circle.x, other.y - circle.y));
+  return {lengths > 0.0 ? std::abs(ex * lx + ey * ly) / lengths : 0.0, size > 0.0 ? shorter / size : 0.0};
 }
 
 }  // namespace coastmesh

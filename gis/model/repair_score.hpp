@@ -9,12 +9,20 @@
 
 namespace coastmesh {
 
-// What an edit leaves of a patch: fewer defects are better, then a larger smallest angle.
+// What an edit leaves of a patch: first angles that are not small, since what is left of the defects may be mended by another edit; then
+// fewer defects, and then a larger smallest angle.
 struct EditScore {
   int defects = 0;         // more than the patch has now; less than 0 where it gets better
   double min_angle = 0.0;  // degrees, of the whole patch
 
+  // How many of these the smallest angle reaches.
+  int grade() const {
+    int reached = 0;
+    for (const double angle : {20.0, 25.0, 30.0, 33.0}) reached += min_angle >= angle;
+    return reached;
+  }
   bool betterThan(const EditScore& other) const {
+    if (grade() != other.grade()) return grade() > other.grade();
     return defects != other.defects ? defects < other.defects : min_angle > other.min_angle;
   }
 };

@@ -32,7 +32,7 @@ class Contest {
 // Towards nodes of the ring and the middles between two of them.
 void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
   const std::vector<std::uint32_t> ring = ringRound(view, node);
-  for (const double share : {0.05, 0.1, 0.2}) {
+  for (const double share : {0.02, 0.05, 0.1, 0.15, 0.2, 0.3}) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       contest.offer(moveOf(view, node, ring[i], ring[i], share));
       contest.offer(moveOf(view, node, ring[i], ring[(i + 1) % ring.size()], share));

@@ -332,6 +332,20 @@ TEST(FollowSizes, AFrameThatGrazesAnotherWaterDoesNotDropTheOneThatIsMeant) {
   }
 }
 
+// The same with an open boundary at both: the small one is left out, unless it is asked for.
+TEST(FollowSizes, AFrameThatGrazesAWaterBesideTheSeaLeavesOneWater) {
+  Domain domain;
+  addShore(domain, {{0, 0}, {40, 0}, {40, 40}, {0, 40}});
+  addShore(domain, {{50, 0}, {62, 0}, {62, 12}, {50, 12}});
+  for (const SegmentId s : {3u, 5u}) domain.pslg.segments[s].tag = kOpenTag;
+  for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open}) {
+    CleanReport report;
+    EXPECT_EQ(parts(followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report)),
+              keep == KeepWater::Open ? 2u : 1u);
+    EXPECT_EQ(countOf(report, EditKind::CutOffWater), keep == KeepWater::Open ? 0u : 1u);
+  }
+}
+
 // Water whose opening is too short for an element would be left without any.
 TEST(FollowSizes, AShortOpeningKeepsNoWater) {
   Domain domain = twoLakes(0.6);

@@ -373,6 +373,8 @@ TEST(CheckTarget, SwanMeasuresAnglesOfDegreesAsIfTheyWereAPlane) {
 TEST(CheckTarget, SmallFlowLink) {
   // Centres are the middles of the hypotenuses: a square's two are one.
   EXPECT_NEAR(flowLinkAcross({0, 0}, {4, 4}, {0, 4}, {4, 0}).length, 0.0, 1e-12);
+  // On one circle too, though one of the triangles is obtuse: its centre may be kept within it, or not.
+  EXPECT_NEAR(flowLinkAcross({3, 4}, {-3, 4}, {0, -5}, {0, 5}).length, 0.0, 1e-12);
   // Equilateral with sides of 2: centres 2 / sqrt(3) apart, areas sqrt(3).
   EXPECT_NEAR(flowLinkAcross({0, 0}, {2, 0}, {1, std::sqrt(3.0)}, {1, -std::sqrt(3.0)}).length,
               2.0 / std::sqrt(3.0) / std::pow(3.0, 0.25), 1e-12);
