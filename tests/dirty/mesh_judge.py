@@ -56,6 +56,8 @@ def is_flat(corners, turned, geographic, chosen):
     """Turned over no further than rounding to the file's coordinates does it or, where the user chose the plane to work in,
     sides that are straight there and not on the ground: these turn from great circles by about their length."""
     sides = sides_of(corners, geographic)
+    if min(sides) == 0:
+        return False  # two nodes in one place
     grain = 8 * max(math.ulp(abs(v)) for p in corners for v in p)
     if not geographic:
         return -turned <= grain * max(sides)
