@@ -256,18 +256,42 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
   });
 }
 
+namespace {
+
+// The last decimal in which a coordinate is written, as a length: 1e-7 for 3.1415926; no more than `most`, and no less
+// than `least`.
+double lastDecimal(double x, double most, double least) {
+  double step = most;
+  for (double scale = 1.0 / most; step > least; scale *= 10.0, step /= 10.0)
+    if (std::abs(x - std::round(x * scale) / scale) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(x))
+      break;
+  return std::max(step, least);
+}
+
+}  // namespace
+
 std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
                                 const Projection& projection, const Resolution& resolution, CleanReport& report) {
-  constexpr double kFarthest = 1000;                            // metres; the input's coordinates decide
-  const double grain = coastline.crs.geographic ? 1e-7 : 0.01;  // degrees, metres
+  constexpr double kFarthest = 1000;                               // metres; the input's coordinates decide
+  const double coarsest = coastline.crs.geographic ? 1e-7 : 0.01;  // a last decimal: degrees, metres
+  constexpr double kStraight = 0.01;     // of what replaces it: however coarse the decimals, a bend is no trace
+  constexpr double kRounding = 0x1p-44;  // of a coordinate
   const std::function<double(VertexId)> farthest = [&](VertexId v) {
     return kFarthest * projection.scaleAt(vertices.plane[v]);
   };
   Simplifier simplifier(vertices, edges, resolution, farthest);
   simplifier.restrictTo([&](VertexId v, VertexId p, VertexId q) {
     if (!std::ranges::binary_search(edges.traces, v)) return false;
-    const Point &a = vertices.input[p], &b = vertices.input[q];
-    return std::abs(a.x - b.x) < 180 && squaredDistanceToSegment(vertices.input[v], a, b) <= grain * grain;
+    const auto isStraight = [](const Point& at, const Point& a, const Point& b, double room) {
+      const double square = squaredDistanceToSegment(at, a, b);
+      return square <= room * room && square <= kStraight * kStraight * squaredDistance(a, b);
+    };
+    if (vertices.is_new[v])
+      return isStraight(vertices.plane[v], vertices.plane[p], vertices.plane[q], resolution.grain);
+    const Point &at = vertices.input[v], &a = vertices.input[p], &b = vertices.input[q];
+    if (coastline.crs.geographic && std::abs(a.x - b.x) >= 180) return false;
+    const double least = kRounding * std::max({std::abs(at.x), std::abs(at.y), std::abs(a.x), std::abs(a.y)});
+    return isStraight(at, a, b, std::min(lastDecimal(at.x, coarsest, least), lastDecimal(at.y, coarsest, least)));
   });
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));

@@ -268,6 +268,28 @@ TEST(Dissolve, LeavesNoTraceOfACut) {
   EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::DissolvedEdge)], 2u + 3u);
 }
 
+// What a cut left, rounded to the decimals that the input has, is no bend; a bend of more digits is one, though smaller,
+// and so is one as fine as the decimals where the lake is no larger.
+TEST(Dissolve, TakesABendForATraceOnlyWithinTheDecimals) {
+  const auto vertices = [](double unit, double x, double bend) {
+    const Coastline coastline =
+        coastlineOf({polygonFeature(1, {{0, 0}, {x, bend}, {x, 3 * unit}, {0, 3 * unit}}),
+                     polygonFeature(2, {{x, bend}, {7 * unit, 0}, {7 * unit, 3 * unit}, {x, 3 * unit}})});
+    CleanOptions options;
+    options.dissolve = true;
+    CleanReport report;
+    const Domain domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(), options, report);
+    EXPECT_NEAR(labelledArea(domain.pslg, 0), 21 * unit * unit - 3.5 * unit * bend * (domain.pslg.points.size() == 5),
+                1e-12 * unit * unit);
+    return domain.pslg.points.size();
+  };
+  EXPECT_EQ(vertices(100, 312.34, 0.01), 4u);
+  EXPECT_EQ(vertices(100, 312.3456789, 0.0000001), 4u);
+  EXPECT_EQ(vertices(100, 312.3456789, 0.00001), 5u);
+  EXPECT_EQ(vertices(100, 300 + 1 / 7.0, 0.01), 5u);
+  EXPECT_EQ(vertices(0.01, 0.03, 0.01), 5u);
+}
+
 // Segments of the lines of a use.
 std::ptrdiff_t segmentsOf(const Domain& domain, FeatureUse use) {
   return std::ranges::count_if(domain.pslg.segments, [&](const Segment& s) {
