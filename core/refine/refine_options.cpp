@@ -30,6 +30,8 @@ void requireInRange(const RefineOptions& options) {
           "0 to 45 degrees");
   require(options.max_angle_deg >= 60.0 && options.max_angle_deg <= 180.0, "max_angle_deg", options.max_angle_deg,
           "60 to 180 degrees");
+  require(options.resolution >= 0.0 && std::isfinite(options.resolution), "resolution", options.resolution,
+          "a finite number of 0 or more");
   require(options.size_max > 0.0, "size_max", options.size_max, "above 0");
   require(options.size_scale > 0.0 && std::isfinite(options.size_scale), "size_scale", options.size_scale,
           "a finite number above 0");

@@ -27,7 +27,10 @@ struct RefineOptions {
   Algorithm algorithm = Algorithm::Relocate;
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  // vertices in all, input included
   const SizeFunction* size = nullptr;  // lengths that edges should have; outlives the run; null where none are wanted
-  double size_scale = 1.0;             // above 0; wanted are these times so much: a step on the way
+  // Plane units, 0 or more: no vertex is put nearer to another. For coordinates that will be written coarser than the
+  // plane's own, whose rounding sets such a distance in any case.
+  double resolution = 0.0;
+  double size_scale = 1.0;  // above 0; wanted are these times so much: a step on the way
 };
 
 // Throws std::invalid_argument, which names the option, where one is beyond its range or no number.

@@ -72,12 +72,12 @@ bool Refiner::isBarred(const Patch& patch) const {
   return variant_.clear_of_frozen && std::ranges::any_of(patch.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
 }
 
-// A thousand units in the last place of the largest coordinate, squared.
+// A thousand units in the last place of the largest coordinate, or what was asked for, squared.
 double Refiner::squaredResolution() const {
   double magnitude = 0.0;
   for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
     magnitude = std::max({magnitude, std::abs(mesh_.point(v).x), std::abs(mesh_.point(v).y)});
-  const double resolution = 1000.0 * std::numeric_limits<double>::epsilon() * magnitude;
+  const double resolution = std::max(options_.resolution, 1000.0 * std::numeric_limits<double>::epsilon() * magnitude);
   return resolution * resolution;
 }
 

@@ -390,12 +390,33 @@ TEST(Refine, AtTheEndsOfTheRangeOfCoordinates) {
   }
 }
 
+// A gap of a thousandth, which takes vertices as near to one another: none comes nearer than asked for.
+TEST(Refine, PutsNoVertexNearerThanTheResolution) {
+  Pslg pslg = squarePslg();
+  pslg.points.insert(pslg.points.end(), {{0.3, 0.5}, {0.5, 0.5}, {0.501, 0.5}, {0.7, 0.5}});
+  pslg.segments.insert(pslg.segments.end(), {{4, 5}, {6, 7}});
+  const auto least = [&](double resolution) {
+    TriMesh mesh = constrainedDelaunay(pslg);
+    const RefineOptions options{.min_angle_deg = 33.0, .resolution = resolution};
+    const RefineStats stats = refine(mesh, pslg, options);
+    expectRefined(mesh, pslg, options, stats);
+    double nearest = 1.0;
+    for (std::size_t v = pslg.points.size(); v < mesh.points.size(); ++v)
+      for (std::size_t w = 0; w < mesh.points.size(); ++w)
+        if (w != v) nearest = std::min(nearest, distance(mesh.points[v], mesh.points[w]));
+    return nearest;
+  };
+  EXPECT_LT(least(0.0), 0.01);
+  EXPECT_GE(least(0.01), 0.01);
+}
+
 TEST(Refine, OptionsBeyondTheirRangesAreMisuse) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
   std::vector<RefineOptions> wrong;
   for (const double angle : {-1.0, 45.5, 50.0, kNan, kInfinity}) wrong.push_back({.min_angle_deg = angle});
   for (const double angle : {59.0, 181.0, kNan}) wrong.push_back({.max_angle_deg = angle});
   for (const double size : {0.0, -1.0, kNan, -kInfinity}) wrong.push_back({.size_max = size});
+  for (const double resolution : {-1.0, kNan, kInfinity}) wrong.push_back({.resolution = resolution});
   for (const double scale : {0.0, -1.0, kNan, kInfinity}) wrong.push_back({.size_scale = scale});
   const Pslg pslg = squarePslg();
   for (const RefineOptions& options : wrong) {
