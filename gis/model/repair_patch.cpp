@@ -1,7 +1,6 @@
 #include "gis/model/repair_patch.hpp"
 
 #include <array>
-#include <tuple>
 
 namespace coastmesh {
 namespace {
@@ -14,34 +13,45 @@ bool isFixed(const RepairView& view, std::uint32_t a, std::uint32_t b, std::uint
 }
 
 // The triangle to the left of the edge from `a` to `b`.
-const PatchEdge* findSide(const Grid& grid, const Patch& patch, std::uint32_t a, std::uint32_t b) {
-  for (const PatchEdge& edge : patch.edgesAt(edgeKey(a, b))) {
-    const GridCorners& v = grid.triangles[edge.triangle];
+std::optional<PatchEdge> findSide(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b) {
+  for (const PatchEdge& edge : patch.edgesAt(view, edgeKey(a, b))) {
+    const GridCorners& v = view.grid.triangles[edge.triangle];
     for (unsigned i = 0; i < 3; ++i)
-      if (v[i] == a && v[next3(i)] == b) return &edge;
+      if (v[i] == a && v[next3(i)] == b) return edge;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::span<const PatchEdge> Patch::edgesAt(const NodePair& key) const {
-  const auto [first, last] = std::ranges::equal_range(edges, key, {}, &PatchEdge::key);
-  return {first, last};
+std::vector<PatchEdge> Patch::edgesAt(const RepairView& view, const NodePair& key) const {
+  std::vector<PatchEdge> edges;
+  const auto& at = view.links.triangles_at;
+  if (key[1] >= at.size()) return edges;  // a node that the edit adds
+  for (const std::uint32_t t : at[key[0]].size() <= at[key[1]].size() ? at[key[0]] : at[key[1]]) {
+    if (!std::ranges::binary_search(triangles, t)) continue;
+    const GridCorners& v = view.grid.triangles[t];
+    for (unsigned i = 0; i < 3; ++i)
+      if (edgeKey(v[next3(i)], v[prev3(i)]) == key) edges.push_back({key, t, v[i]});
+  }
+  return edges;
+}
+
+std::vector<std::uint32_t> nodesOf(const Grid& grid, std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint32_t> nodes;
+  for (const std::uint32_t t : triangles) nodes.insert(nodes.end(), grid.triangles[t].begin(), grid.triangles[t].end());
+  std::ranges::sort(nodes);
+  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  return nodes;
 }
 
 Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle) {
-  std::set<std::uint32_t> nodes, members;
-  for (const std::uint32_t t : middle) nodes.insert(view.grid.triangles[t].begin(), view.grid.triangles[t].end());
-  for (const std::uint32_t node : nodes)
-    members.insert(view.links.triangles_at[node].begin(), view.links.triangles_at[node].end());
   Patch patch;
-  patch.triangles.assign(members.begin(), members.end());
-  for (const std::uint32_t t : patch.triangles) {
-    const GridCorners& v = view.grid.triangles[t];
-    for (unsigned i = 0; i < 3; ++i) patch.edges.push_back({edgeKey(v[next3(i)], v[prev3(i)]), t, v[i]});
-  }
-  std::ranges::sort(patch.edges, {}, [](const PatchEdge& edge) { return std::tuple(edge.key, edge.triangle); });
+  for (const std::uint32_t node : nodesOf(view.grid, middle))
+    patch.triangles.insert(patch.triangles.end(), view.links.triangles_at[node].begin(),
+                           view.links.triangles_at[node].end());
+  std::ranges::sort(patch.triangles);
+  patch.triangles.erase(std::ranges::unique(patch.triangles).begin(), patch.triangles.end());
   return patch;
 }
 
@@ -54,9 +64,8 @@ const RimKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32
 }
 
 std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b) {
-  const PatchEdge* const left = findSide(view.grid, patch, a, b);
-  const PatchEdge* const right = findSide(view.grid, patch, b, a);
-  if (left == nullptr || right == nullptr) return std::nullopt;
+  const std::optional<PatchEdge> left = findSide(view, patch, a, b), right = findSide(view, patch, b, a);
+  if (!left || !right) return std::nullopt;
   if (isFixed(view, a, b, left->triangle, right->triangle)) return std::nullopt;
   PatchEdit edit{.kind = PatchEditKind::EdgeFlip, .nodes = {a, b}};
   edit.triangles.push_back({{a, right->apex, left->apex}, left->triangle, left->triangle});
@@ -70,8 +79,8 @@ PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, s
   edit.place = placeBetween(view.grid.crs, view.grid.nodes[a], view.grid.nodes[b], share);
   std::vector<EditedTriangle> added;
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-    const PatchEdge* const side = findSide(view.grid, patch, from, to);
-    if (side == nullptr) continue;
+    const std::optional<PatchEdge> side = findSide(view, patch, from, to);
+    if (!side) continue;
     edit.triangles.push_back({{from, middle, side->apex}, side->triangle, side->triangle});
     added.push_back({{middle, to, side->apex}, kNone, side->triangle});
   }

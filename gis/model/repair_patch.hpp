@@ -36,6 +36,9 @@ struct RepairView {
   const Grid& grid;
   const GridLinks& links;
   std::span<const Target> targets;
+  // By triangle, degrees: the smallest angle, less than 0 for one that is clockwise or without area; NaN where nobody has
+  // asked yet. Holds for triangles that were not changed in this round.
+  std::span<double> smallest_angle;
 
   bool isFor(Target target) const { return std::ranges::count(targets, target) > 0; }
 };
@@ -48,9 +51,9 @@ struct PatchEdge {
 
 struct Patch {
   std::vector<std::uint32_t> triangles;  // of the grid, ascending
-  std::vector<PatchEdge> edges;          // of them, by key and triangle
 
-  std::span<const PatchEdge> edgesAt(const NodePair& key) const;
+  // Their edges at a key, by triangle. Looked up: of the thousands round one node a few are asked for.
+  std::vector<PatchEdge> edgesAt(const RepairView& view, const NodePair& key) const;
 };
 
 // A triangle as an edit makes it.
@@ -72,6 +75,9 @@ struct PatchEdit {
   BoundaryKinds halves{};                   // edges of the boundary that splitting made
   std::optional<NodePair> gone{};           // and the one it split
 };
+
+// The corners of these triangles, ascending.
+std::vector<std::uint32_t> nodesOf(const Grid& grid, std::span<const std::uint32_t> triangles);
 
 // The triangles that share a node with one of these.
 Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle);

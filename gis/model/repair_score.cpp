@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "core/predicates.hpp"
@@ -97,7 +98,7 @@ int edgeDefectsAdded(const RepairView& view, const Patch& patch, const PatchEdit
   for (const NodePair& key : keys) {
     before.clear();
     after.clear();
-    for (const PatchEdge& edge : patch.edgesAt(key)) {
+    for (const PatchEdge& edge : patch.edgesAt(view, key)) {
       before.push_back(edge.apex);
       if (!std::ranges::binary_search(replaced, edge.triangle)) after.push_back(edge.apex);
     }
@@ -137,10 +138,15 @@ int badValencesAdded(const RepairView& view, const PatchEdit& edit) {
 PatchScale scaleOf(const RepairView& view, const Patch& patch) {
   PatchScale scale;
   for (const std::uint32_t t : patch.triangles) {
-    if (const auto score = scoreTriangle(view, {}, view.grid.triangles[t])) {
-      scale.angles.emplace_back(score->min_angle, t);
-    } else {
+    double& angle = view.smallest_angle[t];
+    if (std::isnan(angle)) {
+      const auto score = scoreTriangle(view, {}, view.grid.triangles[t]);
+      angle = score ? score->min_angle : -1.0;
+    }
+    if (angle < 0.0) {
       scale.turned.push_back(t);
+    } else {
+      scale.angles.emplace_back(angle, t);
     }
   }
   std::ranges::sort(scale.angles);

@@ -17,9 +17,10 @@ constexpr std::array kFarShares{0.2, 0.8, 0.15, 0.85, 0.1, 0.9, 0.05, 0.95};
 // The patch round the triangles, none where part of it has been changed in this round: then another one will do.
 std::optional<Patch> untouchedPatch(const RepairState& state, std::span<const std::uint32_t> middle) {
   if (state.anyTaken(middle)) return std::nullopt;
-  Patch patch = patchRound(state.view(), middle);
-  if (state.anyTaken(patch.triangles)) return std::nullopt;
-  return patch;
+  // Node by node: after a change beside a node of many triangles all other attempts there are over at once.
+  const auto isTaken = [&](std::uint32_t node) { return state.anyTaken(state.links.triangles_at[node]); };
+  if (std::ranges::any_of(nodesOf(state.grid, middle), isTaken)) return std::nullopt;
+  return patchRound(state.view(), middle);
 }
 
 void placeNode(RepairState& state, const PatchEdit& edit) {

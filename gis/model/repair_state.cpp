@@ -1,6 +1,7 @@
 #include "gis/model/repair_state.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace coastmesh {
 namespace {
@@ -68,6 +69,7 @@ void startRound(RepairState& state) {
   forgetNear(state);
   for (std::vector<bool>* flags : {&state.touched, &state.dead, &state.disturbed})
     flags->assign(grid.triangles.size(), false);
+  state.smallest_angle.assign(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
 void compact(RepairState& state) {

@@ -18,13 +18,14 @@ struct RepairState {
   GridLinks links{};
   // One a triangle, in this round: changed or looked at, and taken out.
   std::vector<bool> touched{}, dead{};
+  mutable std::vector<double> smallest_angle{};  // as RepairView has it: thousands of triangles may share a node
   // One a triangle, in all rounds: changed since it was measured.
   std::vector<bool> changed{};
   // One a triangle and one a node: tried to mend in vain. `disturbed` are triangles that have changed since, which
   // gives those round them another chance.
   std::vector<bool> hopeless_triangles{}, hopeless_nodes{}, disturbed{};
 
-  RepairView view() const { return {grid, links, targets}; }
+  RepairView view() const { return {grid, links, targets, smallest_angle}; }
   bool isTaken(std::uint32_t t) const { return touched[t] || dead[t]; }
   bool anyTaken(std::span<const std::uint32_t> triangles) const;
 };
