@@ -284,6 +284,7 @@ TEST(Dissolve, TakesABendForATraceOnlyWithinTheDecimals) {
     return domain.pslg.points.size();
   };
   EXPECT_EQ(vertices(100, 312.34, 0.01), 4u);
+  EXPECT_EQ(vertices(1000, 4000, 0), 4u);
   EXPECT_EQ(vertices(100, 312.3456789, 0.0000001), 4u);
   EXPECT_EQ(vertices(100, 312.3456789, 0.00001), 5u);
   EXPECT_EQ(vertices(100, 300 + 1 / 7.0, 0.01), 5u);

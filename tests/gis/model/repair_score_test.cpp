@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "core/quality.hpp"
@@ -100,7 +101,8 @@ void expectTrueScores(Target target, const Crs& crs) {
     if (hasTurned(grid)) continue;
     const GridLinks links = linksOf(grid);
     const std::array targets{target};
-    const RepairView view{grid, links, targets};
+    std::vector<double> smallest_angle(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
+    const RepairView view{grid, links, targets, smallest_angle};
     const int before = defectsOf(grid, target);
     for (std::uint32_t t = 0; t < grid.triangles.size(); t += 5) {
       std::vector<std::uint32_t> near;
