@@ -76,8 +76,8 @@ TriId DelaunayBuilder::makeTriangle(VertexId a, VertexId b, VertexId c) {
   return t;
 }
 
-// A triangle that is to go where x comes in: its circle holds x; of a ghost, the half-plane beyond its edge, or the edge
-// itself.
+// A triangle that is to go where x comes in: its circle holds x; of a ghost, the half-plane beyond its edge, or the
+// edge itself.
 bool DelaunayBuilder::isInConflict(TriId t, const Point& x) const {
   const auto& v = mesh_.triangles[t].v;
   if (!isGhost(t)) return inCircle(points_[v[0]], points_[v[1]], points_[v[2]], x) > 0;
@@ -129,7 +129,7 @@ void DelaunayBuilder::insertPoint(VertexId v) {
   for (const VertexId corner : mesh_.triangles[start].v)
     if (corner != ghost_ && points_[corner] == x) throw Clash(Clash::Kind::PointsCoincide, v, kNone);
   cavity_.assign(1, start);
-  rim_.clear();
+  cavity_edges_.clear();
   stack_.assign({edgeRef(start, 2), edgeRef(start, 1), edgeRef(start, 0)});
   while (!stack_.empty()) {
     const EdgeRef e = stack_.back();
@@ -140,13 +140,13 @@ void DelaunayBuilder::insertPoint(VertexId v) {
       stack_.push_back(edgeRef(triOf(beyond), prev3(indexOf(beyond))));
       stack_.push_back(edgeRef(triOf(beyond), next3(indexOf(beyond))));
     } else {
-      rim_.push_back({mesh_.origin(e), mesh_.target(e), beyond});
+      cavity_edges_.push_back({mesh_.origin(e), mesh_.target(e), beyond});
     }
   }
   // Two more triangles than before. The last one made is where the next point starts to look.
   TriId last = kNone, first = kNone;
-  for (std::size_t i = 0; i < rim_.size(); ++i) {
-    const RimEdge& r = rim_[i];
+  for (std::size_t i = 0; i < cavity_edges_.size(); ++i) {
+    const CavityEdge& r = cavity_edges_[i];
     TriId t;
     if (i < cavity_.size()) {
       t = cavity_[i];

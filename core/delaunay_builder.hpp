@@ -61,13 +61,13 @@ class DelaunayBuilder {
   std::vector<TriId> triangle_of_;  // one of the triangles round a vertex
 
   // Scratch.
-  struct RimEdge {
+  struct CavityEdge {
     VertexId a, b;
     EdgeRef beyond;
   };
   std::vector<EdgeRef> stack_;
   std::vector<TriId> cavity_;
-  std::vector<RimEdge> rim_;
+  std::vector<CavityEdge> cavity_edges_;
   // One side of what a new segment goes through, from its first end to its last. Edge k ends at corner k + 1; further
   // edges are inner ones.
   static constexpr std::size_t kNoPartner = ~std::size_t{0};

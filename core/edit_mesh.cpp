@@ -128,7 +128,7 @@ StarKind EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite, std::size_t 
 
 bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) const {
   patch.triangles.clear();
-  patch.rim.clear();
+  patch.boundary.clear();
   const auto isGone = [&](VertexId v) { return std::ranges::find(vertices, v) != vertices.end(); };
   for (const VertexId v : vertices) {
     const auto gather = [&](EdgeRef opposite) {
@@ -136,29 +136,29 @@ bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) con
       const bool known = vertices.size() > 1 && std::ranges::find(patch.triangles, t) != patch.triangles.end();
       if (!known) patch.triangles.push_back(t);
       if (!isGone(origin(opposite)) && !isGone(target(opposite)))
-        patch.rim.push_back({origin(opposite), target(opposite), twin(opposite), segment(opposite)});
+        patch.boundary.push_back({origin(opposite), target(opposite), twin(opposite), segment(opposite)});
     };
     if (walkRound(v, triangle_of_[v], kNone, gather) != StarKind::Closed) return false;
   }
   if (vertices.size() == 1) return true;
-  // An edge between two triangles of the patch is no rim (three vertices in a ring can have that); chain the rest.
-  for (std::size_t i = 0; i < patch.rim.size(); ++i) {
-    if (patch.rim[i].beyond != kNone &&
-        std::ranges::find(patch.triangles, triOf(patch.rim[i].beyond)) != patch.triangles.end())
+  // An edge between two triangles of the patch is no boundary (three vertices in a ring can have that); chain the rest.
+  for (std::size_t i = 0; i < patch.boundary.size(); ++i) {
+    if (patch.boundary[i].beyond != kNone &&
+        std::ranges::find(patch.triangles, triOf(patch.boundary[i].beyond)) != patch.triangles.end())
       return false;
-    if (i + 1 == patch.rim.size()) break;
-    const auto follower = std::find_if(patch.rim.begin() + i + 1, patch.rim.end(),
-                                       [&](const RimEdge& r) { return r.a == patch.rim[i].b; });
-    if (follower == patch.rim.end()) return false;
-    std::iter_swap(patch.rim.begin() + i + 1, follower);
+    if (i + 1 == patch.boundary.size()) break;
+    const auto follower = std::find_if(patch.boundary.begin() + i + 1, patch.boundary.end(),
+                                       [&](const BoundaryEdge& r) { return r.a == patch.boundary[i].b; });
+    if (follower == patch.boundary.end()) return false;
+    std::iter_swap(patch.boundary.begin() + i + 1, follower);
   }
-  if (patch.rim.empty() || patch.rim.back().b != patch.rim.front().a) return false;
+  if (patch.boundary.empty() || patch.boundary.back().b != patch.boundary.front().a) return false;
   // Euler's formula: a patch with more triangles holds a vertex that is not among those given.
-  if (patch.triangles.size() != patch.rim.size() + 2 * vertices.size() - 2) return false;
+  if (patch.triangles.size() != patch.boundary.size() + 2 * vertices.size() - 2) return false;
   // A vertex that the loop passes twice pinches the patch.
-  for (std::size_t i = 0; i < patch.rim.size(); ++i)
-    for (std::size_t j = i + 1; j < patch.rim.size(); ++j)
-      if (patch.rim[i].a == patch.rim[j].a) return false;
+  for (std::size_t i = 0; i < patch.boundary.size(); ++i)
+    for (std::size_t j = i + 1; j < patch.boundary.size(); ++j)
+      if (patch.boundary[i].a == patch.boundary[j].a) return false;
   return true;
 }
 
@@ -189,7 +189,7 @@ EditMesh::Place EditMesh::locate(const Point& x, TriId from) const {
   return {};
 }
 
-// Goes through the triangles beyond the edges on the stack, last one first, so that the rim comes out in order.
+// Goes through the triangles beyond the edges on the stack, last one first, so that the boundary comes out in order.
 void EditMesh::collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const {
   stack_.assign(across.rbegin(), across.rend());
   while (!stack_.empty()) {
@@ -206,20 +206,21 @@ void EditMesh::collectConflicts(const Point& x, std::span<const EdgeRef> across,
         continue;
       }
     }
-    cavity.rim.push_back({origin(e), target(e), beyond, segment(e)});
+    cavity.boundary.push_back({origin(e), target(e), beyond, segment(e)});
   }
 }
 
 bool EditMesh::findCavity(const Point& x, TriId start, Patch& cavity) const {
   cavity.triangles.assign(1, start);
-  cavity.rim.clear();
+  cavity.boundary.clear();
   const EdgeRef all[3] = {edgeRef(start, 0), edgeRef(start, 1), edgeRef(start, 2)};
   collectConflicts(x, all, cavity);
-  return std::ranges::all_of(cavity.rim, [&](const RimEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
+  return std::ranges::all_of(cavity.boundary,
+                             [&](const BoundaryEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
 }
 
-// What a point on a subsegment changes on one side of it. Returns false where rounding has put the point so far off a flat triangle
-// that it lies outside its circumcircle: then that triangle alone, and the fan needs flips.
+// What a point on a subsegment changes on one side of it. Returns false where rounding has put the point so far off a
+// flat triangle that it lies outside its circumcircle: then that triangle alone, and the fan needs flips.
 bool EditMesh::appendSide(EdgeRef side, const Point& x, Patch& cavity) const {
   const TriId t = triOf(side);
   const EdgeRef others[2] = {edgeRef(t, next3(indexOf(side))), edgeRef(t, prev3(indexOf(side)))};
@@ -229,17 +230,18 @@ bool EditMesh::appendSide(EdgeRef side, const Point& x, Patch& cavity) const {
   if (in_circle) {
     collectConflicts(x, others, cavity);
   } else {
-    for (const EdgeRef e : others) cavity.rim.push_back({origin(e), target(e), twin(e), segment(e)});
+    for (const EdgeRef e : others) cavity.boundary.push_back({origin(e), target(e), twin(e), segment(e)});
   }
   return in_circle;
 }
 
 bool EditMesh::findSplitCavity(EdgeRef edge, const Point& x, Patch& cavity) const {
   cavity.triangles.clear();
-  cavity.rim.clear();
+  cavity.boundary.clear();
   for (const EdgeRef side : {edge, twin(edge)})
     if (side != kNone) appendSide(side, x, cavity);
-  return std::ranges::all_of(cavity.rim, [&](const RimEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
+  return std::ranges::all_of(cavity.boundary,
+                             [&](const BoundaryEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
 }
 
 TriId EditMesh::newTriangle() {
@@ -279,13 +281,14 @@ void EditMesh::noteCorners(TriId t) {
   for (const VertexId v : corners) triangle_of_[v] = t;
 }
 
-// Triangles (x, a, b) over the rim edges a -> b, linked to what lies beyond and to one another, but not first to last.
+// Triangles (x, a, b) over the boundary edges a -> b, linked to what lies beyond and to one another, but not first to
+// last.
 void EditMesh::fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan) {
   fan.clear();
-  for (std::size_t i = 0; i < cavity.rim.size(); ++i)
+  for (std::size_t i = 0; i < cavity.boundary.size(); ++i)
     fan.push_back(i < cavity.triangles.size() ? cavity.triangles[i] : newTriangle());
   for (std::size_t i = 0; i < fan.size(); ++i) {
-    const RimEdge& r = cavity.rim[i];
+    const BoundaryEdge& r = cavity.boundary[i];
     triangles[fan[i]].v = {x, r.a, r.b};
     noteCorners(fan[i]);
     link(triangles, edgeRef(fan[i], 0), r.beyond, r.seg);
@@ -307,10 +310,10 @@ VertexId EditMesh::splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>
   bool in_circles = true;
   for (int s = 0; s < 2; ++s) {
     side_[s].triangles.clear();
-    side_[s].rim.clear();
+    side_[s].boundary.clear();
     if (sides[s] == kNone) continue;
     in_circles &= appendSide(sides[s], x, side_[s]);
-    for (const RimEdge& r : side_[s].rim)
+    for (const BoundaryEdge& r : side_[s].boundary)
       if (orient2d(points_[r.a], points_[r.b], x) <= 0) return kNone;
   }
   const VertexId v = addVertex(x, VertexKind::Segment);
@@ -327,7 +330,7 @@ VertexId EditMesh::splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>
 }
 
 void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::span<const VertexId> gone,
-                       std::vector<TriId>& touched, std::span<const RimEdge> inner) {
+                       std::vector<TriId>& touched, std::span<const BoundaryEdge> inner) {
   std::vector<TriId>& slots = fan_[0];
   slots.clear();
   for (std::size_t i = 0; i < fresh.size(); ++i) {
@@ -336,16 +339,17 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
     noteCorners(slots[i]);
   }
   for (std::size_t i = fresh.size(); i < patch.triangles.size(); ++i) kill(patch.triangles[i]);
-  // An edge finds its other side either on the rim or among the fresh edges that still wait for theirs.
+  // An edge finds its other side either on the boundary or among the fresh edges that still wait for theirs.
   std::vector<EdgeRef>& waiting = stack_;
   waiting.clear();
   for (const TriId t : slots) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i);
       const VertexId a = origin(e), b = target(e);
-      const auto rim = std::ranges::find_if(patch.rim, [&](const RimEdge& r) { return r.a == a && r.b == b; });
-      if (rim != patch.rim.end()) {
-        link(triangles, e, rim->beyond, rim->seg);
+      const auto boundary =
+          std::ranges::find_if(patch.boundary, [&](const BoundaryEdge& r) { return r.a == a && r.b == b; });
+      if (boundary != patch.boundary.end()) {
+        link(triangles, e, boundary->beyond, boundary->seg);
         continue;
       }
       const auto other = std::ranges::find_if(waiting, [&](EdgeRef f) { return origin(f) == b && target(f) == a; });
@@ -354,7 +358,7 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
         continue;
       }
       const auto constraint = std::ranges::find_if(
-          inner, [&](const RimEdge& r) { return (r.a == a && r.b == b) || (r.a == b && r.b == a); });
+          inner, [&](const BoundaryEdge& r) { return (r.a == a && r.b == b) || (r.a == b && r.b == a); });
       link(triangles, e, *other, constraint == inner.end() ? kNone : constraint->seg);
       *other = waiting.back();
       waiting.pop_back();

@@ -19,18 +19,18 @@ enum class VertexKind : std::uint8_t {
 
 using Corners = std::array<VertexId, 3>;
 
-// One edge of the rim of a patch of triangles, the patch to its left.
-struct RimEdge {
+// One edge of the boundary of a patch of triangles, the patch to its left.
+struct BoundaryEdge {
   VertexId a = kNone;
   VertexId b = kNone;
   EdgeRef beyond = kNone;  // the same edge seen from outside the patch; kNone where there is nothing
   SegmentId seg = kNone;
 };
 
-// Some triangles and their rim. For a patch without holes the rim is one loop, in order, counter-clockwise.
+// Some triangles and their boundary. For a patch without holes the boundary is one loop, in order, counter-clockwise.
 struct Patch {
   std::vector<TriId> triangles;
-  std::vector<RimEdge> rim;
+  std::vector<BoundaryEdge> boundary;
 };
 
 // New numbers by old ones; kNone for what is gone.
@@ -54,8 +54,8 @@ class EditMesh : private LinkedTriangles {
  public:
   explicit EditMesh(TriMesh&& mesh);
 
-  // The mesh without dead entries. Input vertices keep their numbers; Steiner points, and triangles with them, are put in an order
-  // that keeps neighbours near in memory. Leaves `regions` empty.
+  // The mesh without dead entries. Input vertices keep their numbers; Steiner points, and triangles with them, are put
+  // in an order that keeps neighbours near in memory. Leaves `regions` empty.
   TriMesh release() {
     Renumbering by;
     return release(by, true);
@@ -83,8 +83,8 @@ class EditMesh : private LinkedTriangles {
   using LinkedTriangles::twin;
   bool isConstrained(EdgeRef e) const { return segment(e) != kNone || twin(e) == kNone; }
 
-  // Calls `visit` with the edge opposite v in each triangle round it, counter-clockwise from the triangle `home` on: once round, or
-  // up to the boundary. Visits no more than `most`.
+  // Calls `visit` with the edge opposite v in each triangle round it, counter-clockwise from the triangle `home` on:
+  // once round, or up to the boundary. Visits no more than `most`.
   template <typename Visit>
   StarKind walkRound(VertexId v, TriId home, std::size_t most, const Visit& visit) const {
     TriId t = home;
@@ -101,43 +101,44 @@ class EditMesh : private LinkedTriangles {
     return StarKind::Closed;
   }
 
-  // The edges opposite v in the triangles round it, counter-clockwise; of an open star from boundary to boundary. At a pinched vertex:
-  // the star that holds triangleOf(v). Where there are more than `most` the edges are some of them.
+  // The edges opposite v in the triangles round it, counter-clockwise; of an open star from boundary to boundary. At a
+  // pinched vertex: the star that holds triangleOf(v). Where there are more than `most` the edges are some of them.
   StarKind star(VertexId v, std::vector<EdgeRef>& opposite,
                 std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
   // The same as a ring, from the triangle `home` on. REQUIRES: v is not on the boundary.
   StarKind ring(VertexId v, TriId home, std::size_t most, Ring& ring) const;
 
-  // The triangles round the given vertices and their rim. REQUIRES: the vertices are connected by edges, none is on the
-  // rim of the mesh. Returns false where the patch is not a disk.
+  // The triangles round the given vertices and their boundary. REQUIRES: the vertices are connected by edges, none is
+  // on the boundary of the mesh. Returns false where the patch is not a disk.
   bool gatherPatch(std::span<const VertexId> vertices, Patch& patch) const;
 
   struct Place {
     TriId triangle = kNone;   // holds the point, where nothing is in the way
     EdgeRef blocked = kNone;  // else the subsegment that is
   };
-  // Walks towards x, not across segments or the rim. Both are kNone where the walk does not end.
+  // Walks towards x, not across segments or the boundary. Both are kNone where the walk does not end.
   Place locate(const Point& x, TriId from) const;
 
-  // The triangles whose circumcircles hold x, as far as x sees them. REQUIRES: x lies in `start`. The rim is in order.
-  // Returns false where rounding leaves x on or beyond the rim.
+  // The triangles whose circumcircles hold x, as far as x sees them. REQUIRES: x lies in `start`. The boundary is in
+  // order. Returns false where rounding leaves x on or beyond the boundary.
   bool findCavity(const Point& x, TriId start, Patch& cavity) const;
 
   // Fills a cavity with a fan round a new free vertex.
   VertexId insertInCavity(const Point& x, const Patch& cavity, std::vector<TriId>& touched);
 
-  // The same for x on a subsegment: the triangles on both sides, and their rim without the subsegment, side by side.
+  // The same for x on a subsegment: the triangles on both sides, and their boundary without the subsegment, side by
+  // side.
   bool findSplitCavity(EdgeRef edge, const Point& x, Patch& cavity) const;
 
   // Splits a subsegment with a new vertex at x, on it as well as doubles allow. Returns kNone, and changes nothing,
   // where rounding would turn a triangle over.
   VertexId splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>& touched);
 
-  // Puts other triangles into a patch. `fresh` covers it with the same rim; edges of `fresh` that `inner` names, either
-  // way round, become subsegments. Vertices in `gone` die. Does not restore the Delaunay property.
+  // Puts other triangles into a patch. `fresh` covers it with the same boundary; edges of `fresh` that `inner` names,
+  // either way round, become subsegments. Vertices in `gone` die. Does not restore the Delaunay property.
   void replace(const Patch& patch, std::span<const Corners> fresh, std::span<const VertexId> gone,
-               std::vector<TriId>& touched, std::span<const RimEdge> inner = {});
+               std::vector<TriId>& touched, std::span<const BoundaryEdge> inner = {});
 
   VertexId addVertex(const Point& x, VertexKind kind);
 
@@ -148,7 +149,7 @@ class EditMesh : private LinkedTriangles {
   // Lawson's flips, from all edges of the triangles in `touched` on; appends the triangles they change.
   void restoreDelaunay(std::vector<TriId>& touched);
 
-  // The same where `touched` is the star of v, which has no rim.
+  // The same where `touched` is the star of v, which has no boundary.
   void restoreDelaunayRound(VertexId v, std::vector<TriId>& touched);
 
  private:

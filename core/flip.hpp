@@ -7,15 +7,16 @@
 
 namespace coastmesh {
 
-// Replaces an edge by the other diagonal of its two triangles, which keep their slots. The edge must have a triangle on both sides.
-// Returns false where these make no convex quadrilateral.
+// Replaces an edge by the other diagonal of its two triangles, which keep their slots. The edge must have a triangle on
+// both sides. Returns false where these make no convex quadrilateral.
 bool flipEdge(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e);
 
 // The same where that makes the edge Delaunay; returns false where it is so already.
 bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e);
 
-// Lawson's flips: takes edges off `waiting` until none is left, flips those that `mayFlip(e)` allows and that are not Delaunay, calls
-// `flipped(t, n)` with their two triangles, and lets the four edges round these wait. REQUIRES: an edge that may flip has two sides.
+// Lawson's flips: takes edges off `waiting` until none is left, flips those that `mayFlip(e)` allows and that are not
+// Delaunay, calls `flipped(t, n)` with their two triangles, and lets the four edges round these wait. REQUIRES: an edge
+// that may flip has two sides.
 template <typename MayFlip, typename Flipped>
 void flipWaiting(std::span<const Point> points, std::span<Triangle> triangles, std::vector<EdgeRef>& waiting,
                  const MayFlip& mayFlip, const Flipped& flipped) {

@@ -8,7 +8,8 @@
 
 namespace coastmesh {
 
-// The place of a cell of a 65,536 by 65,536 grid along Hilbert's curve: cells with near indices lie near to one another.
+// The place of a cell of a 65,536 by 65,536 grid along Hilbert's curve: cells with near indices lie near to one
+// another.
 std::uint32_t hilbertIndex(std::uint32_t x, std::uint32_t y);
 
 // One index a point, on a grid that covers all of them.

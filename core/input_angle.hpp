@@ -5,7 +5,7 @@
 
 namespace coastmesh {
 
-// The domain round a vertex between two constraints (segments or the rim).
+// The domain round a vertex between two constraints (segments or the boundary).
 struct Sector {
   double angle = 0.0;      // radians; of a vertex without constraints 2 pi
   unsigned triangles = 0;  // that fill it

@@ -23,7 +23,7 @@ constexpr double kLargest = std::numbers::pi - 1e-6;
 // A constrained edge, each once.
 struct Link {
   VertexId a = kNone, b = kNone;
-  SegmentId segment = kNone;  // kNone on a rim without
+  SegmentId segment = kNone;  // kNone where the boundary has none
 };
 
 // The constraints of a mesh, and how they hang together.

@@ -14,8 +14,9 @@ inline void inOrder(std::size_t count, const std::function<void(std::size_t)>& w
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
-// `make(first, last)` of stretches that make up 0 to `count`, in their order. Where the stretches end depends on nothing but
-// `count` and on `least`, the items that are worth a stretch: what is summed over them is the same on any number of threads.
+// `make(first, last)` of stretches that make up 0 to `count`, in their order. Where the stretches end depends on
+// nothing but `count` and on `least`, the items that are worth a stretch: what is summed over them is the same on any
+// number of threads.
 template <typename Make>
 auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make, std::size_t least = 8192) {
   constexpr std::size_t kMostStretches = 256;

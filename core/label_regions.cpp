@@ -68,7 +68,8 @@ void labelSegments(Pslg& pslg) {
       const EdgeRef e = edgeRef(t, i);
       if (mesh.segment(e) == kNone) continue;
       Segment& s = pslg.segments[mesh.segment(e)];
-      (mesh.origin(e) == s.a ? s.left : s.right) = mesh.regions[t];
+      auto& side = mesh.origin(e) == s.a ? s.left : s.right;
+      side = mesh.regions[t];
     }
   }
   pslg.holes.clear();

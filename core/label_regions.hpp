@@ -9,8 +9,8 @@ namespace coastmesh {
 // this PSLG. Without labels every triangle belongs to region 0.
 void labelRegions(TriMesh& mesh, const Pslg& pslg);
 
-// Labels both sides of every segment, region 0 or kOutside, where holes and the outer boundary said so far what is inside;
-// the holes go. Does nothing where a segment is labelled, or none is there. Throws BadPslg.
+// Labels both sides of every segment, region 0 or kOutside, where holes and the outer boundary said so far what is
+// inside; the holes go. Does nothing where a segment is labelled, or none is there. Throws BadPslg.
 void labelSegments(Pslg& pslg);
 
 }  // namespace coastmesh

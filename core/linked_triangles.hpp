@@ -12,7 +12,7 @@ namespace coastmesh {
 //            /  \            Edge i lies opposite vertex i and runs from v[i+1] to v[i+2], counter-clockwise.
 //   edge 1  /    \  edge 0
 //          /      \          An EdgeRef names edge i of triangle t as 4 t + i. Across an edge lies the
-//       v[0]------v[1]       same edge seen from the neighbour: adj[i], or kNone on the rim of the mesh.
+//       v[0]------v[1]       same edge seen from the neighbour: adj[i], or kNone on the boundary of the mesh.
 //           edge 2
 using EdgeRef = std::uint32_t;
 
@@ -22,7 +22,7 @@ constexpr unsigned indexOf(EdgeRef e) { return e & 3u; }
 constexpr unsigned next3(unsigned i) { return i == 2 ? 0 : i + 1; }
 constexpr unsigned prev3(unsigned i) { return i == 0 ? 2 : i - 1; }
 
-// In place of a segment: an edge of a patch's rim, which is not to be changed while the patch is worked on.
+// In place of a segment: an edge of a patch's boundary, which is not to be changed while the patch is worked on.
 inline constexpr SegmentId kFrozen = kNone - 1;
 
 struct Triangle {

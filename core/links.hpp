@@ -7,8 +7,8 @@
 
 namespace coastmesh {
 
-// How triangles hang together: all writes of `Triangle::adj` and `Triangle::seg` in core and parallel are made here. Each writes
-// both sides of an edge, or one whole triangle, so that no edge can be seen differently from its two sides.
+// How triangles hang together: all writes of `Triangle::adj` and `Triangle::seg` in core and parallel are made here.
+// Each writes both sides of an edge, or one whole triangle, so that no edge can be seen differently from its two sides.
 
 // Lets the two sides of an edge name each other. REQUIRES: they run between the same vertices, in opposite directions.
 inline void setTwins(std::span<Triangle> triangles, EdgeRef e, EdgeRef f) {
@@ -41,8 +41,9 @@ inline void link(std::span<Triangle> triangles, EdgeRef e, EdgeRef f, SegmentId 
 // A triangle of its own: its edges are to be linked.
 inline Triangle unlinked(const std::array<VertexId, 3>& corners) { return {.v = corners}; }
 
-// A triangle as it is where triangles and vertices have other numbers. `triangle(t)` is the new number of a neighbour, kNone of one
-// that is not there: that edge is on the boundary then, and `bare` in place of its segment unless that is kNone.
+// A triangle as it is where triangles and vertices have other numbers. `triangle(t)` is the new number of a neighbour,
+// kNone of one that is not there: that edge is on the boundary then, and `bare` in place of its segment unless that is
+// kNone.
 template <typename NewTriangle, typename NewVertex>
 Triangle renumbered(const Triangle& from, const NewTriangle& triangle, const NewVertex& vertex,
                     SegmentId bare = kNone) {
@@ -61,8 +62,8 @@ Triangle renumbered(const Triangle& from, const NewTriangle& triangle, const New
   return to;
 }
 
-// An edge that its two sides do not agree on: other ends, another segment, or not each other's twin. kNone where there is none.
-// Triangles whose first corner is kNone are passed over. Meant for asserts: goes through all triangles.
+// An edge that its two sides do not agree on: other ends, another segment, or not each other's twin. kNone where there
+// is none. Triangles whose first corner is kNone are passed over. Meant for asserts: goes through all triangles.
 EdgeRef findBrokenLink(std::span<const Triangle> triangles);
 
 }  // namespace coastmesh

@@ -52,8 +52,8 @@ inline Point circumcenterOffset(const Point& a, const Point& b, const Point& c) 
 constexpr double toRadians(double deg) { return deg * std::numbers::pi / 180.0; }
 constexpr double toDegrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
-// What is asked of a triangle's angles, in the forms that tests need. The bounds are a millionth of a degree stricter than asked, so that
-// rounding a coordinate, once projected, does not break them.
+// What is asked of a triangle's angles, in the forms that tests need. The bounds are a millionth of a degree stricter
+// than asked, so that rounding a coordinate, once projected, does not break them.
 struct AngleBound {
   double min_angle;  // radians
   double max_angle;  // radians; pi where nothing is asked
@@ -116,8 +116,8 @@ struct TriangleShape {
   }
 };
 
-// cot(smallest angle) exceeds the bound; free of square roots, divisions and branches. The smallest angle has the largest
-// scalar product of its sides, and twice the area is the vector product at every corner.
+// cot(smallest angle) exceeds the bound; free of square roots, divisions and branches. The smallest angle has the
+// largest scalar product of its sides, and twice the area is the vector product at every corner.
 inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c, double cot_min) {
   const Point ab = b - a, bc = c - b, ca = a - c;
   const double at_a = -dot(ab, ca), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
@@ -126,7 +126,8 @@ inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c,
   return most > cot_min * std::abs(cross(ab, ca));
 }
 
-// cos(largest angle) is below the bound. By the product of the two edges at that corner: squared lengths cancel in needles.
+// cos(largest angle) is below the bound. By the product of the two edges at that corner: squared lengths cancel in
+// needles.
 inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, double cos_max) {
   const Point ab = b - a, bc = c - b, ca = a - c;
   const double la = squaredLength(bc), lb = squaredLength(ca), lc = squaredLength(ab);

@@ -18,8 +18,8 @@ struct Segment {
   RegionId right = kUnlabelled;
 };
 
-// The range of coordinates: products of four lengths, which circumcentres and bounds on angles take, neither overflow nor
-// lose their digits in it.
+// The range of coordinates: products of four lengths, which circumcentres and bounds on angles take, neither overflow
+// nor lose their digits in it.
 inline constexpr double kLargestCoordinate = 1e70;  // in absolute value
 inline constexpr double kLeastDistance = 1e-70;     // between two points, along x or y
 
@@ -29,9 +29,9 @@ inline bool isInRange(const Point& p) {
 }
 
 // A planar straight-line graph: the only input of the core.
-// REQUIRES (`constrainedDelaunay` reports what is broken, and where): coordinates in the range above, no two points equal
-// or nearer than it allows, no segment of zero length, no two segments that meet anywhere but in a common end point, no
-// point inside a segment, labels that agree with one another.
+// REQUIRES (`constrainedDelaunay` reports what is broken, and where): coordinates in the range above, no two points
+// equal or nearer than it allows, no segment of zero length, no two segments that meet anywhere but in a common end
+// point, no point inside a segment, labels that agree with one another.
 struct Pslg {
   std::vector<Point> points;
   std::vector<Segment> segments;

@@ -79,8 +79,8 @@ namespace {
 
 EdgeRef nextInTriangle(EdgeRef e) { return edgeRef(triOf(e), next3(indexOf(e))); }
 
-// The rim edge that follows `e` with the same fan of triangles between them.
-EdgeRef nextOnRim(const TriMesh& mesh, EdgeRef e) {
+// The boundary edge that follows `e` with the same fan of triangles between them.
+EdgeRef nextOnBoundary(const TriMesh& mesh, EdgeRef e) {
   EdgeRef f = nextInTriangle(e);
   while (mesh.twin(f) != kNone) f = nextInTriangle(mesh.twin(f));
   return f;
@@ -88,8 +88,8 @@ EdgeRef nextOnRim(const TriMesh& mesh, EdgeRef e) {
 
 }  // namespace
 
-std::vector<std::vector<VertexId>> rimLoops(const TriMesh& mesh, const ItemLoop& loop) {
-  const std::vector<EdgeRef> rim =
+std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const ItemLoop& loop) {
+  const std::vector<EdgeRef> boundary =
       joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
         std::vector<EdgeRef> edges;
         for (auto t = static_cast<TriId>(first); t < last; ++t)
@@ -98,14 +98,15 @@ std::vector<std::vector<VertexId>> rimLoops(const TriMesh& mesh, const ItemLoop&
         return edges;
       }));
   std::vector<std::vector<VertexId>> loops;
-  std::vector<bool> seen(rim.size(), false);
-  for (std::size_t start = 0; start < rim.size(); ++start) {
+  std::vector<bool> seen(boundary.size(), false);
+  for (std::size_t start = 0; start < boundary.size(); ++start) {
     if (seen[start]) continue;
     std::vector<VertexId> vertices;
     for (std::size_t at = start; !seen[at];) {
       seen[at] = true;
-      vertices.push_back(mesh.origin(rim[at]));
-      at = static_cast<std::size_t>(std::ranges::lower_bound(rim, nextOnRim(mesh, rim[at])) - rim.begin());
+      vertices.push_back(mesh.origin(boundary[at]));
+      at = static_cast<std::size_t>(std::ranges::lower_bound(boundary, nextOnBoundary(mesh, boundary[at])) -
+                                    boundary.begin());
     }
     const auto less = [&](VertexId a, VertexId b) { return lexLess(mesh.points[a], mesh.points[b]); };
     std::ranges::rotate(vertices, std::ranges::min_element(vertices, less));

@@ -30,18 +30,18 @@ struct EdgeConflict {
 };
 
 // Links triangles given by their corners (any rotation, counter-clockwise) into a mesh without constraints, all of
-// region 0. Edges that cannot be linked are left as rim and listed in `conflicts`.
+// region 0. Edges that cannot be linked are left as boundary and listed in `conflicts`.
 TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<VertexId, 3>> corners,
                       std::vector<EdgeConflict>& conflicts);
 
-// One triangle around each vertex as the edge that starts there; a rim edge where there is one. kNone for an unused
-// vertex.
+// One triangle around each vertex as the edge that starts there; a boundary edge where there is one. kNone for an
+// unused vertex.
 std::vector<EdgeRef> outgoingEdges(const TriMesh& mesh);
 
-// The rim as closed loops of vertices with the mesh to the left: outer loops counter-clockwise, holes clockwise.
+// The boundary as closed loops of vertices with the mesh to the left: outer loops counter-clockwise, holes clockwise.
 // Every loop starts at its lexicographically least vertex; loops are sorted by that vertex. A loop passes a pinched
 // vertex once for every fan of triangles there.
-std::vector<std::vector<VertexId>> rimLoops(const TriMesh& mesh, const ItemLoop& loop = inOrder);
+std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 // One a vertex: 1 where a triangle has it as a corner.
 std::vector<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop = inOrder);

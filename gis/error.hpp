@@ -17,8 +17,8 @@ struct OptionError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The input cannot be read or used (exit code 3). The text is one sentence on one line, whatever goes into it: the file,
-// the feature, the place, what to do.
+// The input cannot be read or used (exit code 3). The text is one sentence on one line, whatever goes into it: the
+// file, the feature, the place, what to do.
 struct InputError : std::runtime_error {
   explicit InputError(const std::string& text) : std::runtime_error(oneLine(text)) {}
 };

@@ -27,10 +27,10 @@ using VertexNumbers = std::vector<VertexId>;
 
 CutSubmesh cutOut(const MeshState& whole, const Partition& partition, PieceId piece, VertexNumbers& numbers);
 
-// Puts together again what `before` was cut into: all pieces of one partition, in order, each worked on or not. Restores the Delaunay
-// property across the cuts and marks the triangles that this changes as due. Vertices are numbered anew: input vertices as before, then
-// those on cuts, then each piece's own. What `whole` holds is lost but for its memory, which serves again: fresh memory costs more
-// than what is written to it.
+// Puts together again what `before` was cut into: all pieces of one partition, in order, each worked on or not.
+// Restores the Delaunay property across the cuts and marks the triangles that this changes as due. Vertices are
+// numbered anew: input vertices as before, then those on cuts, then each piece's own. What `whole` holds is lost but
+// for its memory, which serves again: fresh memory costs more than what is written to it.
 void stitch(std::vector<CutSubmesh>&& pieces, const MeshState& before, Recorder& recorder, MeshState& whole);
 
 }  // namespace coastmesh

@@ -5,8 +5,8 @@
 
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
+#include "core/refine/bound_violations.hpp"
 #include "core/refine/optimise.hpp"
-#include "core/refine/shortfalls.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/rounds.hpp"
 
@@ -30,7 +30,7 @@ class Stopwatch {
 
 int optimiseSweeps(const MeshOptions& options) {
   if (options.smooth) return kMostOptimiseSweeps;
-  return options.refine.size != nullptr && options.shrink ? kOptimiseSweeps : 0;
+  return options.refine.size != nullptr && options.coarsen ? kOptimiseSweeps : 0;
 }
 
 void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
@@ -38,11 +38,11 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
   Recorder recorder;
   region.stats = refine(region.mesh, pslg, options.refine, control);
   region.seconds.refine = watch.lap();
-  if (options.shrink) {
-    RefineStats shrunk = shrink(region.mesh, pslg, options.refine, control);
-    region.seconds.shrink = watch.lap();
+  if (options.coarsen) {
+    RefineStats coarsened = coarsen(region.mesh, pslg, options.refine, control);
+    region.seconds.coarsen = watch.lap();
     region.stats.unresolved.clear();
-    region.stats.add(shrunk);
+    region.stats.add(coarsened);
   }
   if (const int sweeps = optimiseSweeps(options); sweeps > 0) {
     RefineStats optimised = optimise(region.mesh, pslg, options.refine, sweeps, control);
@@ -67,16 +67,16 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   Stopwatch watch;
   add(refineInRounds(region.mesh, pslg, options.refine, control, workspace));
   region.seconds.refine = watch.lap();
-  if (options.shrink) {
-    add(shrinkInRounds(region.mesh, pslg, options.refine, control, workspace));
-    region.seconds.shrink = watch.lap();
+  if (options.coarsen) {
+    add(coarsenInRounds(region.mesh, pslg, options.refine, control, workspace));
+    region.seconds.coarsen = watch.lap();
   }
   if (const int sweeps = optimiseSweeps(options); sweeps > 0) {
     add(optimiseInRounds(region.mesh, pslg, options.refine, sweeps, control, workspace));
     region.seconds.optimise = watch.lap();
   }
   Recorder recorder;
-  region.stats.unresolved = findShortfalls(region.mesh, options.refine, recorder.loop("label", control));
+  region.stats.unresolved = findBoundViolations(region.mesh, options.refine, recorder.loop("label", control));
   labelRegions(region.mesh, pslg);
   if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, recorder.loop("label", control));
   region.log.append(recorder.finish());

@@ -12,7 +12,7 @@ namespace coastmesh {
 
 struct MeshOptions {
   RefineOptions refine;
-  bool shrink = true;
+  bool coarsen = true;
   bool smooth = false;       // optimises for longer; where no lengths are wanted, at all
   bool one_piece = false;    // never cuts a region, however large
   bool mark_pieces = false;  // fill `MeshedRegion::piece_of`
@@ -22,7 +22,7 @@ struct MeshOptions {
 struct MeshSeconds {
   double triangulate = 0.0;
   double refine = 0.0;
-  double shrink = 0.0;
+  double coarsen = 0.0;
   double optimise = 0.0;
   double stitch = 0.0;
 };
@@ -37,7 +37,7 @@ struct MeshedRegion {
   WorkLog log;
 };
 
-// Triangulates, refines and shrinks one region; a large one is cut into pieces for that. Throws BadPslg, Cancelled,
+// Triangulates, refines and coarsens one region; a large one is cut into pieces for that. Throws BadPslg, Cancelled,
 // and std::invalid_argument for options beyond their ranges.
 MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunControl& control = {});
 

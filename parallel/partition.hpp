@@ -43,8 +43,8 @@ struct Partition {
   std::span<const TriId> of(PieceId p) const { return std::span(triangles).subspan(first[p], first[p + 1] - first[p]); }
 };
 
-// Cuts a mesh into pieces of like weight by straight lines, along one of two directions at right angles each: halves, halves of these,
-// and so on (Bentley's k-d tree). Depends on nothing but its arguments.
+// Cuts a mesh into pieces of like weight by straight lines, along one of two directions at right angles each: halves,
+// halves of these, and so on (Bentley's k-d tree). Depends on nothing but its arguments.
 //   weight(t)  what a triangle counts, above 0
 //   angle      radians: the directions are turned by so much; cuts under other angles meet these at single points
 //   parts      what is written; what it holds is lost but for its memory, which serves again

@@ -18,43 +18,51 @@ namespace coastmesh {
 
 namespace {
 
-// Numbers found by trial on the sea of the README's tables, with and without `--size-max`, at 30°, 33° and 40°. To find them anew change
-// one, and compare what it is said to trade with what it was: vertices beside those of `--no-cut`, the critical path in `--report`,
-// the processor's seconds on one thread. All change meshes, so `tests/golden` changes with them.
+// Numbers found by trial on the sea of the README's tables, with and without `--size-max`, at 30°, 33° and 40°. To find
+// them anew change one, and compare what it is said to trade with what it was: vertices beside those of `--no-cut`, the
+// critical path in `--report`, the processor's seconds on one thread. All change meshes, so `tests/golden` changes with
+// them.
 
-// A piece is worth so many triangles of the end, as many as make so many pieces within these limits. Smaller ones share out better and
-// shorten the critical path; larger ones have fewer triangles beside a cut, which wait for a later round and cost vertices.
+// A piece is worth so many triangles of the end, as many as make so many pieces within these limits. Smaller ones share
+// out better and shorten the critical path; larger ones have fewer triangles beside a cut, which wait for a later round
+// and cost vertices.
 constexpr double kLeastGrain = 6000.0, kMostGrain = 40000.0;
 constexpr double kWantedPieces = 512.0;
-// Edges come to the length asked by steps of this factor: a piece begins with a ninth of its triangles. Larger steps leave strips of long
-// triangles along cuts, smaller ones are more rounds.
+// Edges come to the length asked by steps of this factor: a piece begins with a ninth of its triangles. Larger steps
+// leave strips of long triangles along cuts, smaller ones are more rounds.
 constexpr double kSizeStep = 3.0;
-// Where lengths are wanted, the last step before they are asked for has edges so many times as long. Its points stay where they are,
-// and rows of equal triangles grow from each: of 1.6 million triangles of one size 84 % of the vertices have six neighbours with 3, 92 %
-// with 9, 93 % with 16, 96 % without a step. Pieces of longer edges are few large triangles, most of them beside a cut: with 16 the
-// critical path is twice as long.
+// Where lengths are wanted, the last step before they are asked for has edges so many times as long. Its points stay
+// where they are, and rows of equal triangles grow from each: of 1.6 million triangles of one size 84 % of the vertices
+// have six neighbours with 3, 92 % with 9, 93 % with 16, 96 % without a step. Pieces of longer edges are few large
+// triangles, most of them beside a cut: with 16 the critical path is twice as long.
 constexpr double kLastStep = 9.0;
-// Triangles with a smaller angle than this, in degrees, are refined before anything is cut: those that reach from shore to shore. Larger
-// values cost vertices and time on one thread; smaller ones leave triangles that lie across several pieces.
+// Triangles with a smaller angle than this, in degrees, are refined before anything is cut: those that reach from shore
+// to shore. Larger values cost vertices and time on one thread; smaller ones leave triangles that lie across several
+// pieces.
 constexpr double kFirstAngleDeg = 0.5;
-// Rounds of a step, the uncut one at the end not counted. A bound on the run: most steps end sooner, by the next number.
+// Rounds of a step, the uncut one at the end not counted. A bound on the run: most steps end sooner, by the next
+// number.
 constexpr int kMostRounds = 8;
-// Bad triangles that a step may leave to the next, or that are mended uncut at the end. More are work for one thread, fewer are rounds
-// that copy the whole mesh for next to nothing.
+// Bad triangles that a step may leave to the next, or that are mended uncut at the end. More are work for one thread,
+// fewer are rounds that copy the whole mesh for next to nothing.
 constexpr double kFewDue = 200.0;
-// In a mesh of so few triangles what is left in the last step is mended uncut; in a larger one a round of pieces takes less time.
+// In a mesh of so few triangles what is left in the last step is mended uncut; in a larger one a round of pieces takes
+// less time.
 constexpr std::size_t kSmallMesh = 1'000'000;
-// Work, in triangles, that is not worth a cut: the first step makes about so many. Fewer are more steps, more are work for one thread.
+// Work, in triangles, that is not worth a cut: the first step makes about so many. Fewer are more steps, more are work
+// for one thread.
 constexpr double kLittleWork = 5000.0;
 
-// The others estimate work, in triangles, so that pieces are of like weight: compare with counts of what refinement made.
+// The others estimate work, in triangles, so that pieces are of like weight: compare with counts of what refinement
+// made.
 
 // Triangles that refinement makes of an area, over the equilateral ones with the longest edge asked that would fill it.
 constexpr double kExcess = 1.5;
 constexpr double kEquilateral = 0.43301270189221932;  // area for edges of length 1
 // What comes of a bad triangle on a coast.
 constexpr double kOfABadOne = 3.0;
-// Halvings of a triangle's sides in adding up what wanted lengths make of it: four to this power of places. A bound on the time.
+// Halvings of a triangle's sides in adding up what wanted lengths make of it: four to this power of places. A bound on
+// the time.
 constexpr int kMostDepth = 9;
 // The work of copying a triangle, beside refining one.
 constexpr double kOfACopy = 0.1;
@@ -102,8 +110,8 @@ class Rounds {
   Recorder& recorder() { return recorder_; }
   RefineStats& stats() { return stats_; }
 
-  // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `work(state, share, control)` handles a piece with that share of the
-  // whole weight, and returns what it did.
+  // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `work(state, share, control)` handles a piece with
+  // that share of the whole weight, and returns what it did.
   template <typename Weigh, typename Work>
   void round(std::string_view name, const Weigh& weigh, bool uncut, const Work& work) {
     const double weight = total(weigh);
@@ -166,9 +174,9 @@ class Rounds {
 
 bool anyOf(const std::vector<std::uint8_t>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
 
-// What is asked, step after step. At first small angles, of the whole: long thin triangles from shore to shore, as a triangulation
-// without Steiner points has them, leave no way to cut it. And edges as short as little work makes them: then each step asks for
-// shorter ones, so that pieces never consist of few large triangles.
+// What is asked, step after step. At first small angles, of the whole: long thin triangles from shore to shore, as a
+// triangulation without Steiner points has them, leave no way to cut it. And edges as short as little work makes them:
+// then each step asks for shorter ones, so that pieces never consist of few large triangles.
 std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& mesh) {
   std::vector<RefineOptions> steps{options};
   double area = 0.0, longest = 0.0;
@@ -284,10 +292,10 @@ RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunContro
 
 }  // namespace
 
-RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsWorkspace& workspace) {
-  return sweepInRounds("shrink", mesh, control, workspace, [&](MeshState& state, const RunControl& inner) {
-    return shrinkSubmesh(state, pslg, options, inner);
+RoundsReport coarsenInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+                             RoundsWorkspace& workspace) {
+  return sweepInRounds("coarsen", mesh, control, workspace, [&](MeshState& state, const RunControl& inner) {
+    return coarsenSubmesh(state, pslg, options, inner);
   });
 }
 

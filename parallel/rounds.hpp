@@ -13,7 +13,8 @@ namespace coastmesh {
 // About how many triangles refinement will make of a mesh.
 double expectedTriangles(const TriMesh& mesh, const RefineOptions& options);
 
-// What rounds lend to one another, and refining to shrinking, for its memory alone: fresh memory costs more than what is written to it.
+// What rounds lend to one another, and refining to coarsening, for its memory alone: fresh memory costs more than what
+// is written to it.
 struct RoundsWorkspace {
   MeshState spare;
   Partition parts;
@@ -27,16 +28,17 @@ struct RoundsReport {
   WorkLog log;
 };
 
-// Refines a mesh made by `constrainedDelaunay(pslg)` in rounds: the mesh is cut into pieces along straight lines, the pieces are refined at
-// the same time, each clear of the cuts, and put together again; the next round cuts under another angle, so that what was left lies
-// inside its pieces. Where an edge length is asked, rounds come to it by steps, so that pieces never consist of few large triangles. The
-// result does not depend on the number of threads. Throws Cancelled.
+// Refines a mesh made by `constrainedDelaunay(pslg)` in rounds: the mesh is cut into pieces along straight lines, the
+// pieces are refined at the same time, each clear of the cuts, and put together again; the next round cuts under
+// another angle, so that what was left lies inside its pieces. Where an edge length is asked, rounds come to it by
+// steps, so that pieces never consist of few large triangles. The result does not depend on the number of threads.
+// Throws Cancelled.
 RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
                             RoundsWorkspace& workspace);
 
-// Shrinks in rounds of the same kind.
-RoundsReport shrinkInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsWorkspace& workspace);
+// Coarsens in rounds of the same kind.
+RoundsReport coarsenInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
+                             RoundsWorkspace& workspace);
 
 // Optimises, in rounds of the same kind: see `optimise`.
 RoundsReport optimiseInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,

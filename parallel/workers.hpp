@@ -17,9 +17,10 @@ void withThreads(const ParallelOptions& options, const std::function<void()>& wo
 // How many threads there are to share the work out to.
 int threadCount();
 
-// Runs `work(i)` for every i below `count` on the threads at hand; large items should come first. May be called from within such a
-// piece of work. Every call gets done unless `control.cancelled` returns true (then throws Cancelled) or a call throws (then the one
-// with the least i is rethrown once all running ones have ended). `control.progress` is called from one thread at a time.
+// Runs `work(i)` for every i below `count` on the threads at hand; large items should come first. May be called from
+// within such a piece of work. Every call gets done unless `control.cancelled` returns true (then throws Cancelled) or
+// a call throws (then the one with the least i is rethrown once all running ones have ended). `control.progress` is
+// called from one thread at a time.
 void forEachItem(std::size_t count, const RunControl& control, const std::function<void(std::size_t)>& work);
 
 }  // namespace coastmesh

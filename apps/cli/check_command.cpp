@@ -35,7 +35,7 @@ struct CheckUsage {
   bool quiet = false;
 };
 
-// A defect as it is told, whichever check found it.
+// A defect as it is reported, whichever check found it.
 struct DefectRow {
   std::string kind;
   std::string target;  // the model that minds; empty for any

@@ -61,8 +61,8 @@ void cleanGroup(const JobInput& input, std::size_t group, const ItemLoop& loop, 
   }
 }
 
-// A vertex on the antimeridian has the longitude of the side that its edges lead to; -180 where they lead to both, whichever
-// ring was read first, so that a cleaned file that is cleaned again comes out the same.
+// A vertex on the antimeridian has the longitude of the side that its edges lead to; -180 where they lead to both,
+// whichever ring was read first, so that a cleaned file that is cleaned again comes out the same.
 void putOnOneSide(Domain& domain) {
   std::vector<char> west(domain.input_points.size(), 0), east = west;
   for (const Segment& s : domain.pslg.segments) {
@@ -98,9 +98,9 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
   return cleaned;
 }
 
-// What the input's column says of the segments of the rim, by domain; empty where nothing is said.
-RimTypes rimTypes(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned) {
-  RimTypes types;
+// What the input's column says of the segments of the boundary, by domain; empty where nothing is said.
+BoundaryTypes boundaryTypes(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned) {
+  BoundaryTypes types;
   if (usage.boundary_column.empty() && !input.report().boundary_types) return types;
   for (const Domain& domain : cleaned.domains) {
     std::vector<NodePair> edges;
@@ -200,7 +200,7 @@ int runClean(const CleanUsage& usage, Run& run) {
     output.make([&](const std::string& path) {
       writeVectorLayers(path, input.coastline().crs,
                         cleanedLayers(cleaned.domains, cleaned.report, input.coastline(), input.report(),
-                                      rimTypes(usage, input, cleaned)));
+                                      boundaryTypes(usage, input, cleaned)));
     });
   }
   seconds.total = watch.seconds();

@@ -53,7 +53,7 @@ struct PslgEdge {
   std::string boundary{};
 };
 
-std::vector<PslgEdge> sortedEdges(const std::vector<Domain>& domains, const RimTypes& types) {
+std::vector<PslgEdge> sortedEdges(const std::vector<Domain>& domains, const BoundaryTypes& types) {
   std::vector<PslgEdge> edges;
   for (std::size_t d = 0; d < domains.size(); ++d) {
     const Domain& domain = domains[d];
@@ -180,7 +180,7 @@ VectorLayer editLayer(const CleanReport& report, const ReadReport& read) {
   };
   std::vector<EarlierEdit> before = read.edits, now, all;
   for (const Edit& edit : report.edits) {
-    // These change nothing: what there is of them in a cleaned file was told when it was cleaned.
+    // These change nothing: what there is of them in a cleaned file was reported when it was cleaned.
     if (read.cleaned && (edit.kind == EditKind::TouchingRing || edit.kind == EditKind::MisplacedRing)) continue;
     now.push_back({std::string(toString(edit.kind)), edit.place, edit.fid});
   }
@@ -216,7 +216,7 @@ VectorLayer vertexLayer(const std::vector<Domain>& domains) {
 }  // namespace
 
 std::vector<VectorLayer> cleanedLayers(const std::vector<Domain>& domains, const CleanReport& report,
-                                       const Coastline& coastline, const ReadReport& read, const RimTypes& types) {
+                                       const Coastline& coastline, const ReadReport& read, const BoundaryTypes& types) {
   const std::vector<PslgEdge> edges = sortedEdges(domains, types);
   const Numbers numbers(edges, coastline);
   std::vector<VectorLayer> layers{pslgLayer(edges, numbers, coastline, !types.empty()), editLayer(report, read),

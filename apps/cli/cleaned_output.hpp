@@ -9,12 +9,13 @@
 
 namespace coastmesh {
 
-// By domain and segment: what the rim is there, as `kindOfText` takes it. Empty, or empty texts, where nothing was told.
-using RimTypes = std::vector<std::vector<std::string>>;
+// By domain and segment: what the boundary is there, as `kindOfText` takes it. Empty, or empty texts, where nothing is
+// known.
+using BoundaryTypes = std::vector<std::vector<std::string>>;
 
 // Cleaned domains as layers that `readCleaned` makes the same domains of, with all that is known of their features: see
 // gis/read/cleaned_layers.hpp. Edges come in the order of their places.
 std::vector<VectorLayer> cleanedLayers(const std::vector<Domain>& domains, const CleanReport& report,
-                                       const Coastline& coastline, const ReadReport& read, const RimTypes& types);
+                                       const Coastline& coastline, const ReadReport& read, const BoundaryTypes& types);
 
 }  // namespace coastmesh

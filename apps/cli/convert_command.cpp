@@ -28,7 +28,7 @@ int runConvert(const ConvertUsage& usage, Run& run) {
   outputs.addGrids(usage.outputs, usage.format);
   Grid grid = readMeshFile(usage.mesh, run);
   if (grid.boundaries.empty()) {
-    // The file tells none: the rim of the mesh does.
+    // The file says none: the boundary of the mesh does.
     std::vector<EdgeConflict> conflicts;
     grid.boundaries = findBoundaries(toTriMesh(grid, Projection::plane(), conflicts));
   }

@@ -63,7 +63,7 @@ std::string describe(const InfoUsage& usage, Run& run) {
 
 Command declareInfo(CLI::App& root) {
   auto usage = std::make_shared<InfoUsage>();
-  CommandLine line(root, "info", "Tell what a mesh, a vector file or a .poly holds");
+  CommandLine line(root, "info", "Report what a mesh, a vector file or a .poly holds");
   declareMeshFile(line, "FILE", "mesh, vector file or .poly", usage->file);
   line.flag("--json", usage->json, "print it as JSON");
   line.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");

@@ -58,7 +58,7 @@ Command declarePlot(CLI::App& root) {
   line.integer("--size", usage->plot.size_px, "PX", PlotOptions::kLeastSize, PlotOptions::kMostSize,
                "longer side of the map");
   line.text("--bbox", usage->bbox, "W,S,E,N", "what to show, in the mesh's CRS; all of it by default");
-  line.choice("--color", usage->color, plotColorNames(), "what the triangles' colour tells");
+  line.choice("--color", usage->color, plotColorNames(), "what the triangles' colour shows");
   line.flag("--edges,!--no-edges", usage->plot.edges, "draw the triangles' edges");
   line.number("--min-angle", usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
               "show triangles with a smaller angle in red");

@@ -88,13 +88,15 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
   if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, isNamed)) {
     throw OptionError("there is no command '" + std::string(argv[1]) + "'; coastmesh --help lists them");
   }
+  std::vector<std::string> former_names;
   try {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const auto command = std::ranges::find_if(commands, isNamed);
     if (command != commands.end()) {
       std::set<std::string> names;
       for (const Command& other : commands) names.insert(other.line.name());
-      arguments = expandConfig({arguments.begin() + 1, arguments.end()}, command->line.jsonUsage(), names);
+      arguments = command->line.withPresentNames(
+          expandConfig({arguments.begin() + 1, arguments.end()}, command->line.jsonUsage(), names), former_names);
       arguments.insert(arguments.begin(), argv[1]);
     }
     std::ranges::reverse(arguments);  // as CLI11 wants them
@@ -111,6 +113,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     requireOutputsApart(command.line);
     Run run{interrupt, {}, {}};
     for (const auto& [option, path] : command.line.inputs()) run.inputs.push_back(path);
+    for (const std::string& sentence : former_names) run.warn(sentence);
     for (const std::string& sentence : command.line.withoutEffect()) run.warn(sentence);
     return command.run(run);
   }

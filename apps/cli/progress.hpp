@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// What --progress shows on stderr: a bar on a terminal, now and then a line in a log; or, on stdout, one JSON object a line:
-// {"phase":"refine","share":0.42}.
+// What --progress shows on stderr: a bar on a terminal, now and then a line in a log; or, on stdout, one JSON object a
+// line: {"phase":"refine","share":0.42}.
 class ProgressDisplay {
  public:
   enum class Style { None, Bar, Log, Json };
@@ -22,8 +22,8 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  // The start and the end of every phase are shown, what lies between at most ten times a second; in a log nothing in the
-  // first ten seconds, and a line every ten seconds from then on.
+  // The start and the end of every phase are shown, what lies between at most ten times a second; in a log nothing in
+  // the first ten seconds, and a line every ten seconds from then on.
   void show(std::string_view phase, double share);
   // Whether nobody reads the JSON lines any more: who asked for the run is gone.
   // May be called from several threads, and often.

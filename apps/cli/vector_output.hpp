@@ -22,7 +22,7 @@ struct VectorLayer {
   enum class Kind { Points, Lines, Polygons, Table };  // a table has no shapes
   std::string name;
   Kind kind = Kind::Points;
-  std::vector<std::pair<std::string, VectorValue>> fields;  // name, and a value that tells the type
+  std::vector<std::pair<std::string, VectorValue>> fields;  // name, and a value that has the type
   std::vector<VectorShape> shapes;
 };
 

@@ -149,7 +149,8 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
     }
     std::ranges::sort(triangles_of[g]);
     GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection);
-    // A vertex that cleaning made has no coordinates of the input to be projected from: its place in the plane is told.
+    // A vertex that cleaning made has no coordinates of the input to be projected from: its place in the plane is
+    // reported.
     for (std::size_t v = 0; v < piece.nodes.size(); ++v) {
       const auto found = vertices.find(grid.nodes[piece.nodes[v]]);
       if (found != vertices.end() && found->second.group == g) {

@@ -34,7 +34,7 @@ Grid partOf(const Grid& grid, const std::vector<std::uint32_t>& nodes, const std
   return part;
 }
 
-// A border between features was a constraint, of which segment cannot be told any more.
+// A border between features was a constraint, of which segment cannot be known any more.
 void markBorders(TriMesh& mesh) {
   constexpr SegmentId kSomeSegment = 0;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
@@ -70,16 +70,16 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
   Grid part = partOf(grid, nodes, triangles);
   std::vector<EdgeConflict> conflicts;
   const TriMesh linked = linkTriangles(part.nodes, part.triangles, conflicts);
-  Coastline rim;
-  rim.crs = grid.crs;
-  rim.features.emplace_back().source = "the mesh";
-  for (const auto& loop : rimLoops(linked)) {
-    Polygon& polygon = rim.features[0].polygons.emplace_back();
+  Coastline outline;
+  outline.crs = grid.crs;
+  outline.features.emplace_back().source = "the mesh";
+  for (const auto& loop : boundaryLoops(linked)) {
+    Polygon& polygon = outline.features[0].polygons.emplace_back();
     for (VertexId v : loop) polygon.outer.push_back(part.nodes[v]);
   }
-  // A broken grid may have no rim at all.
-  if (rim.features[0].polygons.empty()) rim.features[0].polygons.push_back({part.nodes, {}});
-  return Projection::fitted(rim, {0});
+  // A broken grid may have no boundary at all.
+  if (outline.features[0].polygons.empty()) outline.features[0].polygons.push_back({part.nodes, {}});
+  return Projection::fitted(outline, {0});
 }
 
 GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection) {

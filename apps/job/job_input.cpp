@@ -56,8 +56,8 @@ std::vector<Source> sourcesOf(const InputOptions& options) {
   return sources;
 }
 
-// GeoJSON says longitudes and latitudes whatever it holds: where what is to be taken as a plane is none of these, it has
-// no place on Earth, and nor has the mesh.
+// GeoJSON says longitudes and latitudes whatever it holds: where what is to be taken as a plane is none of these, it
+// has no place on Earth, and nor has the mesh.
 void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
   if (!coastline.crs.geographic) return;
   const Feature* odd = nullptr;

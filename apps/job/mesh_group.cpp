@@ -41,7 +41,7 @@ Point centreOf(const Pslg& pslg) {
   return {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
 }
 
-// Least and greatest scale at (a sample of) the points: a scale has its greatest on the rim of what is mapped.
+// Least and greatest scale at (a sample of) the points: a scale has its greatest on the boundary of what is mapped.
 std::pair<double, double> scaleRange(const Domain& domain) {
   constexpr std::size_t kLeastSample = 16, kMostSample = 1024, kPointsForOne = 16;
   const std::size_t count = domain.pslg.points.size();
@@ -105,7 +105,8 @@ MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t b
   return options;
 }
 
-// Where `--size-max` is only a bound there is no map of sizes, but no mesh has fewer vertices than equilateral triangles of that size.
+// Where `--size-max` is only a bound there is no map of sizes, but no mesh has fewer vertices than equilateral
+// triangles of that size.
 void requireMemory(const MeshJob& job, const Domain& domain, const GroupRoom& room, std::optional<double> area_m2) {
   if (job.sizes.any() || !area_m2 || !std::isfinite(job.sizes.most_m)) return;
   // In a plane lengths are in its units, whatever area a CRS would give its coordinates.
@@ -134,18 +135,18 @@ void requireSound(const TriMesh& mesh, const Domain& domain, const Feature& firs
                 dumpRegion(domain.pslg, digestOf(mesh)) + "'");
 }
 
-void placeShortfalls(const RefineStats& stats, const Projection& projection, GroupResult& result) {
+void placeBoundViolations(const RefineStats& stats, const Projection& projection, GroupResult& result) {
   result.unresolved = stats.unresolved.size();
-  const std::size_t listed = std::min(stats.unresolved.size(), kShortfallPlaces);
+  const std::size_t listed = std::min(stats.unresolved.size(), kBoundViolationPlaces);
   for (std::size_t i = 0; i < listed; ++i) {
-    const Shortfall& shortfall = stats.unresolved[i];
+    const BoundViolation& violation = stats.unresolved[i];
     result.unresolved_places.push_back(
-        {projection.inverse(shortfall.place), shortfall.min_angle_deg, shortfall.max_angle_deg});
+        {projection.inverse(violation.place), violation.min_angle_deg, violation.max_angle_deg});
   }
 }
 
-// Triangles in a region belong to a part of their feature that says so. Borders of regions are edges of the mesh, so that
-// each triangle lies in one as a whole; of several regions the first counts.
+// Triangles in a region belong to a part of their feature that says so. Borders of regions are edges of the mesh, so
+// that each triangle lies in one as a whole; of several regions the first counts.
 void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
                  TriMesh& mesh, Coastline& names) {
   std::vector<std::pair<std::size_t, ChainIndex>> regions;
@@ -212,8 +213,8 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
   return grid;
 }
 
-// Sizes of shores that are dropped or closed would stay behind: they are made again from what is left, and where they are other ones at
-// the shore then, it follows them anew. `sized` is replaced.
+// Sizes of shores that are dropped or closed would stay behind: they are made again from what is left, and where they
+// are other ones at the shore then, it follows them anew. `sized` is replaced.
 template <typename MakeSizes>
 Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
                    const ShoreGuides& guides, const Coastline& coastline, CleanReport& report) {
@@ -293,7 +294,7 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   MeshedRegion region = meshRegion(domain.pslg, options, control);
   result.mesh_s = region.seconds;
   result.refine = std::move(region.stats);
-  placeShortfalls(result.refine, domain.projection, result);
+  placeBoundViolations(result.refine, domain.projection, result);
   result.refine.unresolved = {};
 
   result.pieces = region.pieces;
@@ -311,7 +312,7 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   std::vector<double> size_m;
   if (size) {
     const auto scale = [&](const Point& x) { return domain.projection.scaleAt(x); };
-    size_m = nodeSizes(region.mesh, *size, job.sizes.grade, scale);
+    size_m = nodeSizes(region.mesh, *size, job.sizes.gradation, scale);
   }
   result.grid = groupGrid(input, group, domain, region.mesh, size ? &size_m : nullptr, loop("grid"));
   result.grid.piece_of = std::move(region.piece_of);

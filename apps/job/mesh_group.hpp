@@ -14,7 +14,7 @@ struct GroupResult {
   double least_scale = 1.0, greatest_scale = 1.0;  // plane length over true length, at the vertices
   RefineStats refine;
   std::uint64_t unresolved = 0;
-  std::vector<ShortfallPlace> unresolved_places;
+  std::vector<BoundViolationPlace> unresolved_places;
   MeshQuality quality;
   std::optional<double> input_area_m2;
   std::uint64_t digest = 0;
@@ -39,8 +39,8 @@ struct GroupRoom {
   double memory = 0.0;         // bytes
 };
 
-// Projects, cleans, meshes and checks a group. What cannot be meshed is told in `refusal`: so is that its sizes ask for clearly more
-// than there is room for, before that is taken. Throws Cancelled, BadMesh.
+// Projects, cleans, meshes and checks a group. What cannot be meshed is reported in `refusal`: so is that its sizes ask
+// for clearly more than there is room for, before that is taken. Throws Cancelled, BadMesh.
 GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
                       const GroupRoom& room, const RunControl& control);
 

@@ -106,8 +106,8 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   result.greatest_scale = std::max(result.greatest_scale, part.greatest_scale);
   result.refine.add(part.refine);
   result.unresolved += part.unresolved;
-  for (const ShortfallPlace& place : part.unresolved_places) {
-    if (result.unresolved_places.size() < kShortfallPlaces) result.unresolved_places.push_back(place);
+  for (const BoundViolationPlace& place : part.unresolved_places) {
+    if (result.unresolved_places.size() < kBoundViolationPlaces) result.unresolved_places.push_back(place);
   }
   result.quality.add(part.quality);
   if (part.input_area_m2) result.input_area_m2 = result.input_area_m2.value_or(0.0) + *part.input_area_m2;
@@ -115,7 +115,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   result.seconds.triangulate += part.mesh_s.triangulate;
   result.seconds.size += part.size_s;
   result.seconds.refine += part.mesh_s.refine;
-  result.seconds.shrink += part.mesh_s.shrink;
+  result.seconds.coarsen += part.mesh_s.coarsen;
   result.seconds.optimise += part.mesh_s.optimise;
   result.seconds.stitch += part.mesh_s.stitch;
   result.seconds.check += part.check_s;
@@ -185,7 +185,7 @@ void measureAgain(const MeshJob& job, MeshJobResult& result) {
 void findTurned(MeshJobResult& result) {
   for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2)) {
     ++result.turned;
-    if (result.turned_places.size() < kShortfallPlaces) result.turned_places.push_back(middleOf(result.grid, t));
+    if (result.turned_places.size() < kBoundViolationPlaces) result.turned_places.push_back(middleOf(result.grid, t));
   }
 }
 

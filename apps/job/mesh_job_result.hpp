@@ -31,12 +31,12 @@ struct Refusal {
 };
 
 // A triangle short of the bounds that no input angle explains.
-struct ShortfallPlace {
+struct BoundViolationPlace {
   Point place;  // in the input's CRS
   double min_angle_deg = 0.0;
   double max_angle_deg = 0.0;
 };
-inline constexpr std::size_t kShortfallPlaces = 1000;  // those past it are counted, not listed
+inline constexpr std::size_t kBoundViolationPlaces = 1000;  // those past it are counted, not listed
 
 // Seconds by the clock; all but read, finish, write and total are summed over groups, several of which may be meshed at
 // once.
@@ -46,7 +46,7 @@ struct PhaseSeconds {
   double size = 0.0;
   double triangulate = 0.0;
   double refine = 0.0;
-  double shrink = 0.0;
+  double coarsen = 0.0;
   double optimise = 0.0;
   double stitch = 0.0;
   double check = 0.0;
@@ -70,9 +70,9 @@ struct MeshJobResult {
   double estimated_vertices = 0.0;  // from the sizes asked for, of what was refused too; 0 where there are none
   RefineStats refine;               // `unresolved` is empty: see below
   std::uint64_t unresolved = 0;
-  std::vector<ShortfallPlace> unresolved_places;  // the first kShortfallPlaces of them
+  std::vector<BoundViolationPlace> unresolved_places;  // the first kBoundViolationPlaces of them
   std::uint64_t turned = 0;          // triangles that are not counter-clockwise on the ground: see `turnedTriangles`
-  std::vector<Point> turned_places;  // the first kShortfallPlaces of them, in the input's CRS
+  std::vector<Point> turned_places;  // the first kBoundViolationPlaces of them, in the input's CRS
   std::vector<Refusal> refusals;
   std::string last_unwanted;  // why a group was passed over that lies outside of what was asked for
   MeshQuality quality;

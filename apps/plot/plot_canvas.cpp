@@ -73,7 +73,7 @@ void PlotCanvas::fillTriangle(const std::array<Point, 3>& corners, const Color& 
   cairo_line_to(context, corners[1].x, corners[1].y);
   cairo_line_to(context, corners[2].x, corners[2].y);
   cairo_close_path(context);
-  // A viewer smooths the rims of neighbours one by one; a hairline of the same colour closes the gap.
+  // A viewer smooths the edges of neighbours one by one; a hairline of the same colour closes the gap.
   cairo_fill_preserve(context);
   cairo_set_line_width(context, 0.3);
   cairo_stroke(context);

@@ -46,7 +46,8 @@ class PlotCanvas {
   void clipToMap();
   void unclip();
 
-  // What is drawn in between comes as pixels into a vector drawing too: for more areas and lines than a viewer can bear.
+  // What is drawn in between comes as pixels into a vector drawing too: for more areas and lines than a viewer can
+  // bear.
   void beginPixels();
   void endPixels();
 

@@ -199,7 +199,7 @@ class MeshPlot {
   Color edgeColor() const { return options_.color == PlotColor::None ? kEdge : kEdgeOnColor; }
 
   void drawWater() {
-    for (const auto& loop : rimLoops(mesh_)) {
+    for (const auto& loop : boundaryLoops(mesh_)) {
       std::vector<Point>& drawn = loops_.emplace_back();
       for (VertexId v : loop) drawn.push_back(pixels_[v]);
     }
@@ -297,7 +297,7 @@ class MeshPlot {
     }
   }
 
-  // The range that colours tell: of the triangles shown, less the few smallest.
+  // The range that colours show: of the triangles shown, less the few smallest.
   void findAreas() {
     std::vector<double> shown;
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
@@ -401,7 +401,7 @@ class MeshPlot {
     return static_cast<int>(std::clamp(extent.longerSide() / 2.0, 1.0, 8.0));
   }
 
-  // A bad triangle of a pixel would go unseen: a circle tells where it is.
+  // A bad triangle of a pixel would go unseen: a circle shows where it is.
   void markBad() {
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       if (!isBad(t) || longestEdgePx(t) > 8.0 || !shows(t)) continue;
@@ -488,7 +488,7 @@ class MeshPlot {
   const PlotOptions& options_;
   PlotCanvas canvas_;
   std::vector<Point> pixels_;              // one a point of the mesh
-  std::vector<std::vector<Point>> loops_;  // the rim
+  std::vector<std::vector<Point>> loops_;  // the boundary
   Point centre_;                           // of the window, in the plane
   double least_log_area_ = 0.0;
   double most_log_area_ = 0.0;

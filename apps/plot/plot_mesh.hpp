@@ -28,8 +28,8 @@ struct PlotOptions {
 };
 
 // Draws the grid in a conformal plane fitted to it, with a scale bar, as .svg or .png by the ending of `path`. Throws
-// OutputError, InputError where the box holds nothing of the plane or the mesh has no depths to show, OptionError where it
-// does not say its pieces.
+// OutputError, InputError where the box holds nothing of the plane or the mesh has no depths to show, OptionError where
+// it does not say its pieces.
 void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path);
 
 // Throws OutputError where `path` ends neither in .svg nor in .png.

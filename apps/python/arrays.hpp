@@ -18,7 +18,8 @@ pybind11::array viewOf(const T* data, std::vector<pybind11::ssize_t> shape, cons
   return array;
 }
 
-// What came from a file or the system, not of Python's own making, as a str: bytes that are no UTF-8 as os.fsdecode has them.
+// What came from a file or the system, not of Python's own making, as a str: bytes that are no UTF-8 as os.fsdecode has
+// them.
 inline pybind11::str textOf(const std::string& text) {
   PyObject* made = PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<Py_ssize_t>(text.size()));
   if (made == nullptr) throw pybind11::error_already_set();

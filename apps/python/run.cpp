@@ -28,7 +28,7 @@ namespace {
 
 constexpr auto kPollEvery = std::chrono::milliseconds(50);  // how long a Ctrl-C or a progress call may wait
 
-// The job on a thread of its own, and what it tells.
+// The job on a thread of its own, and what it reports.
 class Background {
  public:
   explicit Background(const MeshJob& job) : thread_([this, &job] { work(job); }) {}
@@ -45,7 +45,7 @@ class Background {
     return ended_changed_.wait_for(lock, kPollEvery, [this] { return ended_; });
   }
 
-  // The last phase and share told; false where nothing new was.
+  // The last phase and share reported; false where nothing new was.
   bool takeProgress(std::string& phase, double& share) {
     const std::lock_guard lock(mutex_);
     phase = phase_;
@@ -135,7 +135,7 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
 
 MeshJobResult runInBackground(const MeshJob& job, const py::object& progress) {
   Background background(job);
-  const auto tell = [&] {
+  const auto reportProgress = [&] {
     std::string phase;
     double share = 0.0;
     if (!progress.is_none() && background.takeProgress(phase, share)) progress(phase, share);
@@ -148,7 +148,7 @@ MeshJobResult runInBackground(const MeshJob& job, const py::object& progress) {
       ended = background.wait();
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    tell();
+    reportProgress();
   }
   return background.take();
 }
@@ -176,9 +176,10 @@ MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::st
   // What the command line insists on; neither is used. A mesh in memory holds what UGRID can.
   arguments.insert(arguments.begin(), {"mesh", "--output=none.nc"});
   arguments.emplace_back("none");
-  parse(app, std::move(arguments));
+  std::vector<std::string> warnings;
+  parse(app, line.withPresentNames(std::move(arguments), warnings));
   settle(usage);
-  std::vector<std::string> warnings = line.withoutEffect();
+  std::ranges::move(line.withoutEffect(), std::back_inserter(warnings));
   std::optional<MemoryFile> geojson;
   if (text) {
     geojson.emplace(std::move(*text));

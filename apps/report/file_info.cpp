@@ -28,7 +28,7 @@ class ExtentOf {
   bool any_ = false;
 };
 
-// The shortest and the longest of the edges told. Geodesics are slow, so edges are compared by their length on a
+// The shortest and the longest of the edges given. Geodesics are slow, so edges are compared by their length on a
 // sphere, and only the two found are measured.
 class ExtremeEdges {
  public:

@@ -39,11 +39,11 @@ const char* yName(const Crs& crs) { return crs.geographic ? "lat" : "y"; }
 
 Json unresolvedSection(const MeshJobResult& result) {
   Json places = Json::array();
-  for (const ShortfallPlace& shortfall : result.unresolved_places) {
-    places.push_back({{xName(result.crs), shortfall.place.x},
-                      {yName(result.crs), shortfall.place.y},
-                      {"min_angle_deg", shortfall.min_angle_deg},
-                      {"max_angle_deg", shortfall.max_angle_deg}});
+  for (const BoundViolationPlace& violation : result.unresolved_places) {
+    places.push_back({{xName(result.crs), violation.place.x},
+                      {yName(result.crs), violation.place.y},
+                      {"min_angle_deg", violation.min_angle_deg},
+                      {"max_angle_deg", violation.max_angle_deg}});
   }
   return {{"count", result.unresolved}, {"places", std::move(places)}};
 }
@@ -56,9 +56,10 @@ Json refineSection(const MeshJob& job, const MeshJobResult& result) {
           {"max_angle_deg", options.max_angle_deg},
           {"size_max_m", finiteOrNull(job.sizes.most_m)},
           {"sized", job.sizes.any()},
-          {"grade", job.sizes.grade},
+          {"grade", job.sizes.gradation},
           {"estimated_vertices", job.sizes.any() ? finiteOrNull(std::round(result.estimated_vertices)) : Json(nullptr)},
-          {"shrink", job.mesh.shrink},
+          {"coarsen", job.mesh.coarsen},
+          {"shrink", job.mesh.coarsen},  // deprecated: the former name of `coarsen`
           {"smooth", job.mesh.smooth},
           {"steiner_points", stats.steiner_points},
           {"by_type",
@@ -110,10 +111,11 @@ Json lineSection(const Grid& grid) {
 Json timeSection(const PhaseSeconds& seconds) {
   return {{"read", seconds.read},         {"clean", seconds.clean},
           {"size", seconds.size},         {"triangulate", seconds.triangulate},
-          {"refine", seconds.refine},     {"shrink", seconds.shrink},
+          {"refine", seconds.refine},     {"coarsen", seconds.coarsen},
           {"optimise", seconds.optimise}, {"stitch", seconds.stitch},
           {"check", seconds.check},       {"finish", seconds.finish},
-          {"write", seconds.write},       {"total", seconds.total}};
+          {"write", seconds.write},       {"total", seconds.total},
+          {"shrink", seconds.coarsen}};  // deprecated: the former name of `coarsen`
 }
 
 // What more cores would give.
@@ -138,12 +140,12 @@ Json parallelSection(const WorkLog& log) {
                       {"longest_s", longest}});
     constexpr std::size_t kMostListed = 1000;
     const bool listed =
-        stage.name == "refine" || stage.name == "shrink" || stage.name == "optimise" || stage.name == "regions";
+        stage.name == "refine" || stage.name == "coarsen" || stage.name == "optimise" || stage.name == "regions";
     if (listed && stage.items.size() <= kMostListed) stages.back()["item_s"] = stage.items;
   }
   Json section = speedupSection(log);
   section["meshing"] = speedupSection(
-      log.only({"triangulate", "cut", "refine", "stitch", "shrink", "optimise", "rest", "label", "regions"}));
+      log.only({"triangulate", "cut", "refine", "stitch", "coarsen", "optimise", "rest", "label", "regions"}));
   section["stages"] = std::move(stages);
   return section;
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -32,7 +33,7 @@ std::string rangeText(const NumberRange& range) {
   return {};
 }
 
-// "--shrink,!--no-shrink" as the names that a user may type.
+// "--coarsen,!--no-coarsen" as the names that a user may type.
 std::vector<std::string> splitNames(const std::string& names) {
   std::vector<std::string> parts;
   for (std::string name : CLI::detail::split(names, ',')) {
@@ -63,7 +64,7 @@ bool isFile(const std::string& unit) { return unit == "FILE" || unit.starts_with
 bool isInput(const std::string& unit) { return isFile(unit) && unit != kOutputFile; }
 std::string shownUnit(const std::string& unit) { return isFile(unit) ? "FILE" : unit; }
 
-// CLI11 shows "--shrink,--no-shrink{false}"; which of the two is on is said in the description.
+// CLI11 shows "--coarsen,--no-coarsen{false}"; which of the two is on is said in the description.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
@@ -208,6 +209,14 @@ const CommandLine::Option& CommandLine::Option::ignoredWith(std::vector<std::str
   for (const std::string& other : others) {
     needs([impl, other] { return !impl->fulfilled(other); }, "with " + other);
   }
+  return *this;
+}
+
+const CommandLine::Option& CommandLine::Option::formerly(const std::vector<std::string>& names) const {
+  Json& entry = line_->impl_->entryOf(name_);
+  if (names.size() != entry["names"].size())
+    throw std::logic_error(name_ + " does not have as many former names as names");
+  for (std::size_t i = 0; i < names.size(); ++i) entry["former_names"][names[i]] = entry["names"][i];
   return *this;
 }
 
@@ -370,6 +379,24 @@ void CommandLine::example(const std::string& command, const std::string& help) {
 const std::string& CommandLine::name() const { return impl_->app->get_name(); }
 
 bool CommandLine::chosen() const { return impl_->app->parsed(); }
+
+std::vector<std::string> CommandLine::withPresentNames(std::vector<std::string> arguments,
+                                                       std::vector<std::string>& warnings) const {
+  std::map<std::string, std::string> present;
+  for (const Json& option : impl_->options)
+    if (option.contains("former_names"))
+      for (const auto& [former, name] : option["former_names"].items()) present.emplace(former, name);
+  for (std::string& argument : arguments) {
+    if (argument == "--") break;  // only arguments follow
+    const std::size_t sign = std::min(argument.find('='), argument.size());
+    const auto found = present.find(argument.substr(0, sign));
+    if (found == present.end()) continue;
+    warnings.push_back(found->first + " is called " + found->second +
+                       " now; the next version will not take the former name");
+    argument.replace(0, sign, found->second);
+  }
+  return arguments;
+}
 
 std::vector<CommandLine::NamedFile> CommandLine::inputs() const {
   std::vector<NamedFile> all;

@@ -52,6 +52,8 @@ class CommandLine {
     const Option& ignoredWith(std::vector<std::string> others) const;
     // It has an effect only where `holds`, once parsed, says so; `else_text` follows "has no effect ".
     const Option& needs(std::function<bool()> holds, const std::string& else_text) const;
+    // What its names were called in the last version, in the same order: see `withPresentNames`.
+    const Option& formerly(const std::vector<std::string>& names) const;
 
    private:
     friend class CommandLine;
@@ -60,7 +62,7 @@ class CommandLine {
     std::string name_;
   };
 
-  // Arguments told by their place. Names are as the help shows them: "INPUT".
+  // Arguments known by their place. Names are as the help shows them: "INPUT".
   void argument(const std::string& name, std::string& value, const std::string& help);
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
 
@@ -84,7 +86,7 @@ class CommandLine {
   // The same for a value that is no text: `store` takes the user's choice.
   Option choice(const std::string& names, const std::string& initial, const std::vector<std::string>& choices,
                 const std::function<void(const std::string&)>& store, const std::string& help);
-  // "--shrink,!--no-shrink" declares a flag and its opposite.
+  // "--coarsen,!--no-coarsen" declares a flag and its opposite.
   Option flag(const std::string& names, bool& value, const std::string& help, bool* given = nullptr);
 
   // One that is declared already, by its longest name.
@@ -108,6 +110,11 @@ class CommandLine {
 
   const std::string& name() const;
   bool chosen() const;  // whether this command is the one that was called
+
+  // What follows the command's name, with options that go by a former name called as they are now, to be parsed; a
+  // sentence for each goes to `warnings`.
+  std::vector<std::string> withPresentNames(std::vector<std::string> arguments,
+                                            std::vector<std::string>& warnings) const;
 
   // Once parsed: the files to read that arguments and options name, whichever they are, and those to write. Throws
   // OptionError for "-" where standard output is not allowed, and what `FilesOf` throws.

@@ -21,12 +21,18 @@ class Options {
 
   std::string command() const { return usage_["command"]; }
 
-  // By any of its names, with dashes.
+  // By any of its names, former ones too, with dashes.
   const Json* find(const std::string& name) const {
-    for (const Json& option : usage_["options"])
+    for (const Json& option : usage_["options"]) {
+      if (isFormer(option, name)) return &option;
       for (const Json& other : option["names"])
         if (other == name) return &option;
+    }
     return nullptr;
+  }
+
+  static bool isFormer(const Json& option, const std::string& name) {
+    return option.contains("former_names") && option["former_names"].contains(name);
   }
 
   bool isArgument(std::string name) const {
@@ -67,15 +73,19 @@ std::set<std::string> givenOnes(const std::vector<std::string>& arguments, const
   return given;
 }
 
-// The switch that `name` and `value` ask for: "no-shrink" and "true" are "--no-shrink". Empty: it is off already.
+// The switch that `name` and `value` ask for: "no-coarsen" and "true" are "--no-coarsen". Empty: it is off already.
 std::string flagFor(const Json& option, const std::string& name, const std::string& value, const std::string& where) {
   if (value != "true" && value != "false") throw OptionError(where + " is a switch: say true or false");
   const bool on = (value == "true") != name.starts_with("no-");
-  for (const Json& known : option["names"]) {
-    const std::string text = known;
-    if (text.starts_with("--no-") != on) return text;
+  // A former name stays one: whoever parses the arguments warns of it.
+  std::vector<std::string> names;
+  if (Options::isFormer(option, "--" + name)) {
+    for (const auto& former : option["former_names"].items()) names.push_back(former.key());
+  } else {
+    names = option["names"];
   }
-  return {};
+  const auto wanted = std::ranges::find_if(names, [on](const auto& text) { return text.starts_with("--no-") != on; });
+  return wanted == names.end() ? std::string{} : *wanted;
 }
 
 // The values as the command line would have them: a list for an option that takes several, and for one that takes

@@ -38,7 +38,7 @@ void declareFinishOptions(CommandLine& line, FinishOptions& options) {
     line.choice(
         "--depth-sign", "up", {"up", "down"},
         [&depth](const std::string& chosen) { depth.positive_down = chosen == "down"; },
-        "whether the rasters tell elevations (positive up) or depths (positive down)");
+        "whether the rasters hold elevations (positive up) or depths (positive down)");
     line.number("--water-level", depth.water_level_m, "M", {-kInfinity, kInfinity},
                 "height of the still water above the rasters' zero, which depths are counted from");
     line.number("--min-depth", depth.min_depth_m, "M", {-kInfinity, kInfinity},
@@ -49,9 +49,10 @@ void declareFinishOptions(CommandLine& line, FinishOptions& options) {
         "node, or none");
   });
   BoundaryOptions& boundaries = options.boundaries;
-  line.texts("--boundaries", boundaries.files, kVectorFile, false,
-             "polygons, or lines along the shore, whose column says what the rim is there: land, open or river, or a "
-             "number of ADCIRC's; repeat it for several, the last counts");
+  line.texts(
+      "--boundaries", boundaries.files, kVectorFile, false,
+      "polygons, or lines along the shore, whose column says what the boundary is there: land, open or river, or a "
+      "number of ADCIRC's; repeat it for several, the last counts");
   line.text(
       "--boundary-column", boundaries.column, "NAME",
       "the column with the types of boundaries, in INPUT too where it is given; else the first called type, role, "

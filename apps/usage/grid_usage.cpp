@@ -7,7 +7,7 @@ namespace coastmesh {
 void declareGridOutputs(CommandLine& line, std::vector<std::string>& outputs, std::string& format) {
   const auto files = [&format](const std::string& path) { return filesOf(gridFormatFor(path, format), path); };
   line.outputs("-o,--output", outputs, {.required = true, .files = files}, "mesh to write; repeat it for several");
-  line.text("--format", format, "NAME", "format of the output, where its ending does not tell");
+  line.text("--format", format, "NAME", "format of the output, where its ending does not say");
 }
 
 }  // namespace coastmesh

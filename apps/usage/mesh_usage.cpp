@@ -31,9 +31,10 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   line.number("--max-angle", max_angle, "DEG", {60.0, 180.0}, "largest angle asked for; 180 sets no bound");
   line.choice("--algorithm", usage.algorithm, {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)},
               "where the points go that mend bad triangles");
-  line.flag("--shrink,!--no-shrink", usage.job.mesh.shrink,
+  line.flag("--coarsen,!--no-coarsen", usage.job.mesh.coarsen,
             "take out vertices that the bounds do not need; the algorithms other than relocate do so only when asked",
-            &usage.shrink_given);
+            &usage.coarsen_given)
+      .formerly({"--shrink", "--no-shrink"});
   declareSizing(line, usage.job.sizes, usage.sizing);
   line.flag("--smooth,!--no-smooth", usage.job.mesh.smooth,
             "optimise the shapes of triangles for longer; where no sizes are asked for, at all");
@@ -76,7 +77,7 @@ void settle(MeshUsage& usage) {
   settleSizing(usage.sizing, usage.job.finish.depth, framed && !usage.job.finish.targets.empty(), usage.job.sizes);
   usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
   // The classical algorithms are there to compare with: they insert what their papers say.
-  if (!usage.shrink_given) usage.job.mesh.shrink = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
+  if (!usage.coarsen_given) usage.job.mesh.coarsen = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
   if (!usage.job.finish.boundaries.column.empty()) usage.job.finish.boundaries.inputs = usage.job.input.files;
   usage.job.mesh.one_piece = !usage.cut;
   usage.job.parallel.threads = static_cast<int>(usage.threads);

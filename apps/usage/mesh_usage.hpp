@@ -10,14 +10,14 @@
 
 namespace coastmesh {
 
-// What `coastmesh mesh` is told.
+// What `coastmesh mesh` is given.
 struct MeshUsage {
   MeshJob job;
   std::vector<std::string> outputs;
   std::string format;
   SizingUsage sizing;
   std::string algorithm = "relocate";
-  bool shrink_given = false;
+  bool coarsen_given = false;
   bool cut = true;
   std::uint64_t threads = 0;
   std::string report;

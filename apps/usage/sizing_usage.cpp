@@ -47,12 +47,12 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
   line.number("--size", sizes.size_m, "M", kAboveZero,
               "length that edges should have everywhere, where nothing else asks for less");
   line.number("--size-min", sizes.least_m, "M", kNotNegative,
-              "no size is less; edges shorter than it are told, with exit code 1 where --coast follow leaves one "
+              "no size is less; edges shorter than it are reported, with exit code 1 where --coast follow leaves one "
               "shorter than half")
       .needs(kSizes);
   line.number("--size-max", sizes.most_m, "M", kAboveZero,
               "no size is more; given without any other size, no edge is longer");
-  line.number("--grade", sizes.grade, "G", {0.0, 1.0, true},
+  line.number("--grade", sizes.gradation, "G", {0.0, 1.0, true},
               "sizes at two places differ by at most this times their distance", &usage.grade_given)
       .needs(kSizes);
   line.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
@@ -112,7 +112,7 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
       .needs({"--coast follow"});
   line.texts("--passages", sizes.passages, kVectorFile, false,
              "with --coast follow: lines along which water stays open, made as wide as --passage-elements where it is "
-             "narrower; their attribute 'name' is told")
+             "narrower; their attribute 'name' is reported")
       .needs({"--coast follow"});
   line.number("--passage-elements", sizes.passage_elements, "N", {0.5, 100.0}, "elements across passages")
       .needs({"--passages"});
@@ -121,7 +121,7 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
       .needs({"--coast follow"});
   line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
               "no element smaller than the Courant number allows with this time step; triangles in which it does not "
-              "hold are told, with exit code 1; 0 asks for none");
+              "hold are reported, with exit code 1; 0 asks for none");
   line.number(
           "--courant", sizes.courant, "C", {1e-3, 1e3},
           "largest Courant number: sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the "
@@ -137,9 +137,9 @@ void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may
   sizes.depth.bands.clear();
   for (const std::string& band : usage.bands) sizes.depth.bands.push_back(parseBand(band));
   if (may_choose && !depths.files.empty() && !sizes.any() && sizes.most_m == SizeOptions::kNone) {
-    constexpr double kGrade = 0.2, kWaveElements = 100.0, kTimeStep = 5.0;
+    constexpr double kGradation = 0.2, kWaveElements = 100.0, kTimeStep = 5.0;
     sizes.choose = true;
-    sizes.grade = usage.grade_given ? sizes.grade : kGrade;
+    sizes.gradation = usage.grade_given ? sizes.gradation : kGradation;
     sizes.depth.wave_elements = kWaveElements;
     if (sizes.time_step_s == 0.0) sizes.time_step_s = kTimeStep;
     if (!usage.coast_given) sizes.coast = CoastDetail::Follow;

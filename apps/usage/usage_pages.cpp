@@ -175,6 +175,14 @@ std::string cell(std::string text) {
   return text;
 }
 
+std::string formerly(const Json& option) {
+  if (!option.contains("former_names")) return {};
+  std::string names;
+  for (const auto& [former, present] : option["former_names"].items())
+    names += (names.empty() ? "`" : ", `") + former + "`";
+  return "; formerly " + names + ", deprecated: taken with a warning in this version, not in the next";
+}
+
 std::string markdown(const Json& usage) {
   std::string page =
       "# Every command and option\nMade from the program's own table by `coastmesh --usage-as markdown`; do not "
@@ -192,7 +200,7 @@ std::string markdown(const Json& usage) {
     for (const Json& option : command["options"]) {
       const std::string required = option.value("required", false) ? "required" : defaultOf(option);
       page += "| " + cell("`" + joined(option["names"], "`, `") + "`") + " | " + cell(valueOf(option)) + " | " +
-              cell(rangeOf(option)) + " | " + cell(required) + " | " + cell(option["help"]) + " |\n";
+              cell(rangeOf(option)) + " | " + cell(required) + " | " + cell(option["help"]) + formerly(option) + " |\n";
     }
   }
   page += "\n## Formats of meshes\n| name | endings | | read | written |\n|---|---|---|---|---|\n";

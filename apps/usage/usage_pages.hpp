@@ -5,8 +5,8 @@
 
 namespace coastmesh {
 
-// The forms in which the program's usage can be had, for manuals and shells: "man", "man:VERB", "markdown", "bash", "zsh",
-// "fish".
+// The forms in which the program's usage can be had, for manuals and shells: "man", "man:VERB", "markdown", "bash",
+// "zsh", "fish".
 std::vector<std::string> usageForms(const std::string& usage_json);
 
 // The whole usage, as `coastmesh --json-usage` prints it, in one of these forms. Throws OptionError for another.

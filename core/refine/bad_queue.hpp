@@ -11,7 +11,8 @@
 
 namespace coastmesh {
 
-// A bad triangle that waits. It carries its corners, so that it is known to be stale once the slot holds another triangle.
+// A bad triangle that waits. It carries its corners, so that it is known to be stale once the slot holds another
+// triangle.
 struct BadTriangle {
   TriId triangle = kNone;
   Corners corners{};

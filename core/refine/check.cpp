@@ -6,8 +6,8 @@
 
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "core/refine/bound_violations.hpp"
 #include "core/refine/check_input.hpp"
-#include "core/refine/shortfalls.hpp"
 
 namespace coastmesh {
 
@@ -67,7 +67,7 @@ void checkOrientation(const TriMesh& mesh, const ItemLoop& loop, Defects& defect
   });
 }
 
-// A vertex has more than one fan where more rim edges leave it than one, or one fan and others that close.
+// A vertex has more than one fan where more boundary edges leave it than one, or one fan and others that close.
 void checkPinches(const TriMesh& mesh, std::vector<MeshDefect>& defects) {
   const std::vector<EdgeRef> out = outgoingEdges(mesh);
   std::vector<std::uint32_t> triangles_at(mesh.points.size(), 0);
@@ -110,15 +110,15 @@ void checkUnused(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
 }
 
 BoundCounts checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
-  // The refinement aims a hair above the bound; here the bound itself counts. Corners are the same
-  // in both: one of exactly the bound cannot be divided at a hair above it.
+  // The refinement aims slightly above the bound; here the bound itself counts. Corners are the same in both: one of
+  // exactly the bound cannot be divided at slightly more.
   constexpr double kHair = 2.0 * TriangleBound::kMarginDeg;
   constexpr double kAnySize = std::numeric_limits<double>::infinity();
   const double least = options.min_angle_deg, most = options.max_angle_deg;
   const TriangleBound asked(std::max(0.0, least - kHair), std::min(180.0, most + kHair), kAnySize);
   const TriangleBound in_reach(least, most, kAnySize);
   const BoundJudgement judgement = judgeBounds(mesh, asked, in_reach, loop);
-  for (const Shortfall& s : judgement.unresolved)
+  for (const BoundViolation& s : judgement.unresolved)
     defects.push_back({DefectKind::AngleBelowBound, s.place, kNone, s.min_angle_deg});
   return judgement.counts;
 }
@@ -132,7 +132,7 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
   BoundCounts& counts = bounds != nullptr ? *bounds : ignored;
   counts = {};
   checkTopology(mesh, loop, defects);
-  if (!defects.empty()) return defects;  // nothing else can be told of a mesh that does not hold together
+  if (!defects.empty()) return defects;  // nothing else can be said of a mesh that does not hold together
   checkOrientation(mesh, loop, defects);
   checkUnused(mesh, loop, defects);
   if (options.pinches) checkPinches(mesh, defects);

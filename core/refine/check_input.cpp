@@ -76,25 +76,26 @@ Expected expectFromTriangulation(const Pslg& pslg) {
   return expected;
 }
 
-// How much area points on the rim may have moved it by, rounded as they are to the last place of a coordinate.
-double roundingOfRim(const TriMesh& mesh, const ItemLoop& loop) {
+// How much area points on the boundary may have moved it by, rounded as they are to the last place of a coordinate.
+double roundingOfBoundary(const TriMesh& mesh, const ItemLoop& loop) {
   constexpr double kPlaces = 4.0;
-  struct Rim {
+  struct BoundaryExtent {
     double magnitude = 0.0;
     double length = 0.0;
   };
-  Rim whole;
-  for (const Rim& part : overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-         Rim rim;
+  BoundaryExtent whole;
+  for (const BoundaryExtent& part :
+       overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+         BoundaryExtent boundary;
          for (const Triangle& t : std::span(mesh.triangles).subspan(first, last - first)) {
            for (unsigned i = 0; i < 3; ++i) {
              if (t.adj[i] != kNone) continue;
              const Point &a = mesh.points[t.v[next3(i)]], &b = mesh.points[t.v[prev3(i)]];
-             rim.magnitude = std::max({rim.magnitude, std::abs(a.x), std::abs(a.y)});
-             rim.length += distance(a, b);
+             boundary.magnitude = std::max({boundary.magnitude, std::abs(a.x), std::abs(a.y)});
+             boundary.length += distance(a, b);
            }
          }
-         return rim;
+         return boundary;
        })) {
     whole.magnitude = std::max(whole.magnitude, part.magnitude);
     whole.length += part.length;
@@ -105,7 +106,7 @@ double roundingOfRim(const TriMesh& mesh, const ItemLoop& loop) {
 void checkArea(const TriMesh& mesh, double expected, double tolerance, const ItemLoop& loop,
                std::vector<MeshDefect>& defects) {
   const double difference = std::abs(totalArea(mesh, loop) - expected);
-  if (difference <= tolerance * expected + roundingOfRim(mesh, loop)) return;
+  if (difference <= tolerance * expected + roundingOfBoundary(mesh, loop)) return;
   const double error = difference / expected;
   defects.push_back({DefectKind::WrongArea, mesh.points.empty() ? Point{} : mesh.points.front(), kNone, error});
 }

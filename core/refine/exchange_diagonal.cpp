@@ -70,8 +70,9 @@ bool DiagonalExchange::isDelaunay() const {
     for (unsigned k = 0; k < 3; ++k) {
       const VertexId a = fresh_[i][k], b = fresh_[i][next3(k)];
       const Point pa = placeOf(a), pb = placeOf(b), pc = placeOf(fresh_[i][prev3(k)]);
-      const auto outer = std::ranges::find_if(patch_.rim, [&](const RimEdge& r) { return r.a == a && r.b == b; });
-      if (outer != patch_.rim.end()) {
+      const auto outer =
+          std::ranges::find_if(patch_.boundary, [&](const BoundaryEdge& r) { return r.a == a && r.b == b; });
+      if (outer != patch_.boundary.end()) {
         if (outer->seg != kNone || outer->beyond == kNone) continue;
         if (inCircle(pa, pb, pc, mesh_.point(mesh_.apex(outer->beyond))) > 0) return false;
         continue;
@@ -88,7 +89,8 @@ bool DiagonalExchange::isDelaunay() const {
 bool DiagonalExchange::tryExchange(VertexId v, VertexId w, VertexId c, VertexId d, std::vector<TriId>& touched) {
   const std::array<VertexId, 4> corners{v, w, c, d};
   if (!mesh_.gatherPatch(corners, patch_)) return false;
-  if (std::ranges::any_of(patch_.rim, [&](const RimEdge& r) { return r.seg == kFrozen || ops_.isBadBeyond(r.beyond); }))
+  if (std::ranges::any_of(patch_.boundary,
+                          [&](const BoundaryEdge& r) { return r.seg == kFrozen || ops_.isBadBeyond(r.beyond); }))
     return false;
   for (std::size_t i = 0; i < corners.size(); ++i) moved_[i] = {corners[i], mesh_.point(corners[i])};
   fresh_.clear();

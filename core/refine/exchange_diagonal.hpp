@@ -10,17 +10,18 @@
 
 namespace coastmesh {
 
-// Exchanges the diagonal of two triangles where a Delaunay triangulation of the points as they lie has the other one: moves the four
-// corners as well, to where it is Delaunay. That takes away two pairs of vertices with five and seven neighbours at once.
+// Exchanges the diagonal of two triangles where a Delaunay triangulation of the points as they lie has the other one:
+// moves the four corners as well, to where it is Delaunay. That takes away two pairs of vertices with five and seven
+// neighbours at once.
 class DiagonalExchange {
  public:
   // `wanted`, one a vertex: the length wanted there. All outlive this.
   DiagonalExchange(EditMesh& mesh, const VertexOps& ops, const TriangleBound& bound, const std::vector<double>& wanted)
       : mesh_(mesh), ops_(ops), bound_(bound), wanted_(wanted) {}
 
-  // Replaces the edge from v to w by that from c, which is to its left, to d, to its right. REQUIRES: all four are free. Does
-  // nothing and returns false unless all triangles round the four are Delaunay and within the bound then, and cost no more than
-  // a little more. Appends the triangles that changed to `touched`.
+  // Replaces the edge from v to w by that from c, which is to its left, to d, to its right. REQUIRES: all four are
+  // free. Does nothing and returns false unless all triangles round the four are Delaunay and within the bound then,
+  // and cost no more than a little more. Appends the triangles that changed to `touched`.
   bool tryExchange(VertexId v, VertexId w, VertexId c, VertexId d, std::vector<TriId>& touched);
 
  private:

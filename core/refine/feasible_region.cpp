@@ -53,8 +53,8 @@ void forEachDisk(std::span<const LinkEdge> link, const TriangleBound& bound, con
   }
 }
 
-// Keeps of a convex polygon what lies to the left of the line through `on` along `direction`; `clipped` and `sides` have
-// room for one corner more than the polygon. Returns the number of corners that are left. Rounding may make a thin
+// Keeps of a convex polygon what lies to the left of the line through `on` along `direction`; `clipped` and `sides`
+// have room for one corner more than the polygon. Returns the number of corners that are left. Rounding may make a thin
 // polygon cross the line more than twice: that adds no corners.
 std::size_t clip(Point*& polygon, std::size_t corners, Point*& clipped, double* sides, const Point& on,
                  const Point& direction) {

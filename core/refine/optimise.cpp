@@ -13,8 +13,8 @@
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "core/refine/bound_violations.hpp"
 #include "core/refine/exchange_diagonal.hpp"
-#include "core/refine/shortfalls.hpp"
 #include "core/refine/triangle_cost.hpp"
 #include "core/refine/vertex_ops.hpp"
 
@@ -30,8 +30,8 @@ constexpr int kAttempts = 3;
 constexpr double kStill = 0.01;
 // Vertices rest for so many sweeps before their numbers of neighbours count, and for so many at the end.
 constexpr int kFirstBalance = 2, kSettle = 3;
-// Triangles of a shape below this are mended for themselves in the second half of the sweeps, as long as they gain so much and their
-// star costs no more than a little more.
+// Triangles of a shape below this are mended for themselves in the second half of the sweeps, as long as they gain so
+// much and their star costs no more than a little more.
 constexpr double kPoorShape = 0.9, kLeastGain = 0.002, kMostCost = 1.005;
 
 class Optimiser {
@@ -136,7 +136,8 @@ class Optimiser {
   std::vector<TriId> touched_;
 };
 
-// The length wanted at a vertex. On a shore that is finer no more than its edges have, where no size is given the mean of its edges.
+// The length wanted at a vertex. On a shore that is finer no more than its edges have, where no size is given the mean
+// of its edges.
 double Optimiser::wantedAt(VertexId v) {
   const double wanted = size_ == nullptr ? std::numeric_limits<double>::infinity() : size_->at(mesh_.point(v));
   const bool is_free = mesh_.kind(v) == VertexKind::Free;
@@ -156,7 +157,8 @@ double Optimiser::wantedAt(VertexId v) {
   return count == 0 ? wanted : std::min(wanted, sum / count);
 }
 
-// What the triangles round a vertex cost where it lies at `place`; infinite where a bound is broken or more than `limit` is due.
+// What the triangles round a vertex cost where it lies at `place`; infinite where a bound is broken or more than
+// `limit` is due.
 double Optimiser::costRound(const Point& place, double wanted, double limit) const {
   constexpr double kTooMuch = std::numeric_limits<double>::infinity();
   double sum = 0.0;
@@ -174,8 +176,8 @@ double Optimiser::costRound(const Point& place, double wanted, double limit) con
   return sum;
 }
 
-// What the triangles round a vertex cost, and the mean of their centroids, each weighted by how many triangles of the size wanted its
-// own is worth.
+// What the triangles round a vertex cost, and the mean of their centroids, each weighted by how many triangles of the
+// size wanted its own is worth.
 double Optimiser::costHere(VertexId v, Point& centre) const {
   const Point here = mesh_.point(v);
   Point mean, a = mesh_.point(ring_.corners.front());
@@ -299,7 +301,8 @@ void Optimiser::balance(VertexId v) {
   if (ring_.corners.size() > 6) exchangeTooMany(v);
 }
 
-// Merges a vertex with the neighbour that leaves numbers nearest to what they should be, if that is nearer than they are.
+// Merges a vertex with the neighbour that leaves numbers nearest to what they should be, if that is nearer than they
+// are.
 bool Optimiser::mergeTooFew(VertexId v) {
   spokes_ = ring_;
   const std::vector<VertexId>& corners = spokes_.corners;
@@ -367,7 +370,7 @@ RefineStats optimise(TriMesh& mesh, const Pslg& pslg, const RefineOptions& optio
   mesh = optimiser.release();
   labelRegions(mesh, pslg);
   RefineStats stats = std::move(optimiser.stats());
-  stats.unresolved = findShortfalls(mesh, options);
+  stats.unresolved = findBoundViolations(mesh, options);
   return stats;
 }
 

@@ -8,18 +8,19 @@
 
 namespace coastmesh {
 
-// How often every vertex gets its turn: where lengths are wanted, and where a mesh as good as it gets is asked for besides. Vertices at
-// rest are passed over, so that later sweeps cost less.
+// How often every vertex gets its turn: where lengths are wanted, and where a mesh as good as it gets is asked for
+// besides. Vertices at rest are passed over, so that later sweeps cost less.
 inline constexpr int kOptimiseSweeps = 10, kMostOptimiseSweeps = 30;
 
-// Makes triangles as near to equilateral, vertices as near to six neighbours and edges as near to the lengths wanted as it can: moves
-// free vertices, merges those too near to one another or with too few neighbours, exchanges diagonals. Where no lengths are wanted,
-// those that edges have are. Every triangle holds the bounds throughout, and vertices never get more. REQUIRES: `mesh` as `refine` or
-// `shrink` left it, with the same options. `unresolved` in the result replaces that of before. Throws Cancelled.
+// Makes triangles as near to equilateral, vertices as near to six neighbours and edges as near to the lengths wanted as
+// it can: moves free vertices, merges those too near to one another or with too few neighbours, exchanges diagonals.
+// Where no lengths are wanted, those that edges have are. Every triangle holds the bounds throughout, and vertices
+// never get more. REQUIRES: `mesh` as `refine` or `coarsen` left it, with the same options. `unresolved` in the result
+// replaces that of before. Throws Cancelled.
 RefineStats optimise(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
                      const RunControl& control = {});
 
-// The same for the due vertices of a part of a larger mesh, as `shrinkSubmesh`.
+// The same for the due vertices of a part of a larger mesh, as `coarsenSubmesh`.
 RefineStats optimiseSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, int sweeps,
                             const RunControl& control = {});
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/label_regions.hpp"
+#include "core/refine/bound_violations.hpp"
 #include "core/refine/refiner.hpp"
 #include "core/refine/repair.hpp"
-#include "core/refine/shortfalls.hpp"
 #include "core/refine/split_segments.hpp"
 
 namespace coastmesh {
@@ -29,11 +29,12 @@ RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& opt
   mesh = refiner.release();
   labelRegions(mesh, pslg);
   RefineStats stats = std::move(refiner.stats());
-  stats.unresolved = findShortfalls(mesh, options);
+  stats.unresolved = findBoundViolations(mesh, options);
   return stats;
 }
 
-// Up to so many points it costs next to nothing to refine in several ways and to keep what shrinks to the smallest mesh.
+// Up to so many points it costs next to nothing to refine in several ways and to keep what coarsens to the smallest
+// mesh.
 constexpr VertexId kFewPoints = 64;
 
 std::vector<RefineVariant> furtherVariants(const RefineOptions& options) {
@@ -49,8 +50,8 @@ std::vector<RefineVariant> furtherVariants(const RefineOptions& options) {
   return variants;
 }
 
-std::size_t shrunkSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
-  shrink(mesh, pslg, options, control);
+std::size_t coarsenedSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  coarsen(mesh, pslg, options, control);
   return mesh.points.size();
 }
 
@@ -63,12 +64,12 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
   const TriMesh unrefined = few ? mesh : TriMesh();
   RefineStats stats = refineOnce(mesh, pslg, options, usualVariant(options), control);
   if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;
-  std::size_t smallest = shrunkSize(mesh, pslg, options, control);
+  std::size_t smallest = coarsenedSize(mesh, pslg, options, control);
   for (const RefineVariant& variant : furtherVariants(options)) {
     TriMesh other = unrefined;
     RefineStats other_stats = refineOnce(other, pslg, options, variant, control);
     if (!other_stats.unresolved.empty() || other_stats.budget_reached) continue;
-    const std::size_t size = shrunkSize(other, pslg, options, control);
+    const std::size_t size = coarsenedSize(other, pslg, options, control);
     if (size >= smallest) continue;
     smallest = size;
     mesh = std::move(other);

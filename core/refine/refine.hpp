@@ -24,6 +24,6 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
 
 // Takes out and merges vertices that the bounds do not need. REQUIRES: `mesh` as `refine` left it, with the same
 // options. `unresolved` in the result replaces that of `refine`. Throws Cancelled.
-RefineStats shrink(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
+RefineStats coarsen(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
 
 }  // namespace coastmesh

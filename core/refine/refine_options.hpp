@@ -36,15 +36,17 @@ struct RefineOptions {
 // Throws std::invalid_argument, which names the option, where one is beyond its range or no number.
 void requireInRange(const RefineOptions& options);
 
-// A triangle with an edge longer than this share of the length wanted there is refined: edges then come out about as wanted.
+// A triangle with an edge longer than this share of the length wanted there is refined: edges then come out about as
+// wanted.
 inline constexpr double kLongestShare = 1.5;
 
-// What these options ask of a triangle; and what of that a mesh may not fall short of, which wanted lengths are no part of.
+// What these options ask of a triangle; and what of that a mesh may not fall short of, which wanted lengths are no part
+// of.
 TriangleBound boundOf(const RefineOptions& options);
 TriangleBound strictBoundOf(const RefineOptions& options);
 
 // A triangle that falls short of what was asked, with no corner of the input to excuse it.
-struct Shortfall {
+struct BoundViolation {
   Point place;           // the triangle's centroid
   double min_angle_deg;  // its smallest angle
   double max_angle_deg;
@@ -55,10 +57,10 @@ struct RefineStats {
   std::array<std::uint64_t, 4> by_type{};  // points inserted as types I to IV of the paper, Section 3
   std::uint64_t segment_splits = 0;
   std::uint64_t relocations = 0;
-  std::uint64_t removals = 0;  // vertices taken out again, by shrinking or on the way of a split
+  std::uint64_t removals = 0;  // vertices taken out again, by coarsening or on the way of a split
   std::uint64_t merges = 0;    // two vertices replaced by one
   bool budget_reached = false;
-  std::vector<Shortfall> unresolved;
+  std::vector<BoundViolation> unresolved;
 
   void add(const RefineStats& other);
 };

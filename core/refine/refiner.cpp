@@ -18,15 +18,16 @@ double freeShare(double min_angle_deg) {
   const double beyond = std::clamp((min_angle_deg - 42.0) / 2.0, 0.0, 1.0);
   return 0.12 + 0.18 * beyond;
 }
-// New points aim above the bound where it is large: a mesh without any slack refines further. Algorithm 1 is the paper's.
+// New points aim above the bound where it is large: a mesh without any slack refines further. Algorithm 1 is the
+// paper's.
 double aimAboveDeg(double min_angle_deg) { return std::clamp(0.5 * (min_angle_deg - 38.0), 0.0, 1.0); }
 // Relocations never bring a vertex more often than this: a bound on the run, not a setting.
 constexpr std::uint8_t kMostMoves = 32;
 // From this angle on taking vertices out during refinement pays: density spreads there.
 constexpr double kMergeFromDeg = 35.0;
 
-// Ranks of bad triangles: squared lengths in sixteen steps an octave, cosines in steps of a thousandth. Within a step the older
-// comes first, which is near the one before it: an exact order costs time and gains no points.
+// Ranks of bad triangles: squared lengths in sixteen steps an octave, cosines in steps of a thousandth. Within a step
+// the older comes first, which is near the one before it: an exact order costs time and gains no points.
 std::uint32_t rankOfLength(double squared) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(squared) >> 48);
 }
@@ -69,7 +70,8 @@ void Refiner::findFrozenVertices() {
 
 // Whether a patch is next to a frozen edge, and is to be left alone for that.
 bool Refiner::isBarred(const Patch& patch) const {
-  return variant_.clear_of_frozen && std::ranges::any_of(patch.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
+  return variant_.clear_of_frozen &&
+         std::ranges::any_of(patch.boundary, [](const BoundaryEdge& r) { return r.seg == kFrozen; });
 }
 
 // A thousand units in the last place of the largest coordinate, or what was asked for, squared.
@@ -174,8 +176,8 @@ VertexId Refiner::fanApexBehind(TriId t, unsigned apex) const {
   return isFan(triOf(beyond), v) ? v : kNone;
 }
 
-// Two vertices merged may come to be two again: merges are bounded by what was put in, and by the mesh's size, lest both
-// go on for ever.
+// Two vertices merged may come to be two again: merges are bounded by what was put in, and by the mesh's size, lest
+// both go on for ever.
 bool Refiner::mayMerge() const {
   const auto& types = stats_.by_type;
   const std::uint64_t put_in = types[0] + types[1] + types[2] + types[3] + stats_.segment_splits;
@@ -215,7 +217,8 @@ bool Refiner::isEncroached(const Point& x, const Point& a, const Point& b) const
 // distance from what is fine in the input as fast as any good mesh can.
 double Refiner::spacingAt(const Point& x, const Patch& cavity) const {
   double spacing = bound_.size == nullptr ? options_.size_max : bound_.size->at(x);
-  for (const RimEdge& r : cavity.rim) spacing = std::min(spacing, notes_.spacing[r.a] + distance(x, mesh_.point(r.a)));
+  for (const BoundaryEdge& r : cavity.boundary)
+    spacing = std::min(spacing, notes_.spacing[r.a] + distance(x, mesh_.point(r.a)));
   return spacing;
 }
 
@@ -239,7 +242,7 @@ bool Refiner::insertPoint(TriId t, unsigned apex) {
   }
   EdgeRef hit = kNone;
   double widest = 0.0;
-  for (const RimEdge& r : patch_.rim) {
+  for (const BoundaryEdge& r : patch_.boundary) {
     if (r.seg == kNone && r.beyond != kNone) continue;
     const Point &a = mesh_.point(r.a), &b = mesh_.point(r.b);
     const bool behind = orient2d(a, b, candidate.place) <= 0;
@@ -271,7 +274,7 @@ bool Refiner::insertPoint(TriId t, unsigned apex) {
 bool Refiner::removeFreeVertex(VertexId v) {
   if (!mesh_.gatherPatch({&v, 1}, patch_) || isBarred(patch_)) return false;
   polygon_.clear();
-  for (const RimEdge& r : patch_.rim) polygon_.push_back(r.a);
+  for (const BoundaryEdge& r : patch_.boundary) polygon_.push_back(r.a);
   if (!triangulatePolygon(mesh_, polygon_, fresh_)) return false;
   mesh_.replace(patch_, fresh_, {&v, 1}, touched_);
   mesh_.restoreDelaunay(touched_);
@@ -284,7 +287,7 @@ void Refiner::stripFreeVertices() {
   touched_.clear();
 }
 
-bool Refiner::isShort(TriId t) const {
+bool Refiner::violatesBound(TriId t) const {
   const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
   return isBad(a, b, c, strict_) && (notes_.corners == nullptr || notes_.corners->excuseOf(a, b, c) == Excuse::None);
 }

@@ -42,8 +42,8 @@ class Refiner {
   // Handles bad triangles until none is left that a point could mend.
   void run(const RunControl& control);
   TriMesh release();
-  // The same, and what else a run on a part of a larger mesh has to give back: notes on its vertices, and one flag a triangle for those
-  // that it kept for later.
+  // The same, and what else a run on a part of a larger mesh has to give back: notes on its vertices, and one flag a
+  // triangle for those that it kept for later.
   TriMesh release(VertexNotes& notes, std::vector<std::uint8_t>& due);
   RefineStats& stats() { return stats_; }
 
@@ -51,7 +51,7 @@ class Refiner {
   const EditMesh& mesh() const { return mesh_; }
   const VertexNotes& notes() const { return notes_; }
   // Whether a triangle breaks the bounds and no corner of the input excuses it.
-  bool isShort(TriId t) const;
+  bool violatesBound(TriId t) const;
   void noteVertex(VertexId v, double spacing);
   // Keeps a triangle for later.
   void defer(TriId t) { deferred_[t] = mesh_.triangle(t).v; }
@@ -61,12 +61,12 @@ class Refiner {
   void stripFreeVertices();
   // What becomes of the other sides of the segments at an input angle when its fan grows.
   enum class Beyond { StaysGood, GetsMended };
-  // At input angles too small for the bounds: takes split points out until the triangle that fills the angle reaches to where
-  // good ones begin. What lies between is too thin to be meshed well, and that one triangle does for all of it.
+  // At input angles too small for the bounds: takes split points out until the triangle that fills the angle reaches to
+  // where good ones begin. What lies between is too thin to be meshed well, and that one triangle does for all of it.
   void growFans(Beyond beyond, const RunControl& control);
-  // The triangle that fills an input angle too small for the bounds, and those beyond it up to the last one that falls short: they
-  // form a strip as long as each has all its corners on the two sides of the angle. Empty where t fills no such angle, or none
-  // falls short.
+  // The triangle that fills an input angle too small for the bounds, and those beyond it up to the last one that falls
+  // short: they form a strip as long as each has all its corners on the two sides of the angle. Empty where t fills no
+  // such angle, or none falls short.
   std::vector<TriId> shortStrip(TriId t) const;
   // Handles the bad ones among these triangles, and what follows from that.
   void resume(std::vector<TriId>& touched, const RunControl& control);

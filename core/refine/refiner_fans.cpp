@@ -32,7 +32,7 @@ std::vector<TriId> Refiner::shortStrip(TriId t) const {
     // Its base is the edge shared with the one before, from the left side to the right one.
     const EdgeRef base = mesh_.twin(across);
     strip.push_back(triOf(base));
-    if (isShort(triOf(base))) up_to_last = strip.size();
+    if (violatesBound(triOf(base))) up_to_last = strip.size();
     const EdgeRef on_right = edgeRef(triOf(base), next3(indexOf(base)));
     const EdgeRef on_left = edgeRef(triOf(base), prev3(indexOf(base)));
     if (mesh_.segment(on_right) == right && right != kNone) {

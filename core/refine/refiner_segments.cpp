@@ -11,7 +11,7 @@ double Refiner::spacingOnSegment(const Point& x, EdgeRef edge, const Patch& cavi
   for (const VertexId v : {mesh_.origin(edge), mesh_.target(edge)})
     spacing = std::min(spacing, notes_.spacing[v] + distance(x, mesh_.point(v)));
   const Segment& own = pslg_.segments[mesh_.segment(edge)];
-  for (const RimEdge& r : cavity.rim) {
+  for (const BoundaryEdge& r : cavity.boundary) {
     if (r.seg >= pslg_.segments.size()) continue;
     // Near a common end two segments are arbitrarily close: there the spacing of that vertex counts.
     const Segment& other = pslg_.segments[r.seg];

@@ -18,8 +18,8 @@ struct Attempt {
   RefineVariant variant;
 };
 
-// What differs is where points aim and which triangle comes first: a small change leads the order of insertions elsewhere. The first
-// are all tried, and the smallest mesh without a bad triangle wins.
+// What differs is where points aim and which triangle comes first: a small change leads the order of insertions
+// elsewhere. The first are all tried, and the smallest mesh without a bad triangle wins.
 constexpr std::array kCompeting = {
     Attempt{.strip = false, .variant = {.aim_deg = 0.5}},
     Attempt{.variant = {.aim_deg = 0.0}},
@@ -50,14 +50,17 @@ constexpr std::uint64_t kGrowthRoom = 12;
 std::uint64_t mostWork(double min_angle_deg, std::uint64_t vertices) {
   return (6000 + 3 * vertices) / (min_angle_deg > 43.0 ? 3 : 1);
 }
-// Vertices that local runs may handle with success, as a multiple of those of failed ones: each time fewer triangles fall short.
+// Vertices that local runs may handle with success, as a multiple of those of failed ones: each time fewer triangles
+// fall short.
 std::uint64_t timesAsMuch(double min_angle_deg) { return min_angle_deg > 43.0 ? 2 : 10; }
-// Past so many failures, and twice the successes, the bound is out of reach; at angles that no input has reached, sooner.
+// Past so many failures, and twice the successes, the bound is out of reach; at angles that no input has reached,
+// sooner.
 std::uint64_t hopeless(double min_angle_deg) { return min_angle_deg > 43.0 ? 4 : 24; }
 
-std::size_t countShort(const Refiner& refiner) {
+std::size_t countViolations(const Refiner& refiner) {
   std::size_t count = 0;
-  for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t) count += refiner.mesh().isLive(t) && refiner.isShort(t);
+  for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t)
+    count += refiner.mesh().isLive(t) && refiner.violatesBound(t);
   return count;
 }
 
@@ -76,13 +79,13 @@ std::optional<Solution> solve(const Submesh& patch, const Attempt& attempt, std:
   RefineOptions local = options;
   local.max_vertices = patch.parent.size() * kGrowth + kGrowthRoom;
   Refiner refiner(TriMesh(patch.mesh), pslg, local, VertexNotes(patch.notes), attempt.variant);
-  const std::size_t before = countShort(refiner);
+  const std::size_t before = countViolations(refiner);
   if (attempt.strip) refiner.stripFreeVertices();
   refiner.run({});
   refiner.growFans(Refiner::Beyond::GetsMended, {});
   work += refiner.mesh().vertexSlots();
   if (refiner.stats().budget_reached) return std::nullopt;
-  const std::size_t left = countShort(refiner);
+  const std::size_t left = countViolations(refiner);
   if (left >= before || left > most) return std::nullopt;
   return Solution{left, refiner.release()};
 }
@@ -104,8 +107,8 @@ std::optional<Solution> solveBest(const Submesh& patch, std::size_t most, const 
 
 enum class Outcome { Mended, Failed, Deferred };
 
-// Whether the mesh is a part of a larger one and the patch lies at its frozen rim.
-bool isAtFrozenRim(const EditMesh& mesh, const Submesh& patch) {
+// Whether the mesh is a part of a larger one and the patch lies at its frozen boundary.
+bool isAtFrozenBoundary(const EditMesh& mesh, const Submesh& patch) {
   return std::ranges::any_of(patch.triangles, [&](TriId t) {
     return std::ranges::find(mesh.triangle(t).seg, kFrozen) != mesh.triangle(t).seg.end();
   });
@@ -124,7 +127,7 @@ void take(Refiner& refiner, const Submesh& patch, const Solution& solution, cons
   }
   refiner.mesh().restoreDelaunay(touched);
   if (solution.short_triangles > 0) return;
-  std::erase_if(touched, [&](TriId t) { return !refiner.mesh().isLive(t) || !refiner.isShort(t); });
+  std::erase_if(touched, [&](TriId t) { return !refiner.mesh().isLive(t) || !refiner.violatesBound(t); });
   refiner.resume(touched, control);
 }
 
@@ -135,7 +138,7 @@ Outcome mendPlace(Refiner& refiner, std::span<const TriId> centre, const Pslg& p
   Submesh best_patch;
   for (const unsigned rings : kRings) {
     Submesh patch = extractAround(refiner.mesh(), refiner.notes(), centre, rings);
-    if (refiner.isClearOfFrozen() && isAtFrozenRim(refiner.mesh(), patch)) {
+    if (refiner.isClearOfFrozen() && isAtFrozenBoundary(refiner.mesh(), patch)) {
       if (best) break;
       refiner.defer(centre.back());
       return Outcome::Deferred;
@@ -159,8 +162,8 @@ Outcome mendPlace(Refiner& refiner, std::span<const TriId> centre, const Pslg& p
   return Outcome::Mended;
 }
 
-// First the runs of bad triangles along a small input angle that has domain on both sides: each run is re-meshed as one patch, because
-// fixing one side spoils the other.
+// First the runs of bad triangles along a small input angle that has domain on both sides: each run is re-meshed as one
+// patch, because fixing one side spoils the other.
 void repairStrips(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
                   const auto& isGivenUp) {
   constexpr std::size_t kLongestStrip = 500;
@@ -210,7 +213,7 @@ void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, co
     for (TriId k = 0; k < slots; ++k) {
       // There and back: of a few beside one another another comes first, which makes another patch.
       const TriId t = round % 2 == 0 ? k : slots - 1 - k;
-      if (!refiner.mesh().isLive(t) || !refiner.isShort(t) || isGivenUp(t)) continue;
+      if (!refiner.mesh().isLive(t) || !refiner.violatesBound(t) || isGivenUp(t)) continue;
       if (refiner.isDeferred(t)) continue;
       if (isNearFailure(t)) {
         again = true;

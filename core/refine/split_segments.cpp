@@ -19,11 +19,12 @@ struct Cut {
   SegmentId seg = kNone;
 };
 
-// Steps along a segment in which lengths are added up, a wanted length: enough where it changes by a third from one edge to the next.
+// Steps along a segment in which lengths are added up, a wanted length: enough where it changes by a third from one
+// edge to the next.
 constexpr double kStepsALength = 4.0;
 
-// Shares of the way from a to b that lie one wanted length apart, stretched to fit. What needs clearly more than `most` of them is looked
-// at as far as these go.
+// Shares of the way from a to b that lie one wanted length apart, stretched to fit. What needs clearly more than `most`
+// of them is looked at as far as these go.
 void evenShares(const Point& a, const Point& b, const SizeFunction& size, std::uint64_t most,
                 std::vector<double>& shares) {
   shares.clear();

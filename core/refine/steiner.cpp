@@ -7,10 +7,10 @@ namespace coastmesh {
 
 namespace {
 
-// Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where the
-// triangle is bad for its size, the disk in which an equilateral triangle of that size fits. Never more than the triangle's own
-// circumcircle, which no vertex lies in. Where lengths are wanted, the equilateral triangle's of that length in either case: the new
-// edges come out near it.
+// Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where
+// the triangle is bad for its size, the disk in which an equilateral triangle of that size fits. Never more than the
+// triangle's own circumcircle, which no vertex lies in. Where lengths are wanted, the equilateral triangle's of that
+// length in either case: the new edges come out near it.
 double petalRadius(double length, double circumradius, double wanted, const TriangleBound& bound, double sin_place,
                    bool bad_angle) {
   double radius = circumradius;

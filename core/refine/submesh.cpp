@@ -78,8 +78,8 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
 
   Patch hole{patch.triangles, {}};
   for (const EdgeRef e : patch.frozen)
-    hole.rim.push_back({parent.origin(e), parent.target(e), parent.twin(e), parent.segment(e)});
-  std::vector<RimEdge> inner;
+    hole.boundary.push_back({parent.origin(e), parent.target(e), parent.twin(e), parent.segment(e)});
+  std::vector<BoundaryEdge> inner;
   std::vector<Corners> fresh;
   for (TriId t = 0; t < solved.triangles.size(); ++t) {
     const Triangle& tri = solved.triangles[t];
@@ -88,9 +88,9 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
       // A boundary without segments is that of a mesh of points alone.
       if (tri.seg[i] == kFrozen || (tri.seg[i] == kNone && tri.adj[i] != kNone)) continue;
       const EdgeRef e = edgeRef(t, i);
-      const RimEdge edge{number[solved.origin(e)], number[solved.target(e)], kNone, tri.seg[i]};
+      const BoundaryEdge edge{number[solved.origin(e)], number[solved.target(e)], kNone, tri.seg[i]};
       if (tri.adj[i] == kNone) {
-        hole.rim.push_back(edge);
+        hole.boundary.push_back(edge);
       } else {
         inner.push_back(edge);
       }

@@ -17,11 +17,12 @@ struct MeshState {
   TriMesh mesh;                             // no regions
   VertexNotes notes;                        // each list empty where no one needs it
   std::vector<std::uint8_t> due_triangles;  // one a triangle, or empty: to be looked at by refinement
-  std::vector<std::uint8_t> due_vertices;   // one a vertex, or empty: to be looked at by shrinking and the optimiser
+  std::vector<std::uint8_t> due_vertices;   // one a vertex, or empty: to be looked at by coarsening and the optimiser
 };
 
-// Some triangles of a mesh, its parent, as a mesh of their own. The edges that they share with the parent's other triangles are frozen:
-// they carry kFrozen in place of a segment, and what works on the submesh keeps them. The boundary of the domain stays as it is.
+// Some triangles of a mesh, its parent, as a mesh of their own. The edges that they share with the parent's other
+// triangles are frozen: they carry kFrozen in place of a segment, and what works on the submesh keeps them. The
+// boundary of the domain stays as it is.
 struct Submesh {
   TriMesh mesh;  // the first `input_vertices` are fixed: input vertices and those on frozen edges
   VertexNotes notes;
@@ -30,7 +31,8 @@ struct Submesh {
   std::vector<EdgeRef> frozen;   // the frozen edges, in the parent's numbers, as seen from inside
 };
 
-// What a parent knows of some of its vertices, of which the first `fixed` are a submesh's fixed ones, as notes on these.
+// What a parent knows of some of its vertices, of which the first `fixed` are a submesh's fixed ones, as notes on
+// these.
 VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId parent_inputs,
                     const VertexNotes& notes);
 
@@ -79,8 +81,9 @@ std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> 
 // Those triangles as a mesh.
 Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings);
 
-// Puts another mesh of the same submesh (fixed vertices and frozen edges unchanged) into the parent's mesh. Appends the vertices and
-// the triangles that are new there. Does not restore the Delaunay property. REQUIRES: the parent is as it was at the extraction.
+// Puts another mesh of the same submesh (fixed vertices and frozen edges unchanged) into the parent's mesh. Appends the
+// vertices and the triangles that are new there. Does not restore the Delaunay property. REQUIRES: the parent is as it
+// was at the extraction.
 void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std::vector<VertexId>& added,
              std::vector<TriId>& touched);
 

@@ -20,7 +20,7 @@ RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOption
   for (TriId t = 0; t < due.size(); ++t) {
     if (due[t]) {
       first.push_back(t);
-    } else if (mends && refiner.isShort(t)) {
+    } else if (mends && refiner.violatesBound(t)) {
       given_up.push_back({t, refiner.mesh().triangle(t).v});
     }
   }

@@ -9,22 +9,24 @@
 
 namespace coastmesh {
 
-// Work on a submesh while others work on the rest of its mesh. Nothing next to a frozen edge is changed, so that every submesh stays
-// Delaunay with its neighbours whatever these do; what would have to be changed there is due, and waits for the mesh to be cut
-// elsewhere.
+// Work on a submesh while others work on the rest of its mesh. Nothing next to a frozen edge is changed, so that every
+// submesh stays Delaunay with its neighbours whatever these do; what would have to be changed there is due, and waits
+// for the mesh to be cut elsewhere.
 
-// Handles the bad ones of the due triangles, and what follows from that; with `mends` also repairs what that leaves. Afterwards those
-// that a frozen edge was in the way of are due. Bad triangles that are not due, before or after, are such that no point helps.
-// `options.max_vertices` counts the submesh's own. `steiner_points` and `unresolved` of the result stay empty. Throws Cancelled.
+// Handles the bad ones of the due triangles, and what follows from that; with `mends` also repairs what that leaves.
+// Afterwards those that a frozen edge was in the way of are due. Bad triangles that are not due, before or after, are
+// such that no point helps. `options.max_vertices` counts the submesh's own. `steiner_points` and `unresolved` of the
+// result stay empty. Throws Cancelled.
 RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, bool mends,
                           const RunControl& control = {});
 
-// Takes out and merges the due vertices where the bounds do not need them. Afterwards those that a frozen edge was in the way of are
-// due; due triangles and notes are not kept. Throws Cancelled.
-RefineStats shrinkSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options,
-                          const RunControl& control = {});
+// Takes out and merges the due vertices where the bounds do not need them. Afterwards those that a frozen edge was in
+// the way of are due; due triangles and notes are not kept. Throws Cancelled.
+RefineStats coarsenSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options,
+                           const RunControl& control = {});
 
-// The submesh that was worked on in `mesh`. Of its due vertices (one a slot) those stay due that a frozen edge holds, or runs beside.
+// The submesh that was worked on in `mesh`. Of its due vertices (one a slot) those stay due that a frozen edge holds,
+// or runs beside.
 MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due);
 
 }  // namespace coastmesh

@@ -15,8 +15,8 @@ inline double shapeOf(const Point& a, const Point& b, const Point& c) {
          (squaredDistance(a, b) + squaredDistance(b, c) + squaredDistance(c, a));
 }
 
-// What the optimiser makes small in the sum: the inverse of the shape, and to a smaller part how far the area is from that of an
-// equilateral triangle with edges of the length wanted. Infinite of a triangle that is turned over.
+// What the optimiser makes small in the sum: the inverse of the shape, and to a smaller part how far the area is from
+// that of an equilateral triangle with edges of the length wanted. Infinite of a triangle that is turned over.
 inline double costOf(const Point& a, const Point& b, const Point& c, double wanted) {
   constexpr double kSizeShare = 0.1;
   const double area = cross(b - a, c - a);  // twice it

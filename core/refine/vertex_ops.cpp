@@ -18,7 +18,8 @@ std::size_t mostTriangles(const TriangleBound& bound) {
 // Triangles that vanish when two vertices become one.
 constexpr std::size_t kMergedAway = 2;
 
-// The same for what is to be round a merged vertex. The limit is below a full turn: near that a place is hardly ever feasible.
+// The same for what is to be round a merged vertex. The limit is below a full turn: near that a place is hardly ever
+// feasible.
 bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
   constexpr double kMostTurn = toRadians(299.5);
   return static_cast<double>(triangles) * bound.min_angle > kMostTurn;
@@ -30,7 +31,7 @@ constexpr double kLongestToMerge = 1.6;
 // Below this angle the mean of its neighbours, where that is feasible, is as good a place as the middle of all that is.
 constexpr double kMeanServesBelow = toRadians(36.5);
 
-VertexId otherEnd(const RimEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
+VertexId otherEnd(const BoundaryEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
 
 Corners sorted(Corners corners) {
   std::ranges::sort(corners);
@@ -49,13 +50,13 @@ VertexOps::VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& boun
 
 void VertexOps::Star::clear() {
   patch.triangles.clear();
-  patch.rim.clear();
+  patch.boundary.clear();
   spokes.clear();
   sides.clear();
 }
 
-// Appends what is round v, less what it shares with `other`; its spokes start at `stays`. Returns false where there are too many
-// triangles.
+// Appends what is round v, less what it shares with `other`; its spokes start at `stays`. Returns false where there are
+// too many triangles.
 bool VertexOps::appendStar(VertexId v, VertexId other, VertexId stays, Star& star) {
   const StarKind kind = mesh_.star(v, opposite_, most_triangles_ + kMergedAway);
   if (kind == StarKind::TooMany) return false;
@@ -63,7 +64,7 @@ bool VertexOps::appendStar(VertexId v, VertexId other, VertexId stays, Star& sta
     const VertexId a = mesh_.origin(e), b = mesh_.target(e);
     const bool shared = a == other || b == other;
     if (!shared || v == stays) star.patch.triangles.push_back(triOf(e));
-    if (!shared) star.patch.rim.push_back({a, b, mesh_.twin(e), mesh_.segment(e)});
+    if (!shared) star.patch.boundary.push_back({a, b, mesh_.twin(e), mesh_.segment(e)});
     const EdgeRef spoke = spokeBefore(e);
     const SegmentId seg = mesh_.segment(spoke);
     if (a == other || seg == kNone) continue;
@@ -83,25 +84,25 @@ bool VertexOps::gather(VertexId v, Star& star) {
   return appendStar(v, kNone, v, star);
 }
 
-// What is round two neighbours. Returns false where they cannot become one: the link condition, that the two stars share the corners
-// beside their edge and no others.
+// What is round two neighbours. Returns false where they cannot become one: the link condition, that the two stars
+// share the corners beside their edge and no others.
 bool VertexOps::gatherBoth(VertexId goes, VertexId stays, Star& star) {
   star.clear();
   if (!appendStar(goes, stays, stays, star)) return false;
-  const std::size_t own = star.patch.rim.size();
+  const std::size_t own = star.patch.boundary.size();
   if (!appendStar(stays, goes, stays, star) || isBarred(star)) return false;
-  const std::vector<RimEdge>& rim = star.patch.rim;
-  if (rim.size() < 3 || hasTooManyToMerge(rim.size(), bound_)) return false;
+  const std::vector<BoundaryEdge>& boundary = star.patch.boundary;
+  if (boundary.size() < 3 || hasTooManyToMerge(boundary.size(), bound_)) return false;
   std::size_t common = 0;
-  for (std::size_t i = own; i < rim.size(); ++i)
-    for (std::size_t j = 0; j < own; ++j) common += rim[i].a == rim[j].b;
+  for (std::size_t i = own; i < boundary.size(); ++i)
+    for (std::size_t j = 0; j < own; ++j) common += boundary[i].a == boundary[j].b;
   return common <= 1;
 }
 
 // Where v may go; fills link_.
 std::optional<Point> VertexOps::findPlace(VertexId v, const Star& star) {
   link_.clear();
-  for (const RimEdge& r : star.patch.rim) link_.push_back({mesh_.point(r.a), mesh_.point(r.b)});
+  for (const BoundaryEdge& r : star.patch.boundary) link_.push_back({mesh_.point(r.a), mesh_.point(r.b)});
   if (mesh_.kind(v) == VertexKind::Free) return region_.findPoint(link_);
   if (star.spokes.size() != 2 || star.spokes[0].seg != star.spokes[1].seg ||
       star.spokes[0].seg >= pslg_.segments.size())
@@ -119,16 +120,16 @@ bool VertexOps::fits(const Point& place) const {
       link_, [&](const LinkEdge& e) { return orient2d(e.x, e.y, place) > 0 && !isBad(e.x, e.y, place, bound_); });
 }
 
-// Whether a fan round `place` over the rim would be flipped into triangles that no one has tested.
+// Whether a fan round `place` over the boundary would be flipped into triangles that no one has tested.
 bool VertexOps::fanFlips(const Star& star, const Point& place) const {
-  for (const RimEdge& r : star.patch.rim) {
+  for (const BoundaryEdge& r : star.patch.boundary) {
     const Point &a = mesh_.point(r.a), &b = mesh_.point(r.b);
     if (r.seg == kNone && r.beyond != kNone && inCircle(place, a, b, mesh_.point(mesh_.apex(r.beyond))) > 0)
       return true;
     const bool constrained =
-        std::ranges::any_of(star.spokes, [&](const RimEdge& spoke) { return spoke.a == r.b || spoke.b == r.b; });
-    const auto next = std::ranges::find_if(star.patch.rim, [&](const RimEdge& s) { return s.a == r.b; });
-    if (constrained || next == star.patch.rim.end()) continue;
+        std::ranges::any_of(star.spokes, [&](const BoundaryEdge& spoke) { return spoke.a == r.b || spoke.b == r.b; });
+    const auto next = std::ranges::find_if(star.patch.boundary, [&](const BoundaryEdge& s) { return s.a == r.b; });
+    if (constrained || next == star.patch.boundary.end()) continue;
     if (inCircle(place, a, b, mesh_.point(next->b)) > 0) return true;
   }
   return false;
@@ -137,7 +138,7 @@ bool VertexOps::fanFlips(const Star& star, const Point& place) const {
 // The same for the triangles that are to fill a hole: they are Delaunay among themselves.
 bool VertexOps::holeFlips(const Star& star) const {
   for (const Corners& c : all_fresh_) {
-    for (const RimEdge& r : star.patch.rim) {
+    for (const BoundaryEdge& r : star.patch.boundary) {
       if (r.seg != kNone || r.beyond == kNone) continue;
       const bool on = (c[0] == r.a && c[1] == r.b) || (c[1] == r.a && c[2] == r.b) || (c[2] == r.a && c[0] == r.b);
       if (on &&
@@ -150,7 +151,8 @@ bool VertexOps::holeFlips(const Star& star) const {
 
 // Whether a star is next to a frozen edge, and is to be left alone for that.
 bool VertexOps::isBarred(const Star& star) const {
-  return clear_of_frozen_ && std::ranges::any_of(star.patch.rim, [](const RimEdge& r) { return r.seg == kFrozen; });
+  return clear_of_frozen_ &&
+         std::ranges::any_of(star.patch.boundary, [](const BoundaryEdge& r) { return r.seg == kFrozen; });
 }
 
 bool VertexOps::isBadBeyond(EdgeRef e) const {
@@ -161,7 +163,7 @@ bool VertexOps::isBadBeyond(EdgeRef e) const {
 
 // Whether flips at the boundary of a star could do harm.
 bool VertexOps::mayNotFlip(const Star& star) const {
-  return flips_may_harm_ || (bad_stays_ && std::ranges::any_of(star.patch.rim, [this](const RimEdge& r) {
+  return flips_may_harm_ || (bad_stays_ && std::ranges::any_of(star.patch.boundary, [this](const BoundaryEdge& r) {
                                return isBadBeyond(r.beyond);
                              }));
 }
@@ -236,12 +238,12 @@ bool VertexOps::isGood(const Corners& c) const {
   return !isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_);
 }
 
-// Triangulates the polygon of some boundary edges, closed by a straight edge where they are not closed themselves, into fresh_. Returns
-// false at the first triangle that `accept` refuses.
+// Triangulates the polygon of some boundary edges, closed by a straight edge where they are not closed themselves, into
+// fresh_. Returns false at the first triangle that `accept` refuses.
 template <typename Accept>
-bool VertexOps::fillHole(std::span<const RimEdge> side, const Accept& accept) {
+bool VertexOps::fillHole(std::span<const BoundaryEdge> side, const Accept& accept) {
   polygon_.clear();
-  for (const RimEdge& r : side) polygon_.push_back(r.a);
+  for (const BoundaryEdge& r : side) polygon_.push_back(r.a);
   if (side.back().b != polygon_.front()) polygon_.push_back(side.back().b);
   return polygon_.size() <= most_triangles_ && triangulatePolygon(mesh_, polygon_, fresh_, accept);
 }
@@ -271,10 +273,10 @@ bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::
   const StarKind kind = mesh_.star(v, opposite_, most_triangles_);
   if (kind == StarKind::TooMany) return false;
   star_.clear();
-  std::vector<RimEdge>& rim = star_.patch.rim;
+  std::vector<BoundaryEdge>& boundary = star_.patch.boundary;
   for (const EdgeRef e : opposite_) {
     star_.patch.triangles.push_back(triOf(e));
-    rim.push_back({mesh_.origin(e), mesh_.target(e), mesh_.twin(e), mesh_.segment(e)});
+    boundary.push_back({mesh_.origin(e), mesh_.target(e), mesh_.twin(e), mesh_.segment(e)});
   }
   if (isBarred(star_)) return false;
   if (mesh_.kind(v) == VertexKind::Free) {
@@ -282,10 +284,10 @@ bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::
   } else if (kind == StarKind::Open) {
     // On the boundary: the two subsegments become the last side of the hole.
     const SegmentId seg = mesh_.segment(spokeBefore(opposite_.front()));
-    if (seg == kNone || mesh_.segment(spokeAfter(opposite_.back())) != seg || rim.size() < 2) return false;
-    if (!fillHole(rim, accept)) return false;
+    if (seg == kNone || mesh_.segment(spokeAfter(opposite_.back())) != seg || boundary.size() < 2) return false;
+    if (!fillHole(boundary, accept)) return false;
     all_fresh_ = fresh_;
-    rim.push_back({rim.back().b, rim.front().a, kNone, seg});
+    boundary.push_back({boundary.back().b, boundary.front().a, kNone, seg});
   } else {
     // Inside the mesh: one hole on either side of the segment.
     const auto isOnSegment = [&](EdgeRef e) { return mesh_.segment(spokeBefore(e)) != kNone; };
@@ -295,12 +297,12 @@ bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::
     if (other == opposite_.end()) return false;
     const auto first = static_cast<std::size_t>(one - opposite_.begin());
     const auto beside = static_cast<std::size_t>(other - one);
-    if (beside < 2 || rim.size() - beside < 2) return false;
-    std::ranges::rotate(rim, rim.begin() + static_cast<std::ptrdiff_t>(first));
-    star_.spokes.push_back({rim[0].a, rim[beside].a, kNone, mesh_.segment(spokeBefore(*one))});
-    if (!fillHole(std::span(rim).first(beside), accept)) return false;
+    if (beside < 2 || boundary.size() - beside < 2) return false;
+    std::ranges::rotate(boundary, boundary.begin() + static_cast<std::ptrdiff_t>(first));
+    star_.spokes.push_back({boundary[0].a, boundary[beside].a, kNone, mesh_.segment(spokeBefore(*one))});
+    if (!fillHole(std::span(boundary).first(beside), accept)) return false;
     all_fresh_ = fresh_;
-    if (!fillHole(std::span(rim).subspan(beside), accept)) return false;
+    if (!fillHole(std::span(boundary).subspan(beside), accept)) return false;
     all_fresh_.insert(all_fresh_.end(), fresh_.begin(), fresh_.end());
   }
   if (flips == Flips::Watched && mayNotFlip(star_) && holeFlips(star_)) return false;
@@ -345,9 +347,9 @@ bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched
   const std::optional<Point> place = findPlace(stays, star_);
   if (!place || !fits(*place) || (mayNotFlip(star_) && fanFlips(star_, *place))) return false;
   all_fresh_.clear();
-  for (const RimEdge& r : star_.patch.rim) all_fresh_.push_back({stays, r.a, r.b});
+  for (const BoundaryEdge& r : star_.patch.boundary) all_fresh_.push_back({stays, r.a, r.b});
   mesh_.setPoint(stays, *place);
-  star_.patch.rim.insert(star_.patch.rim.end(), star_.sides.begin(), star_.sides.end());
+  star_.patch.boundary.insert(star_.patch.boundary.end(), star_.sides.begin(), star_.sides.end());
   mesh_.replace(star_.patch, all_fresh_, {&goes, 1}, touched, star_.spokes);
   mesh_.restoreDelaunay(touched);
   return true;

@@ -24,8 +24,8 @@ class VertexOps {
   // From now on leaves alone what a frozen edge is next to: it is another's to change too.
   void keepClearOfFrozen() { clear_of_frozen_ = true; }
 
-  // From now on rejects any flip that involves a bad triangle: an input angle may excuse that triangle but not the one that the flip
-  // would make.
+  // From now on rejects any flip that involves a bad triangle: an input angle may excuse that triangle but not the one
+  // that the flip would make.
   void keepBadInPlace() { bad_stays_ = true; }
 
   // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
@@ -46,8 +46,8 @@ class VertexOps {
   // and keeps its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
   bool merge(VertexId goes, VertexId stays, std::vector<TriId>& touched);
 
-  // Tries merge with each neighbour of v that is no input vertex; of two free vertices only with the later, where each gets its
-  // turn.
+  // Tries merge with each neighbour of v that is no input vertex; of two free vertices only with the later, where each
+  // gets its turn.
   bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
 
   // Whether beyond an edge, given as seen from there (kNone: nothing), lies a bad triangle.
@@ -56,9 +56,9 @@ class VertexOps {
  private:
   // What is to be replaced round a vertex, or round two that become one.
   struct Star {
-    Patch patch;                  // the triangles, and their boundary without the edges below that end at the vertex
-    std::vector<RimEdge> spokes;  // subsegments that end at the vertex, as edges from it
-    std::vector<RimEdge> sides;   // of them, those on the boundary of the mesh, the mesh to their left
+    Patch patch;  // the triangles, and their boundary without the edges below that end at the vertex
+    std::vector<BoundaryEdge> spokes;  // subsegments that end at the vertex, as edges from it
+    std::vector<BoundaryEdge> sides;   // of them, those on the boundary of the mesh, the mesh to their left
 
     void clear();
   };
@@ -76,7 +76,7 @@ class VertexOps {
   template <typename Accept>
   bool removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
   template <typename Accept>
-  bool fillHole(std::span<const RimEdge> side, const Accept& accept);
+  bool fillHole(std::span<const BoundaryEdge> side, const Accept& accept);
   std::optional<Point> findPlace(VertexId v, const Star& star);
   bool fits(const Point& place) const;
   bool isGood(const Corners& c) const;

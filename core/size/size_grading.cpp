@@ -11,10 +11,11 @@ namespace coastmesh {
 
 namespace {
 
-// Steeper than this share of the grade sizes are graded by distance; below it, it is cheaper to flatten triangles.
+// Steeper than this share of the gradation sizes are graded by distance; below it, it is cheaper to flatten triangles.
 constexpr double kMuchTooSteep = 1.1;
-// So much of the way from a place to its neighbours sizes stay as they are there: grown all the way to two neighbours at a right angle
-// they would be too steep between these, and lowering them there would make the next cells too steep, without end.
+// So much of the way from a place to its neighbours sizes stay as they are there: grown all the way to two neighbours
+// at a right angle they would be too steep between these, and lowering them there would make the next cells too steep,
+// without end.
 constexpr double kFlatFoot = 0.3;
 // Triangles are flattened to a little less than what is still left alone, so that each time something is gained.
 constexpr double kFlattened = 1.0 - 1e-5;
@@ -31,13 +32,13 @@ double roundedDown(double size) {
 
 SizeGrading::SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit,
                          std::span<const LeafVertices> leaves, std::function<LeavesRound(std::uint32_t)> leaves_round,
-                         double grade, const ItemLoop& loop)
+                         double gradation, const ItemLoop& loop)
     : sizes_(sizes),
       places_(places),
       unit_(unit),
       leaves_(leaves),
       leaves_round_(std::move(leaves_round)),
-      grade_(grade),
+      gradation_(gradation),
       loop_(loop) {}
 
 // Of sizes on a triangle.
@@ -58,7 +59,7 @@ std::vector<std::uint32_t> SizeGrading::findSteep() const {
   return joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> steep;
     for (std::size_t l = first; l < last; ++l)
-      if (isSteeper(static_cast<std::uint32_t>(l), grade_)) steep.push_back(static_cast<std::uint32_t>(l));
+      if (isSteeper(static_cast<std::uint32_t>(l), gradation_)) steep.push_back(static_cast<std::uint32_t>(l));
     return steep;
   }));
 }
@@ -71,22 +72,22 @@ double SizeGrading::lowestOf(std::uint32_t leaf) const {
 }
 
 void SizeGrading::spread() {
-  // First to where nothing is wanted, from the rim of that.
+  // First to where nothing is wanted, from the boundary of that.
   const auto isFree = [&](std::uint32_t v) { return v != kNone && !std::isfinite(sizes_.size[v]); };
   grow(joined(overStretches(loop_, leaves_.size(),
                             [&](std::size_t first, std::size_t last) {
-                              std::vector<std::uint32_t> rim;
+                              std::vector<std::uint32_t> boundary;
                               for (const LeafVertices& leaf : leaves_.subspan(first, last - first)) {
                                 if (std::ranges::none_of(leaf, isFree)) continue;
                                 for (const std::uint32_t v : leaf)
-                                  if (v != kNone && !isFree(v)) rim.push_back(v);
+                                  if (v != kNone && !isFree(v)) boundary.push_back(v);
                               }
-                              return rim;
+                              return boundary;
                             })),
        [&](std::uint32_t v) { return !std::isfinite(sizes_.own[v]); });
 
   // Then to where more is.
-  const double limit = kMuchTooSteep * grade_;
+  const double limit = kMuchTooSteep * gradation_;
   std::vector<std::uint32_t> low =
       joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
         std::vector<std::uint32_t> lowest;
@@ -111,7 +112,8 @@ double SizeGrading::legAt(std::uint32_t v) const {
   return leg;
 }
 
-// From each place sizes grow with the straight distance from it, not with that along edges: every vertex knows the place that decides.
+// From each place sizes grow with the straight distance from it, not with that along edges: every vertex knows the
+// place that decides.
 template <typename F>
 void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
   std::ranges::sort(from);
@@ -130,7 +132,7 @@ void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
       for (const std::uint32_t w : leaves_[l]) {
         if (w == kNone || !mayLower(w)) continue;
         const double way = std::max(distance(place, placeOf(w)) - flat, 0.0);
-        const double allowed = sizes_.own[origin] + kSizeGrowth * grade_ * way;
+        const double allowed = sizes_.own[origin] + kSizeGrowth * gradation_ * way;
         if (!(allowed < sizes_.size[w] * (1.0 - 1e-9))) continue;
         sizes_.size[w] = allowed;
         sizes_.source[w] = origin;
@@ -154,19 +156,20 @@ void SizeGrading::flatten() {
     flattenLeaf(leaf, lowered);
     for (const std::uint32_t v : lowered) {
       forLeavesRound(v, [&](std::uint32_t l) {
-        if (isSteeper(l, grade_)) queue.push({lowestOf(l), l});
+        if (isSteeper(l, gradation_)) queue.push({lowestOf(l), l});
       });
     }
   }
 }
 
-// The nearest sizes, in the sense of least squares, that make a triangle as steep as allowed: those of its corners go down that lie on
-// the upper side. To tilt it about its lowest corner instead lowers more, and makes its neighbours steep in turn, on and on.
+// The nearest sizes, in the sense of least squares, that make a triangle as steep as allowed: those of its corners go
+// down that lie on the upper side. To tilt it about its lowest corner instead lowers more, and makes its neighbours
+// steep in turn, on and on.
 void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lowered) {
   forEachTriangle(leaves_[leaf], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const std::array<std::uint32_t, 3> corners = {a, b, c};
     const Point slope = gradient(a, b, c);
-    if (squaredLength(slope) <= grade_ * grade_) return;
+    if (squaredLength(slope) <= gradation_ * gradation_) return;
     // How the gradient changes while each corner goes down as fast as the square of the slope falls with it.
     std::array<double, 3> down;
     Point change;
@@ -178,7 +181,7 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lo
       change = change + down[i] * with;
     }
     // Until |slope - way * change| is what is allowed, or as near as it comes this way.
-    const double allowed = kFlattened * grade_;
+    const double allowed = kFlattened * gradation_;
     const double aa = squaredLength(change), ab = dot(slope, change);
     const double inside = ab * ab - aa * (squaredLength(slope) - allowed * allowed);
     const double way = (ab - std::sqrt(std::max(inside, 0.0))) / aa;
@@ -192,8 +195,9 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lo
   lowered.erase(std::unique(lowered.begin(), lowered.end()), lowered.end());
 }
 
-// Where flattening takes too long: along both legs of a right angle sizes differ by at most the grade over the square root of 2, in every
-// cell that has a lowered vertex. That ends: a cell is taken in once, and in those that are in, sizes are lengths of shortest paths.
+// Where flattening takes too long: along both legs of a right angle sizes differ by at most the gradation over the
+// square root of 2, in every cell that has a lowered vertex. That ends: a cell is taken in once, and in those that are
+// in, sizes are lengths of shortest paths.
 void SizeGrading::flattenLegs() {
   std::vector<bool> is_strict(leaves_.size(), false);
   Queue queue;
@@ -213,7 +217,7 @@ void SizeGrading::flattenLegs() {
       forEachTriangle(leaves_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         if (v != a && v != b && v != c) return;
         for (const std::uint32_t w : {a, b, c}) {
-          const double growth = kFlattened * std::sqrt(0.5) * grade_ * distance(placeOf(v), placeOf(w));
+          const double growth = kFlattened * std::sqrt(0.5) * gradation_ * distance(placeOf(v), placeOf(w));
           const double allowed = std::max(size, roundedDown(size + growth));
           if (!(allowed < sizes_.size[w])) continue;
           sizes_.size[w] = allowed;

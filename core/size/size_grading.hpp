@@ -14,16 +14,16 @@
 
 namespace coastmesh {
 
-// The vertices of a square cell, in rows from below: corners, middles of sides, centre. The middle of a side is kNone where
-// sizes are linear along it. The cell's triangles lie between its centre and the edges of its rim: all are right-angled, with legs of
-// the same length. Cells meet in whole edges.
+// The vertices of a square cell, in rows from below: corners, middles of sides, centre. The middle of a side is kNone
+// where sizes are linear along it. The cell's triangles lie between its centre and the edges of its boundary: all are
+// right-angled, with legs of the same length. Cells meet in whole edges.
 using LeafVertices = std::array<std::uint32_t, 9>;
 
-// From where they are graded, sizes grow by this share of the grade: between vertices a cone is steeper than it is.
+// From where they are graded, sizes grow by this share of the gradation: between vertices a cone is steeper than it is.
 inline constexpr double kSizeGrowth = 0.94;
 
-// At vertices: the size wanted there (infinite: none), the size allowed, and the vertex from which that grows (kNone where nothing
-// smaller lies near).
+// At vertices: the size wanted there (infinite: none), the size allowed, and the vertex from which that grows (kNone
+// where nothing smaller lies near).
 struct GradedSizes {
   std::vector<double> own, size;
   std::vector<std::uint32_t> source;
@@ -35,16 +35,18 @@ struct LeavesRound {
   std::size_t count = 0;
 };
 
-// Lowers sizes at the vertices of such cells until they grow no faster than `grade` anywhere, in two steps. Places are in multiples of `unit`.
+// Lowers sizes at the vertices of such cells until they grow no faster than `gradation` anywhere, in two steps. Places
+// are in multiples of `unit`.
 class SizeGrading {
  public:
   SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit, std::span<const LeafVertices> leaves,
-              std::function<LeavesRound(std::uint32_t)> leaves_round, double grade, const ItemLoop& loop);
+              std::function<LeavesRound(std::uint32_t)> leaves_round, double gradation, const ItemLoop& loop);
 
-  // From the feet of triangles that are much too steep, and from what grew before, sizes grow with the straight distance; where none
-  // are wanted, they grow from those round it.
+  // From the feet of triangles that are much too steep, and from what grew before, sizes grow with the straight
+  // distance; where none are wanted, they grow from those round it.
   void spread();
-  // Lowers what is steeper than `grade` as little as each triangle needs, and rounds to single precision. Afterwards no triangle is.
+  // Lowers what is steeper than `gradation` as little as each triangle needs, and rounds to single precision.
+  // Afterwards no triangle is.
   void flatten();
 
  private:
@@ -76,19 +78,19 @@ class SizeGrading {
   double unit_;
   std::span<const LeafVertices> leaves_;
   std::function<LeavesRound(std::uint32_t)> leaves_round_;
-  double grade_;
+  double gradation_;
   const ItemLoop& loop_;
 };
 
-// The rim of a cell counter-clockwise.
-inline constexpr std::array<unsigned, 8> kLeafRim = {0, 1, 2, 5, 8, 7, 6, 3};
+// The boundary of a cell counter-clockwise.
+inline constexpr std::array<unsigned, 8> kLeafBoundary = {0, 1, 2, 5, 8, 7, 6, 3};
 
-// The triangles of a cell: its centre, and an edge of the rim.
+// The triangles of a cell: its centre, and an edge of the boundary.
 template <typename F>
 void forEachTriangle(const LeafVertices& leaf, F&& triangle) {
   std::uint32_t last = leaf[0];
-  for (std::size_t k = 1; k <= kLeafRim.size(); ++k) {
-    const std::uint32_t next = leaf[kLeafRim[k % kLeafRim.size()]];
+  for (std::size_t k = 1; k <= kLeafBoundary.size(); ++k) {
+    const std::uint32_t next = leaf[kLeafBoundary[k % kLeafBoundary.size()]];
     if (next == kNone) continue;
     triangle(leaf[4], last, next);
     last = next;

@@ -34,8 +34,8 @@ class SizePlaces {
  private:
   static constexpr std::size_t kBlock = 64;
 
-  // Where it is, or the free slot where it would be. Places of a row of cells of one level follow one another there: a block of 8 by 8
-  // stays together.
+  // Where it is, or the free slot where it would be. Places of a row of cells of one level follow one another there: a
+  // block of 8 by 8 stays together.
   std::size_t slotOf(const Place& place) const {
     constexpr int kMostShift = 31;
     const int level = std::min(std::countr_zero(place.x | place.y), kMostShift);

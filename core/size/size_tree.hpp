@@ -22,8 +22,8 @@ struct SizeRange {
   double high = 0.0;
 };
 
-// Where wanted lengths come from: asked for many places at once, so that whoever computes them can share the work out. Lengths are in plane
-// units, above 0; infinite where nothing is wanted.
+// Where wanted lengths come from: asked for many places at once, so that whoever computes them can share the work out.
+// Lengths are in plane units, above 0; infinite where nothing is wanted.
 class SizeSource {
  public:
   virtual ~SizeSource() = default;
@@ -45,9 +45,10 @@ struct SizeDemand {
 };
 
 struct SizeTreeOptions {
-  double grade = 0.3;  // above 0: no two places' lengths differ by more than this times their distance
-  // Cells are split down to so many times the least length in them, where that changes within them; further, to `finest`, where what
-  // lies between their corners is not known from these to `tolerance`: twice that in a cell half as large as the length.
+  double gradation = 0.3;  // above 0: no two places' lengths differ by more than this times their distance
+  // Cells are split down to so many times the least length in them, where that changes within them; further, to
+  // `finest`, where what lies between their corners is not known from these to `tolerance`: twice that in a cell half
+  // as large as the length.
   double coarsest = 3.0;
   double finest = 0.25;
   double tolerance = 0.04;                // relative
@@ -56,19 +57,20 @@ struct SizeTreeOptions {
   double most_vertices = std::numeric_limits<double>::infinity();
 };
 
-// A size function on a quadtree: cells about as large as the lengths wanted there, coarser where these hardly change, so that memory
-// follows the mesh. Lengths are linear on the triangles between a cell's centre and the edges of its rim, and continuous from one cell
-// to the next.
+// A size function on a quadtree: cells about as large as the lengths wanted there, coarser where these hardly change,
+// so that memory follows the mesh. Lengths are linear on the triangles between a cell's centre and the edges of its
+// boundary, and continuous from one cell to the next.
 //
-// No two places' lengths differ by more than the grade times their distance. Proof: on each triangle the gradient is at most the grade
-// (`SizeGrading`; the builder sees to it that this holds for the rounded values that are kept). The triangles fill the root square, a
-// convex set, so that the straight way between two places in it is a row of pieces, each in one triangle, and on each the length
-// changes by at most the grade times the piece. A place beyond the square gets the length of the nearest place in it, and nearest places
-// of a convex set are no further apart than the places themselves.
+// No two places' lengths differ by more than the gradation times their distance. Proof: on each triangle the gradient
+// is at most the gradation (`SizeGrading`; the builder sees to it that this holds for the rounded values that are
+// kept). The triangles fill the root square, a convex set, so that the straight way between two places in it is a row
+// of pieces, each in one triangle, and on each the length changes by at most the gradation times the piece. A place
+// beyond the square gets the length of the nearest place in it, and nearest places of a convex set are no further apart
+// than the places themselves.
 class SizeTree final : public SizeFunction {
  public:
-  // Covers the box from `low` to `high`; beyond it the nearest place counts. `loop` lends threads; the tree does not depend on it.
-  // Throws nothing but what `source` does.
+  // Covers the box from `low` to `high`; beyond it the nearest place counts. `loop` lends threads; the tree does not
+  // depend on it. Throws nothing but what `source` does.
   SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,
            const ItemLoop& loop = inOrder);
 
@@ -92,7 +94,8 @@ class SizeTree final : public SizeFunction {
     std::uint32_t below = 0;  // the first of four children in a row, or, where `is_leaf`, a leaf's number
     bool is_leaf = true;
   };
-  // In rows from below: corners, middles of sides, centre. The middle of a side is NaN where lengths are linear along it.
+  // In rows from below: corners, middles of sides, centre. The middle of a side is NaN where lengths are linear along
+  // it.
   using Leaf = std::array<float, 9>;
 
   static constexpr int kStartLevels = 8;  // a table leads straight to this level

@@ -16,8 +16,8 @@ namespace coastmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Where the least size in a cell is known to be less than that at its corners, sides and centre by this factor, something small lies
-// between them. Bounds of what grows with a distance are off by less.
+// Where the least size in a cell is known to be less than that at its corners, sides and centre by this factor,
+// something small lies between them. Bounds of what grows with a distance are off by less.
 constexpr double kHidden = 1.5;
 constexpr int kLevels = 24;
 constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // of the root's side: a leaf of the last level has a centre
@@ -47,7 +47,7 @@ class SizeTreeBuilder {
     if (!tree_.complete_) return;
     balance();
     number();
-    grade();
+    limitGradation();
     tree_.demand_ = demandOfLeaves();
     if (!tree_.complete_) return;
     fill();
@@ -114,15 +114,16 @@ class SizeTreeBuilder {
     const SizeBox box = boxOf(c);
     const double area = source_.share(box) * 4.0 * box.half * box.half;
     if (!(area > 0.0) || range.low == kInfinity) return {};
-    // Graded, lengths grow no faster from the least one; the mean of 1 / h² of what grows evenly is that of both ends' product.
-    const double high = std::min(range.high, range.low + options_.grade * std::sqrt(8.0) * box.half);
+    // Graded, lengths grow no faster from the least one; the mean of 1 / h² of what grows evenly is that of both ends'
+    // product.
+    const double high = std::min(range.high, range.low + options_.gradation * std::sqrt(8.0) * box.half);
     const double low = range.low > 0.0 ? range.low : high;
     const double likely = kVerticesPerArea * area / low / high;
     return {kVerticesPerArea * area / range.high / range.high, likely, likely, box, low};
   }
 
-  // Whether what is likely is far too much and has hardly become less over some levels: what small places seem to ask for halves from
-  // one level to the next, and what lines and areas ask for stays.
+  // Whether what is likely is far too much and has hardly become less over some levels: what small places seem to ask
+  // for halves from one level to the next, and what lines and areas ask for stays.
   bool isSurelyTooMuch(double likely) {
     constexpr std::size_t kLevelsAlike = 3;
     constexpr double kAlike = 0.8, kFarTooMuch = 1.5;
@@ -219,7 +220,8 @@ class SizeTreeBuilder {
     if (too_much) abandon(settled);
   }
 
-  // Splits cells whose centre or sides differ from what the corners give, or that hold something much smaller than all of these.
+  // Splits cells whose centre or sides differ from what the corners give, or that hold something much smaller than all
+  // of these.
   void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<double>& lows) {
     std::vector<std::array<std::uint32_t, 4>> middles(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -346,8 +348,8 @@ class SizeTreeBuilder {
       for (const unsigned i : kMiddles) {
         if (leaf[i] == kNone || sides[leaf[i]] == kMeeting) continue;
         const auto [x, y] = vertices_[leaf[i]];
-        const bool at_rim = x == 0 || y == 0 || x == kUnits || y == kUnits;
-        sides[leaf[i]] = at_rim || sides[leaf[i]] > 0 ? kMeeting : std::uint8_t{1};
+        const bool at_boundary = x == 0 || y == 0 || x == kUnits || y == kUnits;
+        sides[leaf[i]] = at_boundary || sides[leaf[i]] > 0 ? kMeeting : std::uint8_t{1};
       }
     }
     forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
@@ -374,11 +376,11 @@ class SizeTreeBuilder {
     return round;
   }
 
-  void grade() {
+  void limitGradation() {
     const auto grading = [&] {
       return SizeGrading(
           sizes_, vertices_, unit(), leaf_vertices_, [this](std::uint32_t v) { return leavesRound(v); },
-          kSafely * options_.grade, loop_);
+          kSafely * options_.gradation, loop_);
     };
     for (int round = 0; round < kLevels; ++round) {
       grading().spread();
@@ -414,7 +416,7 @@ class SizeTreeBuilder {
     for (const std::uint32_t s : sources) {
       const Point off = Point{unit() * vertices_[s].x, unit() * vertices_[s].y} - centre;
       const Point beyond{std::max(std::abs(off.x) - half, 0.0), std::max(std::abs(off.y) - half, 0.0)};
-      low = std::min(low, sizes_.own[s] + kSizeGrowth * options_.grade * std::sqrt(squaredLength(beyond)));
+      low = std::min(low, sizes_.own[s] + kSizeGrowth * options_.gradation * std::sqrt(squaredLength(beyond)));
     }
     if (2.0 * half <= options_.coarsest * low) return;
     split(c);

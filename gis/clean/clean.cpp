@@ -41,7 +41,7 @@ void refuseEmpty(const Coastline& coastline, const std::vector<std::size_t>& mem
                                   "them with --bbox W,S,E,N or --clip FILE"));
 }
 
-// Edits beyond the frame tell of what is not meshed anyway.
+// Edits beyond the frame are about what is not meshed anyway.
 void keepFramedEdits(const Coastline& coastline, const std::vector<std::size_t>& members, std::size_t first,
                      CleanReport& report) {
   ChainIndex frame(ChainIndex::Kind::Rings);

@@ -292,7 +292,7 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   for (InputChain& chain : input) {
     const Feature& feature = coastline.features[chain.feature];
     const bool closed = chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole;
-    const bool tell = feature.use != FeatureUse::Frame;
+    const bool reported = feature.use != FeatureUse::Frame;
     CleanChain made{chain.role, chain.feature, {}};
     made.walk.reserve(chain.points.size());
     bool snapped = false;
@@ -301,20 +301,20 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
       if (at + kAhead < plane.size()) maker.prefetch(plane[at + kAhead]);
       const VertexId v = maker.make(requirePlace(plane[at++], point, feature, projection), point, snapped);
       const bool repeated = !made.walk.empty() && made.walk.back() == v;
-      if (tell && (snapped || repeated)) report.add(EditKind::RepeatedPoint, point, feature.fid);
+      if (reported && (snapped || repeated)) report.add(EditKind::RepeatedPoint, point, feature.fid);
       if (!repeated) made.walk.push_back(v);
     }
     while (closed && made.walk.size() > 1 && made.walk.front() == made.walk.back()) {
-      if (tell && !snapped) report.add(EditKind::RepeatedPoint, chain.points.back(), feature.fid);
+      if (reported && !snapped) report.add(EditKind::RepeatedPoint, chain.points.back(), feature.fid);
       made.walk.pop_back();
     }
     if (closed) {
       made.walk = withoutSpikes(made.walk, [&](VertexId v) {
-        if (tell) report.add(EditKind::Spike, result.vertices.input[v], feature.fid);
+        if (reported) report.add(EditKind::Spike, result.vertices.input[v], feature.fid);
       });
     }
     if (made.walk.size() < (closed ? 3u : chain.role == CleanChain::Role::Point ? 1u : 2u)) {
-      if (tell) report.add(EditKind::DegenerateRing, chain.points.front(), feature.fid);
+      if (reported) report.add(EditKind::DegenerateRing, chain.points.front(), feature.fid);
       continue;
     }
     std::vector<Point>().swap(chain.points);

@@ -250,7 +250,7 @@ class Labeller {
     return first == kNone ? std::nullopt : std::optional(LineKey(first, of_region));
   }
 
-  // Whether open water goes on beyond an edge of the rim.
+  // Whether open water goes on beyond an edge of the boundary.
   bool opens(const MapEdge& edge, RegionId left, RegionId right) const {
     if (left != kOutside && right != kOutside) return false;
     for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
@@ -260,7 +260,7 @@ class Labeller {
     return false;
   }
 
-  // Vertices asked for that lie in water and on no segment; those elsewhere are told of.
+  // Vertices asked for that lie in water and on no segment; those elsewhere are reported.
   std::vector<VertexId> keepPoints(const std::vector<Segment>& segments) const {
     std::vector<VertexId> points;
     const bool any = std::ranges::any_of(chains_.chains,

@@ -17,8 +17,8 @@ namespace coastmesh {
 namespace {
 
 // The snap distance counts in the first rounds, since edges that are led through vertices come nearer to others; after
-// them rounding is all that is left to fight, at the grain of the coordinates. In these later rounds vertices nearer than
-// that grain become one, and each round doubles it.
+// them rounding is all that is left to fight, at the grain of the coordinates. In these later rounds vertices nearer
+// than that grain become one, and each round doubles it.
 constexpr int kSnapRounds = 8, kMostRounds = 24;
 
 // An edge and its uses, [first_use, last_use).
@@ -106,7 +106,7 @@ class Noder {
   }
 
   // Sorts the uses, lets those of one feature cancel in pairs, and lists the edges.
-  void collapse(bool tell) {
+  void collapse(bool reported) {
     const auto key = [&](const EdgeUse& use) {
       return std::tuple(use.low(), use.high(), lineUse(use), featureOf(use), use.chain, use.a);
     };
@@ -132,7 +132,7 @@ class Noder {
              ++i)
           ++same;
         if (isLine(use) || same % 2 == 1) uses_[kept++] = use;
-        if (tell && same > 1 && !onSeam(low, high) && !ofFrame(use)) {
+        if (reported && same > 1 && !onSeam(low, high) && !ofFrame(use)) {
           report_.add(EditKind::OverlappingEdge, chains_.vertices.input[low], coastline_.features[featureOf(use)].fid);
         }
       }
@@ -246,7 +246,7 @@ class Noder {
     }
   }
 
-  void putCrossings(double tolerance, bool tell) {
+  void putCrossings(double tolerance, bool reported) {
     CleanVertices& vertices = chains_.vertices;
     PointGrid grid(vertices.plane, tolerance, vertices.plane.size() + crossings_.size());
     for (VertexId v = 0; v < vertices.plane.size(); ++v) grid.add(v);
@@ -263,17 +263,17 @@ class Noder {
       }
       if (v != e.low && v != e.high) splits_.push_back({crossing.e, v});
       if (v != f.low && v != f.high) splits_.push_back({crossing.f, v});
-      markCrossed(e, f, vertices.input[v], tell);
+      markCrossed(e, f, vertices.input[v], reported);
     }
     std::sort(splits_.begin(), splits_.end());
     splits_.erase(std::unique(splits_.begin(), splits_.end()), splits_.end());
   }
 
-  void markCrossed(const Edge& e, const Edge& f, const Point& place, bool tell) {
+  void markCrossed(const Edge& e, const Edge& f, const Point& place, bool reported) {
     for (const Edge& edge : {e, f}) {
       for (std::size_t u = edge.first_use; u < edge.last_use; ++u) crossed_[uses_[u].chain] = 1;
     }
-    if (!tell || ofFrame(uses_[e.first_use]) || ofFrame(uses_[f.first_use])) return;
+    if (!reported || ofFrame(uses_[e.first_use]) || ofFrame(uses_[f.first_use])) return;
     const std::uint32_t first = featureOf(uses_[e.first_use]), second = featureOf(uses_[f.first_use]);
     report_.add(first == second ? EditKind::SelfCrossing : EditKind::FeaturesCross, place,
                 coastline_.features[std::max(first, second)].fid);
@@ -370,7 +370,7 @@ class Noder {
   const Projection& projection_;
   CleanReport& report_;
   const ItemLoop& loop_;
-  double grain_ = 0;  // distance below which rounding makes what it likes of points
+  double grain_ = 0;  // distance below which rounding decides where points lie
   std::vector<EdgeUse> uses_;
   std::vector<Edge> edges_;
   std::vector<char> active_;  // by edge: not yet tested against all others

@@ -17,8 +17,8 @@ struct EdgeUse {
 
 // Edges that meet in common end points only.
 struct NodedEdges {
-  // Sorted by low end, high end, rings before lines, feature. A feature's rings use an edge once at most (two uses cancel:
-  // even-odd), lines of one FeatureUse once at most.
+  // Sorted by low end, high end, rings before lines, feature. A feature's rings use an edge once at most (two uses
+  // cancel: even-odd), lines of one FeatureUse once at most.
   std::vector<EdgeUse> uses;
   std::vector<char> crossed;  // by chain: whether one of its edges crossed another edge
 };

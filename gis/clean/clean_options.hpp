@@ -6,7 +6,7 @@ namespace coastmesh {
 
 // What becomes of a place where rings, or a ring with itself, touch in one vertex.
 enum class Pinches {
-  Keep,  // the vertex stays in both; it is told of
+  Keep,  // the vertex stays in both; it is reported
   Open,  // land gives way a little, so that water passes: see `openPinches`
 };
 

@@ -418,8 +418,12 @@ class PinchOpener {
 
   void moveEnd(std::uint32_t segment, VertexId from, VertexId to) {
     Segment& s = segments_[segment];
-    (s.a == from ? s.a : s.b) = to;
-    if (s.a > s.b) std::swap(s.a, s.b), std::swap(s.left, s.right);
+    VertexId& end = s.a == from ? s.a : s.b;
+    end = to;
+    if (s.a > s.b) {
+      std::swap(s.a, s.b);
+      std::swap(s.left, s.right);
+    }
     noteStrayed(segment);
   }
 

@@ -10,7 +10,7 @@ namespace coastmesh {
 // A pinch is a vertex where the outside of the domain lies in two sectors or more, so that water touches itself there.
 // Private to gis.
 
-// Reports every pinch in a vertex of the input; one that was made where edges cross was told of as a crossing.
+// Reports every pinch in a vertex of the input; one that was made where edges cross was reported as a crossing.
 void tellPinches(const CleanVertices& vertices, const std::vector<Segment>& segments, const Coastline& coastline,
                  CleanReport& report);
 
@@ -21,7 +21,7 @@ void tellPinches(const CleanVertices& vertices, const std::vector<Segment>& segm
 // opened belongs to the water beside it; where that is of two features, they meet in an edge across the gap. Vertices
 // as near as a few such gaps are passed by, and a ring that is no larger goes, be it island or lake. No edge meets
 // another but in a common end after this as before; new vertices are appended. A pinch without room for that stays, is
-// told of as a touching ring, and noted.
+// reported as a touching ring, and noted.
 inline constexpr double kPinchGap = 0.05;
 std::vector<Segment> openPinches(CleanVertices& vertices, std::vector<Segment> segments, const Coastline& coastline,
                                  const Projection& projection, const Resolution& resolution, CleanReport& report);

@@ -31,8 +31,8 @@ enum class EditKind {
   DroppedSpit,      // land narrower than these that ends in water: dropped by `followSizes`
   CutOffWater,      // water cut off where narrow water was closed: left out by `followSizes`
   MovedPoint,       // a point of the shore: moved by `followSizes` within half the size wanted there
-  WidenedPassage,  // a passage that the user named, or that alone joins waters: land beside it gave way, by `followSizes`
-  Barrier,         // water on a line that the user named: closed by `followSizes`
+  WidenedPassage,   // one that the user named, or that alone joins waters: land beside it gave way, by `followSizes`
+  Barrier,          // water on a line that the user named: closed by `followSizes`
 };
 inline constexpr std::size_t kEditKinds = 20;
 std::string_view toString(EditKind kind);  // "repeated point"

@@ -148,8 +148,8 @@ class Simplifier {
     if (tolerance >= 0.0 && cost <= tolerance * tolerance) queue_.push({cost, v, links_[v].version});
   }
 
-  // Whether the triangle of v and its neighbours holds another living vertex, on its boundary included, or the segment that
-  // would replace v comes too near to one.
+  // Whether the triangle of v and its neighbours holds another living vertex, on its boundary included, or the segment
+  // that would replace v comes too near to one.
   bool blocked(VertexId v) const {
     const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
     const int turn = orient2d(at(p), at(v), at(q));

@@ -19,9 +19,9 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
                                    const Coastline& coastline, const Projection& projection,
                                    const Resolution& resolution, double tolerance_m, CleanReport& report);
 
-// Drops those of `edges.traces` that lie on the straight line between their neighbours: where polygons were cut apart, the
-// cut left a vertex in the shore. What was rounded to decimals when the input was written lies on it to within the last
-// of these, at most a centimetre; what has all its digits to within rounding. Topology is kept as above.
+// Drops those of `edges.traces` that lie on the straight line between their neighbours: where polygons were cut apart,
+// the cut left a vertex in the shore. What was rounded to decimals when the input was written lies on it to within the
+// last of these, at most a centimetre; what has all its digits to within rounding. Topology is kept as above.
 std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
                                 const Projection& projection, const Resolution& resolution, CleanReport& report);
 

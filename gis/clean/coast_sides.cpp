@@ -38,7 +38,7 @@ class WaterFinder {
   }
 
  private:
-  // Goes over all faces that may be water and hang together, and tells on which side of the coasts each lies.
+  // Goes over all faces that may be water and hang together, and says on which side of the coasts each lies.
   template <typename Found>
   void flood(std::uint32_t first, bool water, Found&& found) {
     if (seen_.empty()) seen_.assign(coast_.map.faceCount(), 0);
@@ -96,7 +96,7 @@ class WaterFinder {
       char text[256];
       std::snprintf(text, sizeof text,
                     "only %.0f %% of the coastlines' length has water on its right, as OpenStreetMap has it, so that "
-                    "their directions tell nothing: give --water-at LON,LAT",
+                    "their directions say nothing: give --water-at LON,LAT",
                     100 * agreeing / all);
       throw InputError(text);
     }
@@ -114,8 +114,8 @@ class WaterFinder {
     return std::hypot(b.x - a.x, b.y - a.y);
   }
 
-  // Follows each line from where it ends within the frame: where it comes to the frame's rim, or ends again, it should
-  // have parted water from land. A line that ends at another coast is a pier.
+  // Follows each line from where it ends within the frame: where it comes to the frame's boundary, or ends again, it
+  // should have parted water from land. A line that ends at another coast is a pier.
   void refuseGaps() const {
     const std::size_t n = vertices_.plane.size();
     std::vector<std::uint32_t> degree(n, 0), lines(n, 0);

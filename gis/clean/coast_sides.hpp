@@ -16,7 +16,7 @@ struct CoastEdge {
   // By how much coasts run upwards along it (from low to high) rather than downwards: 0, 1 or -1 as a rule.
   int direction = 0;
   bool line = false;          // an open line of a coast
-  bool of_frame = false;      // the frame's rim runs along it
+  bool of_frame = false;      // the frame's boundary runs along it
   std::uint32_t feature = 0;  // of the coast
 };
 

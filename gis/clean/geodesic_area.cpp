@@ -123,11 +123,12 @@ double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& 
 
 namespace {
 
-// Karney, "Algorithms for geodesics" (2013), Section 6: the area between an edge and the equator, added up along rims with the
-// inside to their left. Which of the areas that differ by half the globe is meant, crossings of a meridian tell.
-class RimSum {
+// Karney, "Algorithms for geodesics" (2013), Section 6: the area between an edge and the equator, added up along rings
+// with the inside to their left. Which of the areas that differ by half the globe is meant, crossings of a meridian
+// tell.
+class AreaSum {
  public:
-  explicit RimSum(const Crs& crs) : edges_(crs.semi_major_m, crs.flattening) {}
+  explicit AreaSum(const Crs& crs) : edges_(crs.semi_major_m, crs.flattening) {}
 
   void add(const Point& from, const Point& to) {
     using GeographicLib::Math;
@@ -167,17 +168,17 @@ double geodesicArea(const Domain& domain, const Crs& crs) {
     for (Point& p : places) p = to_lonlat.forward(p);
   }
   double twice = 0;
-  RimSum rim(crs);
+  AreaSum sum(crs);
   for (const Segment& s : domain.pslg.segments) {
     if ((s.left >= 0) == (s.right >= 0)) continue;
     const Point &a = places[s.left >= 0 ? s.a : s.b], &b = places[s.left >= 0 ? s.b : s.a], &o = places.front();
     if (crs.isPlane()) {
       twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
     } else {
-      rim.add(a, b);
+      sum.add(a, b);
     }
   }
-  return crs.isPlane() ? twice / 2 : rim.area();
+  return crs.isPlane() ? twice / 2 : sum.area();
 }
 
 }  // namespace coastmesh

@@ -24,12 +24,12 @@ enum class FeatureUse {
   Area,        // its inside is meshed; its open lines are constraints
   Land,        // its inside is left out of the frame's water
   Coast,       // its rings and lines part water from land within the frame
-  Frame,       // nothing outside of it is meshed; its rim becomes open boundaries
+  Frame,       // nothing outside of it is meshed; where it runs through water, the boundary is open
   Constraint,  // lines and points that become edges and vertices where they lie in water
   Weir,        // the same for lines that are weirs
   Region,      // polygons that give the triangles in them a region
-  Open,        // lines: where they run along the rim, open water goes on beyond
-  Boundary,    // lines along the rim that tell types of boundaries, and nothing else
+  Open,        // lines: where they run along the boundary, open water goes on beyond
+  Boundary,    // lines along the boundary that say the types of its parts, and nothing else
 };
 
 // One feature of a vector layer.
@@ -41,7 +41,7 @@ struct Feature {
   std::vector<std::pair<std::string, std::string>> attributes;  // name, value as text; nulls are left out
   FeatureUse use = FeatureUse::Area;
   bool from_lines = false;    // its rings were made of lines
-  bool clipped = false;       // far-off parts of it were cut off, or longitudes jump: its rings' sides tell nothing
+  bool clipped = false;       // far-off parts of it were cut off, or longitudes jump: its rings' sides say nothing
   std::string region;         // of a meshed part: the region it lies in
   std::vector<Point> points;  // of a constraint: vertices to be
   std::vector<Point> vertex_order;  // of a cleaned part: vertices as they were numbered, those of other features too

@@ -127,17 +127,18 @@ bool isFramedWater(const Coastline& coastline) {
 // True iff the frame is one box in the input's coordinates, and `box` lies inside of it.
 bool framedWhole(const Feature& frame, const Box& box) {
   for (const Polygon& polygon : frame.polygons) {
-    Box rim;
-    for (const Point& p : polygon.outer) rim.add(p);
-    const bool on_rim = std::ranges::all_of(polygon.outer, [&](const Point& p) {
-      return p.x == rim.xmin || p.x == rim.xmax || p.y == rim.ymin || p.y == rim.ymax;
+    Box bounds;
+    for (const Point& p : polygon.outer) bounds.add(p);
+    const bool on_bounds = std::ranges::all_of(polygon.outer, [&](const Point& p) {
+      return p.x == bounds.xmin || p.x == bounds.xmax || p.y == bounds.ymin || p.y == bounds.ymax;
     });
     int corners = 0;
     for (const Point& p : polygon.outer) {
-      corners += (p.x == rim.xmin || p.x == rim.xmax) && (p.y == rim.ymin || p.y == rim.ymax);
+      corners += (p.x == bounds.xmin || p.x == bounds.xmax) && (p.y == bounds.ymin || p.y == bounds.ymax);
     }
-    const bool inside = rim.xmin < box.xmin && box.xmax < rim.xmax && rim.ymin < box.ymin && box.ymax < rim.ymax;
-    if (on_rim && corners == 4 && polygon.holes.empty() && inside) return true;
+    const bool inside =
+        bounds.xmin < box.xmin && box.xmax < bounds.xmax && bounds.ymin < box.ymin && box.ymax < bounds.ymax;
+    if (on_bounds && corners == 4 && polygon.holes.empty() && inside) return true;
   }
   return false;
 }
@@ -165,7 +166,8 @@ void addGuests(const Coastline& coastline, const std::vector<Box>& boxes,
     for (const double turn : {0.0, -360.0, 360.0}) {
       if (turn != 0 && !coastline.crs.geographic) continue;
       Box box = boxes[f];
-      box.xmin += turn, box.xmax += turn;
+      box.xmin += turn;
+      box.xmax += turn;
       tree.visit(box, join);
     }
   }

@@ -87,7 +87,8 @@ class Network {
     for (std::uint32_t a = 0; a < arcs_.size(); ++a) {
       if (alive_[a]) pieces.unite(arcs_[a].from, arcs_[a].to);
     }
-    // The least vertex (by x, then y) of each piece lies on its rim; where it is an end, one half-arc leaving it does.
+    // The least vertex (by x, then y) of each piece lies on its boundary; where it is an end, one half-arc leaving it
+    // does.
     struct Least {
       std::uint32_t arc = kNone;
       std::size_t vertex = 0;

@@ -16,8 +16,8 @@ Crs wgs84();
 // True iff coordinates mean the same place in both.
 bool sameCrs(const Crs& a, const Crs& b);
 
-// Metres on the ground that a unit of the coordinates stands for, at a scale of 1; of degrees those at the equator; 1 for a
-// plane.
+// Metres on the ground that a unit of the coordinates stands for, at a scale of 1; of degrees those at the equator; 1
+// for a plane.
 double metresPerUnit(const Crs& crs);
 
 // For people: "EPSG:32616", else the name that the CRS gives itself, else "plane".

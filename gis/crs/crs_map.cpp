@@ -68,8 +68,8 @@ Pair makePair(const CrsMap::Ends& ends) {
 // The transformations of one thread. A few are kept, since a run uses few by turns.
 class Kept {
  public:
-  // Makes the thread's PROJ context first, so that it outlives the transformations: destroyed later, they would make a new one
-  // that nobody frees.
+  // Makes the thread's PROJ context first, so that it outlives the transformations: destroyed later, they would make a
+  // new one that nobody frees.
   Kept() { OGRSpatialReference().SetWellKnownGeogCS("WGS84"); }
 
   const Pair& get(const std::shared_ptr<const CrsMap::Ends>& ends) {

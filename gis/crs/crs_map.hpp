@@ -9,8 +9,8 @@
 
 namespace coastmesh {
 
-// PROJ's transformation from one CRS to another, usable from several threads at once: PROJ's own objects are not, so each thread
-// makes its own. Cheap to copy. Private to gis.
+// PROJ's transformation from one CRS to another, usable from several threads at once: PROJ's own objects are not, so
+// each thread makes its own. Cheap to copy. Private to gis.
 class CrsMap {
  public:
   // Throws InputError where PROJ knows no way.

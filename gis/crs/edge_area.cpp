@@ -26,9 +26,9 @@ EdgeArea::Vertex EdgeArea::at(const Point& lonlat) const {
   return {lonlat.x, lonlat.y, s, a_ * a_ * (1 - e2_) / 2 * s * (1 / (1 - x) + series)};
 }
 
-// On the map whose x is the longitude and whose y is `per_radian`, areas are true, and a geodesic y(x) has y'' = -sin(lat) (r^2 + 3
-// M^2 lat'^2): by Clairaut's relation, with r the radius of the parallel and M that of the meridian. So a short one
-// lies beside its chord by a parabola, and encloses -y'' dx^3 / 12 with it.
+// On the map whose x is the longitude and whose y is `per_radian`, areas are true, and a geodesic y(x) has y'' =
+// -sin(lat) (r^2 + 3 M^2 lat'^2): by Clairaut's relation, with r the radius of the parallel and M that of the meridian.
+// So a short one lies beside its chord by a parabola, and encloses -y'' dx^3 / 12 with it.
 double EdgeArea::under(const Vertex& from, const Vertex& to) const {
   const double turn = to.lon_deg - from.lon_deg, step = to.lat_deg - from.lat_deg;
   if (std::abs(turn) > kLargestTurn || std::abs(step) > kLargestStep || std::abs(e2_) > kLargestEccentricity2) {

@@ -6,8 +6,8 @@
 
 namespace coastmesh {
 
-// Areas between geodesics and the equator, in square metres: of edges that go east, north of the equator, positive. Private to
-// gis.
+// Areas between geodesics and the equator, in square metres: of edges that go east, north of the equator, positive.
+// Private to gis.
 class EdgeArea {
  public:
   EdgeArea(double semi_major_m, double flattening);
@@ -20,8 +20,8 @@ class EdgeArea {
   };
   Vertex at(const Point& lonlat) const;
 
-  // REQUIRES: the longitudes are less than 180 degrees apart as they are given, no pole between them or among them. To some
-  // 1e-9 of what the edge might enclose with others of its length.
+  // REQUIRES: the longitudes are less than 180 degrees apart as they are given, no pole between them or among them. To
+  // some 1e-9 of what the edge might enclose with others of its length.
   double under(const Vertex& from, const Vertex& to) const;
 
   const GeographicLib::Geodesic& geodesic() const { return geodesic_; }

@@ -16,18 +16,19 @@ namespace coastmesh {
 // overlap, and within ±90.
 bool isLonLat(const Point& p);
 
-// Throws InputError with `path`, the number of the node, and its place, where one has none on the ellipsoid of the grid's
-// CRS. What passes can be measured, projected, and read again from whatever it is written to.
+// Throws InputError with `path`, the number of the node, and its place, where one has none on the ellipsoid of the
+// grid's CRS. What passes can be measured, projected, and read again from whatever it is written to.
 void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::string& path);
 
-// Areas of triangles on the ellipsoid of `crs`, edges geodesic, in square metres; positive for counter-clockwise ones. In
-// a plane: the plane's area in its own units. The sum over a mesh is its geodesic area to better than one part in ten
-// million. Throws InputError where a node has no place on the ellipsoid.
+// Areas of triangles on the ellipsoid of `crs`, edges geodesic, in square metres; positive for counter-clockwise ones.
+// In a plane: the plane's area in its own units. The sum over a mesh is its geodesic area to better than one part in
+// ten million. Throws InputError where a node has no place on the ellipsoid.
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const Crs& crs, const ItemLoop& loop = inOrder);
 
-// Lengths of the triangles' edges in metres on the ellipsoid of `crs`, to 1e-6 of them up to 1000 km: from the first corner to
-// the second, from there to the third, and back. In a plane: in its units. Throws InputError as `triangleAreas` does.
+// Lengths of the triangles' edges in metres on the ellipsoid of `crs`, to 1e-6 of them up to 1000 km: from the first
+// corner to the second, from there to the third, and back. In a plane: in its units. Throws InputError as
+// `triangleAreas` does.
 std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
                                                std::span<const std::array<std::uint32_t, 3>> triangles, const Crs& crs);
 

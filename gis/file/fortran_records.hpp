@@ -15,7 +15,7 @@ class FortranWriter {
  public:
   explicit FortranWriter(std::string path) : path_(path), file_(std::move(path)) {}
 
-  // Each writes one record; throws OutputError, also for one past the 2 GiB that its length can tell.
+  // Each writes one record; throws OutputError, also for one past the 2 GiB that its length can say.
   void text(std::string_view value);
   void integers(std::span<const std::int32_t> values);
   void doubles(std::span<const double> values);

@@ -14,8 +14,8 @@
 namespace coastmesh {
 namespace {
 
-// A node of SQLite's R*Tree is a blob of fixed size: depth of the tree (in the root, else 0) and number of cells, 16 bits
-// each, then the cells: a row or a child as 64 bits, and least x, greatest x, least y, greatest y as 32-bit floats
+// A node of SQLite's R*Tree is a blob of fixed size: depth of the tree (in the root, else 0) and number of cells, 16
+// bits each, then the cells: a row or a child as 64 bits, and least x, greatest x, least y, greatest y as 32-bit floats
 // rounded outwards; all big-endian ("The SQLite R*Tree Module", and its shadow tables _node, _rowid and _parent).
 constexpr std::size_t kHeaderBytes = 4, kCellBytes = 24;
 

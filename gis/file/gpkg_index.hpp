@@ -19,7 +19,8 @@ struct IndexEntry {
 
 // The spatial index of a GeoPackage's layer, made whole from all boxes at once: entering rows one by one, as OGR before
 // 3.7 does, takes five times as long as writing the features. Between construction, with the layer empty, and `fill`,
-// with all features in it, the index knows none of them. Both return false where SQLite fails, whose message GDAL gives.
+// with all features in it, the index knows none of them. Both return false where SQLite fails, whose message GDAL
+// gives.
 class GeoPackageIndex {
  public:
   GeoPackageIndex(GDALDataset& dataset, const std::string& layer, const std::string& geometry_column);

@@ -13,7 +13,7 @@ namespace coastmesh {
 class TextWriter {
  public:
   explicit TextWriter(std::string path);
-  ~TextWriter();  // closes, but only `close` tells whether all was written
+  ~TextWriter();  // closes, but only `close` says whether all was written
   TextWriter(const TextWriter&) = delete;
   TextWriter& operator=(const TextWriter&) = delete;
 

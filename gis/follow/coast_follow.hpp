@@ -8,13 +8,14 @@
 
 namespace coastmesh {
 
-// Makes the shore that of a sea seen at the sizes wanted: narrow land that ends in water and small islands go, narrow and small
-// water is closed (`openLand`, `openWater`), shores get segments about as long as the size (`coarsenShores`), and what is still short,
-// sharp or narrow is mended by moving vertices by up to half the size (`mendShores`). Where the area of a water would differ by more than
-// half a percent, its shores are moved by up to a tenth of the size (`shiftShores`). Nothing crosses. Lines inside the water stay as
-// they are, open boundaries keep their corners. What was changed goes to the report, with notes on the
-// largest waters that were cut off, the longest straits that were closed, and what became of `guides`, which come first of all. A graph without labels is labelled
-// first, by its holes. Throws BadPslg where that cannot be.
+// Makes the shore that of a sea seen at the sizes wanted: narrow land that ends in water and small islands go, narrow
+// and small water is closed (`openLand`, `openWater`), shores get segments about as long as the size (`coarsenShores`),
+// and what is still short, sharp or narrow is mended by moving vertices by up to half the size (`mendShores`). Where
+// the area of a water would differ by more than half a percent, its shores are moved by up to a tenth of the size
+// (`shiftShores`). Nothing crosses. Lines inside the water stay as they are, open boundaries keep their corners. What
+// was changed goes to the report, with notes on the largest waters that were cut off, the longest straits that were
+// closed, and what became of `guides`, which come first of all. A graph without labels is labelled first, by its holes.
+// Throws BadPslg where that cannot be.
 Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
                    CleanReport& report, const ShoreGuides& guides = {});
 

@@ -24,8 +24,8 @@ struct FollowNotes {
   std::vector<std::size_t> dry;  // passages that meet no water
 };
 
-// Gives the report sentences that name the largest, with their places in the input's CRS: a warning where more of the water is left out
-// than models forgive, notes else.
+// Gives the report sentences that name the largest, with their places in the input's CRS: a warning where more of the
+// water is left out than models forgive, notes else.
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
                    const Projection& projection, CleanReport& report);
 

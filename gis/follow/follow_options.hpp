@@ -2,9 +2,9 @@
 
 namespace coastmesh {
 
-// Of the parts of each region of water, into which closing may have cut it: all of them, the largest, or those at an open boundary, the
-// largest where none is. Modelled is as Open without what the frame only grazes: less than a tenth of the largest at an open boundary.
-// Where all of those are less than a tenth of the water, the largest stays.
+// Of the parts of each region of water, into which closing may have cut it: all of them, the largest, or those at an
+// open boundary, the largest where none is. Modelled is as Open without what the frame only grazes: less than a tenth
+// of the largest at an open boundary. Where all of those are less than a tenth of the water, the largest stays.
 enum class KeepWater { All, Largest, Open, Modelled };
 
 // What is too narrow to be followed, as a multiple of the size wanted there; 0: nothing is.

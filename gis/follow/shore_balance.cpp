@@ -48,7 +48,8 @@ OpenedShores balanceShores(OpenedShores&& opened, const ShoreGraph& graph, const
   OpenedShores best = std::move(opened);
   const auto attempt = [&](double first) {
     OpenedShores other = openShores(graph, sizes, guides, options, first);
-    (other.error > 0.0 ? high : low) = first;
+    double& bound = other.error > 0.0 ? high : low;
+    bound = first;
     if (std::abs(other.error) < std::abs(best.error)) best = std::move(other);
   };
   if (options.land_min == 0.0 || best.error < kClose) return best;

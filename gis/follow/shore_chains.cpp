@@ -80,11 +80,13 @@ ShoreGraph graphOf(ShoreChains&& chains) {
   for (VertexId v = 0; v < number.size(); ++v) {
     if (!chains.alive[v] || chains.next[v] == kNone) continue;
     Segment s = chains.leaving[v];
-    s.a = number[v], s.b = number[chains.next[v]];
+    s.a = number[v];
+    s.b = number[chains.next[v]];
     graph.pslg.segments.push_back(s);
   }
   for (Segment s : chains.lines) {
-    s.a = number[s.a], s.b = number[s.b];
+    s.a = number[s.a];
+    s.b = number[s.b];
     graph.pslg.segments.push_back(s);
   }
   return graph;

@@ -8,7 +8,8 @@
 
 namespace coastmesh {
 
-// The boundaries of a graph as chains with the water to their left, to take vertices out of and to move them. Private to gis.
+// The boundaries of a graph as chains with the water to their left, to take vertices out of and to move them. Private
+// to gis.
 struct ShoreChains {
   std::vector<Point> at;
   std::vector<VertexId> source;      // the domain's point that it is, or kNone

@@ -18,8 +18,8 @@ struct ShoreGraph {
 inline bool isBoundary(const Segment& s) { return (s.left >= 0) != (s.right >= 0); }
 inline RegionId waterOf(const Segment& s) { return s.left >= 0 ? s.left : s.right; }
 
-// Cuts segments between water and land where another shore is about as near as the size wanted, so that triangles between them are as
-// wide as the water or the land there. So are those at `lines`.
+// Cuts segments between water and land where another shore is about as near as the size wanted, so that triangles
+// between them are as wide as the water or the land there. So are those at `lines`.
 void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines = {});
 
 // What a vertex of a graph lies on, as bits.
@@ -36,8 +36,8 @@ struct ShoreTriangles {
 };
 ShoreTriangles triangulateShores(const ShoreGraph& graph, const SizeFunction& size);
 
-// The graph whose water is what `mesh.regions` say by now. Where water would touch itself in a vertex, all but the widest part is
-// given a vertex of its own, a little way inside. Points on no segment stay where they lie in water.
+// The graph whose water is what `mesh.regions` say by now. Where water would touch itself in a vertex, all but the
+// widest part is given a vertex of its own, a little way inside. Points on no segment stay where they lie in water.
 ShoreGraph graphOf(const ShoreGraph& before, const ShoreTriangles& triangles);
 
 // Drops points that were made (no point of the domain) and that no segment uses.

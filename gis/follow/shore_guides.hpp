@@ -50,8 +50,9 @@ struct WidenedPassage {
   double width_m = 0.0;   // what it has become, at most
 };
 
-// Where a passage runs over land, or through water narrower than it has to be, land beside it becomes water: from the first water on
-// the line to the last. `dry` is given the passages that meet no water. What waters gain is added to `gained`.
+// Where a passage runs over land, or through water narrower than it has to be, land beside it becomes water: from the
+// first water on the line to the last. `dry` is given the passages that meet no water. What waters gain is added to
+// `gained`.
 ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
                          const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
                          std::vector<std::size_t>& dry);

@@ -19,8 +19,9 @@ struct JoinedShores {
   std::vector<JoinedWater> joined;
 };
 
-// Opens land and water (`openShores`). Where that would cut off a water whose way to the others is no narrower than `options.strait_min`,
-// and to widen it takes little beside the water's area, it is widened instead, as a passage that the user names.
+// Opens land and water (`openShores`). Where that would cut off a water whose way to the others is no narrower than
+// `options.strait_min`, and to widen it takes little beside the water's area, it is widened instead, as a passage that
+// the user names.
 JoinedShores openJoined(ShoreGraph graph, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options,
                         const ShoreEdit& edit);
 

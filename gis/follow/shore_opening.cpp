@@ -251,7 +251,8 @@ class Opening {
     return gates;
   }
 
-  // The vertex that lies furthest from the gate, and how far, as a share of the size there. Infinite where there is not one gate.
+  // The vertex that lies furthest from the gate, and how far, as a share of the size there. Infinite where there is not
+  // one gate.
   std::pair<VertexId, double> deepestOf(const std::vector<TriId>& patch, const std::vector<EdgeRef>& gates) const {
     if (gates.size() != 1) return {firstVertexOf(patch), std::numeric_limits<double>::infinity()};
     const Point &a = mesh().point(mesh().origin(gates[0])), &b = mesh().point(mesh().target(gates[0]));

@@ -11,9 +11,10 @@
 
 namespace coastmesh {
 
-// A morphological opening of the land, with disks of `narrowest` times the size wanted for diameters: what no disk fits into and ends in
-// water goes (spits, capes); so do islands smaller than a triangle of that size. What joins two lands stays, and so does an island
-// longer than three elements, however thin. 0 leaves all of it. What regions of water gain is added to `gained`, as below.
+// A morphological opening of the land, with disks of `narrowest` times the size wanted for diameters: what no disk fits
+// into and ends in water goes (spits, capes); so do islands smaller than a triangle of that size. What joins two lands
+// stays, and so does an island longer than three elements, however thin. 0 leaves all of it. What regions of water gain
+// is added to `gained`, as below.
 ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                     const ShoreEdit& edit, WaterAreas& gained);
 
@@ -33,9 +34,10 @@ struct OpenedWater {
   WaterAreas areas;
 };
 
-// The same for the water: what is narrower is closed (channels, heads of bays, corners), and so is water smaller than a few triangles.
-// Triangles at lines inside the water and at a corner of an open boundary stay. Where nothing would be left, all stays.
-// Of the parts of each region of water, what `keep` says stays. What is left out so is not taken from `gained`.
+// The same for the water: what is narrower is closed (channels, heads of bays, corners), and so is water smaller than a
+// few triangles. Triangles at lines inside the water and at a corner of an open boundary stay. Where nothing would be
+// left, all stays. Of the parts of each region of water, what `keep` says stays. What is left out so is not taken from
+// `gained`.
 OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ShoreEdit& edit, WaterAreas& gained);
 

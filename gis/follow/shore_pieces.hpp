@@ -12,7 +12,8 @@ namespace coastmesh {
 
 inline constexpr double kSmallShoreAngle = toRadians(50.0);  // on the water's side: smaller ones make bad triangles
 
-// What lies near a vertex's piece of shore (the vertex and its two neighbours), to judge a place that it may be moved to. Private to gis.
+// What lies near a vertex's piece of shore (the vertex and its two neighbours), to judge a place that it may be moved
+// to. Private to gis.
 class ShorePieces {
  public:
   explicit ShorePieces(const ShoreChains& chains) : c_(chains) {}
@@ -20,13 +21,14 @@ class ShorePieces {
   // After many vertices were moved.
   void buildTrees();
 
-  // Finds what is near enough to v's piece to matter, if v goes no further than `reach` times the size. What follows looks at that.
-  // REQUIRES: v has both neighbours; `buildTrees`, since when no vertex has moved further than what `reach` leaves.
+  // Finds what is near enough to v's piece to matter, if v goes no further than `reach` times the size. What follows
+  // looks at that. REQUIRES: v has both neighbours; `buildTrees`, since when no vertex has moved further than what
+  // `reach` leaves.
   void gather(VertexId v, double reach);
   const std::vector<VertexId>& points() const { return points_; }
 
-  // The worst of what v's piece takes part in, 1 where all is as wanted, with v at x or taken out: lengths, angles of the water,
-  // widths of the water.
+  // The worst of what v's piece takes part in, 1 where all is as wanted, with v at x or taken out: lengths, angles of
+  // the water, widths of the water.
   double qualityOf(VertexId v, const std::optional<Point>& x) const;
 
   // Whether nothing crosses then, nor lies between the piece as it is and as it would be.
@@ -35,8 +37,8 @@ class ShorePieces {
   // Whether nothing lies between v and the segment that would replace it.
   bool canCut(VertexId v) const;
 
-  // How near the rest of the shore then is, by land or by water: what is gathered of it, save the two pieces beside v's own. Infinite
-  // where there is none.
+  // How near the rest of the shore then is, by land or by water: what is gathered of it, save the two pieces beside v's
+  // own. Infinite where there is none.
   double apart(VertexId v, const Point& x) const;
 
  private:

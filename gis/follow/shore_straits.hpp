@@ -14,8 +14,8 @@ struct ClosedStrait {
   double width_m = 0.0;   // the narrowest, about
 };
 
-// Of what was water and is land by now: of each patch the longest way through it between places of the same water, where it is
-// longer than an element or two. Private to gis.
+// Of what was water and is land by now: of each patch the longest way through it between places of the same water,
+// where it is longer than an element or two. Private to gis.
 std::vector<ClosedStrait> closedStraits(const ShoreTriangles& triangles, const Projection& projection);
 
 }  // namespace coastmesh

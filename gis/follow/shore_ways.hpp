@@ -17,8 +17,8 @@ struct WaterWay {
   double widening_m2 = 0.0;       // of land that goes where that is made wide enough
 };
 
-// One for each of the waters that opening has made of `graph`; those that are kept have none. Ways narrower than `least` times the size
-// wanted do not count. Private to gis.
+// One for each of the waters that opening has made of `graph`; those that are kept have none. Ways narrower than
+// `least` times the size wanted do not count. Private to gis.
 std::vector<WaterWay> waysToWaters(const ShoreGraph& graph, const OpenedShores& opened, const ShoreSizes& sizes,
                                    const ShoreGuides& guides, const FollowOptions& options, double least);
 

@@ -15,7 +15,7 @@ enum class Fort14Kind { Adcirc, Schism };
 // river is a flux segment to ADCIRC and an open one to SCHISM. REQUIRES: no z is unknown.
 void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& places, Fort14Kind kind);
 
-// Reads either; the CRS is left out. Segments are taken as they stand, whatever they follow; the `notes` tell where
+// Reads either; the CRS is left out. Segments are taken as they stand, whatever they follow; the `notes` say where
 // counts, numbers and sums are not what the programs demand. Throws InputError.
 Grid readFort14(const std::string& path);
 

@@ -7,7 +7,7 @@
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
 #include "gis/format/grid_formats.hpp"
-#include "gis/grid/rim_boundaries.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 
 namespace coastmesh {
 namespace {

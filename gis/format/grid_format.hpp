@@ -15,7 +15,7 @@ struct GridFormat {
   bool readable = false;
   bool writable = false;
   GridParts holds;          // what its files hold of a grid, and its reader takes back
-  bool says_depth = false;  // every file of it tells a depth at each node: 0 where the grid has none
+  bool says_depth = false;  // every file of it has a depth at each node: 0 where the grid has none
 };
 
 }  // namespace coastmesh

@@ -21,7 +21,7 @@ struct FormatRecord {
   FormatFunctions functions;
 };
 
-// Every format, in the order of messages, by the function that tells of it, which stands in the file that writes it. A
+// Every format, in the order of messages, by the function that describes it, which stands in the file that writes it. A
 // new format is one line here.
 #define COASTMESH_GRID_FORMATS(FORMAT) \
   FORMAT(geoPackageFormat)             \

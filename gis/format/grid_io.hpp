@@ -17,8 +17,8 @@ const std::vector<GridFormat>& gridFormats();
 // the list of those known.
 const GridFormat& gridFormatFor(const std::string& path, const std::string& name = {});
 
-// A mesh written aside, to be moved into place whole or not at all: see StagedFiles. A .prj beside the target that says the
-// grid's CRS already is left as it is; one that says another counts as an existing target.
+// A mesh written aside, to be moved into place whole or not at all: see StagedFiles. A .prj beside the target that says
+// the grid's CRS already is left as it is; one that says another counts as an existing target.
 class StagedOutput {
  public:
   // Refuses what StagedFiles refuses, and a format that can only be read. Throws OutputError.
@@ -43,7 +43,7 @@ class StagedOutput {
 };
 
 // Reads a mesh back, in any format of `gridFormats` that is readable. Nodes, triangles and their winding are as
-// the file has them, also unused nodes; `boundaries` is empty where the file tells none. Lines are those that run along
+// the file has them, also unused nodes; `boundaries` is empty where the file has none. Lines are those that run along
 // edges inside the mesh; `notes` say where one of the file does not. Throws InputError.
 Grid readGrid(const std::string& path);
 

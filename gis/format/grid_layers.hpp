@@ -46,9 +46,9 @@ inline constexpr std::string_view kTriangleLayer = "triangles", kNodeLayer = "no
 inline constexpr std::array<std::string_view, 3> kCornerColumns = {"node1", "node2", "node3"};
 
 // The layers in this order: triangles (id, node1, node2, node3, min_angle in degrees, area_m2, src_fid, source, name,
-// region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, where there are any, lines (id, kind, name, closed,
-// length_m), ids from 1. Columns that the grid has nothing for are left out; `name` is the first attribute of the source
-// feature that is called so, or like it. REQUIRES: `grid` outlives the answer.
+// region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, where there are any, lines (id,
+// kind, name, closed, length_m), ids from 1. Columns that the grid has nothing for are left out; `name` is the first
+// attribute of the source feature that is called so, or like it. REQUIRES: `grid` outlives the result.
 std::vector<GridLayer> layersOf(const Grid& grid);
 
 // What layers hold of a grid.

@@ -6,7 +6,7 @@
 
 namespace coastmesh {
 
-// Which losses are told of.
+// Which losses are reported.
 enum class LossesOf {
   Grid,   // all that the grid holds
   Input,  // what the user gave for it: lines, regions, types of boundaries, and pieces, which are marked on request

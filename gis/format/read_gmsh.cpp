@@ -296,7 +296,7 @@ std::pair<LineKind, std::string> lineOfName(const std::string& name) {
   return {LineKind::Constraint, name};
 }
 
-// Elements along the rim, by their physical groups, are boundaries, those inside lines, by their curves.
+// Elements along the mesh's boundary, by their physical groups, are boundaries, those inside lines, by their curves.
 void readCurves(const Contents& contents, const IdMap& node_index, const std::string& path, Grid& grid) {
   std::vector<std::pair<Tag, Tag>> keys;  // physical group and curve, in the order of their first elements
   std::map<std::pair<Tag, Tag>, std::size_t> group_of;
@@ -310,19 +310,20 @@ void readCurves(const Contents& contents, const IdMap& node_index, const std::st
     }
     groups[at->second].push_back({nodeOf(node_index, line.nodes[0], path), nodeOf(node_index, line.nodes[1], path)});
   }
-  const std::vector<std::vector<NodePair>> inner = keepRimEdges(grid.triangles, groups);
-  std::vector<std::pair<Tag, std::vector<NodePair>>> rims;  // by physical group, in the order of their first elements
-  std::map<Tag, std::size_t> rim_of;
+  const std::vector<std::vector<NodePair>> inner = keepBoundaryEdges(grid.triangles, groups);
+  std::vector<std::pair<Tag, std::vector<NodePair>>>
+      boundaries;  // by physical group, in the order of their first elements
+  std::map<Tag, std::size_t> boundary_of;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Tag physical = keys[g].first;
-    const auto [rim, added] = rim_of.emplace(physical, rims.size());
-    if (added) rims.push_back({physical, {}});
-    std::vector<NodePair>& edges = rims[rim->second].second;
+    const auto [boundary, added] = boundary_of.emplace(physical, boundaries.size());
+    if (added) boundaries.push_back({physical, {}});
+    std::vector<NodePair>& edges = boundaries[boundary->second].second;
     edges.insert(edges.end(), groups[g].begin(), groups[g].end());
     const auto [kind, name] = lineOfName(nameOf(contents, 1, physical));
     std::ranges::move(linesAlong(inner[g], kind, name), std::back_inserter(grid.lines));
   }
-  for (const auto& [physical, edges] : rims) {
+  for (const auto& [physical, edges] : boundaries) {
     const std::string name = nameOf(contents, 1, physical);
     const auto role = roleOfName(name);
     for (Boundary& chain : chainEdges(edges)) {

@@ -133,7 +133,7 @@ std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
   return order;
 }
 
-// The answer is the ids of the nodes, ascending.
+// The result is the ids of the nodes, ascending.
 std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid,
                                         NodesByPlace& index) {
   std::vector<std::int64_t> ids;

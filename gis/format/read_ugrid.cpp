@@ -153,7 +153,7 @@ void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& gri
     }
     groups.back().push_back({nodes[2 * e], nodes[2 * e + 1]});
   }
-  keepRimEdges(grid.triangles, groups);
+  keepBoundaryEdges(grid.triangles, groups);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (Boundary& chain : chainEdges(groups[g])) {
       chain.role = roles[g];

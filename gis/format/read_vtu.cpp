@@ -190,7 +190,7 @@ class VtuFile {
   std::size_t header_ = 4;
 };
 
-// Reads the triangles and tells which of the file's cells they are.
+// Reads the triangles and says which of the file's cells they are.
 std::vector<std::size_t> readTriangles(const VtuFile& file, Grid& grid) {
   const std::size_t cells = file.count("NumberOfCells");
   const std::vector<double> ends = file.need("Cells", "offsets", cells), types = file.need("Cells", "types", cells);

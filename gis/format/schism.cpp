@@ -20,8 +20,8 @@ std::vector<Point> longitudesAndLatitudes(const Grid& grid) {
   return places;
 }
 
-// SCHISM's hgrid.gr3 in the grid's CRS, hgrid.ll beside it in longitudes and latitudes (not for a plane), and the CRS in
-// a .prj; depth positive down. `path` may name either file. Throws OutputError, also where a depth is unknown.
+// SCHISM's hgrid.gr3 in the grid's CRS, hgrid.ll beside it in longitudes and latitudes (not for a plane), and the CRS
+// in a .prj; depth positive down. `path` may name either file. Throws OutputError, also where a depth is unknown.
 void writeSchism(const Grid& grid, const std::string& path) {
   requireZ(grid, path);
   TextWriter gr3(withEnding(path, ".gr3"));

@@ -121,8 +121,8 @@ std::vector<std::uint32_t> nodesOf(const NodeString& string, const IdMap& node_i
   return nodes;
 }
 
-// Boundaries, and lines inside the mesh: those of other programs are strings, or parts of them, that do not run along the
-// rim.
+// Boundaries, and lines inside the mesh: those of other programs are strings, or parts of them, that do not run along
+// the boundary.
 void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& file, Grid& grid) {
   const std::vector<StringKind> kinds = kindsOf(cards.strings);
   std::vector<std::vector<NodePair>> groups;
@@ -135,7 +135,7 @@ void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& 
     }
     for (std::size_t i = 1; i < nodes.size(); ++i) edges.push_back({nodes[i - 1], nodes[i]});
   }
-  const std::vector<std::vector<NodePair>> inner = keepRimEdges(grid.triangles, groups);
+  const std::vector<std::vector<NodePair>> inner = keepBoundaryEdges(grid.triangles, groups);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (Boundary& chain : chainEdges(groups[g])) {
       if (const BoundaryRole* const role = std::get_if<BoundaryRole>(&kinds[g])) {
@@ -150,8 +150,8 @@ void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& 
 }
 
 // SMS .2dm of triangles, with the CRS of a .prj beside it. Materials become features where there are several. Node
-// strings that follow the rim become boundaries: numbered by us they keep their role, others are open, or land or an
-// island where they close. Throws InputError with file and line.
+// strings that follow the mesh's boundary become boundaries: numbered by us they keep their role, others are open, or
+// land or an island where they close. Throws InputError with file and line.
 Grid read2dm(const std::string& path) {
   TextReader file(path);
   file.needLine();

@@ -8,8 +8,8 @@
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/format/grid_formats.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/loop_role.hpp"
-#include "gis/grid/rim_boundaries.hpp"
 
 namespace coastmesh {
 namespace {
@@ -19,7 +19,7 @@ std::string trimmed(const std::string& text) {
   return last == std::string::npos ? std::string() : text.substr(0, last + 1);
 }
 
-// Ranks of nodes on the rim from 1, 0 inside.
+// Ranks of nodes on the boundary from 1, 0 inside.
 using Ranks = std::vector<std::int32_t>;
 
 Ranks readGeometry(FortranReader& file, Grid& grid) {
@@ -69,7 +69,8 @@ Ranks readGeometry(FortranReader& file, Grid& grid) {
 // What each node is by the .cli; shore where it says nothing.
 std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& ranks, Grid& grid) {
   std::vector<BoundaryRole> roles(grid.nodes.size(), BoundaryRole::Land);
-  const auto on_rim = static_cast<std::size_t>(std::ranges::count_if(ranks, [](std::int32_t r) { return r != 0; }));
+  const auto on_boundary =
+      static_cast<std::size_t>(std::ranges::count_if(ranks, [](std::int32_t r) { return r != 0; }));
   if (!std::filesystem::exists(path)) {
     grid.notes.push_back("there is no '" + std::filesystem::path(path).filename().string() + "' beside it");
     return roles;
@@ -91,9 +92,9 @@ std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& r
     const bool discharge = level == 4 && (flow == 5 || flow == 6);
     roles[static_cast<std::size_t>(node - 1)] = discharge ? BoundaryRole::River : BoundaryRole::Open;
   }
-  if (lines != on_rim)
-    grid.notes.push_back("the .cli has " + std::to_string(lines) + " lines, but IPOBO " + std::to_string(on_rim) +
-                         " nodes on the rim");
+  if (lines != on_boundary)
+    grid.notes.push_back("the .cli has " + std::to_string(lines) + " lines, but IPOBO " + std::to_string(on_boundary) +
+                         " nodes on the boundary");
   return roles;
 }
 
@@ -104,33 +105,34 @@ void sortByRank(std::vector<std::vector<std::uint32_t>>& loops, const Ranks& ran
   std::ranges::stable_sort(loops, {}, [&](const auto& loop) { return ranks[loop.front()]; });
 }
 
-// Reads either precision, two-dimensional meshes of triangles alone, and the .cli where there is one. Throws InputError.
+// Reads either precision, two-dimensional meshes of triangles alone, and the .cli where there is one. Throws
+// InputError.
 Grid readTelemac(const std::string& path) {
   Grid grid;
   FortranReader file(path);
   const Ranks ranks = readGeometry(file, grid);
   const std::vector<BoundaryRole> roles = readConditions(withEnding(path, ".cli"), ranks, grid);
-  auto loops = rimOf(grid);
+  auto loops = boundaryLoops(grid);
   sortByRank(loops, ranks);
   grid.crs = readPrjBeside(path);
   // An edge is open where both its nodes are; between two kinds it is of the second.
   grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t from, std::uint32_t to) {
-    return RimKind{roles[from] == BoundaryRole::Land ? BoundaryRole::Land : roles[to]};
+    return BoundaryKind{roles[from] == BoundaryRole::Land ? BoundaryRole::Land : roles[to]};
   });
   return grid;
 }
 
 bool isLiquid(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
 
-// The rim's nodes in TELEMAC's order, each with what it is.
-struct RimNodes {
+// The boundary's nodes in TELEMAC's order, each with what it is.
+struct BoundaryNodes {
   std::vector<std::uint32_t> nodes;
   std::vector<BoundaryRole> roles;
 };
 
 // Outer loops before islands, each from its south-western node, as TELEMAC numbers them itself.
 std::vector<std::vector<std::uint32_t>> orderedLoops(const Grid& grid) {
-  std::vector<std::vector<std::uint32_t>> loops = rimOf(grid);
+  std::vector<std::vector<std::uint32_t>> loops = boundaryLoops(grid);
   const auto southWest = [&](std::uint32_t node) { return grid.nodes[node].x + grid.nodes[node].y; };
   for (auto& loop : loops) std::ranges::rotate(loop, std::ranges::min_element(loop, {}, southWest));
   std::ranges::stable_partition(
@@ -139,13 +141,13 @@ std::vector<std::vector<std::uint32_t>> orderedLoops(const Grid& grid) {
 }
 
 // A node between two kinds of opening belongs to the one before it, a node at the end of one to that one.
-RimNodes rimNodesOf(const Grid& grid, const std::string& path) {
+BoundaryNodes boundaryNodesOf(const Grid& grid, const std::string& path) {
   const EdgeKinds kinds(grid);
   const auto roleOf = [&](std::uint32_t from, std::uint32_t to) {
-    const RimKind* const kind = kinds.find(from, to);
+    const BoundaryKind* const kind = kinds.find(from, to);
     return kind != nullptr ? kind->role : BoundaryRole::Land;
   };
-  RimNodes rim;
+  BoundaryNodes boundary;
   std::vector<bool> seen(grid.nodes.size(), false);
   for (const auto& loop : orderedLoops(grid)) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -157,11 +159,11 @@ RimNodes rimNodesOf(const Grid& grid, const std::string& path) {
       seen[node] = true;
       const BoundaryRole before = roleOf(loop[(i + loop.size() - 1) % loop.size()], node);
       const BoundaryRole after = roleOf(node, loop[(i + 1) % loop.size()]);
-      rim.nodes.push_back(node);
-      rim.roles.push_back(isLiquid(before) ? before : isLiquid(after) ? after : BoundaryRole::Land);
+      boundary.nodes.push_back(node);
+      boundary.roles.push_back(isLiquid(before) ? before : isLiquid(after) ? after : BoundaryRole::Land);
     }
   }
-  return rim;
+  return boundary;
 }
 
 std::string padded(std::string_view text, std::size_t width) {
@@ -170,7 +172,7 @@ std::string padded(std::string_view text, std::size_t width) {
   return out;
 }
 
-void writeGeometry(const Grid& grid, const RimNodes& rim, const std::string& path) {
+void writeGeometry(const Grid& grid, const BoundaryNodes& boundary, const std::string& path) {
   FortranWriter file(path);
   file.text(padded(grid.title, 72) + "SERAFIND");
   file.integers(std::array<std::int32_t, 2>{1, 0});
@@ -184,7 +186,7 @@ void writeGeometry(const Grid& grid, const RimNodes& rim, const std::string& pat
     for (const std::uint32_t node : corners) numbers.push_back(static_cast<std::int32_t>(node) + 1);
   file.integers(numbers);
   numbers.assign(grid.nodes.size(), 0);
-  for (std::size_t i = 0; i < rim.nodes.size(); ++i) numbers[rim.nodes[i]] = static_cast<std::int32_t>(i) + 1;
+  for (std::size_t i = 0; i < boundary.nodes.size(); ++i) numbers[boundary.nodes[i]] = static_cast<std::int32_t>(i) + 1;
   file.integers(numbers);
   std::vector<double> values(grid.nodes.size());
   std::ranges::transform(grid.nodes, values.begin(), &Point::x);
@@ -197,15 +199,15 @@ void writeGeometry(const Grid& grid, const RimNodes& rim, const std::string& pat
   file.close();
 }
 
-void writeConditions(const RimNodes& rim, const std::string& path) {
+void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
   TextWriter file(path);
-  for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
-    const BoundaryRole role = rim.roles[i];
+  for (std::size_t i = 0; i < boundary.nodes.size(); ++i) {
+    const BoundaryRole role = boundary.roles[i];
     const bool liquid = isLiquid(role);
     file << (role == BoundaryRole::Open ? "5 4 4"
              : liquid                   ? "4 5 5"
                                         : "2 2 2")
-         << " 0.000 0.000 0.000 0.000 " << (liquid ? '4' : '2') << " 0.000 0.000 0.000 " << rim.nodes[i] + 1 << ' '
+         << " 0.000 0.000 0.000 0.000 " << (liquid ? '4' : '2') << " 0.000 0.000 0.000 " << boundary.nodes[i] + 1 << ' '
          << i + 1 << '\n';
   }
   file.close();
@@ -218,9 +220,9 @@ void writeConditions(const RimNodes& rim, const std::string& path) {
 // itself in a node.
 void writeTelemac(const Grid& grid, const std::string& path) {
   requireZ(grid, path);
-  const RimNodes rim = rimNodesOf(grid, path);
-  writeGeometry(grid, rim, path);
-  writeConditions(rim, withEnding(path, ".cli"));
+  const BoundaryNodes boundary = boundaryNodesOf(grid, path);
+  writeGeometry(grid, boundary, path);
+  writeConditions(boundary, withEnding(path, ".cli"));
   writePrjBeside(path, grid.crs);
 }
 

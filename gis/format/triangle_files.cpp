@@ -118,7 +118,7 @@ void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) 
       edges = std::move(segments.edges);
     }
   }
-  keepRimEdges(grid.triangles, groups);
+  keepBoundaryEdges(grid.triangles, groups);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (Boundary& chain : chainEdges(groups[g])) {
       chain.role = std::get<BoundaryRole>(marked[g].kind);

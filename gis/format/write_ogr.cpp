@@ -33,7 +33,7 @@ struct Writer {
   std::vector<const char*> layer_options;
   bool table_types = false;         // flags and texts as a .dbf has them
   const char* plane_wkt = nullptr;  // what a plane is called; null: nothing
-  bool hides_failures = false;      // OGR does not tell when the disk is full
+  bool hides_failures = false;      // OGR does not report when the disk is full
 };
 
 struct CloseDataset {
@@ -54,7 +54,7 @@ DatasetPtr create(const Writer& writer, const std::string& path, const OgrErrors
   return dataset;
 }
 
-// What is left in GDAL's buffers is written now; only the collected messages tell whether it went well.
+// What is left in GDAL's buffers is written now; only the collected messages say whether it went well.
 void close(DatasetPtr dataset, const std::string& path, const OgrErrors& errors) {
   dataset->FlushCache(true);
   dataset.reset();

@@ -7,8 +7,8 @@
 
 namespace coastmesh {
 
-// The grid's layers `triangles`, `nodes` (with z in the geometry too), `boundaries` and `lines`: in one GeoPackage, or a
-// Shapefile or FlatGeobuf each (`pathOfLayer`). Real columns of a shapefile keep 15 decimals, its coordinates all
+// The grid's layers `triangles`, `nodes` (with z in the geometry too), `boundaries` and `lines`: in one GeoPackage, or
+// a Shapefile or FlatGeobuf each (`pathOfLayer`). Real columns of a shapefile keep 15 decimals, its coordinates all
 // bits. Throws OutputError.
 void writeGeoPackage(const Grid& grid, const std::string& path);
 void writeShapefile(const Grid& grid, const std::string& path);

@@ -71,8 +71,8 @@ struct ChainArrays {
   }
 };
 
-// What belongs to neither nodes nor cells. Texts are bytes, each ended by a zero: readers of numbers alone, of which there
-// are many, refuse arrays of texts.
+// What belongs to neither nodes nor cells. Texts are bytes, each ended by a zero: readers of numbers alone, of which
+// there are many, refuse arrays of texts.
 struct FieldArrays {
   ChainArrays boundaries, lines;
   std::vector<std::int64_t> ibtypes;

@@ -8,9 +8,9 @@
 
 namespace coastmesh {
 
-// A spatial index of edges that mostly follow one another, as those of rings do: a tree over runs of up to kLongest edges whose
-// boxes meet, so that there is an eighth of boxes to sort and to keep. `box_of(e)` is the box of edge e, the same at
-// every call. Private to gis.
+// A spatial index of edges that mostly follow one another, as those of rings do: a tree over runs of up to kLongest
+// edges whose boxes meet, so that there is an eighth of boxes to sort and to keep. `box_of(e)` is the box of edge e,
+// the same at every call. Private to gis.
 class EdgeRuns {
  public:
   template <typename BoxOf>
@@ -50,9 +50,9 @@ class EdgeRuns {
   std::size_t blockCount() const { return tree_.blockCount(); }
   static constexpr std::size_t kWorthAStretch = 128;
 
-  // Calls `found(e, f)` once, e < f, for every two edges of which `active(e)` holds for one at least and whose boxes come
-  // nearer to one another than `margin`; for the runs of blocks [first, last) and what lies near them: each pair is
-  // found from one run.
+  // Calls `found(e, f)` once, e < f, for every two edges of which `active(e)` holds for one at least and whose boxes
+  // come nearer to one another than `margin`; for the runs of blocks [first, last) and what lies near them: each pair
+  // is found from one run.
   template <typename BoxOf, typename Active, typename Found>
   void visitPairs(std::size_t first, std::size_t last, double margin, BoxOf&& box_of, Active&& active,
                   Found&& found) const {
@@ -98,12 +98,17 @@ class EdgeRuns {
     template <typename BoxOf>
     void take(std::uint32_t begin, std::uint32_t end, BoxOf&& box_of) {
       size = 0;
-      for (std::uint32_t e = begin; e < end; ++e) edge[size] = e, box[size++] = box_of(e);
+      for (std::uint32_t e = begin; e < end; ++e) {
+        edge[size] = e;
+        box[size] = box_of(e);
+        ++size;
+      }
     }
     void takeThose(const Some& some, const Box& around) {
       size = 0;
       for (std::size_t i = 0; i < some.size; ++i) {
-        edge[size] = some.edge[i], box[size] = some.box[i];
+        edge[size] = some.edge[i];
+        box[size] = some.box[i];
         size += box[size].meets(around) ? 1 : 0;
       }
     }
@@ -111,7 +116,8 @@ class EdgeRuns {
     void takeThose(std::uint32_t begin, std::uint32_t end, const Box& around, BoxOf&& box_of) {
       size = 0;
       for (std::uint32_t e = begin; e < end; ++e) {
-        edge[size] = e, box[size] = box_of(e);
+        edge[size] = e;
+        box[size] = box_of(e);
         size += box[size].meets(around) ? 1 : 0;
       }
     }

@@ -31,7 +31,7 @@ class PlanarMap {
 
   std::size_t faceCount() const { return face_begin_.size() - 1; }
   std::uint32_t faceOf(HalfEdge h) const { return face_of_[h]; }
-  // Half-edges that have the face on their left, all its rims together.
+  // Half-edges that have the face on their left, of all its boundary loops together.
   std::span<const HalfEdge> around(std::uint32_t face) const {
     return {by_face_.data() + face_begin_[face], by_face_.data() + face_begin_[face + 1]};
   }

@@ -8,7 +8,7 @@ namespace coastmesh {
 
 std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop) {
   std::vector<Boundary> boundaries;
-  for (std::vector<VertexId>& vertices : rimLoops(mesh, loop)) {
+  for (std::vector<VertexId>& vertices : boundaryLoops(mesh, loop)) {
     const BoundaryRole role = roleOfLoop(mesh.points, vertices, Crs{});
     boundaries.push_back({role, true, std::move(vertices)});
   }
@@ -24,8 +24,8 @@ std::vector<NodePair> edgesOf(const Boundary& boundary) {
   return edges;
 }
 
-std::vector<std::vector<NodePair>> keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
-                                                std::vector<std::vector<NodePair>>& edge_groups) {
+std::vector<std::vector<NodePair>> keepBoundaryEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                     std::vector<std::vector<NodePair>>& edge_groups) {
   struct Sides {
     NodePair edge;  // the lesser node first
     std::uint32_t along = 0;
@@ -56,7 +56,12 @@ std::vector<std::vector<NodePair>> keepRimEdges(std::span<const std::array<std::
     for (unsigned i = 0; i < 3; ++i) {
       const std::uint32_t a = v[i], b = v[next3(i)];
       if (!isTouched(a) || !isTouched(b)) continue;
-      if (Sides* side = find(a, b)) ++(a < b ? side->along : side->against);
+      Sides* const side = find(a, b);
+      if (side == nullptr) continue;
+      if (a < b)
+        ++side->along;
+      else
+        ++side->against;
     }
   }
   for (std::size_t g = 0; g < edge_groups.size(); ++g) {

@@ -14,16 +14,16 @@ namespace coastmesh {
 
 using NodePair = std::array<std::uint32_t, 2>;
 
-// Rim loops as boundaries: the loop that goes counter-clockwise round each connected piece is land, the others islands.
+// Loops as boundaries: the loop that goes counter-clockwise round each connected piece is land, the others islands.
 std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 // The edges of a boundary, in its direction.
 std::vector<NodePair> edgesOf(const Boundary& boundary);
 
-// Keeps what lies on the rim (has a triangle on one side only) and turns it so that the triangle lies to the left. What
-// has triangles on both sides is returned, group by group as it was.
-std::vector<std::vector<NodePair>> keepRimEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
-                                                std::vector<std::vector<NodePair>>& edge_groups);
+// Keeps what lies on the boundary (has a triangle on one side only) and turns it so that the triangle lies to the left.
+// What has triangles on both sides is returned, group by group as it was.
+std::vector<std::vector<NodePair>> keepBoundaryEdges(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                     std::vector<std::vector<NodePair>>& edge_groups);
 
 // Directed edges end to end as boundaries of role Open; `edges` that follow one another there stay together. Open
 // chains come first.

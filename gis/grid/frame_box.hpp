@@ -5,10 +5,10 @@
 
 namespace coastmesh {
 
-// Moves nodes that lie past the box of a frame onto it: a parallel is made of straight pieces of the working plane, which
-// bulge towards the pole where elements are large. Areas and angles of their triangles are measured again. Does nothing
-// where the frame is no box; across the end of the longitudes' turn only latitudes are looked at. A node whose move would
-// turn a triangle over stays.
+// Moves nodes that lie past the box of a frame onto it: a parallel is made of straight pieces of the working plane,
+// which bulge towards the pole where elements are large. Areas and angles of their triangles are measured again. Does
+// nothing where the frame is no box; across the end of the longitudes' turn only latitudes are looked at. A node whose
+// move would turn a triangle over stays.
 void keepInFrame(Grid& grid, const Coastline& coastline);
 
 }  // namespace coastmesh

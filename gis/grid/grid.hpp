@@ -22,20 +22,20 @@ inline constexpr std::array kBoundaryRoles{BoundaryRole::Land, BoundaryRole::Isl
                                            BoundaryRole::River};
 std::string_view toString(BoundaryRole role);
 
-// A chain of nodes on the rim with the mesh to the left; closed loops do not repeat their first node. Where one chain
-// ends and another begins, both have the node.
+// A chain of nodes on the mesh's boundary, the mesh to its left; closed loops do not repeat their first node. Where one
+// chain ends and another begins, both have the node.
 struct Boundary {
   BoundaryRole role = BoundaryRole::Land;
   bool closed = true;
   std::vector<std::uint32_t> nodes;
   int ibtype = -1;                          // ADCIRC's type where a file or the user says one, else -1: the role's own
   std::vector<std::uint32_t> back_nodes{};  // of a weir between two shores: the node across, one a node
-  bool repeats_first = false;               // a file's segment told its first node at its end again
+  bool repeats_first = false;               // a file's segment repeated its first node at its end
   std::vector<double> weir{};               // of a weir: heights and coefficients, the same number a node
 };
 
-// A line inside the mesh that the user named: a chain of nodes along edges, with the mesh on both sides; a closed one does
-// not repeat its first node.
+// A line inside the mesh that the user named: a chain of nodes along edges, with the mesh on both sides; a closed one
+// does not repeat its first node.
 enum class LineKind { Constraint, Weir, RegionBorder };
 struct GridLine {
   LineKind kind = LineKind::Constraint;

@@ -24,10 +24,11 @@ Point meanPlace(const Crs& crs, std::span<const Point> places);
 // Each returns the index of what was added.
 std::uint32_t addNode(Grid& grid, const Point& place);  // its values are unknown (NaN)
 std::uint32_t copyNode(Grid& grid, std::uint32_t source, const Point& place);
-// At `placeBetween` with values in between. A line along the edge from `a` to `b` goes through the node; a boundary does
-// not.
+// At `placeBetween` with values in between. A line along the edge from `a` to `b` goes through the node; a boundary
+// does not.
 std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, double share);
-// Moves a node `share` of the way towards the middle between `a` and `b`. Values go with it, where those of both are known.
+// Moves a node `share` of the way towards the middle between `a` and `b`. Values go with it, where those of both are
+// known.
 void moveNode(Grid& grid, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share);
 // Gives `triangles`, which share no edge at the node with others, a copy of it at `place`. Lines along their edges go
 // with them, and are cut where they come from others; boundaries stay with the node.

@@ -9,15 +9,15 @@
 
 namespace coastmesh {
 
-// +1 iff a, b, c turn counter-clockwise as seen from above, -1 iff clockwise, 0 iff they cannot be told from a line. For
-// longitudes and latitudes the sides are great circles, so that ±180, poles, whole revolutions and triangles up to a
-// hemisphere do not matter; elsewhere they are straight, and the answer is exact.
+// +1 iff a, b, c turn counter-clockwise as seen from above, -1 iff clockwise, 0 iff they cannot be told from a line.
+// For longitudes and latitudes the sides are great circles, so that ±180, poles, whole revolutions and triangles up to
+// a hemisphere do not matter; elsewhere they are straight, and the answer is exact.
 int orientationOnGround(const Point& a, const Point& b, const Point& c, const Crs& crs);
 
-// Triangles of `grid` that are not counter-clockwise on the ground, ascending: where `area_m2`, as `triangleAreas` gives
-// it, leaves no doubt its sign counts, else `orientationOnGround`. A mesh that is right in its working plane has such
-// triangles where they are far longer than high (sides that are straight there and on the ground differ by a hundredth
-// of their length for some 1000 km) or where rounding to the CRS's coordinates flattened them.
+// Triangles of `grid` that are not counter-clockwise on the ground, ascending: where `area_m2`, as `triangleAreas`
+// gives it, leaves no doubt its sign counts, else `orientationOnGround`. A mesh that is right in its working plane has
+// such triangles where they are far longer than high (sides that are straight there and on the ground differ by a
+// hundredth of their length for some 1000 km) or where rounding to the CRS's coordinates flattened them.
 std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2);
 
 // The `meanPlace` of a triangle's corners.

@@ -17,18 +17,18 @@ class HoleFinder {
   // From the middle of one of the longest edges straight across the face, half of the way.
   Point pointIn(std::uint32_t face) const {
     constexpr std::size_t kTries = 5;
-    std::vector<PlanarMap::HalfEdge> rim(map_.around(face).begin(), map_.around(face).end());
-    const std::size_t tries = std::min(kTries, rim.size());
-    std::partial_sort(rim.begin(), rim.begin() + static_cast<std::ptrdiff_t>(tries), rim.end(),
+    std::vector<PlanarMap::HalfEdge> boundary(map_.around(face).begin(), map_.around(face).end());
+    const std::size_t tries = std::min(kTries, boundary.size());
+    std::partial_sort(boundary.begin(), boundary.begin() + static_cast<std::ptrdiff_t>(tries), boundary.end(),
                       [&](auto g, auto h) { return lengthOf(g) > lengthOf(h); });
     Point best{};
     double best_width = -1;
     for (std::size_t i = 0; i < tries; ++i) {
-      const Point &a = tail(rim[i]), &b = head(rim[i]);
+      const Point &a = tail(boundary[i]), &b = head(boundary[i]);
       const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-      const double length = lengthOf(rim[i]);
+      const double length = lengthOf(boundary[i]);
       const Point across{(a.y - b.y) / length, (b.x - a.x) / length};
-      const double width = widthAcross(face, rim[i], middle, across);
+      const double width = widthAcross(face, boundary[i], middle, across);
       if (width <= best_width) continue;
       best_width = width;
       best = {middle.x + across.x * width / 2, middle.y + across.y * width / 2};

@@ -15,7 +15,7 @@ struct Ibtype {
   bool has_back_nodes = false;             // and before them the node across
 
   bool isWeir() const { return values > 0; }
-  bool closesItself() const { return role == BoundaryRole::Island; }  // its first node is not told again
+  bool closesItself() const { return role == BoundaryRole::Island; }  // its first node is not repeated
 };
 
 // Null where ADCIRC has no such type.

@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// Nodes that lie near one another in a plane of their own: metres in the tangent plane of the sphere at their middle for
-// longitudes and latitudes, so that poles and the turn of longitudes do not matter; the coordinates as they are
+// Nodes that lie near one another in a plane of their own: metres in the tangent plane of the sphere at their middle
+// for longitudes and latitudes, so that poles and the turn of longitudes do not matter; the coordinates as they are
 // otherwise. Angles and lengths are right to the square of their extent over the Earth's radius.
 std::vector<Point> localPlane(const Grid& grid, std::span<const std::uint32_t> nodes);
 std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places);

@@ -42,9 +42,9 @@ std::optional<std::string> typeOf(const Feature& feature, const std::string& col
   return std::nullopt;
 }
 
-// A polygon or a line in its layer's CRS, and what it makes of the rim.
+// A polygon or a line in its layer's CRS, and what it makes of the boundary.
 struct Rule {
-  RimKind kind;
+  BoundaryKind kind;
   const Polygon* polygon = nullptr;
   const std::vector<Point>* line = nullptr;
   Box box;
@@ -66,8 +66,8 @@ bool contains(const Polygon& polygon, const Point& p) {
   return inside;
 }
 
-// An edge of the rim in the layer's CRS.
-struct RimEdge {
+// An edge of the boundary in the layer's CRS.
+struct PlacedEdge {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
   Point a, b;
@@ -101,7 +101,7 @@ class LinePieces {
   }
 
   // The last rule whose line the edge runs along.
-  std::optional<std::size_t> along(const RimEdge& edge, double shrink) const {
+  std::optional<std::size_t> along(const PlacedEdge& edge, double shrink) const {
     constexpr double kFarthest = 0.2;  // of the edge's length
     const double length = std::hypot((edge.b.x - edge.a.x) * shrink, edge.b.y - edge.a.y), far = kFarthest * length;
     std::vector<std::size_t> common;
@@ -148,12 +148,12 @@ class RuleSet {
   RuleSet(const std::string& path, const std::string& column, bool all_have_it) {
     ReadReport ignored;
     layers_ = readLayers({path, FeatureUse::Area}, {}, ignored);
-    // What a cleaned file says of its rim edge by edge counts alone.
+    // What a cleaned file says of its boundary edge by edge counts alone.
     if (ignored.boundary_types) std::erase_if(layers_, [](const RawLayer& l) { return l.use != FeatureUse::Boundary; });
     for (const RawLayer& layer : layers_) {
       Layer& made = made_.emplace_back();
       made.raw = &layer;
-      const auto addKind = [&](const Feature& feature) -> std::optional<RimKind> {
+      const auto addKind = [&](const Feature& feature) -> std::optional<BoundaryKind> {
         const auto text = typeOf(feature, feature.use == FeatureUse::Boundary ? kBoundaryField : column);
         const std::string what = feature.source + ", feature " + std::to_string(feature.fid);
         if (text) return kindOfText(*text, what);
@@ -166,7 +166,7 @@ class RuleSet {
         const auto kind = addKind(feature);
         if (!kind) continue;
         for (const Polygon& polygon : feature.polygons) {
-          // A polygon of the input is meshed: its own rim is meant.
+          // A polygon of the input is meshed: its own boundary is meant.
           if (all_have_it) {
             made.add({*kind, &polygon, nullptr, {}}, polygon.outer);
           } else {
@@ -182,9 +182,9 @@ class RuleSet {
     }
   }
 
-  // Calls `told(edge index, kind)` for edges that the rules say something of, in the layers' order.
-  template <typename Told>
-  void apply(const Grid& grid, const std::vector<NodePair>& edges, const std::vector<bool>& outer, Told&& told) const {
+  // Calls `said(edge index, kind)` for edges that the rules say something of, in the layers' order.
+  template <typename Said>
+  void apply(const Grid& grid, const std::vector<NodePair>& edges, const std::vector<bool>& outer, Said&& said) const {
     for (const Layer& layer : made_) {
       const bool as_is =
           grid.crs.isPlane() || !layer.raw->crs || layer.raw->crs->isPlane() || sameCrs(grid.crs, *layer.raw->crs);
@@ -198,12 +198,13 @@ class RuleSet {
         if (!std::isfinite(a.x + a.y + b.x + b.y)) continue;
         std::optional<std::size_t> found;
         for (const double turn : turnsToTry(geographic)) {
-          const RimEdge edge{edges[e][0], edges[e][1], {a.x + turn, a.y}, {b.x + turn, b.y}};
+          const PlacedEdge edge{edges[e][0], edges[e][1], {a.x + turn, a.y}, {b.x + turn, b.y}};
           const double shrink = geographic ? std::max(1e-6, std::cos(edge.middle().y * std::numbers::pi / 180.0)) : 1.0;
           auto rule = pieces.along(edge, shrink);
           for (std::size_t r = layer.rules.size(); r-- > 0 && (!rule || r > *rule);) {
             const Rule& candidate = layer.rules[r];
-            // Islands stay closed where a polygon that opens the rim happens to hold them; a line along them is meant.
+            // Islands stay closed where a polygon that opens the boundary happens to hold them; a line along them is
+            // meant.
             const bool opens = candidate.kind.role == BoundaryRole::Open || candidate.kind.role == BoundaryRole::River;
             if (opens && !outer[e]) continue;
             if (candidate.polygon != nullptr && candidate.box.contains(Box::of(edge.middle(), edge.middle())) &&
@@ -212,7 +213,7 @@ class RuleSet {
           }
           if (rule && (!found || *rule > *found)) found = rule;
         }
-        if (found) told(e, layer.rules[*found].kind);
+        if (found) said(e, layer.rules[*found].kind);
       }
     }
   }
@@ -228,7 +229,7 @@ class RuleSet {
     }
   };
 
-  void addRing(Layer& layer, const RimKind& kind, const Ring& ring) {
+  void addRing(Layer& layer, const BoundaryKind& kind, const Ring& ring) {
     std::vector<Point>& closed = *closed_rings_.emplace_back(std::make_unique<std::vector<Point>>(ring));
     closed.push_back(ring.front());
     layer.add({kind, nullptr, &closed, {}}, closed);
@@ -239,47 +240,47 @@ class RuleSet {
   std::vector<Layer> made_;
 };
 
-// The rim's edges, loop after loop, with what each is.
-struct Rim {
+// The boundary's edges, loop after loop, with what each is.
+struct BoundaryEdges {
   std::vector<std::vector<std::uint32_t>> loops;
   std::vector<NodePair> edges;
-  std::vector<RimKind> kinds;
+  std::vector<BoundaryKind> kinds;
   std::vector<bool> outer;  // of each edge: its loop goes round the mesh
 };
 
-Rim rimWithKinds(const Grid& grid) {
-  Rim rim;
-  rim.loops = rimOf(grid);
+BoundaryEdges boundaryWithKinds(const Grid& grid) {
+  BoundaryEdges boundary;
+  boundary.loops = boundaryLoops(grid);
   const EdgeKinds before(grid);
-  for (const auto& loop : rim.loops) {
+  for (const auto& loop : boundary.loops) {
     const bool outer = roleOfLoop(grid.nodes, loop, grid.crs) == BoundaryRole::Land;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const NodePair edge{loop[i], loop[(i + 1) % loop.size()]};
-      const RimKind* const kind = before.find(edge[0], edge[1]);
-      rim.edges.push_back(edge);
-      rim.kinds.push_back(kind != nullptr ? RimKind{kind->role, kind->ibtype} : RimKind{});
+      const BoundaryKind* const kind = before.find(edge[0], edge[1]);
+      boundary.edges.push_back(edge);
+      boundary.kinds.push_back(kind != nullptr ? BoundaryKind{kind->role, kind->ibtype} : BoundaryKind{});
       // An island and a shore are told apart by their loops alone.
-      if (rim.kinds.back().role == BoundaryRole::Island) rim.kinds.back().role = BoundaryRole::Land;
-      rim.outer.push_back(outer);
+      if (boundary.kinds.back().role == BoundaryRole::Island) boundary.kinds.back().role = BoundaryRole::Land;
+      boundary.outer.push_back(outer);
     }
   }
-  return rim;
+  return boundary;
 }
 
-std::vector<Boundary> boundariesOf(const Grid& grid, const Rim& rim) {
+std::vector<Boundary> boundariesOf(const Grid& grid, const BoundaryEdges& boundary) {
   std::vector<std::pair<NodePair, std::size_t>> index;
-  for (std::size_t e = 0; e < rim.edges.size(); ++e) index.emplace_back(rim.edges[e], e);
+  for (std::size_t e = 0; e < boundary.edges.size(); ++e) index.emplace_back(boundary.edges[e], e);
   std::ranges::sort(index);
-  return cutLoops(grid, rim.loops, [&](std::uint32_t from, std::uint32_t to) {
+  return cutLoops(grid, boundary.loops, [&](std::uint32_t from, std::uint32_t to) {
     const auto at =
         std::ranges::lower_bound(index, NodePair{from, to}, {}, [](const auto& entry) { return entry.first; });
-    return rim.kinds[at->second];
+    return boundary.kinds[at->second];
   });
 }
 
 }  // namespace
 
-RimKind kindOfText(const std::string& text, const std::string& what) {
+BoundaryKind kindOfText(const std::string& text, const std::string& what) {
   const std::string word = lowerCase(text);
   const auto isOneOf = [&](std::initializer_list<const char*> names) { return std::ranges::count(names, word) > 0; };
   if (isOneOf({"open", "ocean", "sea", "tidal", "tide", "level", "-1"})) return {BoundaryRole::Open};
@@ -305,11 +306,11 @@ namespace {
 struct Run {
   std::size_t first = 0;  // edge of the loop
   std::size_t count = 0;
-  RimKind kind;
+  BoundaryKind kind;
   double length = 0.0;
 };
 
-std::vector<Run> runsOf(const std::vector<RimKind>& kinds, const std::vector<double>& lengths, std::size_t begin,
+std::vector<Run> runsOf(const std::vector<BoundaryKind>& kinds, const std::vector<double>& lengths, std::size_t begin,
                         std::size_t n) {
   std::vector<Run> runs;
   std::size_t start = 0;
@@ -354,18 +355,18 @@ std::size_t mergeShortRuns(std::vector<Run>& runs, double least) {
   return merged;
 }
 
-std::size_t mergeShort(const Grid& grid, double least_m, Rim& rim) {
+std::size_t mergeShort(const Grid& grid, double least_m, BoundaryEdges& boundary) {
   if (!(least_m > 0.0)) return 0;
   std::vector<std::vector<Point>> edges;
-  for (const auto& [from, to] : rim.edges) edges.push_back({grid.nodes[from], grid.nodes[to]});
+  for (const auto& [from, to] : boundary.edges) edges.push_back({grid.nodes[from], grid.nodes[to]});
   const std::vector<double> lengths = chainLengths(edges, grid.crs);
   std::size_t merged = 0, begin = 0;
-  for (const auto& loop : rim.loops) {
+  for (const auto& loop : boundary.loops) {
     const std::size_t n = loop.size();
-    std::vector<Run> runs = runsOf(rim.kinds, lengths, begin, n);
+    std::vector<Run> runs = runsOf(boundary.kinds, lengths, begin, n);
     merged += mergeShortRuns(runs, least_m);
     for (const Run& run : runs)
-      for (std::size_t k = 0; k < run.count; ++k) rim.kinds[begin + (run.first + k) % n] = run.kind;
+      for (std::size_t k = 0; k < run.count; ++k) boundary.kinds[begin + (run.first + k) % n] = run.kind;
     begin += n;
   }
   return merged;
@@ -382,7 +383,7 @@ std::vector<std::string> boundaryTexts(const Crs& crs, const std::vector<Point>&
   std::vector<std::string> texts(edges.size());
   for (const std::string& input : inputs) {
     RuleSet(input, column, false)
-        .apply(grid, edges, std::vector<bool>(edges.size(), true), [&](std::size_t e, const RimKind& kind) {
+        .apply(grid, edges, std::vector<bool>(edges.size(), true), [&](std::size_t e, const BoundaryKind& kind) {
           texts[e] = kind.ibtype >= 0 ? std::to_string(kind.ibtype) : std::string(toString(kind.role));
         });
   }
@@ -394,32 +395,32 @@ BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options) {
   if (!options.any()) return report;
   const auto isWeir = [](const Boundary& boundary) { return !boundary.weir.empty(); };
   if (std::ranges::any_of(grid.boundaries, isWeir))
-    throw InputError("the mesh has weirs, whose boundaries cannot be told anew; leave the options of boundaries out");
-  Rim rim = rimWithKinds(grid);
-  std::vector<bool> told(rim.edges.size(), false);
+    throw InputError("the mesh has weirs, whose boundaries cannot be set anew; leave the options of boundaries out");
+  BoundaryEdges boundary = boundaryWithKinds(grid);
+  std::vector<bool> said(boundary.edges.size(), false);
   const auto applyFiles = [&](const std::vector<std::string>& files, bool all_have_it) {
     for (const std::string& file : files) {
       RuleSet(file, options.column, all_have_it)
-          .apply(grid, rim.edges, rim.outer, [&](std::size_t e, const RimKind& kind) {
-            rim.kinds[e] = kind;
-            told[e] = true;
+          .apply(grid, boundary.edges, boundary.outer, [&](std::size_t e, const BoundaryKind& kind) {
+            boundary.kinds[e] = kind;
+            said[e] = true;
           });
     }
   };
   applyFiles(options.inputs, false);
   applyFiles(options.files, true);
-  report.edges_told = static_cast<std::size_t>(std::ranges::count(told, true));
+  report.edges_told = static_cast<std::size_t>(std::ranges::count(said, true));
   if (options.open_deeper_m < 1e300) {
     if (grid.z.empty()) throw InputError("to open boundaries by their depth takes depths; give --bathymetry");
-    for (std::size_t e = 0; e < rim.edges.size(); ++e) {
+    for (std::size_t e = 0; e < boundary.edges.size(); ++e) {
       const auto isDeep = [&](std::uint32_t node) { return 0.0 - grid.z[node] > options.open_deeper_m; };
-      if (told[e] || !rim.outer[e] || !isDeep(rim.edges[e][0]) || !isDeep(rim.edges[e][1])) continue;
-      rim.kinds[e] = {BoundaryRole::Open};
+      if (said[e] || !boundary.outer[e] || !isDeep(boundary.edges[e][0]) || !isDeep(boundary.edges[e][1])) continue;
+      boundary.kinds[e] = {BoundaryRole::Open};
       ++report.edges_by_depth;
     }
   }
-  report.merged = mergeShort(grid, options.least_length_m, rim);
-  grid.boundaries = boundariesOf(grid, rim);
+  report.merged = mergeShort(grid, options.least_length_m, boundary);
+  grid.boundaries = boundariesOf(grid, boundary);
   return report;
 }
 

@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid.hpp"
-#include "gis/grid/rim_boundaries.hpp"
 
 namespace coastmesh {
 
 struct BoundaryOptions {
-  // Vector files whose polygons and lines tell what the rim is: each edge whose middle lies in a polygon, or that runs
-  // along a line (no point of it further off than a fifth of its length), is of the type that the feature's column
+  // Vector files whose polygons and lines say what the boundary is: each edge whose middle lies in a polygon, or that
+  // runs along a line (no point of it further off than a fifth of its length), is of the type that the feature's column
   // says. Where several do, the last counts. Polygons open no islands; lines do.
   std::vector<std::string> files;
   std::string column;  // the column of types; empty: the first called type, role, boundary, ibtype or kind
-  // The same for files whose features may lack the column: the input itself. One that `coastmesh clean` wrote with types of
-  // its rim tells these, whatever the column.
+  // The same for files whose features may lack the column: the input itself. One that `coastmesh clean` wrote with
+  // types of its boundary says these, whatever the column.
   std::vector<std::string> inputs;
   double open_deeper_m = std::numeric_limits<double>::infinity();  // metres: edges of outer loops are open where both
                                                                    // ends are deeper, unless a file says otherwise
@@ -27,7 +27,7 @@ struct BoundaryOptions {
 };
 
 struct BoundaryReport {
-  std::size_t edges_told = 0;      // of the rim, by a file
+  std::size_t edges_told = 0;      // of the boundary, by a file
   std::size_t edges_by_depth = 0;  // opened by their depth
   std::size_t merged = 0;          // boundaries that were too short
 };
@@ -35,10 +35,10 @@ struct BoundaryReport {
 // What a column's text means: land (shore, coast, wall, closed, solid, mainland, island), open (ocean, sea, tidal,
 // level) and river (inflow, discharge, flow), in capitals or not, or a number: ADCIRC's IBTYPE, -1 being open. Throws
 // InputError with `what` at its start.
-RimKind kindOfText(const std::string& text, const std::string& what);
+BoundaryKind kindOfText(const std::string& text, const std::string& what);
 
-// What the columns of `inputs` say of edges of the rim, as `kindOfText` takes it; empty where they say nothing. `edges`
-// are pairs of `places`, which are in `crs`. Throws InputError.
+// What the columns of `inputs` say of edges of the boundary, as `kindOfText` takes it; empty where they say nothing.
+// `edges` are pairs of `places`, which are in `crs`. Throws InputError.
 std::vector<std::string> boundaryTexts(const Crs& crs, const std::vector<Point>& places,
                                        const std::vector<NodePair>& edges, const std::vector<std::string>& inputs,
                                        const std::string& column);

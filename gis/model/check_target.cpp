@@ -10,10 +10,10 @@
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/grid/loop_role.hpp"
-#include "gis/grid/rim_boundaries.hpp"
 #include "gis/model/flow_links.hpp"
 #include "gis/model/target_limits.hpp"
 #include "gis/model/time_step.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
     "wrong count",    "broken edge",     "clockwise",       "unused node",    "repeated node",   "hanging node",
-    "pinched node",   "orphan cell",     "unknown depth",   "dry opening",    "no boundary",     "boundary off the rim",
+    "pinched node",   "orphan cell",     "unknown depth",   "dry opening",    "no boundary",     "stray boundary",
     "boundary twice", "boundary turned", "looped boundary", "wrong shore",    "two open edges",  "open and solid edge",
     "lone wall",      "valence",         "large angle",     "not orthogonal", "small flow link", "courant"};
 
@@ -106,19 +106,19 @@ class TargetCheck {
   }
 
   void checkNodes() {
-    std::vector<int> cells(grid_.nodes.size(), 0), rim_starts(grid_.nodes.size(), 0);
+    std::vector<int> cells(grid_.nodes.size(), 0), boundary_starts(grid_.nodes.size(), 0);
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       for (unsigned i = 0; i < 3; ++i) {
         ++cells[mesh_.triangles[t].v[i]];
-        if (mesh_.triangles[t].adj[i] == kNone) ++rim_starts[mesh_.origin(edgeRef(t, i))];
+        if (mesh_.triangles[t].adj[i] == kNone) ++boundary_starts[mesh_.origin(edgeRef(t, i))];
       }
     }
     for (std::uint32_t node = 0; node < grid_.nodes.size(); ++node) {
       const Point& place = grid_.nodes[node];
       if (cells[node] == 0) add(TargetDefectKind::UnusedNode, place, -1, node);
-      if (rim_starts[node] > 1) add(TargetDefectKind::PinchedNode, place, -1, node, rim_starts[node]);
+      if (boundary_starts[node] > 1) add(TargetDefectKind::PinchedNode, place, -1, node, boundary_starts[node]);
       if (!grid_.z.empty() && std::isnan(grid_.z[node])) add(TargetDefectKind::UnknownDepth, place, -1, node);
-      const bool inner = cells[node] > 0 && rim_starts[node] == 0;
+      const bool inner = cells[node] > 0 && boundary_starts[node] == 0;
       if (target_ == Target::Swan && inner && (cells[node] < kSwanFewestCells || cells[node] > kSwanMostCells))
         add(TargetDefectKind::Valence, place, -1, node, cells[node]);
     }
@@ -131,7 +131,7 @@ class TargetCheck {
         add(TargetDefectKind::RepeatedNode, grid_.nodes[order[i]], -1, order[i]);
   }
 
-  std::vector<NodePair> rimEdges() const {
+  std::vector<NodePair> boundaryEdges() const {
     std::vector<NodePair> edges;
     for (TriId t = 0; t < mesh_.triangles.size(); ++t)
       for (unsigned i = 0; i < 3; ++i)
@@ -142,7 +142,7 @@ class TargetCheck {
 
   void checkHangingNodes() {
     constexpr double kOnEdge = 1e-7;  // of the edge's length
-    const std::vector<NodePair> edges = rimEdges();
+    const std::vector<NodePair> edges = boundaryEdges();
     std::vector<Box> boxes;
     std::vector<std::uint32_t> nodes;
     for (const auto& [a, b] : edges) {
@@ -172,7 +172,7 @@ class TargetCheck {
   // ADCIRC and SCHISM read segments of nodes.
   void checkSegments() {
     std::map<NodePair, int> uses;
-    for (const NodePair& edge : rimEdges()) uses[edge] = 0;
+    for (const NodePair& edge : boundaryEdges()) uses[edge] = 0;
     for (const Boundary& boundary : grid_.boundaries) {
       std::vector<NodePair> edges = edgesOf(boundary);
       const Boundary back{boundary.role, boundary.closed, boundary.back_nodes};
@@ -184,7 +184,7 @@ class TargetCheck {
           ++turned;
           if (++against->second == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
         } else {
-          add(TargetDefectKind::BoundaryOffRim, middle(from, to), -1, from);
+          add(TargetDefectKind::StrayBoundary, middle(from, to), -1, from);
         }
       }
       for (const auto& [from, to] : edgesOf(back)) {
@@ -194,7 +194,7 @@ class TargetCheck {
       if (boundary.nodes.empty()) continue;
       const std::uint32_t first = boundary.nodes.front();
       if (turned > 0) add(TargetDefectKind::BoundaryTurned, grid_.nodes[first], -1, first, static_cast<double>(turned));
-      if (boundary.nodes.size() == 1) add(TargetDefectKind::BoundaryOffRim, grid_.nodes[first], -1, first);
+      if (boundary.nodes.size() == 1) add(TargetDefectKind::StrayBoundary, grid_.nodes[first], -1, first);
       checkLoop(boundary, turned > 0);
     }
     for (const auto& [edge, count] : uses)
@@ -228,8 +228,11 @@ class TargetCheck {
       int open = 0, solid = 0;
       for (unsigned i = 0; i < 3; ++i) {
         if (mesh_.triangles[t].adj[i] != kNone) continue;
-        const RimKind* const kind = kinds.find(mesh_.origin(edgeRef(t, i)), mesh_.target(edgeRef(t, i)));
-        ++(kind != nullptr && kind->role == BoundaryRole::Open ? open : solid);
+        const BoundaryKind* const kind = kinds.find(mesh_.origin(edgeRef(t, i)), mesh_.target(edgeRef(t, i)));
+        if (kind != nullptr && kind->role == BoundaryRole::Open)
+          ++open;
+        else
+          ++solid;
       }
       if (open > 1) add(TargetDefectKind::TwoOpenEdges, middle(t), t, -1, open);
       if (open > 0 && solid > 0) add(TargetDefectKind::OpenAndSolid, middle(t), t);
@@ -246,9 +249,9 @@ class TargetCheck {
       if (opens(boundary.role))
         for (const std::uint32_t node : boundary.nodes) on_opening[node] = true;
     const EdgeKinds kinds(grid_);
-    for (const auto& [from, to] : rimEdges()) {
+    for (const auto& [from, to] : boundaryEdges()) {
       if (!on_opening[from] || !on_opening[to]) continue;
-      const RimKind* const kind = kinds.find(from, to);
+      const BoundaryKind* const kind = kinds.find(from, to);
       if (kind == nullptr || !opens(kind->role)) add(TargetDefectKind::LoneWall, middle(from, to), -1, from);
     }
   }

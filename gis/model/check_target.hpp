@@ -22,9 +22,9 @@ enum class TargetDefectKind {
   OrphanCell,      // a triangle without a neighbour
   UnknownDepth,    // a node without a depth
   DryOpening,      // a node of an opening that is above the water
-  NoBoundary,      // an edge of the rim in no boundary
-  BoundaryOffRim,  // two nodes of a boundary that follow one another and are no edge of the rim
-  BoundaryTwice,   // an edge of the rim in two boundaries
+  NoBoundary,      // an edge of the mesh's boundary that is in none
+  StrayBoundary,   // two nodes of a boundary that follow one another with no edge of the mesh's boundary between
+  BoundaryTwice,   // an edge of the mesh's boundary that is in two
   BoundaryTurned,  // a boundary with the mesh to its right
   LoopedBoundary,  // an open boundary, or the outer shore, that ends where it starts
   WrongShore,      // an outer shore that says it is an island, or the other way round
@@ -55,15 +55,15 @@ struct TargetCheckOptions {
   double time_step_s = 0.0;  // seconds; 0: Courant numbers are not looked at
 };
 
-// Everything that makes the model refuse the grid, by kind, Courant numbers from the worst on (`timeSteps` says how they
-// are measured); then what is advice. Boundaries are taken as they stand. The bounds are in target_limits.hpp.
+// Everything that makes the model refuse the grid, by kind, Courant numbers from the worst on (`timeSteps` says how
+// they are measured); then what is advice. Boundaries are taken as they stand. The bounds are in target_limits.hpp.
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {});
 
 // The same of the time step alone, whatever the model: triangles with a Courant number above 1, from the worst on.
 std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s);
 
-// SWAN's measure: the largest angle in degrees, of coordinates as they stand in the file. It takes longitudes and latitudes
-// for a plane.
+// SWAN's measure: the largest angle in degrees, of coordinates as they stand in the file. It takes longitudes and
+// latitudes for a plane.
 double largestFileAngle(const Point& a, const Point& b, const Point& c);
 
 }  // namespace coastmesh

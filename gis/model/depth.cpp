@@ -11,7 +11,7 @@ namespace coastmesh {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Triangles round a node with fewer pixels than this tell less than the four pixels round it.
+// Triangles round a node with fewer pixels than this say less than the four pixels round it.
 constexpr double kLeastPixels = 4.0;
 // Of the pixels in a node's triangles, this share has to have a value for their mean to count before other rasters.
 constexpr double kMostPixels = 0.5;
@@ -32,7 +32,7 @@ class ValueSearch {
   void take(std::size_t file, const RunControl& control) {
     const RasterBand raster(options_.files[file]);
     if (raster.crs().isPlane() && !grid_.crs.isPlane())
-      report_.warnings.push_back("'" + raster.path() + "' tells no CRS; taken to be in that of the mesh, " +
+      report_.warnings.push_back("'" + raster.path() + "' has no CRS; taken to be in that of the mesh, " +
                                  nameOf(grid_.crs));
     std::vector<std::uint32_t> open = unknownNodes();
     if (open.empty()) return;
@@ -127,8 +127,8 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   if (2 * dry > grid.nodes.size() && known > 0)
     report.warnings.push_back(std::to_string(dry) + " of " + std::to_string(grid.nodes.size()) +
                               " nodes lie above the water; " +
-                              (options.positive_down ? "do the rasters tell elevations, positive up?"
-                                                     : "do the rasters tell depths, positive down?") +
+                              (options.positive_down ? "do the rasters hold elevations, positive up?"
+                                                     : "do the rasters hold depths, positive down?") +
                               " See --depth-sign");
   return report;
 }

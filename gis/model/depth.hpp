@@ -28,7 +28,7 @@ inline constexpr std::array kDepthFillNames{"neighbours", "nearest", "none"};
 struct DepthOptions {
   std::vector<std::string> files;  // rasters that GDAL reads, the first that has a value counts; none: no depths
   DepthMethod method = DepthMethod::Bilinear;
-  bool positive_down = false;  // the rasters tell depths; else elevations, positive up
+  bool positive_down = false;  // the rasters hold depths; else elevations, positive up
   double water_level_m = 0.0;  // metres: height of the still water above the rasters' zero
   double min_depth_m = -std::numeric_limits<double>::infinity();  // metres: shallower nodes are lowered to it
   DepthFill fill = DepthFill::Neighbours;

@@ -9,8 +9,8 @@ namespace coastmesh {
 // crosses the triangle's boundary.
 struct FlowLink {
   double cosine = 0.0;  // of the angle between the link and the edge it crosses, 0 where the link has no length
-  // Over half the sum of the square roots of the triangles' areas; between the circles' own centres where that is shorter, since a
-  // setting of the model (`Dcenterinside`) lets centres leave their triangles.
+  // Over half the sum of the square roots of the triangles' areas; between the circles' own centres where that is
+  // shorter, since a setting of the model (`Dcenterinside`) lets centres leave their triangles.
   double length = 0.0;
 };
 

@@ -73,7 +73,7 @@ void appendTriangles(const TriMesh& mesh, const std::vector<std::uint32_t>& inde
   });
 }
 
-// The features that triangles belong to, in the coastline's order; the answer is the new index of each of the
+// The features that triangles belong to, in the coastline's order; the result is the new index of each of the
 // coastline's, and empty where it has none (a .poly).
 std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
                                           std::vector<GridFeature>& features) {
@@ -124,7 +124,7 @@ void appendLines(const Domain& domain, const TriMesh& mesh, const std::vector<st
   }
 }
 
-// Edges of the rim that lie on the frame's, with the mesh to the left, sorted.
+// Edges of the boundary that lie on the frame's, with the mesh to the left, sorted.
 std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh) {
   std::vector<NodePair> open;
   for (const Triangle& triangle : mesh.triangles) {
@@ -190,8 +190,8 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
     appendTriangles(*part.mesh, index_of, feature_index, loop, grid);
     appendLines(*part.domain, *part.mesh, index_of, grid.lines);
     const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh);
-    for (Boundary& rim : findBoundaries(*part.mesh, loop)) {
-      for (Boundary& boundary : splitLoop(std::move(rim), open)) {
+    for (Boundary& whole : findBoundaries(*part.mesh, loop)) {
+      for (Boundary& boundary : splitLoop(std::move(whole), open)) {
         for (std::uint32_t& node : boundary.nodes) node = index_of[node];
         if (boundary.closed && boundary.role != BoundaryRole::Open)
           boundary.role = roleByArea(grid.nodes, boundary.nodes, grid.crs).value_or(boundary.role);

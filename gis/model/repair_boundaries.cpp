@@ -6,8 +6,8 @@ namespace coastmesh {
 namespace {
 
 // Like the opening at the node.
-RimKind openingAt(const RepairState& state, std::uint32_t node) {
-  RimKind opening{BoundaryRole::Open};
+BoundaryKind openingAt(const RepairState& state, std::uint32_t node) {
+  BoundaryKind opening{BoundaryRole::Open};
   for (const std::uint32_t t : state.links.triangles_at[node]) {
     for (const std::uint32_t other : state.grid.triangles[t]) {
       const auto at = state.links.kinds.find(edgeKey(node, other));
@@ -30,8 +30,8 @@ BoundaryKinds takeBoundaryKinds(const Grid& grid) {
     for (unsigned i = 0; i < 3; ++i) {
       if (mesh.triangles[t].adj[i] != kNone) continue;
       const std::uint32_t a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
-      const RimKind* const kind = said.find(a, b);
-      RimKind made = kind != nullptr ? RimKind{kind->role, kind->ibtype} : RimKind{};
+      const BoundaryKind* const kind = said.find(a, b);
+      BoundaryKind made = kind != nullptr ? BoundaryKind{kind->role, kind->ibtype} : BoundaryKind{};
       if (made.role == BoundaryRole::Island) made.role = BoundaryRole::Land;
       kinds[edgeKey(a, b)] = made;
     }
@@ -58,9 +58,9 @@ void openLoneWall(RepairState& state, const FoundDefect& found) {
 void rebuildBoundaries(RepairState& state) {
   const auto kindOfEdge = [&](std::uint32_t a, std::uint32_t b) {
     const auto at = state.links.kinds.find(edgeKey(a, b));
-    return at == state.links.kinds.end() ? RimKind{} : at->second;
+    return at == state.links.kinds.end() ? BoundaryKind{} : at->second;
   };
-  state.grid.boundaries = cutLoops(state.grid, rimOf(state.grid), kindOfEdge);
+  state.grid.boundaries = cutLoops(state.grid, boundaryLoops(state.grid), kindOfEdge);
 }
 
 void reportRebuilt(RepairState& state, std::span<const FoundDefect> pending, std::size_t boundaries_before) {

@@ -55,7 +55,7 @@ Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle) 
   return patch;
 }
 
-const RimKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b) {
+const BoundaryKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b) {
   const NodePair key = edgeKey(a, b);
   if (const auto half = edit.halves.find(key); half != edit.halves.end()) return &half->second;
   if (edit.gone == key) return nullptr;
@@ -85,7 +85,7 @@ PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, s
     added.push_back({{middle, to, side->apex}, kNone, side->triangle});
   }
   edit.triangles.insert(edit.triangles.end(), added.begin(), added.end());
-  if (const RimKind* const kind = kindOf(view, edit, a, b)) {
+  if (const BoundaryKind* const kind = kindOf(view, edit, a, b)) {
     edit.halves[edgeKey(a, middle)] = edit.halves[edgeKey(middle, b)] = *kind;
     edit.gone = edgeKey(a, b);
   }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/tri_mesh.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
-#include "gis/grid/rim_boundaries.hpp"
 #include "gis/model/check_target.hpp"
 
 namespace coastmesh {
@@ -20,7 +20,7 @@ namespace coastmesh {
 // An edge, whichever way it goes.
 inline NodePair edgeKey(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-using BoundaryKinds = std::map<NodePair, RimKind>;  // by `edgeKey`
+using BoundaryKinds = std::map<NodePair, BoundaryKind>;  // by `edgeKey`
 
 // How the grid hangs together.
 struct GridLinks {
@@ -36,8 +36,8 @@ struct RepairView {
   const Grid& grid;
   const GridLinks& links;
   std::span<const Target> targets;
-  // By triangle, degrees: the smallest angle, less than 0 for one that is clockwise or without area; NaN where nobody has
-  // asked yet. Holds for triangles that were not changed in this round.
+  // By triangle, degrees: the smallest angle, less than 0 for one that is clockwise or without area; NaN where nobody
+  // has asked yet. Holds for triangles that were not changed in this round.
   std::span<double> smallest_angle;
 
   bool isFor(Target target) const { return std::ranges::count(targets, target) > 0; }
@@ -83,7 +83,7 @@ std::vector<std::uint32_t> nodesOf(const Grid& grid, std::span<const std::uint32
 Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle);
 
 // What the boundary is at the edge once the edit is made; null inside the mesh.
-const RimKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b);
+const BoundaryKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b);
 
 // The edge between two triangles of the patch turned to join their other corners; none where it has to stay.
 std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b);

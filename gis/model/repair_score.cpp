@@ -49,9 +49,14 @@ std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEd
     score.defects += largestFileAngle(q[0], q[1], q[2]) > kSwanLargestAngleDeg;
   }
   int open = 0, solid = 0;
-  for (unsigned i = 0; i < 3; ++i)
-    if (const RimKind* const kind = kindOf(view, edit, v[i], v[next3(i)]))
-      ++(kind->role == BoundaryRole::Open ? open : solid);
+  for (unsigned i = 0; i < 3; ++i) {
+    const BoundaryKind* const kind = kindOf(view, edit, v[i], v[next3(i)]);
+    if (kind == nullptr) continue;
+    if (kind->role == BoundaryRole::Open)
+      ++open;
+    else
+      ++solid;
+  }
   if (view.isFor(Target::Fvcom)) score.defects += (open > 1 ? 1 : 0) + (open > 0 && solid > 0 ? 1 : 0);
   score.defects += open + solid == 3;
   return score;

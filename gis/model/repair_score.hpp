@@ -9,8 +9,8 @@
 
 namespace coastmesh {
 
-// What an edit leaves of a patch: first angles that are not small, since what is left of the defects may be mended by another edit; then
-// fewer defects, and then a larger smallest angle.
+// What an edit leaves of a patch: first angles that are not small, since what is left of the defects may be mended by
+// another edit; then fewer defects, and then a larger smallest angle.
 struct EditScore {
   int defects = 0;         // more than the patch has now; less than 0 where it gets better
   double min_angle = 0.0;  // degrees, of the whole patch

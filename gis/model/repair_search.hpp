@@ -16,8 +16,8 @@ struct SearchReach {
   std::span<const std::uint32_t> movable;  // nodes that are moved a little
 };
 
-// A node moved, or an edge of `inside` flipped or split. REQUIRES: the patch is that round `inside` and the triangles of
-// the movable nodes.
+// A node moved, or an edge of `inside` flipped or split. REQUIRES: the patch is that round `inside` and the triangles
+// of the movable nodes.
 std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
                                        const SearchReach& reach, const Patch& patch);
 

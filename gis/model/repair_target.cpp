@@ -52,7 +52,7 @@ void requireTriangles(const Grid& grid, Target target) {
 bool isOfBoundaries(TargetDefectKind kind) {
   switch (kind) {
     case TargetDefectKind::NoBoundary:
-    case TargetDefectKind::BoundaryOffRim:
+    case TargetDefectKind::StrayBoundary:
     case TargetDefectKind::BoundaryTwice:
     case TargetDefectKind::BoundaryTurned:
     case TargetDefectKind::LoopedBoundary:
@@ -90,7 +90,7 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::Valence:
       return mendValence(state, found);
     case TargetDefectKind::NoBoundary:
-    case TargetDefectKind::BoundaryOffRim:
+    case TargetDefectKind::StrayBoundary:
     case TargetDefectKind::BoundaryTwice:
     case TargetDefectKind::BoundaryTurned:
     case TargetDefectKind::LoopedBoundary:

@@ -14,8 +14,8 @@ namespace coastmesh {
 // mesh touches itself are doubled and moved apart, triangles without a neighbour and unused nodes taken out, clockwise
 // triangles turned, edges flipped or split, or nodes moved that no boundary, line or feature holds, where a triangle, a
 // node or a flow link is not as a model wants it, and boundaries put together anew. Depths of new and moved nodes lie
-// between those of the nodes there were. Angles and areas of what was changed are measured again. Throws InputError for a
-// grid with weirs that has defects.
+// between those of the nodes there were. Angles and areas of what was changed are measured again. Throws InputError for
+// a grid with weirs that has defects.
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets);
 
 }  // namespace coastmesh

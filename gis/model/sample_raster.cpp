@@ -35,7 +35,7 @@ struct Corner {
   double y = 0.0;
 };
 
-// Within half a pixel of the raster's rim the outermost pixels count alone.
+// Within half a pixel of the raster's edge the outermost pixels count alone.
 std::optional<Corner> cornerAt(const RasterBand& raster, const Point& pixel) {
   constexpr double kRounding = 1e-6;  // of a pixel
   const auto width = static_cast<double>(raster.columns()), height = static_cast<double>(raster.rows());

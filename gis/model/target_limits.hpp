@@ -14,7 +14,8 @@ inline constexpr int kSwanFewestCells = 4, kSwanMostCells = 10;
 inline constexpr double kDflowfmLargestCosine = 0.5;
 
 // D-Flow FM, "removesmalllinkstrsh": a shorter link, as a share of half the sum of the square roots of the areas of the
-// triangles it joins, is taken out, and nothing flows there. It measures 0.1 on its own sphere, hence a little more here.
+// triangles it joins, is taken out, and nothing flows there. It measures 0.1 on its own sphere, hence a little more
+// here.
 inline constexpr double kDflowfmSmallestLink = 0.1005;
 
 // Courant numbers (`timeSteps`). ADCIRC and FVCOM blow up above 1. TELEMAC-2D and SCHISM are implicit, and D-Flow FM

@@ -36,12 +36,12 @@ class HeldEdges {
       for (const auto& [from, to] : {NodePair{a, b}, NodePair{b, c}, NodePair{c, a}})
         edges_.push_back({std::min(from, to), std::max(from, to)});
     std::ranges::sort(edges_);
-    std::vector<NodePair> rim;  // of one triangle alone
+    std::vector<NodePair> boundary;  // of one triangle alone
     for (std::size_t i = 0, end = 0; i < edges_.size(); i = end) {
       for (end = i; end < edges_.size() && edges_[end] == edges_[i];) ++end;
-      if (end - i == 1) rim.push_back(edges_[i]);
+      if (end - i == 1) boundary.push_back(edges_[i]);
     }
-    edges_ = std::move(rim);
+    edges_ = std::move(boundary);
     for (const auto& [a, b] : edges_) on_shore_[a] = on_shore_[b] = true;
     for (const GridLine& line : grid.lines) {
       for (std::size_t i = 1; i < line.nodes.size() + (line.closed ? 1 : 0); ++i) {

@@ -9,9 +9,9 @@
 
 namespace coastmesh {
 
-// The time step that a grid leaves to an explicit model (Courant, Friedrichs and Lewy): a triangle's is its shortest edge
-// over sqrt(g d), the speed of a long wave, d being the depth of its deepest corner. So no reading of the depth in a
-// triangle, at its nodes or their mean, gives a shorter one. A time step over it is the triangle's Courant number.
+// The time step that a grid leaves to an explicit model (Courant, Friedrichs and Lewy): a triangle's is its shortest
+// edge over sqrt(g d), the speed of a long wave, d being the depth of its deepest corner. So no reading of the depth in
+// a triangle, at its nodes or their mean, gives a shorter one. A time step over it is the triangle's Courant number.
 
 // Seconds, one a triangle: infinite where no corner is under water, NaN where no depth is known.
 std::vector<double> timeSteps(const Grid& grid);

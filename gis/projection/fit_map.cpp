@@ -184,7 +184,8 @@ class Clearest {
     if (clearance <= clearance_) return;
     const Point as_given{west_ + std::fmod(trial.x - west_ + 720, 360.0), trial.y};
     if (!left_out_.holds(as_given)) return;
-    best_ = trial, clearance_ = clearance;
+    best_ = trial;
+    clearance_ = clearance;
   }
 
   const std::optional<Point>& best() const { return best_; }

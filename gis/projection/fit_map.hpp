@@ -25,7 +25,8 @@ struct RingGroup {
 // Chooses by the extent of `lonlat` (degrees; any longitudes): transverse Mercator for what reaches north and south,
 // Lambert's conic for what reaches east and west, polar stereographic around a pole, oblique stereographic for the rest
 // and for all that is larger than a cap of 30 degrees. What is larger than a hemisphere is projected away from the
-// middle of the largest place that is left out: on land, or in no group. Throws InputError where there is none. REQUIRES: `lonlat` is not empty, latitudes within ±90.
+// middle of the largest place that is left out: on land, or in no group. Throws InputError where there is none.
+// REQUIRES: `lonlat` is not empty, latitudes within ±90.
 FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid);
 
 }  // namespace coastmesh

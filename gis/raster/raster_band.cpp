@@ -32,7 +32,7 @@ struct RasterBand::Dataset {
   GDALDataset* dataset = nullptr;
   GDALRasterBand* band = nullptr;
   std::vector<GDALRasterBand*> masks;  // 0 where a pixel has no value
-  std::optional<double> no_data;       // where the mask does not tell it
+  std::optional<double> no_data;       // where the mask does not say it
   bool is_single = false;              // values are in single precision
   double scale = 1.0;
   double offset = 0.0;

@@ -25,7 +25,7 @@ struct RasterGeometry {
   int columns = 0, rows = 0;
   std::array<double, 6> to_place{};  // GDAL's geotransform
   std::array<double, 6> to_pixel{};  // its inverse
-  Crs crs;                           // a plane where the raster tells none
+  Crs crs;                           // a plane where the raster has none
   double period = 0.0;               // columns after which longitudes repeat: 360 degrees of them; 0 for other CRS
   bool wraps = false;                // the last column meets the first, to half a pixel
 
@@ -38,9 +38,9 @@ struct RasterGeometry {
 // Throws InputError as `RasterBand` does.
 RasterGeometry readRasterGeometry(const std::string& path);
 
-// The first band of a raster that GDAL reads, a window at a time. For one thread. This alone reads rasters, so that what
-// is missing is missing for depths and sizes alike: pixels of no data, those that are no finite number, and those that a
-// mask (of the band, of the raster, an alpha band) leaves out.
+// The first band of a raster that GDAL reads, a window at a time. For one thread. This alone reads rasters, so that
+// what is missing is missing for depths and sizes alike: pixels of no data, those that are no finite number, and those
+// that a mask (of the band, of the raster, an alpha band) leaves out.
 class RasterBand {
  public:
   // Throws InputError, also for a raster without a place in its CRS, and for complex numbers.

@@ -42,7 +42,8 @@ void putOnOneSide(Ring& ring) {
   bool west = false, east = false;
   for (const Point& p : ring) {
     if (std::abs(p.x) == 180) continue;
-    (p.x < 0 ? west : east) = true;
+    west = west || p.x < 0;
+    east = east || p.x >= 0;
   }
   if (west == east) return;
   for (Point& p : ring) {
@@ -50,9 +51,9 @@ void putOnOneSide(Ring& ring) {
   }
 }
 
-// Gives the feature the areas whose rim the lines are.
-void addAreas(const Lines& rim, bool geographic, Feature& feature) {
-  JoinedLines joined = joinLines(rim);
+// Gives the feature the areas whose boundary the lines are.
+void addAreas(const Lines& lines, bool geographic, Feature& feature) {
+  JoinedLines joined = joinLines(lines);
   std::vector<Ring> rings;
   for (JoinedLines::Part& part : joined.rings) rings.push_back(std::move(part.points));
   if (geographic) {
@@ -70,7 +71,7 @@ using FeatureId = std::int64_t;  // of the layer of features
 
 struct Cleaned {
   std::map<FeatureId, Feature> features;  // their numbers, sources and attributes
-  std::map<FeatureId, Lines> rims;
+  std::map<FeatureId, Lines> area_lines;
   std::map<FeatureId, std::int64_t> part_of;  // of areas: the part of the graph
   std::map<std::pair<FeatureUse, FeatureId>, Lines> lines;
   std::map<std::string, Lines> boundaries;  // by what they are
@@ -138,7 +139,7 @@ void takeEdges(OGRLayer* layer, Cleaned& cleaned, ReadReport& report) {
     const FeatureId left = wholeOf(row, "left_id"), right = wholeOf(row, "right_id");
     for (const FeatureId side : {left, right}) {
       if (side <= 0 || left == right) continue;
-      cleaned.rims[side].push_back(points);
+      cleaned.area_lines[side].push_back(points);
       cleaned.part_of[side] = part;
     }
     if (const int type = row.GetFieldIndex(kBoundaryField); type >= 0 && row.IsFieldSetAndNotNull(type)) {
@@ -227,9 +228,9 @@ std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, ReadR
   };
   RawLayer& areas = add(FeatureUse::Area);
   std::set<std::int64_t> parts;
-  for (const auto& [id, rim] : cleaned.rims) {
+  for (const auto& [id, lines] : cleaned.area_lines) {
     Feature& feature = areas.features.emplace_back(featureOf(id, FeatureUse::Area));
-    addAreas(rim, areas.crs && areas.crs->geographic, feature);
+    addAreas(lines, areas.crs && areas.crs->geographic, feature);
     for (const Polygon& polygon : feature.polygons) report.rings += 1 + polygon.holes.size();
     const std::int64_t part = cleaned.part_of.at(id);
     if (!parts.insert(part).second) continue;

@@ -2,12 +2,12 @@
 
 namespace coastmesh {
 
-// Layers of a file that `coastmesh clean` writes, and that is read back as what it was. Numbers of features are those of
-// the layer `features`; where there is none they are 0.
+// Layers of a file that `coastmesh clean` writes, and that is read back as what it was. Numbers of features are those
+// of the layer `features`; where there is none they are 0.
 
 // Edges: kind (open, shore, border, constraint, weir, region), region (the part of the graph, from 0), left_fid,
 // right_fid (-1: outside), left_id, right_id, line_id (features), first and last (numbers of its ends within the part);
-// boundary (what the rim is there), where that was told.
+// boundary (what the boundary is there), where that was told.
 inline constexpr const char* kPslgLayer = "pslg";
 inline constexpr const char* kBoundaryField = "boundary";
 inline constexpr const char* kEditLayer = "edits";            // points: kind, fid_of_feature

@@ -25,7 +25,7 @@ struct GeometryParts {
   bool empty() const { return polygons.empty() && lines.empty() && points.empty(); }
 };
 
-// Drops the last point of a ring that repeats the first, counts the ring, and tells of one that does not close.
+// Drops the last point of a ring that repeats the first, counts the ring, and reports one that does not close.
 // REQUIRES: not empty.
 void closeRing(Ring& ring, GeometryParts& parts);
 

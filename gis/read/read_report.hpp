@@ -25,7 +25,7 @@ struct ReadReport {
   std::uint64_t beyond_frame = 0;    // features that framing left out: see `frameCoastline`
   std::uint64_t unclosed_rings = 0;  // rings of polygons whose last point is not the first: closed
   bool cleaned = false;              // a source was written by `coastmesh clean`
-  bool boundary_types = false;       // and tells types of boundaries: see FeatureUse::Boundary
+  bool boundary_types = false;       // and says types of boundaries: see FeatureUse::Boundary
   std::vector<EarlierEdit> edits;
   std::vector<std::string> warnings;
   std::vector<std::string> notes;  // what was decided where the input left a choice

@@ -16,18 +16,18 @@ constexpr int kLeastShareLevels = 7, kMostShareLevels = 10;
 constexpr double kHair = 1e-6;
 constexpr double kCellsPerSegment = 16.0;
 
-// The rim of what is meshed, labelled, of a graph that says with its holes alone what is inside.
-Pslg labelledRim(const Pslg& pslg) {
+// The boundary of what is meshed, labelled, of a graph that says with its holes alone what is inside.
+Pslg labelledBoundary(const Pslg& pslg) {
   const TriMesh mesh = constrainedDelaunay(pslg);
-  Pslg rim;
-  rim.points = mesh.points;
+  Pslg boundary;
+  boundary.points = mesh.points;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i);
-      if (mesh.twin(e) == kNone) rim.segments.push_back({mesh.origin(e), mesh.target(e), 0, 0, kOutside});
+      if (mesh.twin(e) == kNone) boundary.segments.push_back({mesh.origin(e), mesh.target(e), 0, 0, kOutside});
     }
   }
-  return rim;
+  return boundary;
 }
 
 int levelsFor(const Pslg& pslg) {
@@ -40,14 +40,14 @@ int levelsFor(const Pslg& pslg) {
 DomainMask::DomainMask(const Pslg& pslg, const SizeBox& square)
     : origin_(square.centre - Point{square.half, square.half}), side_(2.0 * square.half) {
   if (std::ranges::none_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; })) {
-    const Pslg rim = labelledRim(pslg);
-    measureShares(rim);
-    listRims(rim);
+    const Pslg boundary = labelledBoundary(pslg);
+    measureShares(boundary);
+    listBoundary(boundary);
     return;
   }
   const int finest = levelsFor(pslg);
   measureShares(pslg);
-  listRims(pslg);
+  listBoundary(pslg);
   levels_.resize(static_cast<std::size_t>(finest) + 1);
   levels_.back() = rasterize(pslg, finest);
   for (int level = finest - 1; level >= 0; --level) {
@@ -123,7 +123,7 @@ void DomainMask::measureShares(const Pslg& pslg) {
   }
 }
 
-void DomainMask::listRims(const Pslg& pslg) {
+void DomainMask::listBoundary(const Pslg& pslg) {
   const int level = static_cast<int>(shares_.size()) - 1;
   const auto n = std::int64_t{1} << level;
   const double per_unit = static_cast<double>(n) / side_;
@@ -134,12 +134,12 @@ void DomainMask::listRims(const Pslg& pslg) {
     std::uint32_t cell, segment;
   };
   std::vector<Entry> entries;
-  std::vector<Rim> edges;
+  std::vector<BoundaryPiece> edges;
   for (const Segment& s : pslg.segments) {
     if ((s.left >= 0) == (s.right >= 0)) continue;
-    Rim rim{per_unit * (pslg.points[s.a] - origin_), per_unit * (pslg.points[s.b] - origin_)};
-    if (rim.b.y < rim.a.y) std::swap(rim.a, rim.b);
-    const auto& [a, b] = rim;
+    BoundaryPiece boundary{per_unit * (pslg.points[s.a] - origin_), per_unit * (pslg.points[s.b] - origin_)};
+    if (boundary.b.y < boundary.a.y) std::swap(boundary.a, boundary.b);
+    const auto& [a, b] = boundary;
     for (std::int64_t row = cellOf(a.y); row <= cellOf(b.y); ++row) {
       const auto bottom = static_cast<double>(row);
       const auto xAt = [&](double y) {
@@ -149,24 +149,25 @@ void DomainMask::listRims(const Pslg& pslg) {
       for (std::int64_t i = cellOf(std::min(x0, x1) - kHair); i <= cellOf(std::max(x0, x1) + kHair); ++i)
         entries.push_back({static_cast<std::uint32_t>(row * n + i), static_cast<std::uint32_t>(edges.size())});
     }
-    edges.push_back(rim);
+    edges.push_back(boundary);
   }
-  rim_begin_.assign(static_cast<std::size_t>(n * n) + 1, 0);
-  for (const Entry& entry : entries) ++rim_begin_[entry.cell + 1];
-  for (std::size_t c = 0; c + 1 < rim_begin_.size(); ++c) rim_begin_[c + 1] += rim_begin_[c];
-  rims_.resize(entries.size());
-  std::vector<std::uint32_t> next(rim_begin_.begin(), rim_begin_.end() - 1);
-  for (const Entry& entry : entries) rims_[next[entry.cell]++] = edges[entry.segment];
+  boundary_begin_.assign(static_cast<std::size_t>(n * n) + 1, 0);
+  for (const Entry& entry : entries) ++boundary_begin_[entry.cell + 1];
+  for (std::size_t c = 0; c + 1 < boundary_begin_.size(); ++c) boundary_begin_[c + 1] += boundary_begin_[c];
+  boundary_.resize(entries.size());
+  std::vector<std::uint32_t> next(boundary_begin_.begin(), boundary_begin_.end() - 1);
+  for (const Entry& entry : entries) boundary_[next[entry.cell]++] = edges[entry.segment];
 }
 
-// Whether a place in a cell lies inside, in units of the cells: from the middle of the row at that place, straight up or down.
+// Whether a place in a cell lies inside, in units of the cells: from the middle of the row at that place, straight up
+// or down.
 bool DomainMask::holds(const Point& x, std::size_t cell) const {
   const std::size_t row = cell >> (shares_.size() - 1);
   const double middle = static_cast<double>(row) + 0.5;
   const auto after = std::ranges::upper_bound(rows_[row], x.x, {}, &Crossing::x);
   bool inside = after != rows_[row].begin() && std::prev(after)->inside;
-  for (std::size_t r = rim_begin_[cell]; r < rim_begin_[cell + 1]; ++r) {
-    const auto& [a, b] = rims_[r];
+  for (std::size_t r = boundary_begin_[cell]; r < boundary_begin_[cell + 1]; ++r) {
+    const auto& [a, b] = boundary_[r];
     if ((a.x <= x.x) == (b.x <= x.x)) continue;
     const double y = a.y + (b.y - a.y) / (b.x - a.x) * (x.x - a.x);
     inside ^= (y <= middle) != (y <= x.y);
@@ -185,7 +186,8 @@ double DomainMask::share(const SizeBox& box) const {
     return std::clamp(static_cast<std::int64_t>(std::floor(x)), std::int64_t{0}, n - 1);
   };
   const auto cell = static_cast<std::size_t>(n * cellOf(at.y) + cellOf(at.x));
-  if (deep <= finest || rim_begin_[cell] == rim_begin_[cell + 1]) return shares_[static_cast<std::size_t>(level)][cell];
+  if (deep <= finest || boundary_begin_[cell] == boundary_begin_[cell + 1])
+    return shares_[static_cast<std::size_t>(level)][cell];
   constexpr int kProbes = 3;
   int inside = 0;
   for (int k = 0; k < kProbes * kProbes; ++k) {
@@ -241,7 +243,7 @@ bool DomainMask::meets(const SizeBox& box) const {
   const auto cellOf = [&](double x) {
     return std::clamp(static_cast<std::int64_t>(std::floor(x)), std::int64_t{0}, n - 1);
   };
-  // A box that is a cell meets its neighbours in nothing but its rim.
+  // A box that is a cell meets its neighbours in nothing but its boundary.
   const double half = box.half * (1.0 - 1e-9);
   const Point low = per_unit * (box.centre - Point{half, half} - origin_);
   const Point high = per_unit * (box.centre + Point{half, half} - origin_);

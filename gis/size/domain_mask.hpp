@@ -8,15 +8,16 @@
 
 namespace coastmesh {
 
-// Which squares of the plane have anything of a domain in them, to the cells of a grid that is about as fine as the domain's
-// segments are many: what lies outside by less may be taken for inside, never the other way round.
+// Which squares of the plane have anything of a domain in them, to the cells of a grid that is about as fine as the
+// domain's segments are many: what lies outside by less may be taken for inside, never the other way round.
 class DomainMask {
  public:
   // Over a square that holds the domain. Where no segment is labelled nothing lies outside for `meets`. Throws BadPslg.
   DomainMask(const Pslg& pslg, const SizeBox& square);
 
   bool meets(const SizeBox& box) const;
-  // How much of a box lies inside, 0 to 1, within a few hundredths. REQUIRES: the box is a cell of a quadtree over the square.
+  // How much of a box lies inside, 0 to 1, within a few hundredths. REQUIRES: the box is a cell of a quadtree over the
+  // square.
   double share(const SizeBox& box) const;
 
  private:
@@ -28,7 +29,7 @@ class DomainMask {
   std::vector<std::vector<Crossing>> crossRows(const Pslg& pslg, int level) const;
   std::vector<bool> rasterize(const Pslg& pslg, int level) const;
   void measureShares(const Pslg& pslg);
-  void listRims(const Pslg& pslg);
+  void listBoundary(const Pslg& pslg);
   bool holds(const Point& x, std::size_t cell) const;
 
   Point origin_;
@@ -38,11 +39,11 @@ class DomainMask {
   std::vector<std::vector<float>> shares_;
   std::vector<std::vector<Crossing>>
       rows_;  // of the finest of these: where what is inside begins and ends on their middles
-  struct Rim {
+  struct BoundaryPiece {
     Point a, b;
   };
-  std::vector<Rim> rims_;  // edges between inside and outside, in units of the finest cells, cell by cell
-  std::vector<std::uint32_t> rim_begin_;  // of each cell, and the end
+  std::vector<BoundaryPiece> boundary_;  // edges between inside and outside, in units of the finest cells, cell by cell
+  std::vector<std::uint32_t> boundary_begin_;  // of each cell, and the end
 };
 
 }  // namespace coastmesh

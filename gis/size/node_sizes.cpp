@@ -39,9 +39,9 @@ class Neighbours {
 
 }  // namespace
 
-std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double grade,
+std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double gradation,
                               const std::function<double(const Point&)>& scale) {
-  // A hair less, for the lengths that others measure.
+  // Slightly less, since others round the lengths that they measure otherwise.
   constexpr double kHair = 1.0 - 1e-6;
   std::vector<double> sizes(mesh.points.size()), scales(mesh.points.size());
   for (VertexId v = 0; v < sizes.size(); ++v) {
@@ -50,7 +50,7 @@ std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, dou
   }
   const auto allowed = [&](VertexId from, VertexId to) {
     const double metres = distance(mesh.points[from], mesh.points[to]) / std::max(scales[from], scales[to]);
-    return sizes[from] + kHair * grade * metres;
+    return sizes[from] + kHair * gradation * metres;
   };
   using Entry = std::pair<double, VertexId>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;

@@ -8,9 +8,9 @@
 
 namespace coastmesh {
 
-// The sizes wanted at a mesh's vertices, in metres: no two at the ends of an edge differ by more than `grade` times its length, which
-// takes away the last of what rounding and interpolation left. `scale` is plane length over metres.
-std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double grade,
+// The sizes wanted at a mesh's vertices, in metres: no two at the ends of an edge differ by more than `gradation` times
+// its length, which takes away the last of what rounding and interpolation left. `scale` is plane length over metres.
+std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double gradation,
                               const std::function<double(const Point&)>& scale);
 
 }  // namespace coastmesh

@@ -66,7 +66,7 @@ std::string sizesAsOptions(const SizeOptions& options) {
   add("--size-shore", options.shore_m);
   add("--shore-rate", options.shore_rate);
   add("--size-max", options.most_m);
-  add("--grade", options.grade);
+  add("--grade", options.gradation);
   add("--wave-elements", options.depth.wave_elements);
   add("--time-step", options.time_step_s);
   return text + (options.coast == CoastDetail::Follow ? " --coast follow" : " --coast keep");

@@ -8,7 +8,7 @@ namespace coastmesh {
 
 // Sizes for whoever asks for none: the size at the shore such that a mesh of some 30,000 vertices is to be expected, 20
 // elements of the largest size across the domain. Both are rounded, so that options say them: what `options` tell
-// besides (wavelengths, time step, grade) stays as it is. Throws as `makeSizeFunction` does.
+// besides (wavelengths, time step, gradation) stays as it is. Throws as `makeSizeFunction` does.
 SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
                         const ItemLoop& loop);
 

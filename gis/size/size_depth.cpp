@@ -36,7 +36,8 @@ class DepthTable {
   std::vector<double> values_;
 };
 
-// Depths with the margin, after a mean over squares three times, which is nearly a Gaussian's. NaN where nothing is known.
+// Depths with the margin, after a mean over squares three times, which is nearly a Gaussian's. NaN where nothing is
+// known.
 void smooth(std::vector<double>& depth, std::size_t width, std::size_t height, int radius) {
   if (radius < 1) return;
   std::vector<double> line, sums, counts;

@@ -28,7 +28,8 @@ struct DepthRules {
   bool any() const { return wave_elements > 0.0 || slope_elements > 0.0 || !bands.empty(); }
 };
 
-// Length in metres of a wave of `period_s` seconds in water of that depth: g T² / (2 pi) tanh(2 pi d / L), linear waves.
+// Length in metres of a wave of `period_s` seconds in water of that depth: g T² / (2 pi) tanh(2 pi d / L), linear
+// waves.
 double wavelengthOf(double period_s, double depth_m);
 
 // The least of what the rules want.

@@ -13,19 +13,20 @@
 
 namespace coastmesh {
 
-// A straight line of the plane (or a point: both ends the same) with the size wanted on it and how fast that grows with the distance.
+// A straight line of the plane (or a point: both ends the same) with the size wanted on it and how fast that grows with
+// the distance.
 struct SizedLine {
   Point a, b;
   double size_m = 0.0;  // metres, above 0
   double rate = 0.0;    // 0 or more
 };
 
-// size + rate * distance, the least over all lines. A packed tree whose nodes know the least size and rate below them; what was
-// nearest to one place is where the search for the next one starts.
+// size + rate * distance, the least over all lines. A packed tree whose nodes know the least size and rate below them;
+// what was nearest to one place is where the search for the next one starts.
 class DistanceField final : public SizeField {
  public:
-  // `scale` is plane length over metres at a place. Sizes above `most_m` are not told apart: to find the nearest line from
-  // far off is what takes time.
+  // `scale` is plane length over metres at a place. Sizes above `most_m` are not told apart: to find the nearest line
+  // from far off is what takes time.
   DistanceField(std::vector<SizedLine> lines, std::function<double(const Point&)> scale,
                 double most_m = std::numeric_limits<double>::infinity());
 
@@ -47,7 +48,8 @@ class DistanceField final : public SizeField {
   };
   struct Search;
 
-  // `most_m`: what is no less need not be found. `nearest`: the line found, where there is one; before, one to begin with.
+  // `most_m`: what is no less need not be found. `nearest`: the line found, where there is one; before, one to begin
+  // with.
   double sizeAt(const Point& x, double scale, double most_m, std::uint32_t& nearest) const;
   template <bool kAlike>
   void measure(std::uint32_t line, Search& search) const;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Sizes inside polygons, their rims included by halves: round them another field counts.
+// Sizes inside polygons, their boundaries included by halves: round them another field counts.
 class PolygonField final : public SizeField {
  public:
   struct SizedPolygon {

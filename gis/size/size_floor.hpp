@@ -11,12 +11,12 @@
 
 namespace coastmesh {
 
-// What no size may fall below, made so that it can be graded: at each place the most of `field` there and, for every other
-// place, of `field` there less `rate` times the distance. Sizes that are nowhere below it stay so when they are
+// What no size may fall below, made so that it can be graded: at each place the most of `field` there and, for every
+// other place, of `field` there less `rate` times the distance. Sizes that are nowhere below it stay so when they are
 // graded by no less than that rate. 0 where the field knows nothing and nothing near is steep.
 //
-// Only where the field changes by more than the rate does this differ from the field: a quadtree keeps these squares, each
-// with the most in it, so that the result is too large by a few hundredths at most, never too small by more.
+// Only where the field changes by more than the rate does this differ from the field: a quadtree keeps these squares,
+// each with the most in it, so that the result is too large by a few hundredths at most, never too small by more.
 class SizeFloor final : public SizeField {
  public:
   // Over the square `root`, of what `mask` meets. What is no more than `least_m` matters to nobody: sizes are not less
@@ -24,8 +24,8 @@ class SizeFloor final : public SizeField {
   SizeFloor(std::unique_ptr<SizeField> field, double rate, double least_m, std::function<double(const Point&)> scale,
             const SizeBox& root, const DomainMask& mask, const ItemLoop& loop);
 
-  // Beside what `distances` tells the distance from, in metres times a rate, it is `factor` times as high, and falls to what
-  // it is elsewhere as the distance grows.
+  // Beside what `distances` tells the distance from, in metres times a rate, it is `factor` times as high, and falls to
+  // what it is elsewhere as the distance grows.
   void raiseNear(std::unique_ptr<SizeField> distances, double factor);
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;

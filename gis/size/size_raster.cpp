@@ -244,15 +244,16 @@ void RasterField::sample(std::span<const Point> places, std::span<double> sizes)
       weight += share;
     }
     if (weight > 0.0) sizes[i] = sum / weight;
-    // A pixel much smaller than those round it holds as far as it reaches: between centres its own size would hardly be found.
+    // A pixel much smaller than those round it holds as far as it reaches: between centres its own size would hardly be
+    // found.
     const float own = pixel(static_cast<std::int64_t>(std::floor(p.x)), static_cast<std::int64_t>(std::floor(p.y)));
     if (own < kSteepShare * sizes[i]) sizes[i] = own;
   }
 }
 
-// Of what `sample` answers in a box of a few pixels, given in pixels. Between the lines through pixels' centres and along their rims
-// sizes are bilinear or a pixel's own, so that corners tell; the bounds of all pixels near it would be far off where one is much
-// smaller than those round it.
+// Of what `sample` returns in a box of a few pixels, given in pixels. Between the lines through pixels' centres and
+// along their edges sizes are bilinear or a pixel's own, so that corners tell; the bounds of all pixels near it would
+// be far off where one is much smaller than those round it.
 SizeRange RasterField::boundBetween(const Box& pixels) const {
   if (pixels.ymax < 0.0 || pixels.ymin > raster_.rows) return {kInfinity, kInfinity};
   if (!raster_.wraps && (pixels.xmax < 0.0 || pixels.xmin > raster_.columns)) return {kInfinity, kInfinity};
@@ -321,7 +322,8 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
     if (tiles_.empty()) continue;
     Box pixels;
     bool known = true;
-    // Corners, middles and the centre; what the sides bulge between them is small, and a share of the box is added for it.
+    // Corners, middles and the centre; what the sides bulge between them is small, and a share of the box is added for
+    // it.
     for (int k = 0; k < 9; ++k) {
       const Point p = to_pixel_->at(boxes[i].centre + boxes[i].half * Point{k % 3 - 1.0, k / 3 - 1.0});
       known &= std::isfinite(p.x) && std::isfinite(p.y);

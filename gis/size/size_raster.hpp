@@ -39,13 +39,13 @@ struct TileRule {
   std::function<void(const RasterTile& tile, std::span<float> sizes)> sizes;
 };
 
-// Sizes from a raster: each block of pixels is read once, turned into sizes and kept as a quadtree whose cells are as large as sizes
-// in them are alike, or as half of what they ask for: memory follows the sizes, not the raster. Between pixels' centres sizes are
-// bilinear, but for pixels much smaller than those round them.
+// Sizes from a raster: each block of pixels is read once, turned into sizes and kept as a quadtree whose cells are as
+// large as sizes in them are alike, or as half of what they ask for: memory follows the sizes, not the raster. Between
+// pixels' centres sizes are bilinear, but for pixels much smaller than those round them.
 class RasterField final : public SizeField {
  public:
-  // Of the part of the raster that `box` of the working plane lies in. `input` is the CRS that `projection` starts from. Throws
-  // InputError.
+  // Of the part of the raster that `box` of the working plane lies in. `input` is the CRS that `projection` starts
+  // from. Throws InputError.
   RasterField(const RasterGeometry& raster, const Crs& input, const Projection& projection, const Box& box,
               const TileRule& rule, const ItemLoop& loop);
 

@@ -165,10 +165,11 @@ std::unique_ptr<SizeField> rasterFields(const std::vector<RasterGeometry>& raste
   return std::make_unique<FirstOfFields>(std::move(fields));
 }
 
-// The tree grades lengths of the plane; what is asked for is that lengths on the ground are graded. The gradient of a length h on the
-// ground is that of the plane's length k h, less h times the gradient of the scale k: at most so much. Infinite h counts as `most_m`.
-double gradeForScale(const ComposedSizes& source, const std::function<double(const Point&)>& scale,
-                     const SizeBox& square, double most_m) {
+// The tree grades lengths of the plane; what is asked for is that lengths on the ground are graded. The gradient of a
+// length h on the ground is that of the plane's length k h, less h times the gradient of the scale k: at most so much.
+// Infinite h counts as `most_m`.
+double gradationForScale(const ComposedSizes& source, const std::function<double(const Point&)>& scale,
+                         const SizeBox& square, double most_m) {
   constexpr int kProbes = 64;
   const double step = 2.0 * square.half / kProbes;
   std::vector<Point> places;
@@ -237,7 +238,7 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   SizeInputs inputs;
   inputs.crs = crs;
   for (const std::string& path : options.features)
-    inputs.features.push_back(readSizedFeatures(path, crs, options.grade));
+    inputs.features.push_back(readSizedFeatures(path, crs, options.gradation));
   const auto readLines = [&](const std::vector<std::string>& paths, std::vector<ShoreLine>& lines) {
     for (const std::string& path : paths) std::ranges::move(readGuideLines(path, crs), std::back_inserter(lines));
   };
@@ -276,7 +277,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
                                    shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale, most_m));
   if (options.channel_elements > 0.0) {
     source.add("--channel-elements",
-               std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.grade,
+               std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.gradation,
                                                             options.least_m, std::min(most_m, reach_m), scale),
                                                scale, most_m));
   }
@@ -291,29 +292,29 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     const TileRule rule = courantRule(options.time_step_s, kShortestOfSize * options.courant, options.depth);
     auto floor =
         std::make_unique<SizeFloor>(rasterFields(inputs.bathymetry, inputs.crs, projection, square, rule, loop),
-                                    options.grade, source.leastWanted() / kShoreFloor, scale, root, mask, loop);
+                                    options.gradation, source.leastWanted() / kShoreFloor, scale, root, mask, loop);
     if (options.coast == CoastDetail::Follow)
-      floor->raiseNear(std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.grade), scale),
+      floor->raiseNear(std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.gradation), scale),
                        kShoreFloor);
     source.setFloor(std::move(floor));
   }
-  source.limitRate(options.grade);
-  double for_scale = gradeForScale(source, scale, root, reach_m);
-  if (for_scale > 0.5 * options.grade) {  // elements as large as seas: no larger than leaves half of the grade
-    const double most = 0.5 * options.grade / for_scale * reach_m;
+  source.limitRate(options.gradation);
+  double for_scale = gradationForScale(source, scale, root, reach_m);
+  if (for_scale > 0.5 * options.gradation) {  // elements as large as seas: no larger than leaves half of the gradation
+    const double most = 0.5 * options.gradation / for_scale * reach_m;
     if (most < options.least_m) {
       throw InputError(
           "--grade: on a projection with so much change of scale, sizes of --size-min cannot differ by as "
           "little as that; give a larger one");
     }
     source.limitSize(most);
-    for_scale = 0.5 * options.grade;
+    for_scale = 0.5 * options.gradation;
   }
   SizeTreeOptions tree;
-  tree.grade = options.grade - for_scale;
+  tree.gradation = options.gradation - for_scale;
   // A little less: what is only just too steep everywhere would have to be flattened everywhere.
   constexpr double kJustBelow = 0.99;
-  source.limitRate(kJustBelow * tree.grade);
+  source.limitRate(kJustBelow * tree.gradation);
   tree.most_vertices = most_vertices;
   tree.most_cells =
       static_cast<std::uint32_t>(std::min<double>(tree.most_cells, kLeastCells + kCellsPerVertex * most_vertices));

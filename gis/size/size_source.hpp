@@ -26,7 +26,7 @@ struct SizeOptions {
   double size_m = kNone;                // everywhere
   double least_m = 0.0;                 // no size below
   double most_m = kNone;                // none above
-  double grade = 0.3;                   // above 0: sizes at two places differ by at most this times their distance
+  double gradation = 0.3;               // above 0: sizes at two places differ by at most this times their distance
   double shore_m = kNone;               // at the shore
   double shore_rate = 0.15;             // how fast that grows with the distance
   double channel_elements = 0.0;        // across the water; 0 asks for nothing
@@ -83,9 +83,10 @@ struct DomainSizes {
   VertexDemand demand;
 };
 
-// The sizes of a domain: the least that any of the options asks for, within the bounds, not below what the time step allows, graded.
-// `loop` lends threads; the function does not depend on it. Throws InputError, BadPslg; TooManyVertices where they ask for more than
-// `most_vertices`: then the demand is right in its order of magnitude, and little memory was taken to find it.
+// The sizes of a domain: the least that any of the options asks for, within the bounds, not below what the time step
+// allows, graded. `loop` lends threads; the function does not depend on it. Throws InputError, BadPslg; TooManyVertices
+// where they ask for more than `most_vertices`: then the demand is right in its order of magnitude, and little memory
+// was taken to find it.
 DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
                              double most_vertices, const ItemLoop& loop);
 

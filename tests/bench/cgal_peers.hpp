@@ -21,7 +21,7 @@ struct Mesh2Result {
 // sin²(min_angle_deg).
 Mesh2Result runMesh2(const Pslg& pslg, double min_angle_deg);
 
-// A bare Delaunay_triangulation_2 of points, inserted as a range (along a space-filling curve). Answers its count of
+// A bare Delaunay_triangulation_2 of points, inserted as a range (along a space-filling curve). Returns its count of
 // triangles.
 std::size_t runBareDelaunay(std::span<const Point> points);
 

@@ -22,19 +22,19 @@ using namespace coastmesh;
 
 // Seconds of one round.
 struct Round {
-  double triangulate = 0.0, refine = 0.0, shrink = 0.0;
+  double triangulate = 0.0, refine = 0.0, coarsen = 0.0;
   double mesh2_triangulate = 0.0, mesh2_refine = 0.0;
   double bare_refined = 0.0, bare_final = 0.0;
 
   double refined() const { return triangulate + refine; }
-  double all() const { return refined() + shrink; }
+  double all() const { return refined() + coarsen; }
   double mesh2() const { return mesh2_triangulate + mesh2_refine; }
 };
 
 // Counts, the same in every round.
 struct Counts {
-  std::size_t refined_vertices = 0, refined_triangles = 0, refined_short = 0;
-  std::size_t final_vertices = 0, final_triangles = 0, final_short = 0;
+  std::size_t refined_vertices = 0, refined_triangles = 0, refined_violations = 0;
+  std::size_t final_vertices = 0, final_triangles = 0, final_violations = 0;
   std::size_t mesh2_vertices = 0, mesh2_triangles = 0;
 };
 
@@ -46,12 +46,12 @@ Round runRound(const Pslg& pslg, const RefineOptions& options, double mesh2_angl
   round.refine = cpuSecondsOf([&] { stats = refine(mesh, pslg, options); });
   counts.refined_vertices = mesh.points.size();
   counts.refined_triangles = mesh.triangles.size();
-  counts.refined_short = stats.unresolved.size();
+  counts.refined_violations = stats.unresolved.size();
   const std::vector<Point> refined_points = mesh.points;
-  round.shrink = cpuSecondsOf([&] { stats = shrink(mesh, pslg, options); });
+  round.coarsen = cpuSecondsOf([&] { stats = coarsen(mesh, pslg, options); });
   counts.final_vertices = mesh.points.size();
   counts.final_triangles = mesh.triangles.size();
-  counts.final_short = stats.unresolved.size();
+  counts.final_violations = stats.unresolved.size();
 
   const Mesh2Result mesh2 = runMesh2(pslg, mesh2_angle);
   round.mesh2_triangulate = mesh2.triangulate_s;
@@ -83,7 +83,7 @@ Memory measureMemory(const Pslg& pslg, const RefineOptions& options, double mesh
   const auto ours = [&](bool to_the_end) {
     TriMesh mesh = constrainedDelaunay(pslg);
     refine(mesh, pslg, options);
-    if (to_the_end) shrink(mesh, pslg, options);
+    if (to_the_end) coarsen(mesh, pslg, options);
   };
   return {peakGrowth([&] { ours(false); }), peakGrowth([&] { ours(true); }),
           peakGrowth([&] { runMesh2(pslg, mesh2_angle); })};
@@ -110,20 +110,20 @@ void printReport(const Pslg& pslg, const std::vector<Round>& rounds, const Count
   const auto stage = [&](const char* name, auto figure) { std::printf("  %-22s %9.4f\n", name, at(figure)); };
   stage("triangulate", [](const Round& r) { return r.triangulate; });
   stage("refine", [](const Round& r) { return r.refine; });
-  stage("shrink", [](const Round& r) { return r.shrink; });
+  stage("coarsen", [](const Round& r) { return r.coarsen; });
   stage("Mesh_2: triangulate", [](const Round& r) { return r.mesh2_triangulate; });
   stage("Mesh_2: refine", [](const Round& r) { return r.mesh2_refine; });
   stage("bare, as refined", [](const Round& r) { return r.bare_refined; });
-  stage("bare, as shrunk", [](const Round& r) { return r.bare_final; });
+  stage("bare, as coarsened", [](const Round& r) { return r.bare_final; });
 
   std::printf("  %-22s %9s %9s %10s %9s %10s %9s %10s\n", "mesh", "vertices", "Steiner", "triangles", "seconds",
               "us/Steiner", "peak MiB", "B/triangle");
   const std::size_t input = pslg.points.size();
   printMesh("triangulate + refine", counts.refined_vertices, input, counts.refined_triangles,
             at([](const Round& r) { return r.refined(); }), memory.refine,
-            std::to_string(counts.refined_short) + " short");
-  printMesh("all, with shrink", counts.final_vertices, input, counts.final_triangles,
-            at([](const Round& r) { return r.all(); }), memory.all, std::to_string(counts.final_short) + " short");
+            std::to_string(counts.refined_violations) + " short");
+  printMesh("all, with coarsen", counts.final_vertices, input, counts.final_triangles,
+            at([](const Round& r) { return r.all(); }), memory.all, std::to_string(counts.final_violations) + " short");
   printMesh("Mesh_2", counts.mesh2_vertices, input, counts.mesh2_triangles,
             at([](const Round& r) { return r.mesh2(); }), memory.mesh2, remarkAt(mesh2_angle));
 
@@ -132,7 +132,7 @@ void printReport(const Pslg& pslg, const std::vector<Round>& rounds, const Count
   ratio("(triangulate + refine) / Mesh_2", [](const Round& r) { return r.refined() / r.mesh2(); });
   ratio("all / Mesh_2", [](const Round& r) { return r.all() / r.mesh2(); });
   ratio("(triangulate + refine) / bare, as refined", [](const Round& r) { return r.refined() / r.bare_refined; });
-  ratio("all / bare, as shrunk", [](const Round& r) { return r.all() / r.bare_final; });
+  ratio("all / bare, as coarsened", [](const Round& r) { return r.all() / r.bare_final; });
   std::fflush(stdout);
 }
 

@@ -24,9 +24,9 @@ using namespace coastmesh;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// min(most, shore + grade times the distance from the mesh's boundary).
+// min(most, shore + gradation times the distance from the mesh's boundary).
 struct SizeRule {
-  double shore = 0.0, grade = 0.0, most = std::numeric_limits<double>::infinity();
+  double shore = 0.0, gradation = 0.0, most = std::numeric_limits<double>::infinity();
 };
 
 // The triangles beside each edge, the second kNone on the boundary.
@@ -46,7 +46,7 @@ class SizeAt {
  public:
   SizeAt(const SizeRule& rule, const Grid& grid, const std::map<Edge, std::array<std::uint32_t, 2>>& edges)
       : rule_(rule) {
-    if (rule.grade == 0.0) return;
+    if (rule.gradation == 0.0) return;
     double total = 0.0;
     for (const auto& [edge, beside] : edges) {
       if (beside[1] != kNone) continue;
@@ -67,8 +67,8 @@ class SizeAt {
   }
 
   double operator()(const Point& p) const {
-    if (rule_.grade == 0.0) return std::min(rule_.most, rule_.shore);
-    double nearest = (rule_.most - rule_.shore) / rule_.grade;
+    if (rule_.gradation == 0.0) return std::min(rule_.most, rule_.shore);
+    double nearest = (rule_.most - rule_.shore) / rule_.gradation;
     const int i0 = column(p.x), j0 = row(p.y);
     for (int reach = 0; (reach - 1) * cell_ < nearest; ++reach) {
       for (int j = std::max(0, j0 - reach); j <= std::min(rows_ - 1, j0 + reach); ++j) {
@@ -81,7 +81,7 @@ class SizeAt {
       }
       if (reach > columns_ + rows_) break;
     }
-    return std::min(rule_.most, rule_.shore + rule_.grade * nearest);
+    return std::min(rule_.most, rule_.shore + rule_.gradation * nearest);
   }
 
  private:
@@ -175,11 +175,11 @@ int main(int argc, char** argv) {
   SizeRule rule;
   app.add_option("MESH", files, "files of meshes")->required();
   app.add_option("--size-shore", rule.shore, "edge length on the boundary")->required();
-  app.add_option("--grade", rule.grade, "growth of it per unit of distance");
+  app.add_option("--grade", rule.gradation, "growth of it per unit of distance");
   app.add_option("--size-max", rule.most, "most that it is anywhere");
   CLI11_PARSE(app, argc, argv);
   try {
-    if (rule.grade > 0.0 && !std::isfinite(rule.most)) throw std::invalid_argument("--grade needs --size-max");
+    if (rule.gradation > 0.0 && !std::isfinite(rule.most)) throw std::invalid_argument("--grade needs --size-max");
     std::printf(
         "mesh\tvertices\ttriangles/ideal\tq mean\tq 1 %%\tangle 1 %%\t> 90 %%\tdegree 6 %%\tnot 5-7 %%\t"
         "edge/h median\t.8-1.25 %%\tsmall links\n");

@@ -23,7 +23,7 @@ void printHeader() {
               "IV", "moved", "merged", "removed", "splits", "vertices", "Steiner", "short", "seconds");
 }
 
-// Answers how many defects there are.
+// Returns how many defects there are.
 std::size_t printRow(const std::string& name, double angle, const Pslg& pslg, const RefineOptions& options,
                      const TriMesh& mesh, const RefineStats& stats, double seconds) {
   const auto count = [](auto n) { return static_cast<unsigned long long>(n); };
@@ -49,11 +49,11 @@ std::size_t runAlgorithm(const Pslg& pslg, const RefineOptions& options) {
   std::size_t defects = printRow(name, options.min_angle_deg, pslg, options, mesh, stats, seconds);
   if (options.algorithm != Algorithm::Relocate) return defects;
   seconds += cpuSecondsOf([&] {
-    RefineStats shrunk = shrink(mesh, pslg, options);
-    stats.unresolved.clear();  // those of shrink replace them
-    stats.add(shrunk);
+    RefineStats coarsened = coarsen(mesh, pslg, options);
+    stats.unresolved.clear();  // those of coarsen replace them
+    stats.add(coarsened);
   });
-  return defects + printRow(name + " + shrink", options.min_angle_deg, pslg, options, mesh, stats, seconds);
+  return defects + printRow(name + " + coarsen", options.min_angle_deg, pslg, options, mesh, stats, seconds);
 }
 
 Algorithm algorithmNamed(const std::string& name) {

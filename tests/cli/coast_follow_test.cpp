@@ -68,7 +68,8 @@ TEST_F(CoastFollow, StraitsAreNamedAndPassagesKeepThemOpen) {
   EXPECT_EQ(sea({{kCoast}, {island}}, with)["boundaries"]["island"], 0);
 }
 
-// A lagoon behind the coast, which nothing joins to the sea: kept, it is a defect; by default it is left out for a model.
+// A lagoon behind the coast, which nothing joins to the sea: kept, it is a defect; by default it is left out for a
+// model.
 TEST_F(CoastFollow, WaterThatNothingJoinsToAnOpenBoundaryIsADefect) {
   const std::vector<std::string> sizes{"--size",
                                        "3000",

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 class Commands : public ProgramTest {
  protected:
-  // Meshes the lake and answers the mesh's path.
+  // Meshes the lake and returns the mesh's path.
   std::string meshed(const std::string& name) const {
     const ProgramRun run = runProgram({"mesh", lake(), "-o", file(name), "--quiet", "--overwrite"});
     EXPECT_EQ(run.code, 0) << run.errors;
@@ -62,7 +62,7 @@ TEST_F(Commands, UsageTellsDefaultAndRange) {
   EXPECT_EQ(option("--min-angle")["unit"], "DEG");
   EXPECT_EQ(option("--size-max")["exclusive_minimum"], 0.0);
   EXPECT_TRUE(option("--size-max")["default"].is_null());
-  EXPECT_EQ(option("--shrink")["default"], true);
+  EXPECT_EQ(option("--coarsen")["default"], true);
   EXPECT_EQ(option("--algorithm")["choices"].size(), 4u);
   EXPECT_EQ(option("--output")["required"], true);
 }

@@ -98,7 +98,7 @@ TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
                                            "m_ww3.msh", "m.2dm", "m.msh", "m.nc"};
     for (const std::string& output : outputs) arguments.insert(arguments.end(), {"-o", file(output)});
     ASSERT_EQ(runProgram(arguments).code, 0);
-    // Without names Gmsh's curves tell no roles.
+    // Without names Gmsh's curves have no roles.
     std::string unnamed = readText(file("m.msh"));
     const std::size_t begin = unnamed.find("$PhysicalNames"), end = unnamed.find("$EndPhysicalNames");
     ASSERT_NE(end, std::string::npos);
@@ -120,7 +120,7 @@ TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
   }
 }
 
-// Between the spikes' sides a triangle comes out turned over on the ground: told, by `mesh` as by `check`.
+// Between the spikes' sides a triangle comes out turned over on the ground: reported, by `mesh` as by `check`.
 TEST_F(Coordinates, TrianglesTurnedOverOnTheGroundAreTold) {
   expectAlikeInLayers(spikes(), 1);
   const ProgramRun run =

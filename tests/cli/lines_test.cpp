@@ -1,4 +1,5 @@
-// Lines, regions and types of boundaries that the user gives: in every output, or told of where it has no room for them.
+// Lines, regions and types of boundaries that the user gives: in every output, or reported where it has no room for
+// them.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -198,10 +199,10 @@ TEST_F(NamedLines, CleanedFilesHoldTypesOfLines) {
   done({"mesh", input, "--boundary-column", "type", "-o", file("direct.gpkg"), "--quiet"});
   done({"clean", input, "--boundary-column", "type", "-o", file("cleaned.gpkg"), "--quiet"});
   done({"mesh", file("cleaned.gpkg"), "-o", file("then.gpkg"), "--quiet"});
-  const Json rim = layerOf(file("then.gpkg"), "boundaries");
-  EXPECT_EQ(valuesOf(rim, "role"), (std::set<std::string>{"land", "river"}));
-  EXPECT_EQ(valuesOf(rim, "ibtype"), std::set<std::string>{"10"});
-  EXPECT_EQ(rim, layerOf(file("direct.gpkg"), "boundaries"));
+  const Json boundary = layerOf(file("then.gpkg"), "boundaries");
+  EXPECT_EQ(valuesOf(boundary, "role"), (std::set<std::string>{"land", "river"}));
+  EXPECT_EQ(valuesOf(boundary, "ibtype"), std::set<std::string>{"10"});
+  EXPECT_EQ(boundary, layerOf(file("direct.gpkg"), "boundaries"));
   done({"clean", file("cleaned.gpkg"), "-o", file("again.gpkg"), "--quiet"});
   EXPECT_TRUE(readText(file("cleaned.gpkg")) == readText(file("again.gpkg")));
 }

@@ -67,19 +67,20 @@ TEST_F(MeshRun, ReportHasItsKeys) {
             (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
                                    "projection", "projection_reason", "scale", "projections", "area_m2", "refused",
                                    "filtered", "beyond_frame", "notes", "warnings"}));
-  EXPECT_EQ(
-      keysOf(json["refine"]),
-      (std::set<std::string>{"algorithm", "min_angle_deg", "max_angle_deg", "size_max_m", "sized", "grade",
-                             "estimated_vertices", "shrink", "smooth", "steiner_points", "by_type", "segment_splits",
-                             "relocations", "removals", "merges", "regions", "budget_reached", "unresolved"}));
+  EXPECT_EQ(keysOf(json["refine"]),
+            (std::set<std::string>{"algorithm", "min_angle_deg", "max_angle_deg", "size_max_m", "sized", "grade",
+                                   "estimated_vertices", "coarsen", "shrink", "smooth", "steiner_points", "by_type",
+                                   "segment_splits", "relocations", "removals", "merges", "regions", "budget_reached",
+                                   "unresolved"}));
   EXPECT_EQ(keysOf(json["refine"]["by_type"]), (std::set<std::string>{"I", "II", "III", "IV"}));
   EXPECT_EQ(keysOf(json["refine"]["unresolved"]), (std::set<std::string>{"count", "places"}));
   EXPECT_EQ(
       keysOf(json["mesh"]),
       (std::set<std::string>{"vertices", "triangles", "area_m2", "min_angle_deg", "max_angle_deg", "below_bound",
                              "below_bound_explained", "excused", "unresolved", "angle_histogram", "turned", "digest"}));
-  EXPECT_EQ(keysOf(json["time_s"]), (std::set<std::string>{"read", "clean", "size", "triangulate", "refine", "shrink",
-                                                           "optimise", "stitch", "check", "finish", "write", "total"}));
+  EXPECT_EQ(keysOf(json["time_s"]),
+            (std::set<std::string>{"read", "clean", "size", "triangulate", "refine", "coarsen", "shrink", "optimise",
+                                   "stitch", "check", "finish", "write", "total"}));
 }
 
 TEST_F(MeshRun, ReportAgreesWithItself) {
@@ -191,7 +192,31 @@ TEST_F(MeshRun, OptionsChangeTheMesh) {
   const std::string plain = report()["mesh"]["digest"];
   EXPECT_NE(report({"--min-angle", "38"})["mesh"]["digest"], plain);
   EXPECT_NE(report({"--size-max", "200"})["mesh"]["digest"], plain);
-  EXPECT_NE(report({"--algorithm", "circumcenter", "--no-shrink"})["mesh"]["digest"], plain);
+  EXPECT_NE(report({"--algorithm", "circumcenter", "--no-coarsen"})["mesh"]["digest"], plain);
+}
+
+// One version long: in scripts and files that were written for the last one.
+TEST_F(MeshRun, FormerNamesOfOptionsAndKeysAreTakenWithAWarning) {
+  const auto warning = [](const std::string& former, const std::string& present) {
+    return former + " is called " + present + " now; the next version will not take the former name";
+  };
+  const Json present = report({"--no-coarsen"}), plain = report();
+  EXPECT_TRUE(present["warnings"].empty());
+  ASSERT_NE(present["mesh"]["digest"], plain["mesh"]["digest"]);
+  const std::string config = write("former.toml", "shrink = false\n");
+  for (const std::vector<std::string>& former : {std::vector<std::string>{"--no-shrink"}, {"--config", config}}) {
+    const Json taken = report(former);
+    EXPECT_EQ(taken["mesh"]["digest"], present["mesh"]["digest"]);
+    EXPECT_EQ(taken["warnings"], Json::array({warning("--no-shrink", "--no-coarsen")}));
+    EXPECT_EQ(taken["refine"]["coarsen"], false);
+  }
+  const Json on = report({"--shrink", "--algorithm", "circumcenter"});
+  EXPECT_EQ(on["warnings"], Json::array({warning("--shrink", "--coarsen")}));
+  EXPECT_EQ(on["mesh"]["digest"], report({"--coarsen", "--algorithm", "circumcenter"})["mesh"]["digest"]);
+  for (const Json& json : {present, plain, on}) {
+    EXPECT_EQ(json["refine"]["shrink"], json["refine"]["coarsen"]);
+    EXPECT_EQ(json["time_s"]["shrink"], json["time_s"]["coarsen"]);
+  }
 }
 
 TEST_F(MeshRun, PolyIsMeshedInThePlane) {

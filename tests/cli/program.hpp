@@ -53,7 +53,7 @@ class ProgramTest : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// One sentence on standard error, as every error is told.
+// One sentence on standard error, as every error is reported.
 testing::AssertionResult isOneErrorLine(const std::string& errors);
 
 }  // namespace coastmesh::test

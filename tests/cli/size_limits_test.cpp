@@ -1,4 +1,4 @@
-// Sizes that ask for more than there is room for: told at once, with how much that is, and nothing is made.
+// Sizes that ask for more than there is room for: reported at once, with how much that is, and nothing is made.
 #include <gtest/gtest.h>
 
 #include <cstdio>

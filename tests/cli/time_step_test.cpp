@@ -85,7 +85,8 @@ TEST_F(TimeStep, IsSaidInSummaryReportAndInfo) {
   const ProgramRun run = mesh({"--size", "2000", "--bathymetry", depths()});
   ASSERT_EQ(run.code, 0) << run.errors;
   EXPECT_THAT(run.output, HasSubstr("time step by CFL "));
-  // Lengths in the file are those of UTM's plane, at most a few thousandths off those on the ground so far from its meridian.
+  // Lengths in the file are those of UTM's plane, at most a few thousandths off those on the ground so far from its
+  // meridian.
   EXPECT_NEAR(step().at("time_step_s").get<double>() / leastStep(), 1.0, 0.01);
   const Json info = Json::parse(runProgram({"info", "--json", file("bay.2dm")}).output);
   EXPECT_NEAR(info.at("step").at("time_step_s").get<double>(), leastStep(), 0.01 * leastStep());

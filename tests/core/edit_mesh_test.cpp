@@ -143,7 +143,7 @@ class Changer {
     }
     if (!mesh_.gatherPatch(gone, patch_)) return false;
     std::vector<VertexId> polygon;
-    for (const RimEdge& r : patch_.rim) polygon.push_back(r.a);
+    for (const BoundaryEdge& r : patch_.boundary) polygon.push_back(r.a);
     std::vector<Corners> fresh;
     if (!triangulatePolygon(mesh_, polygon, fresh)) return false;
     mesh_.replace(patch_, fresh, gone, touched_);
@@ -316,15 +316,15 @@ TEST_P(EditMeshOf, GatherPatchGivesARimInOrder) {
         naive.insert(t);
     EXPECT_EQ(std::set<TriId>(patch.triangles.begin(), patch.triangles.end()), naive);
     EXPECT_EQ(patch.triangles.size(), naive.size());
-    // A disk with k vertices inside and r on its rim has r + 2 k - 2 triangles.
-    EXPECT_EQ(patch.triangles.size(), patch.rim.size() + 2 * ring.size() - 2);
-    for (std::size_t r = 0; r < patch.rim.size(); ++r) {
-      EXPECT_EQ(patch.rim[r].b, patch.rim[(r + 1) % patch.rim.size()].a);
-      const EdgeRef beyond = patch.rim[r].beyond;
+    // A disk with k vertices inside and r on its boundary has r + 2 k - 2 triangles.
+    EXPECT_EQ(patch.triangles.size(), patch.boundary.size() + 2 * ring.size() - 2);
+    for (std::size_t r = 0; r < patch.boundary.size(); ++r) {
+      EXPECT_EQ(patch.boundary[r].b, patch.boundary[(r + 1) % patch.boundary.size()].a);
+      const EdgeRef beyond = patch.boundary[r].beyond;
       if (beyond == kNone) continue;
-      EXPECT_EQ(mesh.origin(beyond), patch.rim[r].b);
-      EXPECT_EQ(mesh.target(beyond), patch.rim[r].a);
-      EXPECT_EQ(mesh.segment(beyond), patch.rim[r].seg);
+      EXPECT_EQ(mesh.origin(beyond), patch.boundary[r].b);
+      EXPECT_EQ(mesh.target(beyond), patch.boundary[r].a);
+      EXPECT_EQ(mesh.segment(beyond), patch.boundary[r].seg);
       EXPECT_FALSE(naive.contains(triOf(beyond)));
     }
   }
@@ -346,9 +346,9 @@ TEST(EditMesh, CavityIsEveryTriangleWhoseCircleHoldsThePoint) {
     for (TriId s = 0; s < mesh.triangleSlots(); ++s)
       if (mesh.isLive(s) && inCircle(mesh.corner(s, 0), mesh.corner(s, 1), mesh.corner(s, 2), x) > 0) naive.insert(s);
     EXPECT_EQ(std::set<TriId>(cavity.triangles.begin(), cavity.triangles.end()), naive);
-    EXPECT_EQ(cavity.rim.size(), cavity.triangles.size() + 2);
-    for (std::size_t r = 0; r < cavity.rim.size(); ++r)
-      EXPECT_EQ(cavity.rim[r].b, cavity.rim[(r + 1) % cavity.rim.size()].a);
+    EXPECT_EQ(cavity.boundary.size(), cavity.triangles.size() + 2);
+    for (std::size_t r = 0; r < cavity.boundary.size(); ++r)
+      EXPECT_EQ(cavity.boundary[r].b, cavity.boundary[(r + 1) % cavity.boundary.size()].a);
   }
 }
 

@@ -30,7 +30,7 @@ TEST(FlipToDelaunay, TakesTheOtherDiagonal) {
 
 TEST(FlipToDelaunay, ConstraintsStayOnTheirEdges) {
   TriMesh mesh = kite();
-  // The rim's four sides are segments 0 to 3.
+  // The boundary's four sides are segments 0 to 3.
   SegmentId next = 0;
   for (Triangle& t : mesh.triangles)
     for (unsigned i = 0; i < 3; ++i)

@@ -161,17 +161,17 @@ TEST_P(InputCornersOf, TheRunJudgesByThem) {
   TriMesh mesh = constrainedDelaunay(pslg);
   const VertexNotes notes = noteInput(mesh, boundOf(options));
   const RefineStats stats = refine(mesh, pslg, options);
-  std::set<std::pair<double, double>> listed, short_ones;
-  for (const Shortfall& s : stats.unresolved) listed.emplace(s.place.x, s.place.y);
+  std::set<std::pair<double, double>> listed, violating;
+  for (const BoundViolation& s : stats.unresolved) listed.emplace(s.place.x, s.place.y);
   VertexNotes own = notes;
   own.spacing.resize(mesh.points.size(), 1.0);
   const Refiner refiner(TriMesh(mesh), pslg, options, std::move(own), usualVariant(options));
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     const auto [a, b, c] = cornersOf(mesh, t);
     const Point centre = (1.0 / 3.0) * (a + b + c);
-    if (refiner.isShort(t)) short_ones.emplace(centre.x, centre.y);
+    if (refiner.violatesBound(t)) violating.emplace(centre.x, centre.y);
   }
-  EXPECT_EQ(short_ones, listed);
+  EXPECT_EQ(violating, listed);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, InputCornersOf, ::testing::ValuesIn(assortedPslgs()),

@@ -62,12 +62,12 @@ TEST(TriMeshAccess, EdgesRunAsDrawn) {
 
 TEST(LinkTriangles, LinksBothWays) {
   const TriMesh mesh = ringMesh();
-  unsigned rim = 0;
+  unsigned boundary = 0;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i);
       if (mesh.twin(e) == kNone) {
-        ++rim;
+        ++boundary;
         continue;
       }
       EXPECT_EQ(mesh.twin(mesh.twin(e)), e);
@@ -75,14 +75,14 @@ TEST(LinkTriangles, LinksBothWays) {
       EXPECT_EQ(mesh.target(mesh.twin(e)), mesh.origin(e));
     }
   }
-  EXPECT_EQ(rim, 8u);
+  EXPECT_EQ(boundary, 8u);
   EXPECT_THAT(mesh.regions, ::testing::Each(0));
   EXPECT_EQ(mesh.regions.size(), 8u);
 }
 
 TEST(LinkTriangles, AnyRotationOfCorners) {
   const TriMesh mesh = meshOf({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{2, 0, 1}, {3, 0, 2}});
-  EXPECT_THAT(rimLoops(mesh), ElementsAre(ElementsAre(0, 1, 2, 3)));
+  EXPECT_THAT(boundaryLoops(mesh), ElementsAre(ElementsAre(0, 1, 2, 3)));
 }
 
 TEST(LinkTriangles, EdgeOfThreeTrianglesIsAConflict) {
@@ -117,11 +117,11 @@ TEST(LinkTriangles, Nothing) {
   const TriMesh mesh = linkTriangles({}, {}, conflicts);
   EXPECT_THAT(mesh.triangles, IsEmpty());
   EXPECT_THAT(conflicts, IsEmpty());
-  EXPECT_THAT(rimLoops(mesh), IsEmpty());
+  EXPECT_THAT(boundaryLoops(mesh), IsEmpty());
   EXPECT_THAT(outgoingEdges(mesh), IsEmpty());
 }
 
-TEST(OutgoingEdges, StartAtTheVertexAndPreferTheRim) {
+TEST(OutgoingEdges, StartAtTheVertexAndPreferTheBoundary) {
   TriMesh mesh = ringMesh();
   mesh.points.push_back({9, 9});  // used by no triangle
   const std::vector<EdgeRef> out = outgoingEdges(mesh);
@@ -129,27 +129,27 @@ TEST(OutgoingEdges, StartAtTheVertexAndPreferTheRim) {
   for (VertexId v = 0; v < 8; ++v) {
     ASSERT_NE(out[v], kNone);
     EXPECT_EQ(mesh.origin(out[v]), v);
-    EXPECT_EQ(mesh.twin(out[v]), kNone) << "vertex " << v << " is on the rim";
+    EXPECT_EQ(mesh.twin(out[v]), kNone) << "vertex " << v << " is on the boundary";
   }
   EXPECT_EQ(out[8], kNone);
 }
 
-TEST(RimLoops, OuterCounterClockwiseHoleClockwise) {
+TEST(BoundaryLoops, OuterCounterClockwiseHoleClockwise) {
   const TriMesh mesh = ringMesh();
-  EXPECT_THAT(rimLoops(mesh), ElementsAre(ElementsAre(0, 1, 2, 3), ElementsAre(4, 7, 6, 5)));
+  EXPECT_THAT(boundaryLoops(mesh), ElementsAre(ElementsAre(0, 1, 2, 3), ElementsAre(4, 7, 6, 5)));
 }
 
-TEST(RimLoops, StartAtTheLeastVertexAndAreSortedByIt) {
+TEST(BoundaryLoops, StartAtTheLeastVertexAndAreSortedByIt) {
   // Two triangles apart, the right one first.
   const TriMesh mesh = meshOf({{7, 0}, {6, 1}, {5, 0}, {2, 0}, {1, 1}, {0, 0}}, {{0, 1, 2}, {3, 4, 5}});
-  EXPECT_THAT(rimLoops(mesh), ElementsAre(ElementsAre(5, 3, 4), ElementsAre(2, 0, 1)));
+  EXPECT_THAT(boundaryLoops(mesh), ElementsAre(ElementsAre(5, 3, 4), ElementsAre(2, 0, 1)));
 }
 
-TEST(RimLoops, PassAPinchedVertexOnceForEveryFan) {
+TEST(BoundaryLoops, PassAPinchedVertexOnceForEveryFan) {
   // Three triangles that have only the middle in common.
   const TriMesh mesh =
       meshOf({{0, 0}, {2, -1}, {2, 1}, {-1, 2}, {-2, 1}, {-2, -1}, {-1, -2}}, {{0, 1, 2}, {0, 3, 4}, {0, 5, 6}});
-  const auto loops = rimLoops(mesh);
+  const auto loops = boundaryLoops(mesh);
   std::size_t passes = 0, edges = 0;
   for (const Loop& loop : loops) {
     passes += static_cast<std::size_t>(std::ranges::count(loop, 0u));
@@ -160,47 +160,48 @@ TEST(RimLoops, PassAPinchedVertexOnceForEveryFan) {
   EXPECT_EQ(edges, 9u);
 }
 
-TEST(RimLoops, BowTieInsideAHole) {
-  // Two holes that touch: the rim passes their common vertex twice, and both ways round it is clockwise.
+TEST(BoundaryLoops, BowTieInsideAHole) {
+  // Two holes that touch: the boundary passes their common vertex twice, and both ways round it is clockwise.
   const TriMesh mesh = constrainedDelaunay(touchingHoles());
-  const auto loops = rimLoops(mesh);
+  const auto loops = boundaryLoops(mesh);
   double area = 0.0;
   for (const Loop& loop : loops) area += areaOf(mesh, loop);
   double covered = 0.0;
-  std::multiset<VertexId> on_rim;
+  std::multiset<VertexId> on_boundary;
   for (const Triangle& t : mesh.triangles)
     covered += signedArea(mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]);
-  for (const Loop& loop : loops) on_rim.insert(loop.begin(), loop.end());
+  for (const Loop& loop : loops) on_boundary.insert(loop.begin(), loop.end());
   EXPECT_NEAR(area, covered, 1e-12);
-  EXPECT_EQ(on_rim.count(4), 2u);  // where the two holes touch
-  EXPECT_EQ(on_rim.count(0), 2u);  // where a hole touches the outer ring
+  EXPECT_EQ(on_boundary.count(4), 2u);  // where the two holes touch
+  EXPECT_EQ(on_boundary.count(0), 2u);  // where a hole touches the outer ring
 }
 
-// Every loop of every mesh closes over rim edges, each of them once; outside and holes add up to the area.
-TEST(RimLoops, CoverTheRimOnce) {
+// Every loop of every mesh closes over boundary edges, each of them once; outside and holes add up to the area.
+TEST(BoundaryLoops, CoverTheBoundaryOnce) {
   for (const NamedPslg& named : assortedPslgs()) {
     SCOPED_TRACE(named.name);
     const TriMesh mesh = constrainedDelaunay(named.pslg);
-    std::set<std::pair<VertexId, VertexId>> rim;
+    std::set<std::pair<VertexId, VertexId>> boundary;
     double covered = 0.0, enclosed = 0.0;
     for (TriId t = 0; t < mesh.triangles.size(); ++t) {
       const auto& v = mesh.triangles[t].v;
       covered += signedArea(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
       for (unsigned i = 0; i < 3; ++i)
-        if (mesh.triangles[t].adj[i] == kNone) rim.insert({mesh.origin(edgeRef(t, i)), mesh.target(edgeRef(t, i))});
+        if (mesh.triangles[t].adj[i] == kNone)
+          boundary.insert({mesh.origin(edgeRef(t, i)), mesh.target(edgeRef(t, i))});
     }
     Point last{-1e300, -1e300};
-    for (const Loop& loop : rimLoops(mesh)) {
+    for (const Loop& loop : boundaryLoops(mesh)) {
       const Point& first = mesh.points[loop.front()];
       EXPECT_FALSE(lexLess(first, last));
       last = first;
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        EXPECT_EQ(rim.erase({loop[i], loop[(i + 1) % loop.size()]}), 1u);
+        EXPECT_EQ(boundary.erase({loop[i], loop[(i + 1) % loop.size()]}), 1u);
         EXPECT_FALSE(lexLess(mesh.points[loop[i]], first));
       }
       enclosed += areaOf(mesh, loop);
     }
-    EXPECT_THAT(rim, IsEmpty());
+    EXPECT_THAT(boundary, IsEmpty());
     EXPECT_NEAR(enclosed, covered, 1e-12 * covered);
   }
 }

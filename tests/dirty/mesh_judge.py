@@ -65,7 +65,7 @@ def is_flat(corners, turned, geographic, chosen):
 
 
 def check_mesh(nodes, triangles, geographic, told=0, chosen=False):
-    """Counter-clockwise triangles, each edge once in each direction, each node used. As many as the program told of may be
+    """Counter-clockwise triangles, each edge once in each direction, each node used. As many as the program reported may be
     flat instead."""
     turn = turn_on_globe if geographic else turn_in_plane
     edges, used = set(), set()

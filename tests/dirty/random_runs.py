@@ -80,7 +80,7 @@ def judge_outputs(case, folder, outputs):
     report = json.loads((folder / "report.json").read_text())
     nodes, triangles = read_grid(folder / outputs[0])
     geographic = case.world.geographic and outputs[0] == "m.nc"
-    # Told of by the program, with exit code 1: the input has gaps as narrow as its coordinates are fine.
+    # Reported by the program, with exit code 1: the input has gaps as narrow as its coordinates are fine.
     check_mesh(nodes, triangles, geographic, report["mesh"]["turned"]["count"], "--crs" in case.options)
     require(len(triangles) == report["mesh"]["triangles"], "the report counts other triangles")
     places = as_places(nodes, triangles)

@@ -29,8 +29,8 @@ void setOption(RefineCase& c, const std::string& name, const std::string& value)
     c.options.size_max = std::stod(value);
   } else if (name == "max_vertices") {
     c.options.max_vertices = std::stoull(value);
-  } else if (name == "shrink") {
-    c.shrink = value == "1";
+  } else if (name == "coarsen") {
+    c.coarsen = value == "1";
   }
 }
 

@@ -19,7 +19,7 @@ std::string toText(double value) {
 }  // namespace
 
 std::string caseText(const RefineCase& refine_case, const std::string& note) {
-  const auto& [pslg, options, shrink] = refine_case;
+  const auto& [pslg, options, coarsen] = refine_case;
   std::ostringstream text;
   std::istringstream lines(note);
   for (std::string line; std::getline(lines, line);) text << "# note: " << line << '\n';
@@ -27,7 +27,7 @@ std::string caseText(const RefineCase& refine_case, const std::string& note) {
        << "\n# max_angle " << toText(options.max_angle_deg) << "\n# size " << toText(options.size_max) << '\n';
   if (options.max_vertices != std::numeric_limits<std::uint64_t>::max())
     text << "# max_vertices " << options.max_vertices << '\n';
-  text << "# shrink " << shrink << '\n';
+  text << "# coarsen " << coarsen << '\n';
   text << pslg.points.size() << " 2 0 0\n";
   for (std::size_t i = 0; i < pslg.points.size(); ++i)
     text << i + 1 << ' ' << toText(pslg.points[i].x) << ' ' << toText(pslg.points[i].y) << '\n';

@@ -132,11 +132,12 @@ Point centroid(const TriMesh& mesh, TriId t) {
 }
 
 void addUnlabelled(Choices& choices, Pslg& pslg, const TriMesh& mesh) {
-  const bool whole_rim = !choices.oneIn(4);
+  const bool whole_boundary = !choices.oneIn(4);
   const std::uint32_t one_in = 1 + choices.below(6);
   for (const EdgeRef e : edgesOf(mesh)) {
-    const bool rim = mesh.twin(e) == kNone;
-    if ((rim && whole_rim) || choices.oneIn(one_in)) addSegment(choices, pslg, mesh, e, kUnlabelled, kUnlabelled);
+    const bool boundary = mesh.twin(e) == kNone;
+    if ((boundary && whole_boundary) || choices.oneIn(one_in))
+      addSegment(choices, pslg, mesh, e, kUnlabelled, kUnlabelled);
   }
   const std::uint32_t holes = choices.below(3);
   for (std::uint32_t i = 0; i < holes; ++i)

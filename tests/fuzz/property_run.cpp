@@ -40,7 +40,7 @@ struct Settings {
   std::vector<std::string> bytes;
 };
 
-// What the worker tells.
+// What the worker reports.
 struct Progress {
   std::uint64_t current;  // the run under way
   std::array<std::uint64_t, 4> by_verdict;

@@ -101,7 +101,7 @@ RefineOptions randomOptions(Choices& choices) {
 RefineCase randomCase(Choices& choices) {
   RefineCase c;
   // The options first: a fuzzer finds them at the same place in every input.
-  c.shrink = !choices.oneIn(4);
+  c.coarsen = !choices.oneIn(4);
   c.options = randomOptions(choices);
   const double size_share = choices.between(0.05, 1.0);
   const std::uint32_t room = choices.below(200);

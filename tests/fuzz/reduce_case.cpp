@@ -66,7 +66,7 @@ class Reducer {
 
   void simplifyOptions() {
     const RefineOptions plain;
-    if (best_.shrink) attempt([](RefineCase& c) { c.shrink = false; });
+    if (best_.coarsen) attempt([](RefineCase& c) { c.coarsen = false; });
     if (best_.options.max_vertices != plain.max_vertices)
       attempt([&](RefineCase& c) { c.options.max_vertices = plain.max_vertices; });
     if (!std::isinf(best_.options.size_max)) attempt([&](RefineCase& c) { c.options.size_max = plain.size_max; });

@@ -65,7 +65,7 @@ double areaRoom(const TriMesh& mesh) {
 }
 
 void judge(const std::string& stage, const TriMesh& mesh, const TriMesh& coarse, const RefineCase& c,
-           const std::vector<Shortfall>& unresolved) {
+           const std::vector<BoundViolation>& unresolved) {
   const auto defects = unexpectedDefects(mesh, c.pslg, c.options, unresolved);
   if (!defects.empty()) {
     std::string detail;
@@ -86,9 +86,9 @@ void judge(const std::string& stage, const TriMesh& mesh, const TriMesh& coarse,
 
 // What is listed is what falls short and nothing excuses.
 void judgeListed(const std::string& stage, const TriMesh& mesh, const RefineCase& c,
-                 const std::vector<Shortfall>& unresolved) {
-  const std::string wrong = wrongShortfalls(mesh, c.pslg, c.options, unresolved);
-  if (!wrong.empty()) throw Broken{stage + ": wrong shortfalls", wrong};
+                 const std::vector<BoundViolation>& unresolved) {
+  const std::string wrong = wrongBoundViolations(mesh, c.pslg, c.options, unresolved);
+  if (!wrong.empty()) throw Broken{stage + ": wrong bound violations", wrong};
 }
 
 // Vertices that the input needs at an angle that every method reaches; nothing where that is beyond the limit. Any
@@ -107,7 +107,7 @@ std::optional<std::uint64_t> neededAtLeast(const RefineCase& c, std::uint64_t li
 
 struct Meshed {
   TriMesh mesh;
-  RefineStats refined, shrunk;
+  RefineStats refined, coarsened;
 };
 
 void checkCounts(const RefineCase& c, const RefineOptions& options, const TriMesh& mesh, const RefineStats& stats) {
@@ -133,19 +133,20 @@ Meshed meshAndJudge(const RefineCase& c, const TriMesh& coarse, const CaseLimits
   checkCounts(c, options, meshed.mesh, meshed.refined);
   judge("refine", meshed.mesh, coarse, c, meshed.refined.unresolved);
   judgeListed("refine", meshed.mesh, c, meshed.refined.unresolved);
-  if (!c.shrink) return meshed;
+  if (!c.coarsen) return meshed;
   const std::size_t before = meshed.mesh.points.size();
   const std::size_t bad = countBad(meshed.mesh, options);
-  meshed.shrunk = shrink(meshed.mesh, c.pslg, options);
-  judge("shrink", meshed.mesh, coarse, c, meshed.shrunk.unresolved);
-  judgeListed("shrink", meshed.mesh, c, meshed.shrunk.unresolved);
+  meshed.coarsened = coarsen(meshed.mesh, c.pslg, options);
+  judge("coarsen", meshed.mesh, coarse, c, meshed.coarsened.unresolved);
+  judgeListed("coarsen", meshed.mesh, c, meshed.coarsened.unresolved);
   if (meshed.mesh.points.size() > before)
-    throw Broken{"shrink: more vertices than before",
+    throw Broken{"coarsen: more vertices than before",
                  std::to_string(before) + " before, " + std::to_string(meshed.mesh.points.size()) + " after"};
   // A flip beside a bad triangle may make two of it, but good ones stay good.
-  if (meshed.shrunk.unresolved.size() > 2 * bad)
-    throw Broken{"shrink: more shortfalls than before", std::to_string(bad) + " bad triangles before, " +
-                                                            std::to_string(meshed.shrunk.unresolved.size()) + " after"};
+  if (meshed.coarsened.unresolved.size() > 2 * bad)
+    throw Broken{"coarsen: more bound violations than before", std::to_string(bad) + " bad triangles before, " +
+                                                                   std::to_string(meshed.coarsened.unresolved.size()) +
+                                                                   " after"};
   return meshed;
 }
 

@@ -13,7 +13,7 @@ namespace coastmesh {
 struct RefineCase {
   Pslg pslg;
   RefineOptions options;
-  bool shrink = true;
+  bool coarsen = true;
 };
 
 enum class Verdict {
@@ -35,8 +35,8 @@ struct CaseLimits {
   bool repeat = false;                   // run it twice and compare, bit for bit
 };
 
-// Meshes the input and judges every stage's result: valid by `checkMesh`; every shortfall listed, and nothing else;
-// areas of regions kept; counts that agree; no more vertices than a bound that follows from the input; shrinking
+// Meshes the input and judges every stage's result: valid by `checkMesh`; every bound violation listed, and nothing
+// else; areas of regions kept; counts that agree; no more vertices than a bound that follows from the input; coarsening
 // leaves no more vertices than it found, and no bad triangle where there was none.
 CaseResult runCase(const RefineCase& refine_case, const CaseLimits& limits = {});
 

@@ -8,9 +8,9 @@
 namespace coastmesh {
 
 std::vector<MeshDefect> unexpectedDefects(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
-                                          const std::vector<Shortfall>& unresolved) {
+                                          const std::vector<BoundViolation>& unresolved) {
   std::set<std::pair<double, double>> listed;
-  for (const Shortfall& s : unresolved) listed.emplace(s.place.x, s.place.y);
+  for (const BoundViolation& s : unresolved) listed.emplace(s.place.x, s.place.y);
   std::vector<MeshDefect> defects =
       checkMesh(mesh, &pslg, {.min_angle_deg = options.min_angle_deg, .max_angle_deg = options.max_angle_deg});
   std::erase_if(defects, [&](const MeshDefect& d) {

@@ -10,9 +10,10 @@
 
 namespace coastmesh {
 
-// What `checkMesh` finds in a mesh that `refine` or `shrink` answered, less the shortfalls that `unresolved` lists.
+// What `checkMesh` finds in a mesh that `refine` or `coarsen` returned, less the bound violations that `unresolved`
+// lists.
 std::vector<MeshDefect> unexpectedDefects(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
-                                          const std::vector<Shortfall>& unresolved);
+                                          const std::vector<BoundViolation>& unresolved);
 
 // One line with kind, place (to the last bit) and value.
 std::string describe(const MeshDefect& defect);

@@ -27,7 +27,7 @@ class Case:
     value: str | None = None  # None: a switch
     extra: list = field(default_factory=list)  # options besides, which the run without it has too
     input: str | None = None  # in place of the command's own
-    name: str | None = None  # the name to give, where it is not the first: --no-shrink
+    name: str | None = None  # the name to give, where it is not the first: --no-coarsen
     exists: list = field(default_factory=list)  # files that are there before the run
     report: str | None = None  # the effect is this key of the report
     because: str | None = None  # why it may be silent without `extra`: its effect hangs on the data
@@ -154,7 +154,7 @@ def cases():
         "--min-angle": Case("15"),
         "--max-angle": Case("100"),
         "--algorithm": Case("circumcenter"),
-        "--shrink": Case(name="--no-shrink"),
+        "--coarsen": Case(name="--no-coarsen"),
         "--size": Case("200"),
         "--size-min": Case("300", extra=sized),
         "--size-max": Case("200"),

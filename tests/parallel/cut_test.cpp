@@ -135,7 +135,7 @@ TEST_P(CutInto, PiecesShareFrozenEdgesOnly) {
   EXPECT_EQ(frozen % 2, 0u);
 }
 
-// Shrinking needs no notes: what is not known is not made up on the way.
+// Coarsening needs no notes: what is not known is not made up on the way.
 TEST_P(CutInto, NothingNotedStaysNothing) {
   const Pslg pslg = fractalCoast(2, 3, 3);
   MeshState whole;

@@ -160,36 +160,36 @@ TEST(MeshRegions, AnyNumberOfThreadsGivesTheSameMeshes) {
   }
 }
 
-TEST(MeshRegion, IsTriangulateRefineAndShrink) {
+TEST(MeshRegion, IsTriangulateRefineAndCoarsen) {
   const Pslg pslg = fractalCoast(3, 2, 3);
-  for (const bool shrinks : {false, true}) {
-    const MeshOptions options{.refine = {.min_angle_deg = 34.0}, .shrink = shrinks};
+  for (const bool coarsens : {false, true}) {
+    const MeshOptions options{.refine = {.min_angle_deg = 34.0}, .coarsen = coarsens};
     const MeshedRegion region = meshRegion(pslg, options);
     TriMesh mesh = constrainedDelaunay(pslg);
     RefineStats stats = refine(mesh, pslg, options.refine);
-    if (shrinks) shrink(mesh, pslg, options.refine);
+    if (coarsens) coarsen(mesh, pslg, options.refine);
     EXPECT_EQ(digestOf(region.mesh), digestOf(mesh));
     expectValidMesh(region.mesh, pslg, {.min_angle_deg = 34.0});
     EXPECT_EQ(region.stats.steiner_points, mesh.points.size() - pslg.points.size());
     EXPECT_EQ(region.stats.by_type, stats.by_type);
     EXPECT_TRUE(region.stats.unresolved.empty());
-    EXPECT_EQ(wrongShortfalls(region.mesh, pslg, options.refine, {}), "");
-    EXPECT_EQ(region.stats.merges > 0, shrinks);
+    EXPECT_EQ(wrongBoundViolations(region.mesh, pslg, options.refine, {}), "");
+    EXPECT_EQ(region.stats.merges > 0, coarsens);
     EXPECT_GE(region.seconds.refine, 0.0);
   }
 }
 
 TEST(MeshRegion, WhatFallsShortIsListedOnce) {
-  // A bound out of reach: what shrinking leaves replaces what refinement left.
+  // A bound out of reach: what coarsening leaves replaces what refinement left.
   const Pslg pslg = fractalCoast(3, 1, 1);
   const MeshedRegion region = meshRegion(pslg, {.refine = {.min_angle_deg = 45.0}});
   ASSERT_FALSE(region.stats.unresolved.empty());
   std::set<std::pair<double, double>> places;
-  for (const Shortfall& s : region.stats.unresolved) places.insert({s.place.x, s.place.y});
+  for (const BoundViolation& s : region.stats.unresolved) places.insert({s.place.x, s.place.y});
   EXPECT_EQ(places.size(), region.stats.unresolved.size());
   const auto defects = checkMesh(region.mesh, &pslg, {.min_angle_deg = 45.0});
   EXPECT_LE(defects.size(), region.stats.unresolved.size());
-  EXPECT_EQ(wrongShortfalls(region.mesh, pslg, {.min_angle_deg = 45.0}, region.stats.unresolved), "");
+  EXPECT_EQ(wrongBoundViolations(region.mesh, pslg, {.min_angle_deg = 45.0}, region.stats.unresolved), "");
 }
 
 TEST(MeshRegion, BadInputAndCancellationComeThrough) {

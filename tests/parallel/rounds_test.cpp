@@ -10,7 +10,7 @@
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
-#include "core/refine/shortfalls.hpp"
+#include "core/refine/bound_violations.hpp"
 #include "parallel/workers.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
@@ -39,7 +39,7 @@ std::vector<Case> cases() {
 
 struct Meshed {
   TriMesh mesh;
-  RoundsReport refined, shrunk;
+  RoundsReport refined, coarsened;
 };
 
 Meshed runInRounds(const Case& c, int threads) {
@@ -48,7 +48,7 @@ Meshed runInRounds(const Case& c, int threads) {
     run.mesh = constrainedDelaunay(c.pslg);
     RoundsWorkspace workspace;
     run.refined = refineInRounds(run.mesh, c.pslg, c.options, {}, workspace);
-    run.shrunk = shrinkInRounds(run.mesh, c.pslg, c.options, {}, workspace);
+    run.coarsened = coarsenInRounds(run.mesh, c.pslg, c.options, {}, workspace);
   });
   return run;
 }
@@ -65,10 +65,10 @@ TEST_P(InRounds, IsOneMeshWithoutASeam) {
   const Case& c = GetParam();
   const Meshed run = runInRounds(c, 2);
   EXPECT_GT(run.refined.pieces, 1u) << "nothing was cut";
-  EXPECT_GT(run.shrunk.pieces, 1u);
+  EXPECT_GT(run.coarsened.pieces, 1u);
   expectValid(run.mesh, c.pslg, {.min_angle_deg = c.options.min_angle_deg});
-  EXPECT_TRUE(findShortfalls(run.mesh, c.options).empty());
-  EXPECT_EQ(wrongShortfalls(run.mesh, c.pslg, c.options, {}), "");
+  EXPECT_TRUE(findBoundViolations(run.mesh, c.options).empty());
+  EXPECT_EQ(wrongBoundViolations(run.mesh, c.pslg, c.options, {}), "");
 }
 
 TEST_P(InRounds, ThreadsChangeNoBit) {
@@ -82,7 +82,7 @@ TEST_P(InRounds, HasAsManyVerticesAsOnePiece) {
   const Meshed run = runInRounds(c, 2);
   TriMesh whole = constrainedDelaunay(c.pslg);
   refine(whole, c.pslg, c.options);
-  shrink(whole, c.pslg, c.options);
+  coarsen(whole, c.pslg, c.options);
   const auto count = static_cast<double>(whole.points.size());
   EXPECT_NEAR(static_cast<double>(run.mesh.points.size()), count, 0.03 * count);
 }
@@ -115,7 +115,7 @@ TEST_P(InRounds, EndsWhereTheBoundIsOutOfReach) {
 
 TEST_P(InRounds, WritesDownItsWork) {
   const Meshed run = runInRounds(GetParam(), 2);
-  for (const WorkLog* log : {&run.refined.log, &run.shrunk.log}) {
+  for (const WorkLog* log : {&run.refined.log, &run.coarsened.log}) {
     EXPECT_GT(log->criticalPath(), 0.0);
     EXPECT_LE(log->criticalPath(), log->work());
     EXPECT_LE(log->timeOn(64), log->timeOn(2));

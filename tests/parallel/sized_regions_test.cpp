@@ -39,7 +39,7 @@ TEST_P(SizedRegion, InPiecesAsInOne) {
   for (const MeshedRegion* region : {&pieces, &whole}) {
     expectValidMesh(region->mesh, pslg_, {.min_angle_deg = 33.0});
     EXPECT_TRUE(region->stats.unresolved.empty());
-    EXPECT_EQ(wrongShortfalls(region->mesh, pslg_, options().refine, {}), "");
+    EXPECT_EQ(wrongBoundViolations(region->mesh, pslg_, options().refine, {}), "");
     const SizeFigures figures = sizeFigures(region->mesh, size_);
     EXPECT_GE(figures.share_within, 0.97);
     EXPECT_NEAR(figures.median, 1.0, 0.05);

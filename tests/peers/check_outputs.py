@@ -62,7 +62,7 @@ class Mesh:
         self.triangles = [tuple(int(n) - 1 for n in row[1:4]) for row in rows(".ele")]
         segments = [line.split() for line in open(folder / (stem + ".poly"))][2:]
         edges = [(int(row[1]) - 1, int(row[2]) - 1, int(row[3]) % 10) for row in segments if len(row) == 4]
-        self.rim = sorted((a, b) for a, b, kind in edges if kind <= 4)
+        self.boundary = sorted((a, b) for a, b, kind in edges if kind <= 4)
         self.lines = sorted(tuple(sorted((a, b))) for a, b, kind in edges if kind > 4)
 
     def corners(self):
@@ -82,8 +82,8 @@ def check_netcdf4(path, mesh, crs):
     edges = data[topology.edge_node_connectivity]
     want = {tuple(sorted((t[i], t[i - 1]))) for t in mesh.triangles for i in range(3)}
     expect("netCDF4: edges", [tuple(row - edges.start_index) for row in edges[:]], sorted(want))
-    rim = data[topology.boundary_node_connectivity]
-    expect("netCDF4: boundary", sorted(tuple(row - rim.start_index) for row in rim[:]), mesh.rim)
+    boundary = data[topology.boundary_node_connectivity]
+    expect("netCDF4: boundary", sorted(tuple(row - boundary.start_index) for row in boundary[:]), mesh.boundary)
     if mesh.lines:
         number = data["mesh2d_edge_line"]
         inside = [tuple(row - edges.start_index) for row, line in zip(edges[:], number[:]) if line > 0]
@@ -126,7 +126,7 @@ def check_meshio(path, mesh, _):
         expect(f"meshio {path.name}: a surface named by its region", named, bool(mesh.lines))
         lines = [tuple(row) for block in read.cells if block.type == "line" for row in block.data.tolist()]
         ends = sorted(tuple(sorted((points[a], points[b]))) for a, b in lines)
-        wanted = sorted(tuple(sorted((mesh.nodes[a], mesh.nodes[b]))) for a, b in mesh.rim + mesh.lines)
+        wanted = sorted(tuple(sorted((mesh.nodes[a], mesh.nodes[b]))) for a, b in mesh.boundary + mesh.lines)
         expect(f"meshio {path.name}: lines", ends, wanted)
         groups = [row for block in read.cell_data["gmsh:physical"] for row in block.tolist()]
         expect(f"meshio {path.name}: every element in a group", min(groups) > 0, True)

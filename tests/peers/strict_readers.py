@@ -1,7 +1,7 @@
 """Strict readers of ocean models' grids, by the rules that the models read them by and nothing of coastmesh.
 
 Each gives a dict: nodes [(x, y)], triangles [(a, b, c)] from 0, depth [positive down], open [[node]], land [[node]] where
-the format tells them. What the model would refuse raises Refused.
+the format has them. What the model would refuse raises Refused.
 """
 
 import math
@@ -39,9 +39,9 @@ def check_mesh(nodes, triangles):
     return {edge for edge in edges if edge[::-1] not in edges}
 
 
-def check_fans(rim):
-    """No pinch: one edge of the rim leaves each of its nodes."""
-    starts = [edge[0] for edge in rim]
+def check_fans(boundary):
+    """No pinch: one edge of the boundary leaves each of its nodes."""
+    starts = [edge[0] for edge in boundary]
     require(len(set(starts)) == len(starts), "the mesh touches itself in a node")
 
 
@@ -67,9 +67,9 @@ def read_fort14(path, schism=False, allow_pinches=False):
         words = [int(w) for w in numbers(5)]
         require(words[0] == i + 1 and words[1] == 3 and len(words) == 5, f"element {i + 1}")
         triangles.append(tuple(n - 1 for n in words[2:]))
-    rim = check_mesh(nodes, triangles)
+    boundary = check_mesh(nodes, triangles)
     if not allow_pinches:
-        check_fans(rim)
+        check_fans(boundary)
     open_segments, land = [], []
     count, total = int(numbers(1)[0]), int(numbers(1)[0])
     for _ in range(count):
@@ -99,8 +99,8 @@ def read_fort14(path, schism=False, allow_pinches=False):
             )
             require(around < 0 or allow_pinches, "an island that goes counter-clockwise")
         require(kind in ((0, 1) if schism else (0, 1, 2, 10, 11, 12, 20, 21, 22)), f"type {kind}")
-    require(len(set(told)) == len(told), "an edge of the rim in two segments")
-    require(set(told) == rim, "segments are not the rim")
+    require(len(set(told)) == len(told), "an edge of the boundary in two segments")
+    require(set(told) == boundary, "segments are not the boundary")
     return {"nodes": nodes, "triangles": triangles, "depth": depth, "open": open_segments, "land": land}
 
 
@@ -173,27 +173,27 @@ def read_selafin(path):
     require(at == len(data), "bytes after the end")
     nodes = list(zip(x, y))
     triangles = [tuple(n - 1 for n in ikle[3 * t : 3 * t + 3]) for t in range(nelem)]
-    rim = check_mesh(nodes, triangles)
-    check_fans(rim)
-    after = dict(rim)
+    boundary = check_mesh(nodes, triangles)
+    check_fans(boundary)
+    after = dict(boundary)
     ranks = sorted((rank, node) for node, rank in enumerate(ipobo) if rank)
     require([rank for rank, _ in ranks] == list(range(1, len(ranks) + 1)), "IPOBO is not 1, 2, 3 ...")
     order = [node for _, node in ranks]
-    require(set(order) == set(after), "IPOBO is not the rim")
+    require(set(order) == set(after), "IPOBO is not the boundary")
     rows = [line.split() for line in open(str(path)[:-4] + ".cli")]
-    require(len(rows) == len(order), "the .cli has not a line a node of the rim")
+    require(len(rows) == len(order), "the .cli has not a line a node of the boundary")
     codes = []
     for k, row in enumerate(rows):
         require(len(row) == 13 and int(row[11]) == order[k] + 1 and int(row[12]) == k + 1, f".cli line {k + 1}")
         codes.append(tuple(int(c) for c in row[:3]))
         require(codes[-1] in ((2, 2, 2), (5, 4, 4), (4, 5, 5), (5, 6, 6)), f".cli line {k + 1}")
-    # Ranks run along the rim, loop after loop; the first loop starts at its south-western node.
+    # Ranks run along the boundary, loop after loop; the first loop starts at its south-western node.
     start = 0
     while start < len(order):
         loop = [order[start]]
         while after[loop[-1]] != order[start]:
             loop.append(after[loop[-1]])
-        require(order[start : start + len(loop)] == loop, "ranks do not follow the rim")
+        require(order[start : start + len(loop)] == loop, "ranks do not follow the boundary")
         require(min(loop, key=lambda n: x[n] + y[n]) == loop[0], "a loop does not start in the south-west")
         if start == 0:
             around = sum(x[a] * y[b] - x[b] * y[a] for a, b in zip(loop, loop[1:] + loop[:1]))
@@ -229,7 +229,7 @@ def read_fvcom(path):
     for i, row in enumerate(rows[ne:]):
         require(int(row[0]) == i + 1 and len(row) == 4, f"node {i + 1}")
         nodes.append((float(row[1]), float(row[2])))
-    rim = check_mesh(nodes, triangles)
+    boundary = check_mesh(nodes, triangles)
     (count,), rows_dep = counted("dep", "Node Number")
     require(count == np == len(rows_dep), "_dep.dat: count")
     require([(float(r[0]), float(r[1])) for r in rows_dep] == nodes, "_dep.dat: places")
@@ -239,7 +239,7 @@ def read_fvcom(path):
     require(count == len(rows_obc), "_obc.dat: count")
     is_open = {int(row[1]) - 1 for row in rows_obc}
     require(len(is_open) == count and all(int(row[2]) == 1 for row in rows_obc), "_obc.dat: rows")
-    inner = {frozenset(e) for e in rim}
+    inner = {frozenset(e) for e in boundary}
     for t in triangles:
         outer = [(t[i], t[(i + 1) % 3]) for i in range(3) if frozenset((t[i], t[(i + 1) % 3])) in inner]
         opened = [e for e in outer if e[0] in is_open and e[1] in is_open]
@@ -249,9 +249,9 @@ def read_fvcom(path):
     return {"nodes": nodes, "triangles": triangles, "depth": [float(r[2]) for r in rows_dep], "open_nodes": is_open}
 
 
-def check_swan(nodes, triangles, rim):
+def check_swan(nodes, triangles, boundary):
     """SwanCheckGrid: cosines of angles, of coordinates as they stand, above -0.8; 4 to 10 triangles round an inner node."""
-    on_rim = {node for edge in rim for node in edge}
+    on_boundary = {node for edge in boundary for node in edge}
     round_node = [0] * len(nodes)
     for t in triangles:
         square = [(nodes[t[i - 1]][0] - nodes[t[i - 2]][0]) ** 2 + (nodes[t[i - 1]][1] - nodes[t[i - 2]][1]) ** 2 for i in range(3)]
@@ -260,7 +260,7 @@ def check_swan(nodes, triangles, rim):
             require((b + c - a) / (2 * math.sqrt(b * c)) > -0.8, f"an angle of triangle {t}")
             round_node[t[i]] += 1
     for node, count in enumerate(round_node):
-        require(node in on_rim or 4 <= count <= 10, f"{count} triangles round node {node}")
+        require(node in on_boundary or 4 <= count <= 10, f"{count} triangles round node {node}")
 
 
 def on_sphere(place):

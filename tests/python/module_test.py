@@ -26,7 +26,7 @@ import coastmesh
 PROGRAM, DATA = sys.argv[1:3]
 LAKE = os.path.join(DATA, "lake_superior.geojson")
 SQUARE = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4]])
-RIM = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+BOUNDARY = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
 SPIKES = {"type": "Polygon", "coordinates": [[[0, 47.5], [-87.07, 47.25], [-87.25, 0], [-88, 47.5], [0, 47.75],
                                               [-87.5, 48], [0, 47.93], [-87, 47.5], [0, 47.5]]]}
 POLYGON = {"type": "Polygon", "coordinates": [[[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2], [0, 0]]]}
@@ -49,7 +49,7 @@ def smallest_angles(mesh):
 
 class ArraysTest(unittest.TestCase):
     def test_a_square_is_filled_and_its_points_come_back(self):
-        mesh = coastmesh.mesh(SQUARE, RIM, min_angle=30, size_max=0.5)
+        mesh = coastmesh.mesh(SQUARE, BOUNDARY, min_angle=30, size_max=0.5)
         self.assertEqual((mesh.points.dtype, mesh.triangles.dtype), (np.float64, np.uint32))
         np.testing.assert_array_equal(mesh.points[:4], SQUARE)
         self.assertTrue((areas(mesh) > 0).all())
@@ -62,7 +62,7 @@ class ArraysTest(unittest.TestCase):
     def test_forms_of_a_plane_graph_give_the_same(self):
         hole = [[2.0, 2.0]]
         points = np.vstack([SQUARE, SQUARE / 4 + 1.5])
-        segments = np.vstack([RIM, RIM + 4])
+        segments = np.vstack([BOUNDARY, BOUNDARY + 4])
         expected = coastmesh.mesh(points, segments, hole)
         self.assertAlmostEqual(areas(expected).sum(), 15)
         for given in ((points, segments, hole), {"vertices": points, "segments": segments, "holes": hole}):
@@ -74,7 +74,7 @@ class ArraysTest(unittest.TestCase):
         np.testing.assert_array_equal(listed.triangles, expected.triangles)
 
     def test_arrays_are_views_that_keep_the_mesh_and_cannot_be_written(self):
-        mesh = coastmesh.mesh(SQUARE, RIM)
+        mesh = coastmesh.mesh(SQUARE, BOUNDARY)
         first, second = mesh.points, mesh.points
         self.assertEqual(first.__array_interface__["data"][0], second.__array_interface__["data"][0])
         with self.assertRaises(ValueError):
@@ -95,41 +95,41 @@ class ArraysTest(unittest.TestCase):
         refused(coastmesh.InputError, "names point 9", SQUARE, [[0, 9]])
         refused(coastmesh.InputError, "names point -1", SQUARE, [[0, -1]])
         refused(coastmesh.InputError, "whole numbers", SQUARE, [[0.5, 1]])
-        refused(coastmesh.InputError, r"shape \(4, 3\)", np.zeros((4, 3)), RIM)
-        refused(coastmesh.InputError, "no array of numbers", [["a", "b"]] * 4, RIM)
+        refused(coastmesh.InputError, r"shape \(4, 3\)", np.zeros((4, 3)), BOUNDARY)
+        refused(coastmesh.InputError, "no array of numbers", [["a", "b"]] * 4, BOUNDARY)
         refused(coastmesh.InputError, "three or more", [], [])
         refused(coastmesh.InputError, "segments", SQUARE, "segments")
-        refused(coastmesh.InputError, "holes", SQUARE, RIM, [[1, 2, 3]])
+        refused(coastmesh.InputError, "holes", SQUARE, BOUNDARY, [[1, 2, 3]])
         crossing = refused(coastmesh.InputError, "cross", SQUARE, [[0, 2], [1, 3]])
         self.assertEqual(crossing.refusals[0]["place"], (2.0, 2.0))
-        refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.nan, SQUARE), RIM)
-        refused(coastmesh.InputError, "finite", SQUARE, RIM, [[np.nan, 1]])
-        refused(coastmesh.InputError, "beyond -1e70 to 1e70", SQUARE * 1e307, RIM)
-        refused(coastmesh.InputError, "nearer to one another than 1e-70", SQUARE * 1e-200, RIM)
-        refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.inf, SQUARE), RIM)
+        refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.nan, SQUARE), BOUNDARY)
+        refused(coastmesh.InputError, "finite", SQUARE, BOUNDARY, [[np.nan, 1]])
+        refused(coastmesh.InputError, "beyond -1e70 to 1e70", SQUARE * 1e307, BOUNDARY)
+        refused(coastmesh.InputError, "nearer to one another than 1e-70", SQUARE * 1e-200, BOUNDARY)
+        refused(coastmesh.InputError, "finite", np.where(SQUARE == 4, np.inf, SQUARE), BOUNDARY)
         for wrong in (np.nan, np.inf):
-            refused(coastmesh.InputError, "finite", SQUARE, RIM, holes=[[wrong, 1]])
+            refused(coastmesh.InputError, "finite", SQUARE, BOUNDARY, holes=[[wrong, 1]])
         masked = np.ma.array(SQUARE, mask=np.zeros((4, 2), bool))
-        self.assertEqual(len(coastmesh.mesh(masked, RIM).triangles), 2)
+        self.assertEqual(len(coastmesh.mesh(masked, BOUNDARY).triangles), 2)
         masked[1, 0] = np.ma.masked
-        refused(coastmesh.InputError, "points.*masked", masked, RIM)
-        refused(coastmesh.InputError, "segments.*masked", SQUARE, np.ma.array(RIM, mask=RIM == 2))
-        refused(coastmesh.InputError, "points.*complex", SQUARE + 1j, RIM)
-        refused(coastmesh.InputError, "holes.*complex", SQUARE, RIM, np.array([[1 + 1j, 1]]))
-        refused(TypeError, "config", SQUARE, RIM, config="nope.toml")
-        refused(coastmesh.InputError, "same place", np.zeros((4, 2)), RIM)
+        refused(coastmesh.InputError, "points.*masked", masked, BOUNDARY)
+        refused(coastmesh.InputError, "segments.*masked", SQUARE, np.ma.array(BOUNDARY, mask=BOUNDARY == 2))
+        refused(coastmesh.InputError, "points.*complex", SQUARE + 1j, BOUNDARY)
+        refused(coastmesh.InputError, "holes.*complex", SQUARE, BOUNDARY, np.array([[1 + 1j, 1]]))
+        refused(TypeError, "config", SQUARE, BOUNDARY, config="nope.toml")
+        refused(coastmesh.InputError, "same place", np.zeros((4, 2)), BOUNDARY)
         refused(coastmesh.InputError, "nowhere.shp", "nowhere.shp")
         refused(coastmesh.InputError, "GeoJSON", '{"type":')
         refused(coastmesh.InputError, "GeoJSON", {"type": "Point", "coordinates": [0, 0]})
         refused(coastmesh.InputError, "GeoJSON", {"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [2, 2], [0, 0]]]})
         refused(coastmesh.InputError, "nothing to mesh", [])
-        refused(coastmesh.OptionError, "min-angle.*50", SQUARE, RIM, min_angle=50)
-        refused(coastmesh.OptionError, "min_angle", SQUARE, RIM, min_angle=True)
-        refused(coastmesh.OptionError, "shrink", SQUARE, RIM, shrink="yes")
-        refused(coastmesh.OptionError, "--size-max", SQUARE, RIM, size_max=float("nan"))
-        refused(TypeError, "did you mean 'min_angle'", SQUARE, RIM, min_angel=30)
+        refused(coastmesh.OptionError, "min-angle.*50", SQUARE, BOUNDARY, min_angle=50)
+        refused(coastmesh.OptionError, "min_angle", SQUARE, BOUNDARY, min_angle=True)
+        refused(coastmesh.OptionError, "coarsen", SQUARE, BOUNDARY, coarsen="yes")
+        refused(coastmesh.OptionError, "--size-max", SQUARE, BOUNDARY, size_max=float("nan"))
+        refused(TypeError, "did you mean 'min_angle'", SQUARE, BOUNDARY, min_angel=30)
         refused(TypeError, "NoneType", None)
-        refused(TypeError, "not callable", SQUARE, RIM, progress=3)
+        refused(TypeError, "not callable", SQUARE, BOUNDARY, progress=3)
         self.assertTrue(issubclass(coastmesh.InputError, ValueError))
 
 
@@ -202,7 +202,7 @@ class FilesTest(unittest.TestCase):
         with open(self.path("twin.nc"), "rb") as one, open(self.path("mesh.nc"), "rb") as two:
             self.assertEqual(one.read(), two.read())
             self.assertTrue(two.tell())
-        made = coastmesh.mesh(SQUARE, RIM)._made
+        made = coastmesh.mesh(SQUARE, BOUNDARY)._made
         whole = made.__getstate__()
         for damaged in (whole[:-1], whole + b"x", b"", whole.replace(whole[8:13], b"0.0.x", 1)):
             with self.assertRaisesRegex(Exception, "pickled"):
@@ -246,6 +246,16 @@ class FilesTest(unittest.TestCase):
         self.assertEqual(said(courant=0.5, min_depth=2), ["--courant has no effect without --time-step",
                                                           "--min-depth has no effect without --bathymetry"])
         self.assertEqual(said(coast="keep", land_min=2), ["--land-min has no effect without --coast follow"])
+
+    def test_former_names_of_options_are_taken_with_a_warning(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            former = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, shrink=False)
+        self.assertEqual([str(w.message) for w in caught],
+                         ["--no-shrink is called --no-coarsen now; the next version will not take the former name"])
+        present = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, coarsen=False)
+        self.assertFalse(former.report["refine"]["coarsen"])
+        self.assertEqual(former.report["mesh"]["digest"], present.report["mesh"]["digest"])
         self.assertEqual(said(size=5000, coast="follow", land_min=2), [])
         self.assertEqual(said(mark_pieces=True), [])
 
@@ -318,7 +328,7 @@ class RunTest(unittest.TestCase):
 
     def test_progress_is_told_in_this_thread_and_what_it_raises_ends_the_run(self):
         told = []
-        coastmesh.mesh(SQUARE, RIM, size_max=0.02, progress=lambda p, s: told.append((p, s, threading.get_ident())))
+        coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.02, progress=lambda p, s: told.append((p, s, threading.get_ident())))
         self.assertTrue(told)
         self.assertEqual({thread for _, _, thread in told}, {threading.get_ident()})
         self.assertTrue(all(0 <= share <= 1 for _, share, _ in told))
@@ -327,21 +337,21 @@ class RunTest(unittest.TestCase):
             raise RuntimeError("enough")
 
         with self.assertRaisesRegex(RuntimeError, "enough"):
-            coastmesh.mesh(SQUARE, RIM, progress=stop, **self.LONG)
+            coastmesh.mesh(SQUARE, BOUNDARY, progress=stop, **self.LONG)
 
     def test_ctrl_c_ends_a_long_run(self):
         timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
-            coastmesh.mesh(SQUARE, RIM, **self.LONG)
-        self.assertEqual(len(coastmesh.mesh(SQUARE, RIM).triangles), 2)
+            coastmesh.mesh(SQUARE, BOUNDARY, **self.LONG)
+        self.assertEqual(len(coastmesh.mesh(SQUARE, BOUNDARY).triangles), 2)
 
     def test_other_threads_run_meanwhile(self):
         counted = 0
         done = threading.Event()
 
         def work():
-            coastmesh.mesh(SQUARE, RIM, size_max=0.02)
+            coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.02)
             done.set()
 
         thread = threading.Thread(target=work)
@@ -356,7 +366,7 @@ class RunTest(unittest.TestCase):
         meshes = [None] * 4
 
         def work(i):
-            meshes[i] = coastmesh.mesh(SQUARE, RIM, size_max=0.1)
+            meshes[i] = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.1)
 
         threads = [threading.Thread(target=work, args=(i,)) for i in range(len(meshes))]
         for thread in threads:

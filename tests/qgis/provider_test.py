@@ -216,9 +216,14 @@ class ProviderTest(unittest.TestCase):
         self.assertTrue(os.path.exists(results["OUTPUT"]))
 
     def test_a_crs_given_by_hand_and_a_flag(self):
-        self.mesh(memory_layer(LAKE), CRS="EPSG:32631", SHRINK=False)
-        self.assertIn("--crs=EPSG:32631 --no-shrink", self.log.text().replace("--no-shrink --crs=EPSG:32631",
-                                                                           "--crs=EPSG:32631 --no-shrink"))
+        self.mesh(memory_layer(LAKE), CRS="EPSG:32631", COARSEN=False)
+        self.assertIn("--crs=EPSG:32631 --no-coarsen", self.log.text().replace("--no-coarsen --crs=EPSG:32631",
+                                                                           "--crs=EPSG:32631 --no-coarsen"))
+
+    def test_former_names_of_parameters_are_taken_with_a_warning(self):
+        self.mesh(memory_layer(LAKE), SHRINK=False)
+        self.assertIn("--no-coarsen", self.log.text())
+        self.assertIn("SHRINK is called COARSEN now", self.log.text())
 
     def test_a_frame_and_a_place_in_another_crs(self):
         island = memory_layer("POLYGON((0.4 0.4, 0.6 0.4, 0.6 0.6, 0.4 0.6, 0.4 0.4))")

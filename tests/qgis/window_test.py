@@ -105,7 +105,7 @@ def main():
     os.makedirs(pictures, exist_ok=True)
     home = tempfile.mkdtemp()
     read, write = os.pipe()
-    # It chooses a free display by itself, and tells it.
+    # It chooses a free display by itself, and reports it.
     screen = subprocess.Popen(
         ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x900x24", "-nolisten", "tcp"],
         pass_fds=[write], stderr=subprocess.DEVNULL,

@@ -136,13 +136,13 @@ Excuse ExcusedTwin::excuseOf(TriId t) const {
   return excuse;
 }
 
-std::string wrongShortfalls(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
-                            const std::vector<Shortfall>& listed) {
+std::string wrongBoundViolations(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
+                                 const std::vector<BoundViolation>& listed) {
   constexpr double kHair = 1e-5;  // degrees, or of the longest edge asked for in hundredths
   // Thinner triangles lie on both sides of what bounds them, for rounding.
   constexpr double kThin = 1e-6;
   std::multiset<std::pair<double, double>> places;
-  for (const Shortfall& s : listed) places.emplace(s.place.x, s.place.y);
+  for (const BoundViolation& s : listed) places.emplace(s.place.x, s.place.y);
   std::ostringstream wrong;
   wrong.precision(17);
   const ExcusedTwin twin(mesh, pslg, options.min_angle_deg, options.max_angle_deg);

@@ -32,9 +32,10 @@ class ExcusedTwin {
   std::vector<Corner> corners_;
 };
 
-// What is wrong with the shortfalls listed for a mesh: a triangle that clearly falls short of `options`, that nothing
-// excuses, and that is not listed; or one listed that clearly holds them, or is excused. Empty where all is right.
-std::string wrongShortfalls(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
-                            const std::vector<Shortfall>& listed);
+// What is wrong with the bound violations listed for a mesh: a triangle that clearly falls short of `options`, that
+// nothing excuses, and that is not listed; or one listed that clearly holds them, or is excused. Empty where all is
+// right.
+std::string wrongBoundViolations(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
+                                 const std::vector<BoundViolation>& listed);
 
 }  // namespace coastmesh

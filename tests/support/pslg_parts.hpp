@@ -13,7 +13,7 @@ void addSegment(Pslg& pslg, VertexId a, VertexId b, RegionId left, RegionId righ
 
 void closeRing(Pslg& pslg, const std::vector<VertexId>& ring, RegionId left, RegionId right);
 
-// Answers the ring's vertices.
+// Returns the ring's vertices.
 std::vector<VertexId> addRing(Pslg& pslg, const std::vector<Point>& points, RegionId left, RegionId right);
 
 }  // namespace coastmesh

@@ -10,7 +10,7 @@ namespace coastmesh::testing {
 struct RasterShape {
   int columns = 0;
   int rows = 0;
-  double west = 0.0;  // left and upper rim of the raster
+  double west = 0.0;  // left and upper edge of the raster
   double north = 0.0;
   double pixel = 1.0;  // size of a pixel, in units of the CRS
 };

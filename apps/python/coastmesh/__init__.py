@@ -107,7 +107,7 @@ class Mesh:
 
     @property
     def boundaries(self):
-        """Chains of points on the rim, the mesh to their left: dicts with "role" ("land", "island", "open"),
+        """Chains of points on the boundary, the mesh to their left: dicts with "role" ("land", "island", "open"),
         "closed" (the first point is not repeated) and "nodes" (uint32 array of indices of points)."""
         return self._made.boundaries
 
@@ -264,17 +264,28 @@ def _geojson_text(geojson, crs=None):
         raise InputError(f"GeoJSON: {error}") from None
 
 
+def _former_options(known):
+    """Those that were called otherwise, by their former keywords; the program warns of the former names."""
+    found = {}
+    for option in known.values():
+        names = list(option.get("former_names", {}))
+        if names:
+            found[names[0].lstrip("-").replace("-", "_")] = {**option, "name": names[0], "names": names}
+    return found
+
+
 def _arguments(keywords):
     """Keywords as arguments of the program."""
     known = options()
+    former = _former_options(known)
     arguments = []
     for name, value in keywords.items():
-        if name not in known:
+        if name not in known and name not in former:
             near = difflib.get_close_matches(name, known, 1)
             raise TypeError(f"mesh() has no option '{name}'" + (f"; did you mean '{near[0]}'?" if near else ""))
         if value is None:
             continue
-        option = known[name]
+        option = known.get(name) or former[name]
         if option["type"] == "flag":
             if not isinstance(value, (bool, np.bool_)):
                 raise OptionError(f"{name}: {value!r} is neither True nor False")

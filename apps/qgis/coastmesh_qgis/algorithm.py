@@ -19,7 +19,7 @@ from qgis.core import (
     QgsProcessingUtils,
 )
 
-from .parameters import arguments_of, make_parameter, parameter_name
+from .parameters import arguments_of, by_present_names, make_parameter, parameter_name
 from .program import ProgramError, find_program
 from .running import SHORT, run_program
 from .sources import Sources, takes_selection
@@ -169,6 +169,9 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             program = find_program()
         except ProgramError as error:
             raise QgsProcessingException(str(error)) from error
+        parameters, former_names = by_present_names(self.shown_options, parameters)
+        for sentence in former_names:
+            feedback.pushWarning(sentence)
         sources = Sources(context, feedback)
         report, made = None, False
         try:

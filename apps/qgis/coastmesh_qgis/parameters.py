@@ -30,6 +30,18 @@ def parameter_name(option):
     return option["name"].lstrip("-").replace("-", "_").upper()
 
 
+def by_present_names(options, parameters):
+    """Values by the names that parameters have now, and a sentence for each that came by a former one."""
+    values, warnings = dict(parameters), []
+    for option in options:
+        for former in list(option.get("former_names", {}))[:1]:
+            old, new = parameter_name({"name": former}), parameter_name(option)
+            if old in values:
+                values.setdefault(new, values.pop(old))
+                warnings.append(f"{old} is called {new} now; the next version will not take the former name")
+    return values, warnings
+
+
 def make_parameter(option):
     """The parameter that stands for an option; its default is the program's own."""
     parameter = _make(option, parameter_name(option), _title(option))
@@ -79,7 +91,7 @@ def _number(option, name, title, optional):
         whole = option["type"] == "integer"
         type_ = QgsProcessingParameterNumber.Integer if whole else QgsProcessingParameterNumber.Double
         parameter = QgsProcessingParameterNumber(name, title, type_, default, optional)
-    # Processing keeps six decimals in its boxes and knows no open ranges: what lies on the rim, the program refuses.
+    # Processing keeps six decimals in its boxes and knows no open ranges: an end that is itself out of range, the program refuses.
     if low is not None:
         parameter.setMinimum(low)
     if high is not None:

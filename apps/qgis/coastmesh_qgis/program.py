@@ -27,7 +27,7 @@ def find_program():
 
 
 def read_usage(program):
-    """What `coastmesh --json-usage` tells: commands with their options, and formats."""
+    """What `coastmesh --json-usage` says: commands with their options, and formats."""
     try:
         run = subprocess.run([program, "--json-usage"], capture_output=True, timeout=30, check=True)
         usage = json.loads(run.stdout)

@@ -1,4 +1,4 @@
-"""Runs the program and tells the user what it says."""
+"""Runs the program and passes on to the user what it says."""
 import json
 
 from qgis.core import QgsBlockingProcess, QgsProcessingException

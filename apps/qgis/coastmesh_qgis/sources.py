@@ -102,7 +102,7 @@ class Sources:
     def _features(source):
         if isinstance(source, QgsVectorLayer):
             return source.getFeatures()
-        # What is wrong with a geometry, the program mends and tells.
+        # What is wrong with a geometry, the program mends and reports.
         from qgis.core import QgsProcessingFeatureSource
 
         return source.getFeatures(QgsFeatureRequest(), QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks)

@@ -1,4 +1,4 @@
-"""What usage cannot tell of a verb: what Processing shows first, and which layers lie in its outputs."""
+"""What usage does not say of a verb: what Processing shows first, and which layers lie in its outputs."""
 from dataclasses import dataclass, field
 
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 class Verb:
     title: str
     reads_mesh: bool = False  # the argument is a mesh; else vector layers
-    progress: bool = False  # the program tells its progress
+    progress: bool = False  # the program reports its progress
     tags: list = field(default_factory=list)
     # Options that do not become parameters, besides those that no verb shows.
     hidden: tuple = ()

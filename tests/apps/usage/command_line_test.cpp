@@ -16,7 +16,7 @@ struct Values {
   bool angle_given = false;
   double size = std::numeric_limits<double>::infinity();
   std::uint64_t count = 4;
-  bool shrink = true;
+  bool coarsen = true;
   std::string name = "b";
   std::string path;
   std::vector<std::string> inputs;
@@ -30,7 +30,7 @@ class CommandLineTest : public testing::Test {
     line_.number("--angle", values_.angle, "DEG", {0.0, 45.0}, "angle", &values_.angle_given);
     line_.number("--size", values_.size, "M", {0.0, std::numeric_limits<double>::infinity(), true}, "size");
     line_.integer("--count", values_.count, "N", 2, 9, "count");
-    line_.flag("--shrink,!--no-shrink", values_.shrink, "shrink");
+    line_.flag("--coarsen,!--no-coarsen", values_.coarsen, "coarsen").formerly({"--felt", "--no-felt"});
     line_.choice("--name", values_.name, {"a", "b"}, "name");
     line_.text("--path", values_.path, "FILE", "path");
     line_.texts("-o,--output", values_.outputs, "FILE", true, "output");
@@ -53,12 +53,12 @@ TEST_F(CommandLineTest, DefaultsStayWhereNothingIsGiven) {
   EXPECT_FALSE(values_.angle_given);
   EXPECT_TRUE(std::isinf(values_.size));
   EXPECT_EQ(values_.count, 4u);
-  EXPECT_TRUE(values_.shrink);
+  EXPECT_TRUE(values_.coarsen);
   EXPECT_EQ(values_.name, "b");
 }
 
 TEST_F(CommandLineTest, ValuesAreTaken) {
-  parse({"knit", "-o", "sock", "wool", "yarn", "--angle", "45", "--size", "1e-3", "--count", "9", "--no-shrink",
+  parse({"knit", "-o", "sock", "wool", "yarn", "--angle", "45", "--size", "1e-3", "--count", "9", "--no-coarsen",
          "--name", "a", "--output", "hat"});
   EXPECT_EQ(values_.inputs, (std::vector<std::string>{"wool", "yarn"}));
   EXPECT_EQ(values_.outputs, (std::vector<std::string>{"sock", "hat"}));
@@ -66,7 +66,7 @@ TEST_F(CommandLineTest, ValuesAreTaken) {
   EXPECT_TRUE(values_.angle_given);
   EXPECT_EQ(values_.size, 1e-3);
   EXPECT_EQ(values_.count, 9u);
-  EXPECT_FALSE(values_.shrink);
+  EXPECT_FALSE(values_.coarsen);
   EXPECT_EQ(values_.name, "a");
 }
 
@@ -111,12 +111,26 @@ TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
                          {"default", 33.0},
                          {"minimum", 0.0},
                          {"maximum", 45.0}}));
-  EXPECT_EQ(usage["options"][4]["names"], (Json{"--shrink", "--no-shrink"}));
+  EXPECT_EQ(usage["options"][4]["names"], (Json{"--coarsen", "--no-coarsen"}));
+  EXPECT_EQ(usage["options"][4]["former_names"], (Json{{"--felt", "--coarsen"}, {"--no-felt", "--no-coarsen"}}));
+}
+
+TEST_F(CommandLineTest, FormerNamesBecomeThePresentOnesWithAWarning) {
+  using Words = std::vector<std::string>;
+  Words warnings;
+  EXPECT_EQ(line_.withPresentNames({"--no-felt", "--angle", "3", "--felt=true", "--", "--felt"}, warnings),
+            (Words{"--no-coarsen", "--angle", "3", "--coarsen=true", "--", "--felt"}));
+  EXPECT_EQ(warnings, (Words{"--no-felt is called --no-coarsen now; the next version will not take the former name",
+                             "--felt is called --coarsen now; the next version will not take the former name"}));
+  warnings.clear();
+  const Words present{"--coarsen", "--no-coarsen", "--felted", "felt"};
+  EXPECT_EQ(line_.withPresentNames(present, warnings), present);
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST_F(CommandLineTest, HelpShowsUnitDefaultAndRange) {
   const std::string help = app_.get_subcommand("knit")->help();
-  for (const char* part : {"DEG", "33", "0 to 45", "above 0", "2 to 9", "--no-shrink", "a|b"}) {
+  for (const char* part : {"DEG", "33", "0 to 45", "above 0", "2 to 9", "--no-coarsen", "a|b"}) {
     EXPECT_NE(help.find(part), std::string::npos) << part << help;
   }
 }

@@ -20,7 +20,8 @@ const char* const kUsage =
   {"name": "--bbox", "names": ["--bbox"], "type": "text", "unit": "W,S,E,N"},
   {"name": "--depth-band", "names": ["--depth-band"], "type": "text", "unit": "FROM,TO,SIZE", "multiple": true},
   {"name": "--water-level", "names": ["--water-level"], "type": "number"},
-  {"name": "--shrink", "names": ["--shrink", "--no-shrink"], "type": "flag"},
+  {"name": "--coarsen", "names": ["--coarsen", "--no-coarsen"], "type": "flag",
+   "former_names": {"--felt": "--coarsen", "--no-felt": "--no-coarsen"}},
   {"name": "--quiet", "names": ["--quiet"], "type": "flag"}]})";
 
 class ConfigFile : public ::testing::Test {
@@ -54,28 +55,28 @@ output = [
 ]
 size-max = 500
 water_level = -0.5
-shrink = false
+coarsen = false
 quiet = true
 )");
   const std::string json = write("a.json", R"({"input": ["lake.gpkg", "river #2.gpkg"], "output": ["a.nc", "b.14"],
-    "size-max": 500, "water_level": -0.5, "shrink": false, "quiet": true})");
+    "size-max": 500, "water_level": -0.5, "coarsen": false, "quiet": true})");
   for (const std::string& file : {toml, json}) {
     EXPECT_THAT(expanded(file),
                 ElementsAre("--config=" + file, "--output=a.nc", "--output=b.14", "--size-max=500",
-                            "--water-level=-0.5", "--no-shrink", "--quiet", "--", "lake.gpkg", "river #2.gpkg"))
+                            "--water-level=-0.5", "--no-coarsen", "--quiet", "--", "lake.gpkg", "river #2.gpkg"))
         << file;
   }
 }
 
 TEST_F(ConfigFile, TheCommandLineGoesBeforeIt) {
-  const std::string file = write("a.toml", "input = \"a.gpkg\"\noutput = \"a.nc\"\nsize-max = 500\nshrink = true\n");
+  const std::string file = write("a.toml", "input = \"a.gpkg\"\noutput = \"a.nc\"\nsize-max = 500\ncoarsen = true\n");
   const std::string config = "--config=" + file;
-  EXPECT_THAT(expanded(file, {"other.gpkg", "-o", "b.nc", "--no-shrink"}),
-              ElementsAre("other.gpkg", "-o", "b.nc", "--no-shrink", config, "--size-max=500"));
+  EXPECT_THAT(expanded(file, {"other.gpkg", "-o", "b.nc", "--no-coarsen"}),
+              ElementsAre("other.gpkg", "-o", "b.nc", "--no-coarsen", config, "--size-max=500"));
   EXPECT_THAT(expanded(file, {"--size-max=3", "-ob.nc"}),
-              ElementsAre("--size-max=3", "-ob.nc", config, "--shrink", "--", "a.gpkg"));
+              ElementsAre("--size-max=3", "-ob.nc", config, "--coarsen", "--", "a.gpkg"));
   EXPECT_THAT(expanded(file, {"--size-max=3", "--", "-b.gpkg"}),
-              ElementsAre("--size-max=3", config, "--output=a.nc", "--shrink", "--", "-b.gpkg"));
+              ElementsAre("--size-max=3", config, "--output=a.nc", "--coarsen", "--", "-b.gpkg"));
 }
 
 TEST_F(ConfigFile, SectionsAreCommands) {
@@ -98,8 +99,17 @@ TEST_F(ConfigFile, ListsOfNumbersAreOneValueWhereTheOptionHasCommas) {
 }
 
 TEST_F(ConfigFile, SwitchesByTheirOtherName) {
-  const std::string file = write("a.toml", "no-shrink = true\n");
-  EXPECT_THAT(expanded(file), ElementsAre("--config=" + file, "--no-shrink"));
+  const std::string file = write("a.toml", "no-coarsen = true\n");
+  EXPECT_THAT(expanded(file), ElementsAre("--config=" + file, "--no-coarsen"));
+}
+
+TEST_F(ConfigFile, FormerNamesAreTakenAndStayFormer) {
+  for (const char* text : {"felt = false\n", "no-felt = true\n"}) {
+    const std::string file = write("a.toml", text);
+    EXPECT_THAT(expanded(file), ElementsAre("--config=" + file, "--no-felt"));
+    EXPECT_THAT(expanded(file, {"--coarsen"}), ElementsAre("--coarsen", "--config=" + file)) << "given there already";
+    EXPECT_THAT(expanded(file, {"--felt"}), ElementsAre("--felt", "--config=" + file)) << "given there already";
+  }
 }
 
 TEST_F(ConfigFile, MistakesAreNamed) {
@@ -112,9 +122,10 @@ TEST_F(ConfigFile, MistakesAreNamed) {
     return "no error";
   };
   EXPECT_THAT(messageOf("nothing.toml"), ::testing::HasSubstr("nothing.toml"));
+  EXPECT_THAT(messageOf(write("f.toml", "felt = false\ncoarsen = true\n")), ::testing::HasSubstr("given twice"));
   EXPECT_THAT(messageOf(write("a.toml", "sise-max = 3\n")), ::testing::HasSubstr("'sise-max' is no option"));
   EXPECT_THAT(messageOf(write("b.json", "{\"size-max\": }")), ::testing::HasSubstr("not JSON"));
-  EXPECT_THAT(messageOf(write("c.toml", "shrink = 3\n")), ::testing::HasSubstr("true or false"));
+  EXPECT_THAT(messageOf(write("c.toml", "coarsen = 3\n")), ::testing::HasSubstr("true or false"));
   EXPECT_THAT(messageOf(write("d.toml", "size-max = [1, 2]\n")), ::testing::HasSubstr("one value"));
   EXPECT_THAT(messageOf(write("e.toml", "output = [\"a\"\n")), ::testing::HasSubstr("not TOML"));
   EXPECT_THAT(messageOf(write("f.toml", "[mush]\nsize-max = 3\n")), ::testing::HasSubstr("'mush'"));

@@ -22,7 +22,7 @@ namespace {
 TriMesh refined(const Pslg& pslg, const RefineOptions& options) {
   TriMesh mesh = constrainedDelaunay(pslg);
   refine(mesh, pslg, options);
-  shrink(mesh, pslg, options);
+  coarsen(mesh, pslg, options);
   return mesh;
 }
 
@@ -77,7 +77,7 @@ TEST(Optimise, EdgesComeOutAsWanted) {
         TriMesh mesh = refined(pslg, options);
         const RefineStats stats = optimise(mesh, pslg, options, sweeps);
         EXPECT_TRUE(stats.unresolved.empty());
-        EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
+        EXPECT_EQ(wrongBoundViolations(mesh, pslg, options, stats.unresolved), "");
         expectValidMesh(mesh, pslg, {.min_angle_deg = angle});
         const SizeFigures figures = sizeFigures(mesh, wanted.size);
         EXPECT_GE(figures.share_within, 0.98);
@@ -134,11 +134,11 @@ TEST(Optimise, KeepsAFineCoastAndItsAngles) {
   TriMesh mesh = constrainedDelaunay(pslg);
   const RefineStats made = refine(mesh, pslg, options);
   const std::size_t before = mesh.points.size();
-  shrink(mesh, pslg, options);
+  coarsen(mesh, pslg, options);
   EXPECT_LT(mesh.points.size(), before);
   const RefineStats stats = optimise(mesh, pslg, options, kMostOptimiseSweeps);
   EXPECT_LE(stats.unresolved.size(), made.unresolved.size());
-  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
+  EXPECT_EQ(wrongBoundViolations(mesh, pslg, options, stats.unresolved), "");
   expectValidMesh(mesh, pslg);
 }
 
@@ -158,12 +158,12 @@ TEST(Optimise, WithoutSizesEvensAnglesOut) {
   EXPECT_TRUE(stats.unresolved.empty());
   EXPECT_LE(mesh.points.size(), vertices);
   EXPECT_LT(sharp(mesh), before);
-  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
+  EXPECT_EQ(wrongBoundViolations(mesh, pslg, options, stats.unresolved), "");
   expectValidMesh(mesh, pslg, {.min_angle_deg = 30.0});
 }
 
-// Rows of equilateral triangles, two of which share a diagonal the other way round: its ends lie nearer to one another than they
-// should, so that it is the Delaunay one.
+// Rows of equilateral triangles, two of which share a diagonal the other way round: its ends lie nearer to one another
+// than they should, so that it is the Delaunay one.
 TEST(DiagonalExchange, TakesAwayFivesAndSevens) {
   constexpr int kSide = 8;
   Pslg pslg;

@@ -37,17 +37,17 @@ void expectRefined(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& o
   for (const auto& [region, area] : before) EXPECT_NEAR(after.at(region), area, 1e-9 * area) << "region " << region;
 
   // Every triangle that falls short is excused or listed; what is listed falls short.
-  EXPECT_EQ(wrongShortfalls(mesh, pslg, options, stats.unresolved), "");
+  EXPECT_EQ(wrongBoundViolations(mesh, pslg, options, stats.unresolved), "");
 
   // The checker finds the same, but for those within rounding of the bound.
   if (!std::isinf(options.size_max)) return;
   constexpr double kHair = 1e-5;
   Places listed;
-  for (const Shortfall& s : stats.unresolved) listed.insert({s.place.x, s.place.y});
+  for (const BoundViolation& s : stats.unresolved) listed.insert({s.place.x, s.place.y});
   const auto defects =
       checkMesh(mesh, &pslg, {.min_angle_deg = options.min_angle_deg, .max_angle_deg = options.max_angle_deg});
   std::size_t clear = 0;
-  for (const Shortfall& s : stats.unresolved)
+  for (const BoundViolation& s : stats.unresolved)
     clear += s.min_angle_deg < options.min_angle_deg - kHair || s.max_angle_deg > options.max_angle_deg + kHair;
   EXPECT_GE(defects.size(), clear);
   for (const MeshDefect& d : defects) {
@@ -77,7 +77,7 @@ std::string describe(const RefineOptions& o) {
 
 class RefineOf : public ::testing::TestWithParam<NamedPslg> {
  protected:
-  // Points alone have a rim that is no segment, and that no point may split.
+  // Points alone have a boundary that is no segment, and that no point may split.
   bool hasSegments() const { return !GetParam().pslg.segments.empty(); }
   // Rays 2 degrees apart and of uneven lengths: at small bounds one triangle goes from the tip of one to that of the
   // next, further than an angle excuses, and no point mends it.
@@ -422,7 +422,7 @@ TEST(Refine, OptionsBeyondTheirRangesAreMisuse) {
   for (const RefineOptions& options : wrong) {
     TriMesh mesh = constrainedDelaunay(pslg);
     EXPECT_THROW(refine(mesh, pslg, options), std::invalid_argument);
-    EXPECT_THROW(shrink(mesh, pslg, options), std::invalid_argument);
+    EXPECT_THROW(coarsen(mesh, pslg, options), std::invalid_argument);
     EXPECT_EQ(mesh.points, pslg.points) << "the mesh stays as it was";
   }
 }

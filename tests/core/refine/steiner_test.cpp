@@ -72,7 +72,7 @@ double naiveClearance(const EditMesh& mesh, const Petal& petal) {
   return best;
 }
 
-// No edge of the rim or of a segment comes near the disk of twice the radius.
+// No edge of the boundary or of a segment comes near the disk of twice the radius.
 bool isFarFromConstraints(const EditMesh& mesh, const Petal& petal) {
   for (TriId t = 0; t < mesh.triangleSlots(); ++t)
     for (unsigned i = 0; i < 3; ++i) {

@@ -73,7 +73,7 @@ TEST_P(SubmeshOf, IsAMeshOfItsOwn) {
   }
 }
 
-TEST_P(SubmeshOf, RimIsFrozenUnlessItIsTheDomains) {
+TEST_P(SubmeshOf, BoundaryIsFrozenUnlessItIsTheDomains) {
   for (const TriId centre : centres()) {
     const Submesh patch = extractAround(mesh_, notes_, {&centre, 1}, 2);
     const std::set<TriId> inside(patch.triangles.begin(), patch.triangles.end());
@@ -138,7 +138,7 @@ TEST_P(SubmeshOf, ChangedPatchFits) {
     for (VertexId v = local.inputVertices(); v < patch.parent.size(); ++v) {
       if (!local.isLiveVertex(v) || local.kind(v) != VertexKind::Free || !local.gatherPatch({&v, 1}, cavity)) continue;
       std::vector<VertexId> polygon;
-      for (const RimEdge& r : cavity.rim) polygon.push_back(r.a);
+      for (const BoundaryEdge& r : cavity.boundary) polygon.push_back(r.a);
       std::vector<Corners> fresh;
       if (triangulatePolygon(local, polygon, fresh)) local.replace(cavity, fresh, {&v, 1}, touched);
     }

@@ -46,7 +46,7 @@ class VertexOpsOf : public ::testing::TestWithParam<NamedPslg> {
   VertexOpsOf()
       : mesh_(roomyMesh(GetParam().pslg)), bound_(25.0, 180.0, kNoSize), ops_(mesh_, GetParam().pslg, bound_) {}
 
-  // Does something to a vertex and holds it to the contract. Answers whether anything was done.
+  // Does something to a vertex and holds it to the contract. Returns whether anything was done.
   bool attempt(VertexId v, std::size_t vertices_fewer, const std::function<bool(std::vector<TriId>&)>& operation) {
     const std::uint64_t digest = digestOf(releasedCopy(mesh_));
     const std::size_t bad = countBad(mesh_, bound_), vertices = mesh_.vertexCount();

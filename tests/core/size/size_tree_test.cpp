@@ -37,8 +37,8 @@ class FunctionSource final : public SizeSource {
   std::function<double(const Point&)> f_;
 };
 
-SizeTree treeOf(const FunctionSource& source, double grade) {
-  return {{-1.0, 0.0}, {1.0, 1.0}, source, {.grade = grade}};
+SizeTree treeOf(const FunctionSource& source, double gradation) {
+  return {{-1.0, 0.0}, {1.0, 1.0}, source, {.gradation = gradation}};
 }
 
 Point randomPlace(std::mt19937_64& random) { return {uniform(random, -1.0, 1.0), uniform(random, 0.0, 1.0)}; }
@@ -72,7 +72,7 @@ TEST(SizeTree, MemoryFollowsTheMesh) {
   EXPECT_LT(some, 5000u);
 }
 
-TEST(SizeTree, BeyondItsBoxTheRimCounts) {
+TEST(SizeTree, BeyondItsBoxTheBoundaryCounts) {
   const SizeTree tree = treeOf(FunctionSource(0.02, 0.1, [](const Point& p) { return 0.13 + 0.1 * p.x; }), 0.2);
   EXPECT_NEAR(tree.at({-50.0, 0.5}), tree.at({-1.01, 0.5}), 1e-6);
   EXPECT_NEAR(tree.at({50.0, 0.5}), tree.at({1.01, 0.5}), 1e-6);
@@ -89,7 +89,7 @@ TEST(SizeTree, WhereNothingIsWantedItIsAsLargeAsTheWhole) {
 TEST(SizeTree, StopsWhereMoreIsAskedForThanAllowed) {
   const auto cone = [](const Point& p) { return 1e-7 + 0.3 * std::hypot(p.x - 0.1, p.y - 0.4); };
   const auto line = [](const Point& p) { return 1e-6 + 0.3 * std::abs(p.y - 0.4); };
-  const SizeTreeOptions options{.grade = 0.3, .most_vertices = 20'000.0};
+  const SizeTreeOptions options{.gradation = 0.3, .most_vertices = 20'000.0};
   const SizeTree round_one({-1.0, 0.0}, {1.0, 1.0}, FunctionSource(1e-7, 0.3, cone), options);
   EXPECT_TRUE(round_one.isComplete());
   EXPECT_LT(round_one.demand().vertices, 3'000.0);
@@ -107,7 +107,7 @@ TEST(SizeTree, StopsWhereMoreIsAskedForThanAllowed) {
 
 TEST(SizeTree, SaysWhereItIsTooSmall) {
   const FunctionSource source(1e-4, 1.0, [](const Point& p) { return 1e-4 + std::abs(p.y - 0.3); });
-  const SizeTree tree({-1.0, 0.0}, {1.0, 1.0}, source, {.grade = 1.0, .most_cells = 1000});
+  const SizeTree tree({-1.0, 0.0}, {1.0, 1.0}, source, {.gradation = 1.0, .most_cells = 1000});
   EXPECT_FALSE(tree.isComplete());
   EXPECT_LE(tree.cells(), 4000u);
 }
@@ -119,10 +119,10 @@ double distanceTo(const Point& x, const Point& a, const Point& b) {
 
 class GradedTree : public ::testing::TestWithParam<double> {};
 
-// From a ten-thousandth of the whole to all of it, within cells and across many; sources with steps, cones, waves, cells of all levels
-// side by side, and places that nobody asks for.
+// From a ten-thousandth of the whole to all of it, within cells and across many; sources with steps, cones, waves,
+// cells of all levels side by side, and places that nobody asks for.
 TEST_P(GradedTree, NoTwoPlacesDifferMore) {
-  const double grade = GetParam();
+  const double gradation = GetParam();
   const double none = std::numeric_limits<double>::infinity();
   const std::vector<FunctionSource> sources = {
       // A step at an oblique edge.
@@ -131,10 +131,10 @@ TEST_P(GradedTree, NoTwoPlacesDifferMore) {
       FunctionSource(0.03, 2.0,
                      [](const Point& p) { return 0.06 + 0.03 * std::sin(30.0 * p.x) * std::sin(20.0 * p.y); }),
       // As steep as allowed: where nothing is to spare, interpolation between vertices must not exceed it.
-      FunctionSource(0.01, grade,
+      FunctionSource(0.01, gradation,
                      [=](const Point& p) {
-                       return 0.01 + grade * std::min(distanceTo(p, {-0.5, 0.1}, {0.3, 0.7}),
-                                                      distanceTo(p, {0.3, 0.7}, {0.9, 0.3}));
+                       return 0.01 + gradation * std::min(distanceTo(p, {-0.5, 0.1}, {0.3, 0.7}),
+                                                          distanceTo(p, {0.3, 0.7}, {0.9, 0.3}));
                      }),
       FunctionSource(1e-4, 3.0,
                      [](const Point& p) {
@@ -146,7 +146,7 @@ TEST_P(GradedTree, NoTwoPlacesDifferMore) {
       FunctionSource(0.02, 1e3, [=](const Point& p) { return p.x < 0.2 ? 0.02 : none; }),
   };
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    const SizeTree tree = treeOf(sources[s], grade);
+    const SizeTree tree = treeOf(sources[s], gradation);
     std::mt19937_64 random(2);
     double most = 0.0;
     for (int i = 0; i < 50000; ++i) {
@@ -155,22 +155,22 @@ TEST_P(GradedTree, NoTwoPlacesDifferMore) {
       const Point q = p + Point{length * std::cos(angle), length * std::sin(angle)};
       most = std::max(most, std::abs(tree.at(q) - tree.at(p)) / length);
     }
-    EXPECT_LE(most, grade) << "source " << s;
-    EXPECT_GE(most, 0.5 * grade) << "graded more than asked, source " << s;
+    EXPECT_LE(most, gradation) << "source " << s;
+    EXPECT_GE(most, 0.5 * gradation) << "graded more than asked, source " << s;
     EXPECT_GE(tree.least(), sources[s].least() * (1.0 - 1e-6)) << "source " << s;
   }
 }
 
 TEST_P(GradedTree, GrowsAsFastAsItMay) {
-  const double grade = GetParam();
+  const double gradation = GetParam();
   // From a fine place as from a point; elsewhere anything.
   const FunctionSource source(0.002, 5.0,
                               [](const Point& p) { return 0.002 + 5.0 * std::hypot(p.x - 0.1, p.y - 0.4); });
-  const SizeTree tree = treeOf(source, grade);
+  const SizeTree tree = treeOf(source, gradation);
   std::mt19937_64 random(3);
   for (int i = 0; i < 10000; ++i) {
     const Point p = randomPlace(random);
-    const double most = 0.002 + grade * std::hypot(p.x - 0.1, p.y - 0.4);
+    const double most = 0.002 + gradation * std::hypot(p.x - 0.1, p.y - 0.4);
     EXPECT_LE(tree.at(p), 1.02 * most + 1e-3);
     EXPECT_GE(tree.at(p), 0.92 * most);
   }
@@ -178,7 +178,7 @@ TEST_P(GradedTree, GrowsAsFastAsItMay) {
 
 // Against the largest function that is nowhere above the wanted one and nowhere too steep.
 TEST_P(GradedTree, GrowsFromManyPlacesAsFastAsItMay) {
-  const double grade = GetParam();
+  const double gradation = GetParam();
   std::mt19937_64 random(4);
   std::vector<std::pair<Point, double>> sources;
   for (int i = 0; i < 12; ++i) sources.push_back({randomPlace(random), 0.004 * std::exp(uniform(random, -1.0, 2.0))});
@@ -189,12 +189,12 @@ TEST_P(GradedTree, GrowsFromManyPlacesAsFastAsItMay) {
       return least;
     };
   };
-  const SizeTree tree = treeOf(FunctionSource(0.001, 3.0, f(3.0)), grade);
+  const SizeTree tree = treeOf(FunctionSource(0.001, 3.0, f(3.0)), gradation);
   double sum = 0.0;
   constexpr int kPlaces = 10000;
   for (int i = 0; i < kPlaces; ++i) {
     const Point p = randomPlace(random);
-    const double share = tree.at(p) / f(grade)(p);
+    const double share = tree.at(p) / f(gradation)(p);
     EXPECT_GE(share, 0.75) << p.x << ", " << p.y;
     sum += share / kPlaces;
   }
@@ -221,7 +221,7 @@ TEST(SizeTree, CoarseWhereNobodyAsks) {
    private:
     bool masked_;
   };
-  const SizeTreeOptions options{.grade = 0.2};
+  const SizeTreeOptions options{.gradation = 0.2};
   const SizeTree all({-1.0, 0.0}, {1.0, 1.0}, Half(false), options);
   const SizeTree half({-1.0, 0.0}, {1.0, 1.0}, Half(true), options);
   EXPECT_LT(half.leaves(), 6 * all.leaves() / 10);
@@ -235,7 +235,8 @@ TEST(SizeTree, CoarseWhereNobodyAsks) {
 
 INSTANTIATE_TEST_SUITE_P(Grades, GradedTree, ::testing::Values(0.05, 0.15, 0.3));
 
-// Triangles that tilting alone would take long to mend: a pit of one vertex on a field that is nearly as steep as allowed.
+// Triangles that tilting alone would take long to mend: a pit of one vertex on a field that is nearly as steep as
+// allowed.
 TEST(SizeGrading, EndsWithNothingSteep) {
   SizePlaces places;
   std::vector<LeafVertices> leaves;
@@ -259,9 +260,9 @@ TEST(SizeGrading, EndsWithNothingSteep) {
   sizes.own[places.find({21, 21})] = 0.5;
   sizes.size = sizes.own;
   sizes.source.assign(places.size(), kNone);
-  const double grade = 0.201 * std::sqrt(1.25);
+  const double gradation = 0.201 * std::sqrt(1.25);
   const ItemLoop loop = inOrder;
-  SizeGrading(sizes, places, 1.0, leaves, leavesRound, grade, loop).flatten();
+  SizeGrading(sizes, places, 1.0, leaves, leavesRound, gradation, loop).flatten();
   for (const LeafVertices& leaf : leaves) {
     forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       // Along and across: the slope from two edges at right angles.
@@ -270,7 +271,7 @@ TEST(SizeGrading, EndsWithNothingSteep) {
       ASSERT_EQ(dot(ab, ac), 0.0);
       EXPECT_LE(std::hypot((sizes.size[b] - sizes.size[a]) / std::sqrt(squaredLength(ab)),
                            (sizes.size[c] - sizes.size[a]) / std::sqrt(squaredLength(ac))),
-                grade * (1.0 + 1e-12));
+                gradation * (1.0 + 1e-12));
     });
   }
   // Down the slope from the pit next to nothing is lost.

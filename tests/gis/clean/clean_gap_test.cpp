@@ -30,7 +30,8 @@ double leastGap(const Pslg& pslg) {
 bool holds(const Domain& domain, const Point& p) { return std::ranges::count(domain.input_points, p) > 0; }
 
 constexpr double kRounding = 1 - 1e-6;
-// Of three vertices a snap distance apart each may lie as near as this to the edge between the others, for both its ways.
+// Of three vertices a snap distance apart each may lie as near as this to the edge between the others, for both its
+// ways.
 const double kOfATriangle = std::sqrt(0.75) * kRounding;
 
 TEST(LeastGap, SimplifyingStopsShortOfAnIslandBesideTheNewShore) {

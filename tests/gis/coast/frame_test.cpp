@@ -85,8 +85,8 @@ TEST(Frame, WaterRoundAnIsland) {
   EXPECT_DOUBLE_EQ(framed.openLength(), 40);
 }
 
-// Two lands that overlap, one across the frame's rim, and one that only the box of another reaches.
-TEST(Frame, LandAcrossTheRim) {
+// Two lands that overlap, one across the frame's boundary, and one that only the box of another reaches.
+TEST(Frame, LandAcrossTheBoundary) {
   const Coastline coastline = coastlineOf(
       {polygonFeature(1, square(-5, 2, 8)), polygonFeature(2, square(2, 3, 3)), polygonFeature(3, square(30, 30, 1))});
   const Framed framed = frame(coastline, boxOf(0, 0, 10, 10, DomainSide::Outside));
@@ -192,8 +192,8 @@ double zone(double south, double north, double width) {
   return b * b * (below(north) - below(south)) * width * M_PI / 180;
 }
 
-// Files that are not cut at the antimeridian: islands whose rings jump from one end of the map to the other, and a continent
-// round a pole without an edge along it. The places between, all round the globe, are no land.
+// Files that are not cut at the antimeridian: islands whose rings jump from one end of the map to the other, and a
+// continent round a pole without an edge along it. The places between, all round the globe, are no land.
 TEST(Frame, RingsThatJumpHoldNothingBetween) {
   std::vector<Feature> land;
   Ring antarctica;
@@ -232,7 +232,7 @@ TEST(Frame, AcrossTheAntimeridian) {
   }
 }
 
-// Round a pole, and the whole globe: nothing is left of the frame's rim but what lies in water.
+// Round a pole, and the whole globe: nothing is left of the frame's boundary but what lies in water.
 TEST(Frame, RoundThePoleAndTheGlobe) {
   const Ring antarctica{{-180, -90}, {-180, -78}, {-90, -72}, {0, -70}, {90, -66}, {180, -78}, {180, -90}};
   Ring fine;  // long edges are another line on the ellipsoid than in the plane
@@ -244,7 +244,7 @@ TEST(Frame, RoundThePoleAndTheGlobe) {
   const Coastline coastline = coastlineOf({polygonFeature(1, fine)}, wgs84());
   const Framed ring = frame(coastline, boxOf(-180, -90, 180, -60, DomainSide::Outside));
   ASSERT_EQ(ring.domains.size(), 1u);
-  // The rim runs along the parallel in straight pieces of 0.3 degrees.
+  // The boundary runs along the parallel in straight pieces of 0.3 degrees.
   EXPECT_NEAR(ring.area() / (zone(-90, -60, 360) - landArea(coastline)), 1, 1e-5);
   const Framed globe = frame(coastline, boxOf(-180, -90, 180, 90, DomainSide::Outside));
   ASSERT_EQ(globe.domains.size(), 1u);
@@ -268,8 +268,8 @@ TEST(Dissolve, LeavesNoTraceOfACut) {
   EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::DissolvedEdge)], 2u + 3u);
 }
 
-// What a cut left, rounded to the decimals that the input has, is no bend; a bend of more digits is one, though smaller,
-// and so is one as fine as the decimals where the lake is no larger.
+// What a cut left, rounded to the decimals that the input has, is no bend; a bend of more digits is one, though
+// smaller, and so is one as fine as the decimals where the lake is no larger.
 TEST(Dissolve, TakesABendForATraceOnlyWithinTheDecimals) {
   const auto vertices = [](double unit, double x, double bend) {
     const Coastline coastline =

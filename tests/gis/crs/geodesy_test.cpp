@@ -52,7 +52,7 @@ TEST_P(TriangleAreas, AddUpToThePolygon) {
       });
   const std::vector<double> areas = triangleAreas(mesh.points, cornersOf(mesh), wgs84());
   const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
-  const double whole = polygonArea(mesh.points, rimLoops(mesh).at(0));
+  const double whole = polygonArea(mesh.points, boundaryLoops(mesh).at(0));
   // PolygonArea is good to some 0.1 square metres.
   EXPECT_NEAR(sum, whole, 1e-7 * whole + 0.5);
 }

@@ -166,7 +166,8 @@ TEST(FollowSizes, ARoughShoreGetsNoSegmentsMuchShorterThanTheSizeAndKeepsApart) 
   EXPECT_NEAR(areaOf(coarse), area, 0.01 * area);
 }
 
-// A sea of side 100 with inlets on its western side, 30 deep: pairs of the land before an inlet and its width, southwards.
+// A sea of side 100 with inlets on its western side, 30 deep: pairs of the land before an inlet and its width,
+// southwards.
 Domain combedSea(const std::vector<std::pair<double, double>>& inlets) {
   std::vector<Point> ring{{0, 0}, {100, 0}, {100, 100}, {0, 100}};
   double y = 95.0;
@@ -418,7 +419,7 @@ Domain seaWithStrait() {
 TEST(FollowSizes, AStraitThatIsClosedIsNamedThoughNothingIsCutOff) {
   CleanReport report;
   const Domain coarse = followSizes(seaWithStrait(), ConstantSize(2.0), {}, oneFeature(), report);
-  EXPECT_EQ(rimLoops(constrainedDelaunay(coarse.pslg)).size(), 1u);
+  EXPECT_EQ(boundaryLoops(constrainedDelaunay(coarse.pslg)).size(), 1u);
   ASSERT_EQ(report.notes.size(), 1u);
   double x = 0.0, y = 0.0, length = 0.0, width = 0.0;
   ASSERT_EQ(std::sscanf(report.notes[0].c_str(),
@@ -438,7 +439,7 @@ TEST(FollowSizes, APassageStaysOpenAndIsWidened) {
     CleanReport report;
     const ShoreGuides guides{{{{{5, 0.5}, {55, 0.5}}, "narrows", elements}}, {}};
     const Domain coarse = followSizes(seaWithStrait(), ConstantSize(2.0), {}, oneFeature(), report, guides);
-    EXPECT_EQ(rimLoops(constrainedDelaunay(coarse.pslg)).size(), 2u);
+    EXPECT_EQ(boundaryLoops(constrainedDelaunay(coarse.pslg)).size(), 2u);
     EXPECT_EQ(countOf(report, EditKind::WidenedPassage), 1u);
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_NE(report.notes[0].find("passage 'narrows' was widened to " + std::string(elements == 1.0 ? "2" : "4")),
@@ -525,7 +526,7 @@ TEST(FollowSizes, AShoreIsNotCoarsenedOntoTheBorderBesideIt) {
   EXPECT_EQ(std::set<RegionId>(mesh.regions.begin(), mesh.regions.end()), (std::set<RegionId>{0, 1}));
 }
 
-TEST(FollowSizes, OpenRimKeepsItsCorners) {
+TEST(FollowSizes, OpenBoundaryKeepsItsCorners) {
   Domain domain;
   constexpr VertexId kOnASide = 50;
   const Point corners[] = {{0.0, 0.0}, {100.0, 0.0}, {100.0, 100.0}, {0.0, 100.0}};
@@ -562,7 +563,7 @@ TEST(FollowSizes, SmallIslandsGoAndAreCounted) {
   const Domain coarse = followSizes(std::move(domain), size, {}, oneFeature(), report);
   EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::SmallIsland)], 1u);
   const TriMesh mesh = constrainedDelaunay(coarse.pslg);
-  std::size_t loops = rimLoops(mesh).size();
+  std::size_t loops = boundaryLoops(mesh).size();
   EXPECT_EQ(loops, 3u);
 }
 
@@ -582,7 +583,7 @@ TEST(FollowSizes, AGraphWithoutLabelsIsFollowedAsWell) {
   EXPECT_EQ(bare_coarse.pslg.points, coarse.pslg.points);
   EXPECT_EQ(bare_report.counts, report.counts);
   EXPECT_GT(report.counts[static_cast<std::size_t>(EditKind::SimplifiedPoint)], 300u);
-  EXPECT_EQ(rimLoops(constrainedDelaunay(bare_coarse.pslg)).size(), 2u);
+  EXPECT_EQ(boundaryLoops(constrainedDelaunay(bare_coarse.pslg)).size(), 2u);
 }
 
 TEST(NodeSizes, NoTwoNeighboursDifferMore) {
@@ -590,14 +591,14 @@ TEST(NodeSizes, NoTwoNeighboursDifferMore) {
   const SizeOf size(0.01, 1.0, [](const Point& p) { return 0.02 + 0.4 * std::hypot(p.x - 0.3, p.y - 0.3); });
   TriMesh mesh = constrainedDelaunay(pslg);
   refine(mesh, pslg, {.min_angle_deg = 30.0, .size = &size});
-  constexpr double kGrade = 0.2, kScale = 2.0;
-  const std::vector<double> sizes = nodeSizes(mesh, size, kGrade, [](const Point&) { return kScale; });
+  constexpr double kGradation = 0.2, kScale = 2.0;
+  const std::vector<double> sizes = nodeSizes(mesh, size, kGradation, [](const Point&) { return kScale; });
   ASSERT_EQ(sizes.size(), mesh.points.size());
   bool lowered = false;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       const VertexId a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
-      EXPECT_LE(std::abs(sizes[a] - sizes[b]), kGrade * distance(mesh.points[a], mesh.points[b]) / kScale);
+      EXPECT_LE(std::abs(sizes[a] - sizes[b]), kGradation * distance(mesh.points[a], mesh.points[b]) / kScale);
       EXPECT_LE(sizes[a], size.at(mesh.points[a]) / kScale + 1e-12);
       lowered |= sizes[a] < 0.9 * size.at(mesh.points[a]) / kScale;
     }

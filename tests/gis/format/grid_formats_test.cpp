@@ -35,7 +35,7 @@ bool cutsBoundaries(const std::string& format) {
   return format == "adcirc" || format == "schism" || format == "telemac" || format == "fvcom" || format == "ww3";
 }
 
-// Formats that tell openings only: all else of the rim is shore.
+// Formats that say openings only: all else of the boundary is shore.
 bool impliesShores(const std::string& format) { return format == "telemac" || format == "fvcom" || format == "ww3"; }
 
 // What each edge of the boundaries is, in its direction.

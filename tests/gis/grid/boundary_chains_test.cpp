@@ -55,11 +55,11 @@ TEST(ChainEdges, UsesEveryEdgeOnce) {
   EXPECT_THAT(chainEdges({}), IsEmpty());
 }
 
-TEST(KeepRimEdges, TurnsThemAndDropsTheOthers) {
+TEST(KeepBoundaryEdges, TurnsThemAndDropsTheOthers) {
   const TriMesh mesh = lattice(2, 1, [](int, int) { return true; });  // points 0 1 2 below, 3 4 5 above
-  // Along the rim, against it, between two triangles, no edge at all.
+  // Along the boundary, against it, between two triangles, no edge at all.
   std::vector<std::vector<NodePair>> groups{{{0, 1}, {2, 1}, {1, 4}, {0, 5}}, {{3, 0}, {3, 4}}, {}};
-  keepRimEdges(cornersOf(mesh), groups);
+  keepBoundaryEdges(cornersOf(mesh), groups);
   EXPECT_THAT(groups[0], ElementsAre(NodePair{0, 1}, NodePair{1, 2}));
   EXPECT_THAT(groups[1], ElementsAre(NodePair{3, 0}, NodePair{4, 3}));
   EXPECT_THAT(groups[2], IsEmpty());

@@ -12,7 +12,7 @@
 #include <set>
 
 #include "gis/grid/boundary_chains.hpp"
-#include "gis/grid/rim_boundaries.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/model/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
 
@@ -364,9 +364,9 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
     for (std::size_t t = 0; t < grid.triangles.size(); ++t) grid.piece_of[t] = 100 + grid.feature_of[t];
     grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs);
     grid.min_angle_deg.assign(grid.triangles.size(), 0.0);
-    grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
+    grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
       const bool south = std::max(grid.nodes[a].y, grid.nodes[b].y) < 200.0 && std::min(a, b) < lone;
-      return RimKind{south ? BoundaryRole::Open : BoundaryRole::Land};
+      return BoundaryKind{south ? BoundaryRole::Open : BoundaryRole::Land};
     });
     const Grid before = grid;
     std::vector<Target> targets{kAll[below(random, 6)]};

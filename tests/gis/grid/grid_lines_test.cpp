@@ -1,5 +1,5 @@
-// Lines, names, regions and types of boundaries: every format gives back what it says that it holds, and what it does not
-// hold is told of.
+// Lines, names, regions and types of boundaries: every format gives back what it says that it holds, and what it does
+// not hold is reported.
 #include "gis/grid/grid_lines.hpp"
 
 #include <gmock/gmock.h>
@@ -243,7 +243,7 @@ TEST(ReadLines, OfOtherPrograms) {
   const Grid gmsh = readGrid(folder / "other.msh");
   ASSERT_EQ(gmsh.lines.size(), 1u);
   EXPECT_EQ(gmsh.lines[0].name, "gauge");
-  ASSERT_EQ(gmsh.boundaries.size(), 1u) << "what lies on the rim is a boundary, whatever it is called";
+  ASSERT_EQ(gmsh.boundaries.size(), 1u) << "what lies on the mesh's boundary is one, whatever it is called";
 }
 
 // A line that leaves the edges between triangles is cut there, and the grid says so.

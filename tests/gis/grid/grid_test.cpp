@@ -200,7 +200,7 @@ TEST(ToTriMesh, LinksTheTrianglesInThePlane) {
     EXPECT_EQ(mesh.triangles[t].v, grid.triangles[t]);
     EXPECT_EQ(mesh.regions[t], static_cast<RegionId>(grid.feature_of[t]));
   }
-  EXPECT_EQ(rimLoops(mesh).size(), 3u);
+  EXPECT_EQ(boundaryLoops(mesh).size(), 3u);
 }
 
 }  // namespace

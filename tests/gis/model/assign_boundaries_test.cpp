@@ -1,4 +1,4 @@
-// What the rim is, told by polygons, lines and depths.
+// What the boundary is, as said by polygons, lines and depths.
 #include "gis/model/assign_boundaries.hpp"
 
 #include <gmock/gmock.h>
@@ -36,16 +36,16 @@ std::size_t edgesOfRole(const Grid& grid, BoundaryRole role) {
   return count;
 }
 
-// Every edge of the rim in one boundary, boundaries one after another end to end.
-void expectWholeRim(const Grid& grid) {
-  std::vector<NodePair> told, rim;
+// Every edge of the mesh's boundary in one chain, chains one after another end to end.
+void expectWholeBoundary(const Grid& grid) {
+  std::vector<NodePair> told, edges;
   for (const Boundary& boundary : grid.boundaries)
     for (const NodePair& edge : edgesOf(boundary)) told.push_back(edge);
-  for (const auto& loop : rimOf(grid))
-    for (std::size_t i = 0; i < loop.size(); ++i) rim.push_back({loop[i], loop[(i + 1) % loop.size()]});
+  for (const auto& loop : boundaryLoops(grid))
+    for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back({loop[i], loop[(i + 1) % loop.size()]});
   std::ranges::sort(told);
-  std::ranges::sort(rim);
-  EXPECT_EQ(told, rim);
+  std::ranges::sort(edges);
+  EXPECT_EQ(told, edges);
 }
 
 class AssignBoundaries : public ::testing::Test {
@@ -70,13 +70,13 @@ TEST_F(AssignBoundaries, PolygonsTellWhatLiesInThem) {
   BoundaryOptions options;
   options.files = {file};
   const BoundaryReport report = assignBoundaries(grid, options);
-  // Middles at 53.5, 54.5, 55.5, 56.5 and 52.5 (on the polygon's rim, which may be either).
+  // Middles at 53.5, 54.5, 55.5, 56.5 and 52.5 (on the polygon's boundary, which may be either).
   EXPECT_GE(edgesOfRole(grid, BoundaryRole::Open), 4u);
   EXPECT_LE(edgesOfRole(grid, BoundaryRole::Open), 6u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::River), 2u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);
   EXPECT_EQ(report.edges_told, edgesOfRole(grid, BoundaryRole::Open) + 2);
-  expectWholeRim(grid);
+  expectWholeBoundary(grid);
 }
 
 TEST_F(AssignBoundaries, LinesTellWhatRunsAlongThem) {
@@ -87,7 +87,7 @@ TEST_F(AssignBoundaries, LinesTellWhatRunsAlongThem) {
   options.files = {file};
   assignBoundaries(grid, options);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 5u);
-  expectWholeRim(grid);
+  expectWholeBoundary(grid);
 }
 
 TEST_F(AssignBoundaries, LinesOpenIslands) {
@@ -114,7 +114,7 @@ TEST_F(AssignBoundaries, TheLastFeatureCounts) {
   EXPECT_LE(no_slip, 12u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 40u - no_slip);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);  // closed, though the polygon holds it
-  expectWholeRim(grid);
+  expectWholeBoundary(grid);
 }
 
 TEST_F(AssignBoundaries, LayersOfAnyCrsAndOtherTurns) {
@@ -134,7 +134,7 @@ TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
   assignBoundaries(grid, options);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 7u + 10u + 7u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);
-  expectWholeRim(grid);
+  expectWholeBoundary(grid);
   grid.z.clear();
   EXPECT_THROW(assignBoundaries(grid, options), InputError);
 }
@@ -158,7 +158,7 @@ TEST_F(AssignBoundaries, ShortOnesBecomePartOfLongerOnes) {
       EXPECT_GE(boundary.nodes.size(), 3u);
     }
   }
-  expectWholeRim(grid);
+  expectWholeBoundary(grid);
 }
 
 TEST_F(AssignBoundaries, TellsWhichFeatureHasNoType) {

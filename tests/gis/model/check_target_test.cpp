@@ -46,9 +46,9 @@ Grid soundGrid() {
 // The southern side open.
 Grid openGrid() {
   Grid grid = soundGrid();
-  const auto loops = rimOf(grid);
+  const auto loops = boundaryLoops(grid);
   grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t a, std::uint32_t b) {
-    return RimKind{grid.nodes[a].y == 0.0 && grid.nodes[b].y == 0.0 ? BoundaryRole::Open : BoundaryRole::Land};
+    return BoundaryKind{grid.nodes[a].y == 0.0 && grid.nodes[b].y == 0.0 ? BoundaryRole::Open : BoundaryRole::Land};
   });
   return grid;
 }
@@ -61,7 +61,8 @@ std::set<TargetDefectKind> kindsIn(const Grid& grid, Target target, const Target
 
 using Kinds = std::set<TargetDefectKind>;
 
-// Mended, the grid has no defect for any of the targets, covers the same area but for `lost`, and each repair is told.
+// Mended, the grid has no defect for any of the targets, covers the same area but for `lost`, and each repair is
+// reported.
 void expectMended(Grid grid, std::vector<Target> targets, double lost = 0.0) {
   const auto area = [](const Grid& of) {
     double sum = 0.0;
@@ -213,7 +214,7 @@ TEST(CheckTarget, SegmentsOfNodes) {
 
     Grid off = grid;
     off.boundaries[0].nodes.erase(off.boundaries[0].nodes.begin() + 1);
-    EXPECT_EQ(kindsIn(off, target), (Kinds{TargetDefectKind::NoBoundary, TargetDefectKind::BoundaryOffRim}));
+    EXPECT_EQ(kindsIn(off, target), (Kinds{TargetDefectKind::NoBoundary, TargetDefectKind::StrayBoundary}));
     expectMended(off, {target});
 
     Grid shore = grid;
@@ -266,9 +267,9 @@ Grid corner(bool both_open) {
   grid.nodes = mesh.points;
   for (const Triangle& t : mesh.triangles) grid.triangles.push_back({t.v[1], t.v[0], t.v[2]});
   grid.z.assign(grid.nodes.size(), -20.0);
-  grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
     const auto on = [&](double Point::*axis) { return grid.nodes[a].*axis == 0.0 && grid.nodes[b].*axis == 0.0; };
-    return RimKind{on(&Point::y) || (both_open && on(&Point::x)) ? BoundaryRole::Open : BoundaryRole::Land};
+    return BoundaryKind{on(&Point::y) || (both_open && on(&Point::x)) ? BoundaryRole::Open : BoundaryRole::Land};
   });
   return grid;
 }
@@ -286,10 +287,10 @@ TEST(CheckTarget, OpenAndSolid) {
 
 TEST(CheckTarget, LoneWall) {
   Grid grid = soundGrid();
-  grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
     const bool south = grid.nodes[a].y == 0.0 && grid.nodes[b].y == 0.0;
     const bool wall = std::min(grid.nodes[a].x, grid.nodes[b].x) == 3000.0;
-    return RimKind{south && !wall ? BoundaryRole::Open : BoundaryRole::Land};
+    return BoundaryKind{south && !wall ? BoundaryRole::Open : BoundaryRole::Land};
   });
   for (const Target target : {Target::Fvcom, Target::Telemac}) {
     EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::LoneWall));
@@ -350,7 +351,8 @@ TEST(CheckTarget, SwanMeasuresAnglesOfDegreesAsIfTheyWereAPlane) {
   Grid grid = soundGrid();
   grid.crs = wgs84();
   for (Point& p : grid.nodes) p = {p.x * 1e-5 / std::cos(75.0 * M_PI / 180.0), 75.0 + p.y * 1e-5};
-  // Equilateral on the ground; 60 degrees at the top become 2 atan(tan(30) / cos(75)) = 131.7, those of 70 become 139.4.
+  // Equilateral on the ground; 60 degrees at the top become 2 atan(tan(30) / cos(75)) = 131.7, those of 70 become
+  // 139.4.
   EXPECT_EQ(kindsIn(grid, Target::Swan), Kinds{});
   grid.nodes[30].y -= 260e-5;
   EXPECT_EQ(kindsIn(grid, Target::Swan), Kinds{TargetDefectKind::LargeAngle});

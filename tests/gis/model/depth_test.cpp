@@ -106,7 +106,7 @@ TEST_F(Depth, AverageSmooths) {
   Grid grid = squares("plane", {10.0, 10.0}, 12.0, 5, 5);
   setDepths(grid, {{file}, DepthMethod::Average});
   for (const double z : grid.z) EXPECT_NEAR(z, -100.0, 3.0);
-  // Triangles smaller than a pixel tell nothing: bilinear there.
+  // Triangles smaller than a pixel say nothing: bilinear there.
   Grid fine = squares("plane", {50.0, 50.0}, 0.02, 4, 4);
   const DepthReport report = setDepths(fine, {{file}, DepthMethod::Average});
   EXPECT_EQ(report.averaged, 0u);

@@ -32,8 +32,8 @@ Grid shakenGrid(unsigned seed, const Crs& crs) {
   grid.crs = crs;
   grid.nodes = mesh.points;
   for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
-  grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
-    return RimKind{std::min(a, b) % 3 == 0 ? BoundaryRole::Open : BoundaryRole::Land};
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
+    return BoundaryKind{std::min(a, b) % 3 == 0 ? BoundaryRole::Open : BoundaryRole::Land};
   });
   return grid;
 }
@@ -47,7 +47,7 @@ GridLinks linksOf(const Grid& grid) {
     for (const std::uint32_t node : grid.triangles[t]) links.triangles_at[node].push_back(t);
   links.on_boundary.assign(grid.nodes.size(), false);
   const EdgeKinds kinds(grid);
-  for (const auto& loop : rimOf(grid)) {
+  for (const auto& loop : boundaryLoops(grid)) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
       links.kinds[edgeKey(a, b)] = *kinds.find(a, b);
@@ -67,7 +67,7 @@ Grid edited(Grid grid, const GridLinks& links, const PatchEdit& edit) {
       grid.triangles[triangle.slot] = triangle.v;
     }
   }
-  grid.boundaries = cutLoops(grid, rimOf(grid), [&](std::uint32_t a, std::uint32_t b) {
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
     const NodePair key = edgeKey(a, b);
     return edit.halves.contains(key) ? edit.halves.at(key) : links.kinds.at(key);
   });

@@ -125,7 +125,7 @@ TEST(TimeStep, SizesGrowTowardsDeepWaterAsFarAsGradingNeeds) {
   domain.input_points = domain.pslg.points;
   SizeOptions options;
   options.size_m = 500.0;
-  options.grade = 0.1;
+  options.gradation = 0.1;
   options.bathymetry = {path};
   options.time_step_s = 20.0;
   const auto size = makeSizeFunction(options, readSizeInputs(options, {}), domain, 1e9, inOrder).function;

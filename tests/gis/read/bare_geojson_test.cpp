@@ -23,7 +23,8 @@ std::optional<GeometryParts> read(const std::string& text) {
 TEST(BareGeojson, ReadsEveryTypeOfGeometry) {
   const auto parts = read(R"({"type": "GeometryCollection", "bbox": [0, [1], {"a": [2]}], "name": "x", "geometries": [
     {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 0]], [[1, 0.5], [2, 0.5], [2, 1], [1, 0.5]]]},
-    {"coordinates": [[[[5, 5, 9], [6, 5, 9], [6, 6, 9], [5, 5, 9]]], [[[7, 7], [8, 7], [8, 8]]]], "type": "MultiPolygon"},
+    {"coordinates": [[[[5, 5, 9], [6, 5, 9], [6, 6, 9], [5, 5, 9]]], [[[7, 7], [8, 7], [8, 8]]]],
+     "type": "MultiPolygon"},
     {"type": "LineString", "coordinates": [[-1e-1, 2.5E0], [3, -4]]},
     {"type": "MultiLineString", "coordinates": [[[0, 1], [2, 3]], [], [[4, 5], [6, 7]]]},
     {"type": "Point", "coordinates": [1, 1]}, {"type": "MultiPoint", "coordinates": [[1, 1], [2, 2]]},
@@ -56,7 +57,8 @@ TEST(BareGeojson, LeavesTheRestToOgr) {
       R"({"geometry":{"type":"Point","coordinates":[1,2]},"type":"Feature"})",
       R"({"type":"Topology","objects":{},"arcs":[]})",
       R"({"type":"Polygon","crs":{"type":"name"},"coordinates":[[[0,0],[1,0],[1,1],[0,0]]]})",
-      R"({"type":"GeometryCollection","geometries":[{"type":"GeometryCollection","geometries":[{"type":"GeometryCollection","geometries":[]}]}]})",
+      R"({"type":"GeometryCollection","geometries":[{"type":"GeometryCollection","geometries":[)"
+      R"({"type":"GeometryCollection","geometries":[]}]}]})",
       R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]])",  // cut off
       R"({"type":"Polygon","coordinates":[[0,0],[1,0],[1,1],[0,0]]})",  // a level too few
       R"({"type":"Polygon","coordinates":[[[[0,0],[1,0],[0,0]]]]})",    // a level too many

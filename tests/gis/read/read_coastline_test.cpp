@@ -94,10 +94,9 @@ class ReadCoastline : public ::testing::Test {
 const char* const kSquare = R"({"type":"Polygon","coordinates":[[[0,0],[0.1,0],[0.1,0.3],[0,0.3],[0,0]]]})";
 
 TEST_F(ReadCoastline, PolygonsComeBitForBitWithNamesAndNumbers) {
-  const Coastline coastline = read(geojson(
-      "a.geojson",
-      {kSquare,
-       R"({"type":"MultiPolygon","coordinates":[[[[5,5],[6,5],[6,6],[5,5]]],[[[7,7,1],[9,7,2],[9,9,3],[7,7,1]],[[8,7.5],[8.5,7.5],[8.5,8],[8,7.5]]]]})"}));
+  const Coastline coastline = read(
+      geojson("a.geojson", {kSquare, R"({"type":"MultiPolygon","coordinates":[[[[5,5],[6,5],[6,6],[5,5]]],)"
+                                     R"([[[7,7,1],[9,7,2],[9,9,3],[7,7,1]],[[8,7.5],[8.5,7.5],[8.5,8],[8,7.5]]]]})"}));
   ASSERT_EQ(coastline.features.size(), 2u);
   EXPECT_EQ(coastline.crs.authority, "EPSG:4326");
   const Feature& first = coastline.features[0];

@@ -208,7 +208,7 @@ TEST_F(SizeFiles, ACoarseRasterIsBilinear) {
 
 TEST_F(SizeFiles, ASpotOfOnePixelIsNotMissed) {
   SizeOptions options;
-  options.grade = 0.2;
+  options.gradation = 0.2;
   options.rasters = {raster("a.tif", 2000, 1000, {0.0, 0.01, 0.0, 10.0, 0.0, -0.01}, 0,
                             [](double x, double y) { return std::hypot(x - 13.005, y - 4.005) < 0.005 ? 0.01 : 2.0; })};
   const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
@@ -261,7 +261,7 @@ TEST_F(SizeFiles, TheFirstRasterThatCoversAPlaceCounts) {
   const std::string wide =
       raster("b.tif", 200, 100, {0.0, 0.1, 0.0, 10.0, 0.0, -0.1}, 0, [](double, double) { return 0.5; });
   SizeOptions options;
-  options.grade = 1.0;
+  options.gradation = 1.0;
   options.rasters = {fine, wide};
   const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
   EXPECT_NEAR(size->at({7.5, 7.5}), 1.0, 0.01);
@@ -337,7 +337,7 @@ TEST(ComposedSizes, GradedOnTheGround) {
     SizeOptions options;
     options.shore_m = 20000.0;
     options.shore_rate = rate;
-    options.grade = 0.2;
+    options.gradation = 0.2;
     const auto size = sizesIn(options, domain, coast.crs);
     const GeographicLib::Geodesic& geodesic = GeographicLib::Geodesic::WGS84();
     std::mt19937_64 random(9);
@@ -410,14 +410,16 @@ TEST_F(SizeFiles, BumpsShorterThanTheFilterDoNotCount) {
 
 TEST_F(SizeFiles, FeaturesWithSizes) {
   std::ofstream(file("f.geojson")) << R"({"type": "FeatureCollection", "features": [
-    {"type": "Feature", "properties": {"size": 0.02, "rate": 0.1}, "geometry": {"type": "Point", "coordinates": [3, 4]}},
-    {"type": "Feature", "properties": {"size": 0.05}, "geometry": {"type": "LineString", "coordinates": [[10, 1], [10, 9]]}},
+    {"type": "Feature", "properties": {"size": 0.02, "rate": 0.1}, "geometry":
+      {"type": "Point", "coordinates": [3, 4]}},
+    {"type": "Feature", "properties": {"size": 0.05}, "geometry":
+      {"type": "LineString", "coordinates": [[10, 1], [10, 9]]}},
     {"type": "Feature", "properties": {"size": 0.1}, "geometry":
       {"type": "Polygon", "coordinates": [[[14, 2], [19, 2], [19, 8], [14, 8], [14, 2]]]}},
     {"type": "Feature", "properties": {"size": null}, "geometry": {"type": "Point", "coordinates": [1, 1]}}]})";
   SizeOptions options;
   options.size_m = 1.0;
-  options.grade = 0.25;
+  options.gradation = 0.25;
   options.features = {file("f.geojson")};
   const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
   EXPECT_NEAR(size->at({3.0, 4.0}), 0.02, 0.003);
@@ -437,8 +439,8 @@ TEST_F(SizeFiles, FeaturesWithoutSizesAreRefused) {
   EXPECT_THROW(readSizedFeatures(file("g.geojson"), {}, 0.2), InputError);
 }
 
-// What is asked for is found before it is made, on few cells: none of these may take more than a second or so of any machine, which a
-// test cannot tell; that they do not run out of memory it can.
+// What is asked for is found before it is made, on few cells: none of these may take more than a second or so of any
+// machine, which a test cannot tell; that they do not run out of memory it can.
 class Demand : public SizeFiles {
  protected:
   // 100 km by 50 km, a lake of 80 km by 30 km in it.

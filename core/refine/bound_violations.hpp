@@ -11,12 +11,12 @@
 namespace coastmesh {
 
 // The triangles that break the bounds of `options` and that no corner of the input excuses, in order.
-std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options,
-                                      const ItemLoop& loop = inOrder);
+std::vector<BoundViolation> findBoundViolations(const TriMesh& mesh, const RefineOptions& options,
+                                                const ItemLoop& loop = inOrder);
 
 struct BoundJudgement {
   BoundCounts counts;
-  std::vector<Shortfall> unresolved;  // what nothing excuses, in order
+  std::vector<BoundViolation> unresolved;  // what nothing excuses, in order
 };
 
 // All triangles that break `asked`; corners are those of `in_reach`.

@@ -8,8 +8,8 @@
 #include "core/edit_mesh.hpp"
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
+#include "core/refine/bound_violations.hpp"
 #include "core/refine/refine.hpp"
-#include "core/refine/shortfalls.hpp"
 #include "core/refine/submesh_runs.hpp"
 #include "core/refine/vertex_ops.hpp"
 
@@ -40,8 +40,9 @@ class Waiting {
   std::vector<bool> waits_;
 };
 
-// How often every vertex gets its turn. A sweep shakes the mesh, so that the next finds more; where angles are large, dense
-// places are many, and sweeps pay for longer. Small meshes can afford more, up to as many visits of vertices as `work`.
+// How often every vertex gets its turn. A sweep shakes the mesh, so that the next finds more; where angles are large,
+// dense places are many, and sweeps pay for longer. Small meshes can afford more, up to as many visits of vertices as
+// `work`.
 int sweepsFor(double min_angle_deg, std::size_t vertices) {
   const auto between = [&](double fewest, double most, double work) {
     return static_cast<int>(std::clamp(work / static_cast<double>(std::max<std::size_t>(1, vertices)), fewest, most));
@@ -52,13 +53,13 @@ int sweepsFor(double min_angle_deg, std::size_t vertices) {
   return between(3.0, 16.0, 20000.0);
 }
 
-// Round a vertex that shrinking looks at all edges are shorter than this share of the length wanted: merging two makes the edges there
-// longer by a half at most.
+// Round a vertex that coarsening looks at all edges are shorter than this share of the length wanted: merging two makes
+// the edges there longer by a half at most.
 constexpr double kFineShare = 0.75;
 
-class Shrinker {
+class Coarsener {
  public:
-  Shrinker(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
+  Coarsener(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
       : size_(options.size),
         bound_(strictBoundOf(options)),
         mesh_(std::move(mesh)),
@@ -68,8 +69,8 @@ class Shrinker {
   }
 
   // Of a part of a larger mesh: only the due vertices, and clear of frozen edges.
-  Shrinker(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
-      : Shrinker(std::move(state.mesh), pslg, options) {
+  Coarsener(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
+      : Coarsener(std::move(state.mesh), pslg, options) {
     ops_.keepClearOfFrozen();
     due_ = std::move(state.due_vertices);
   }
@@ -129,7 +130,7 @@ class Shrinker {
 };
 
 // Where edges are about as long as wanted nothing is to be taken out.
-bool Shrinker::isFinerThanWanted(VertexId v) {
+bool Coarsener::isFinerThanWanted(VertexId v) {
   const Point here = mesh_.point(v);
   mesh_.star(v, star_);
   double longest = 0.0;
@@ -142,23 +143,24 @@ bool Shrinker::isFinerThanWanted(VertexId v) {
 
 }  // namespace
 
-RefineStats shrinkSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
-  Shrinker shrinker(std::move(state), pslg, options);
+RefineStats coarsenSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options,
+                           const RunControl& control) {
+  Coarsener coarsener(std::move(state), pslg, options);
   // As many as of the large mesh that it is a part of.
-  shrinker.run(sweepsFor(options.min_angle_deg, std::numeric_limits<std::size_t>::max()), control);
-  state = shrinker.releaseState();
-  return std::move(shrinker.stats());
+  coarsener.run(sweepsFor(options.min_angle_deg, std::numeric_limits<std::size_t>::max()), control);
+  state = coarsener.releaseState();
+  return std::move(coarsener.stats());
 }
 
-RefineStats shrink(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+RefineStats coarsen(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
   requireInRange(options);
   const std::size_t vertices = mesh.points.size();
-  Shrinker shrinker(std::move(mesh), pslg, options);
-  shrinker.run(sweepsFor(options.min_angle_deg, vertices), control);
-  mesh = shrinker.release();
+  Coarsener coarsener(std::move(mesh), pslg, options);
+  coarsener.run(sweepsFor(options.min_angle_deg, vertices), control);
+  mesh = coarsener.release();
   labelRegions(mesh, pslg);
-  RefineStats stats = std::move(shrinker.stats());
-  stats.unresolved = findShortfalls(mesh, options);
+  RefineStats stats = std::move(coarsener.stats());
+  stats.unresolved = findBoundViolations(mesh, options);
   return stats;
 }
 

@@ -1,4 +1,4 @@
-#include "gis/grid/rim_boundaries.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 
 #include <algorithm>
 
@@ -13,15 +13,15 @@ NodePair keyOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> rimOf(const Grid& grid) {
+std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid) {
   std::vector<EdgeConflict> conflicts;
-  return rimLoops(linkTriangles(grid.nodes, grid.triangles, conflicts));
+  return boundaryLoops(linkTriangles(grid.nodes, grid.triangles, conflicts));
 }
 
 std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<std::uint32_t>>& loops,
-                               const RimKindOf& kind_of) {
+                               const BoundaryKindOf& kind_of) {
   std::vector<Boundary> boundaries;
-  std::vector<RimKind> kinds;
+  std::vector<BoundaryKind> kinds;
   for (const std::vector<std::uint32_t>& loop : loops) {
     const std::size_t n = loop.size();
     kinds.clear();
@@ -30,7 +30,7 @@ std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<s
     std::size_t first = 0;
     while (first < n && !changesAt(first)) ++first;
     if (first == n) {
-      const RimKind& kind = kinds.front();
+      const BoundaryKind& kind = kinds.front();
       const BoundaryRole role = isShore(kind.role) ? roleOfLoop(grid.nodes, loop, grid.crs) : kind.role;
       boundaries.push_back({role, true, loop, kind.ibtype});
       continue;
@@ -55,15 +55,15 @@ EdgeKinds::EdgeKinds(const Grid& grid) {
   std::ranges::sort(edges_);
 }
 
-const RimKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const {
+const BoundaryKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const {
   const NodePair key = keyOf(a, b);
   const auto at = std::ranges::lower_bound(edges_, key, {}, [](const auto& entry) { return entry.first; });
   return at != edges_.end() && at->first == key ? &kinds_[at->second] : nullptr;
 }
 
 std::vector<Boundary> boundariesOfOpenNodes(const Grid& grid, const std::vector<bool>& is_open) {
-  return cutLoops(grid, rimOf(grid), [&](std::uint32_t from, std::uint32_t to) {
-    return RimKind{is_open[from] && is_open[to] ? BoundaryRole::Open : BoundaryRole::Land};
+  return cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t from, std::uint32_t to) {
+    return BoundaryKind{is_open[from] && is_open[to] ? BoundaryRole::Open : BoundaryRole::Land};
   });
 }
 

@@ -1,4 +1,4 @@
-#include "core/refine/shortfalls.hpp"
+#include "core/refine/bound_violations.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,8 @@
 
 namespace coastmesh {
 
-std::vector<Shortfall> findShortfalls(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
+std::vector<BoundViolation> findBoundViolations(const TriMesh& mesh, const RefineOptions& options,
+                                                const ItemLoop& loop) {
   const TriangleBound bound = strictBoundOf(options);
   return judgeBounds(mesh, bound, bound, loop).unresolved;
 }
