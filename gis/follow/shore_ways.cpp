@@ -145,14 +145,17 @@ class WayFinder {
 
 }  // namespace
 
-std::vector<WaterWay> waysToWaters(const ShoreGraph& graph, const OpenedShores& opened, const ShoreSizes& sizes,
-                                   const ShoreGuides& guides, const FollowOptions& options, double least) {
+WaterWays waysToWaters(const ShoreGraph& graph, const OpenedShores& opened, const ShoreSizes& sizes,
+                       const ShoreGuides& guides, const FollowOptions& options, double least) {
   // As water was when it was closed: land that went before makes none narrow.
   WaterAreas ignored;
   const ShoreEdit edit = [](EditKind, const Point&, RegionId) {};
   const ShoreGraph land = openLand(graph, sizes, guides, opened.first * options.land_min, edit, ignored);
   const ShoreTriangles triangles = triangulateShores(land, sizes.wanted);
-  return WayFinder(triangles, sizes.projection, options.channel_min, least).run(opened.waters);
+  const auto waysFrom = [&](double narrowest) {
+    return WayFinder(triangles, sizes.projection, options.channel_min, narrowest).run(opened.waters);
+  };
+  return {waysFrom(least), waysFrom(0.0)};
 }
 
 }  // namespace coastmesh
