@@ -110,7 +110,7 @@ class Opening {
     std::map<RegionId, Whole> wholes;
     for (const std::vector<TriId>& part : parts.triangles) {
       const WaterPart& water = waters.emplace_back(partOf(part));
-      Whole& whole = wholes.try_emplace(water.region, Whole{0.0, 0.0, waters.size() - 1}).first->second;
+      Whole& whole = wholes.try_emplace(water.region, Whole{.largest = waters.size() - 1}).first->second;
       whole.area += water.area;
       if (water.at_open) {
         whole.at_open += water.area;

@@ -333,6 +333,24 @@ TEST(FollowSizes, AFrameThatGrazesAnotherWaterDoesNotDropTheOneThatIsMeant) {
   }
 }
 
+// Two lakes of two features: each is judged by itself, whichever comes first.
+TEST(FollowSizes, TheLakeOfAnotherFeatureStays) {
+  for (const bool large_first : {true, false}) {
+    Domain domain;
+    addShore(domain, {{0, 0}, {40, 0}, {40, 40}, {0, 40}});
+    addShore(domain, {{50, 0}, {62, 0}, {62, 12}, {50, 12}});
+    for (SegmentId s = 0; s < 8; ++s) domain.pslg.segments[s].left = (s < 4) == large_first ? 0 : 1;
+    Coastline coast = oneFeature();
+    coast.features.emplace_back();
+    for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open, KeepWater::Largest}) {
+      CleanReport report;
+      const Domain coarse = followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, coast, report);
+      EXPECT_EQ(parts(coarse), 2u);
+      EXPECT_EQ(countOf(report, EditKind::CutOffWater), 0u);
+    }
+  }
+}
+
 // The same with an open boundary at both: the small one is left out, unless it is asked for.
 TEST(FollowSizes, AFrameThatGrazesAWaterBesideTheSeaLeavesOneWater) {
   Domain domain;

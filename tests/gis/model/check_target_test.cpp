@@ -471,7 +471,8 @@ TEST(CheckTarget, Courant) {
     ASSERT_FALSE(found.empty());
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_EQ(found[i].advice, target != Target::Adcirc && target != Target::Fvcom);
-      if (i > 0) EXPECT_TRUE(from_below ? found[i].value >= found[i - 1].value : found[i].value <= found[i - 1].value);
+      if (i == 0) continue;
+      EXPECT_TRUE(from_below ? found[i].value >= found[i - 1].value : found[i].value <= found[i - 1].value);
     }
   }
 }
