@@ -25,16 +25,10 @@ Crs parseAssumed(const std::string& text) {
 }  // namespace
 
 Grid readMeshFile(const MeshFile& file, Run& run) {
-  Grid grid = readGrid(file.path);
+  const Crs assumed = file.crs.empty() ? Crs{} : parseAssumed(file.crs);
+  Grid grid = readGrid(file.path, assumed);
   if (grid.triangles.empty()) throw InputError("'" + file.path + "' holds no triangle");
-  if (file.crs.empty()) return grid;
-  Crs assumed = parseAssumed(file.crs);
-  if (grid.crs.isPlane()) {
-    grid.crs = std::move(assumed);
-    requirePlaces(grid.nodes, grid.crs, file.path);
-  } else {
-    warnOfCrs(file, "'" + file.path + "' says its CRS", run);
-  }
+  if (!file.crs.empty() && !sameCrs(grid.crs, assumed)) warnOfCrs(file, "'" + file.path + "' says its CRS", run);
   return grid;
 }
 

@@ -33,9 +33,9 @@ void writePrjBeside(const std::string& path, const Crs& crs) {
   file.close();
 }
 
-Crs readPrjBeside(const std::string& path) {
+Crs readPrjBeside(const std::string& path, const Crs& unsaid) {
   const std::string prj = prjBeside(path);
-  if (!std::filesystem::exists(prj)) return {};
+  if (!std::filesystem::exists(prj)) return unsaid;
   TextReader file(prj);
   std::string wkt;
   while (file.nextLine()) wkt += file.line();

@@ -17,12 +17,12 @@ void writeAdcirc(const Grid& grid, const std::string& path) {
 }
 
 // Reads it back, with what is wrong in it as `notes`. Throws InputError.
-Grid readAdcirc(const std::string& path) {
+Grid readAdcirc(const std::string& path, const Crs& unsaid) {
   Grid grid = readFort14(path);
   for (Boundary& boundary : grid.boundaries) {
     if (isRolesOwn(boundary.ibtype)) boundary.ibtype = -1;
   }
-  grid.crs = readPrjBeside(path);
+  grid.crs = readPrjBeside(path, unsaid);
   return grid;
 }
 

@@ -159,12 +159,12 @@ std::vector<bool> readOpenNodes(const std::string& path, const Grid& grid) {
 }  // namespace
 
 // Reads the set, of which all but the first may be missing. Throws InputError.
-Grid readFvcom(const std::string& path) {
+Grid readFvcom(const std::string& path, const Crs& unsaid) {
   Grid grid;
   readCells(fileOfSet(path, "grd"), grid);
   readDepths(fileOfSet(path, "dep"), grid);
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
-  grid.crs = readPrjBeside(fileOfSet(path, "grd"));
+  grid.crs = readPrjBeside(fileOfSet(path, "grd"), unsaid);
   grid.boundaries = boundariesOfOpenNodes(grid, readOpenNodes(fileOfSet(path, "obc"), grid));
   return grid;
 }

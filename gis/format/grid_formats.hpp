@@ -12,7 +12,8 @@ namespace coastmesh {
 // How a format is written and read. Private to gis.
 struct FormatFunctions {
   void (*write)(const Grid&, const std::string& path) = nullptr;
-  Grid (*read)(const std::string& path) = nullptr;
+  // `unsaid` is the CRS where nothing says one.
+  Grid (*read)(const std::string& path, const Crs& unsaid) = nullptr;
   OutputFiles (*files)(const std::string& path) = nullptr;  // null: `path` and nothing else
 };
 

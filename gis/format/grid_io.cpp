@@ -117,14 +117,14 @@ OutputFiles filesOf(const GridFormat& format, const std::string& path) {
   return functions.files ? functions.files(path) : OutputFiles{{path}, {}, {}};
 }
 
-Grid readGrid(const std::string& path) {
+Grid readGrid(const std::string& path, const Crs& unsaid) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError("there is no file '" + path + "'");
   if (std::filesystem::is_directory(path, error)) throw InputError("'" + path + "' is a folder, no mesh");
   const GridFormat* const format = formatByEnding(path);
   if (format == nullptr || !format->readable)
     throw InputError("cannot read '" + path + "' as a mesh; known endings are " + endingList(&GridFormat::readable));
-  Grid grid = functionsOf(*format).read(path);
+  Grid grid = functionsOf(*format).read(path, unsaid);
   keepLinesInside(grid);
   requirePlaces(grid.nodes, grid.crs, path);
   return grid;

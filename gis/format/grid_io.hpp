@@ -44,7 +44,8 @@ class StagedOutput {
 
 // Reads a mesh back, in any format of `gridFormats` that is readable. Nodes, triangles and their winding are as
 // the file has them, also unused nodes; `boundaries` is empty where the file has none. Lines are those that run along
-// edges inside the mesh; `notes` say where one of the file does not. Throws InputError.
-Grid readGrid(const std::string& path);
+// edges inside the mesh; `notes` say where one of the file does not. Where the file says no CRS it is
+// `unsaid`. Throws InputError.
+Grid readGrid(const std::string& path, const Crs& unsaid = {});
 
 }  // namespace coastmesh

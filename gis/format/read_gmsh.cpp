@@ -337,7 +337,7 @@ void readCurves(const Contents& contents, const IdMap& node_index, const std::st
 
 }  // namespace
 
-Grid readGmsh(const std::string& path) {
+Grid readGmsh(const std::string& path, const Crs& unsaid) {
   TextReader file(path);
   Contents contents = readSections(file);
   sortByTag(contents);
@@ -350,7 +350,7 @@ Grid readGmsh(const std::string& path) {
   }
   readZ(contents, node_index, path, grid);
   readFeatures(contents, grid);
-  grid.crs = readPrjBeside(path);
+  grid.crs = readPrjBeside(path, unsaid);
   readCurves(contents, node_index, path, grid);
   return grid;
 }

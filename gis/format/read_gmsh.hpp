@@ -15,6 +15,6 @@ inline constexpr std::string_view kIbtypeMark = " ibtype ";  // with ADCIRC's ty
 // land. Those inside become lines: "weir North" is a weir, other names are those of constraints. Physical surfaces
 // become features where there are several or they are named. z: node data of that name, else the third coordinate where
 // it is not 0 throughout. Throws InputError with file and line.
-Grid readGmsh(const std::string& path);
+Grid readGmsh(const std::string& path, const Crs& unsaid);
 
 }  // namespace coastmesh

@@ -347,13 +347,14 @@ Crs readCrs(GDALDataset& dataset, OGRLayer& layer, const std::string& path) {
 
 }  // namespace
 
-Grid readOgrGrid(const std::string& path) {
+Grid readOgrGrid(const std::string& path, const Crs& unsaid) {
   const OgrErrors errors;
   const DatasetPtr dataset = open(path, errors);
   OGRLayer& layer = triangleLayer(*dataset, path);
   Grid grid;
   NodesByPlace index;
   grid.crs = readCrs(*dataset, layer, path);
+  if (grid.crs.isPlane()) grid.crs = unsaid;
   const std::vector<std::int64_t> node_ids =
       readNodeLayer(findCompanion(*dataset, path, kNodeLayer, errors), errors, grid, index);
   LayerReader reader(layer, path, errors);

@@ -10,6 +10,6 @@ namespace coastmesh {
 // GIS, so all come out counter-clockwise, in the order of their `id` where they have one. Nodes are what corners share,
 // bit for bit, in the order of the layer `nodes` where there is one, else of their first corner. Fields and layers as
 // `layersOf` names them give z, angles, areas, features and boundaries. Throws InputError with the feature.
-Grid readOgrGrid(const std::string& path);
+Grid readOgrGrid(const std::string& path, const Crs& unsaid);
 
 }  // namespace coastmesh

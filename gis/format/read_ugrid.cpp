@@ -191,7 +191,7 @@ void readLines(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
 
 }  // namespace
 
-Grid readUgrid(const std::string& path) {
+Grid readUgrid(const std::string& path, const Crs& unsaid) {
   const NetcdfReader file(path);
   const std::string mesh = findMesh(file);
   Grid grid;
@@ -215,6 +215,7 @@ Grid readUgrid(const std::string& path) {
   readBoundaries(file, mesh, grid);
   readLines(file, mesh, grid);
   grid.crs = readCrs(file, x);
+  if (grid.crs.isPlane()) grid.crs = unsaid;
   return grid;
 }
 

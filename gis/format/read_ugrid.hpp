@@ -10,6 +10,6 @@ namespace coastmesh {
 // called. The CRS comes from the variable that grid_mapping names, or `projected_coordinate_system` or `wgs84`;
 // longitudes without one are taken as WGS 84, other coordinates as a plane. z: altitude at the nodes, positive up.
 // Boundaries, features, angles and areas as `writeUgrid` writes them. Throws InputError.
-Grid readUgrid(const std::string& path);
+Grid readUgrid(const std::string& path, const Crs& unsaid);
 
 }  // namespace coastmesh

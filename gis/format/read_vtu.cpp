@@ -293,7 +293,7 @@ void readLines(const VtuFile& file, Grid& grid) {
 
 }  // namespace
 
-Grid readVtu(const std::string& path) {
+Grid readVtu(const std::string& path, const Crs& unsaid) {
   const VtuFile file(path);
   Grid grid;
   const std::size_t nodes = file.count("NumberOfPoints");
@@ -316,7 +316,7 @@ Grid readVtu(const std::string& path) {
               readTexts(file, "region_names"), grid);
   readBoundaries(file, grid);
   readLines(file, grid);
-  grid.crs = readPrjBeside(path);
+  grid.crs = readPrjBeside(path, unsaid);
   return grid;
 }
 

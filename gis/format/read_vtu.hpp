@@ -9,6 +9,6 @@ namespace coastmesh {
 // VTK's unstructured grid of triangles as XML: arrays appended (raw or base64) or inline (ASCII or base64), not
 // compressed. Lines and points among the cells are left out; node data `z`, and what `writeVtu` adds, are read. Throws
 // InputError.
-Grid readVtu(const std::string& path);
+Grid readVtu(const std::string& path, const Crs& unsaid);
 
 }  // namespace coastmesh

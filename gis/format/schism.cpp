@@ -35,12 +35,12 @@ void writeSchism(const Grid& grid, const std::string& path) {
 }
 
 // Reads either file: a .ll is in WGS 84. Throws InputError.
-Grid readSchism(const std::string& path) {
+Grid readSchism(const std::string& path, const Crs& unsaid) {
   Grid grid = readFort14(path);
   for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;  // SCHISM knows no more than land and islands
   std::string ending = std::filesystem::path(path).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  grid.crs = readPrjBeside(path);
+  grid.crs = readPrjBeside(path, unsaid);
   if (ending == ".ll" && !grid.crs.geographic) grid.crs = wgs84();
   return grid;
 }

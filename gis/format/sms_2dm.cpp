@@ -152,7 +152,7 @@ void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& 
 // SMS .2dm of triangles, with the CRS of a .prj beside it. Materials become features where there are several. Node
 // strings that follow the mesh's boundary become boundaries: numbered by us they keep their role, others are open, or
 // land or an island where they close. Throws InputError with file and line.
-Grid read2dm(const std::string& path) {
+Grid read2dm(const std::string& path, const Crs& unsaid) {
   TextReader file(path);
   file.needLine();
   if (file.word() != "MESH2D") file.fail("a 2dm file starts with MESH2D");
@@ -170,7 +170,7 @@ Grid read2dm(const std::string& path) {
   }
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
   readMaterials(cards, grid);
-  grid.crs = readPrjBeside(path);
+  grid.crs = readPrjBeside(path, unsaid);
   readStrings(cards, node_index, file, grid);
   return grid;
 }

@@ -107,14 +107,14 @@ void sortByRank(std::vector<std::vector<std::uint32_t>>& loops, const Ranks& ran
 
 // Reads either precision, two-dimensional meshes of triangles alone, and the .cli where there is one. Throws
 // InputError.
-Grid readTelemac(const std::string& path) {
+Grid readTelemac(const std::string& path, const Crs& unsaid) {
   Grid grid;
   FortranReader file(path);
   const Ranks ranks = readGeometry(file, grid);
   const std::vector<BoundaryRole> roles = readConditions(withEnding(path, ".cli"), ranks, grid);
   auto loops = boundaryLoops(grid);
   sortByRank(loops, ranks);
-  grid.crs = readPrjBeside(path);
+  grid.crs = readPrjBeside(path, unsaid);
   // An edge is open where both its nodes are; between two kinds it is of the second.
   grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t from, std::uint32_t to) {
     return BoundaryKind{roles[from] == BoundaryRole::Land ? BoundaryRole::Land : roles[to]};

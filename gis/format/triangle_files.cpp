@@ -130,13 +130,13 @@ void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) 
 // Triangle's .node and .ele, numbered from 0 or 1, with the boundaries of a .poly where its markers are ours, and the
 // CRS of a .prj beside them; `path` is the .node or the .ele. A single attribute of the nodes is z, a whole number as
 // the attribute of the triangles their feature. Throws InputError with file and line.
-Grid readTriangle(const std::string& path) {
+Grid readTriangle(const std::string& path, const Crs& unsaid) {
   Grid grid;
   const IdMap node_index = readNodes(withEnding(path, ".node"), grid);
   readElements(withEnding(path, ".ele"), node_index, grid);
   const std::string poly = withEnding(path, ".poly");
   if (std::filesystem::exists(poly)) readSegments(poly, node_index, grid);
-  grid.crs = readPrjBeside(path);
+  grid.crs = readPrjBeside(path, unsaid);
   return grid;
 }
 

@@ -50,7 +50,7 @@ void writeWw3(const Grid& grid, const std::string& path) {
 }
 
 // Throws InputError.
-Grid readWw3(const std::string& path) {
+Grid readWw3(const std::string& path, const Crs& unsaid) {
   Grid grid;
   TextReader file(path);
   needLine(file, "$MeshFormat");
@@ -96,7 +96,7 @@ Grid readWw3(const std::string& path) {
     }
   }
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
-  grid.crs = readPrjBeside(path);
+  grid.crs = readPrjBeside(path, unsaid);
   grid.boundaries = boundariesOfOpenNodes(grid, is_open);
   return grid;
 }

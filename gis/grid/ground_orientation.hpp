@@ -14,8 +14,9 @@ namespace coastmesh {
 // a hemisphere do not matter; elsewhere they are straight, and the answer is exact.
 int orientationOnGround(const Point& a, const Point& b, const Point& c, const Crs& crs);
 
-// Triangles of `grid` that are not counter-clockwise on the ground, ascending: where `area_m2`, as `triangleAreas`
-// gives it, leaves no doubt its sign counts, else `orientationOnGround`. A mesh that is right in its working plane has
+// Triangles of `grid` that are not counter-clockwise, ascending: in degrees on the ground, where the sign of `area_m2`,
+// as `triangleAreas` gives it, counts if it leaves no doubt, else `orientationOnGround`; in a projected CRS in its
+// plane, which is what programs that read the grid compute in. A mesh that is right in its working plane has
 // such triangles where they are far longer than high (sides that are straight there and on the ground differ by a
 // hundredth of their length for some 1000 km) or where rounding to the CRS's coordinates flattened them.
 std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2);

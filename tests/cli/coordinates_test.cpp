@@ -105,9 +105,12 @@ TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
     unnamed.erase(begin, unnamed.find('\n', end) + 1 - begin);
     write("unnamed.msh", unnamed);
     std::filesystem::copy_file(file("m.prj"), file("unnamed.prj"), std::filesystem::copy_options::overwrite_existing);
-    for (const char* name :
-         {"m.14", "m.gr3", "m.slf", "m_grd.dat", "m_ww3.msh", "m.2dm", "m.msh", "unnamed.msh", "m.nc"}) {
-      const Json boundaries = infoOf(file(name))["boundaries"];
+    const std::vector<const char*> meshes{"m.14",  "m.gr3", "m.slf",       "m_grd.dat", "m_ww3.msh",
+                                          "m.2dm", "m.msh", "unnamed.msh", "m.nc"};
+    std::map<std::string, Json> told;
+    for (const char* name : meshes) told[name] = infoOf(file(name))["boundaries"];
+    for (const char* name : meshes) {
+      const Json& boundaries = told[name];
       // ADCIRC and SCHISM take an outer shore as two segments.
       const bool in_two = std::string(name).ends_with(".14") || std::string(name).ends_with(".gr3");
       EXPECT_EQ(boundaries["land"], in_two ? 2 : 1) << name << boundaries;
@@ -116,6 +119,13 @@ TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
     for (const char* model : {"adcirc", "schism"}) {
       const ProgramRun check = runProgram({"check", file("m.14"), "--target", model});
       EXPECT_EQ(check.output.find("shore"), std::string::npos) << check.output;
+    }
+    // Nothing but the option says that these are degrees.
+    for (const std::string& name : names())
+      if (name.ends_with(".prj")) std::filesystem::remove(file(name));
+    for (const char* name : {"m_grd.dat", "m_ww3.msh", "m.2dm", "unnamed.msh", "m.slf"}) {
+      const ProgramRun assumed = runProgram({"info", file(name), "--json", "--assume-crs", "EPSG:4326"});
+      EXPECT_EQ(Json::parse(assumed.output)["boundaries"], told[name]) << name << assumed.errors;
     }
   }
 }

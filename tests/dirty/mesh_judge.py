@@ -52,7 +52,7 @@ def sides_of(corners, geographic):
     return [math.hypot(degrees_east(a[0], b[0]) if geographic else b[0] - a[0], b[1] - a[1]) for a, b in pairs]
 
 
-def is_flat(corners, turned, geographic, chosen):
+def is_flat(corners, turned, geographic, chosen, projected):
     """Turned over no further than rounding to the file's coordinates does it or, where the user chose the plane to work in,
     sides that are straight there and not on the ground: these turn from great circles by about their length."""
     sides = sides_of(corners, geographic)
@@ -60,11 +60,12 @@ def is_flat(corners, turned, geographic, chosen):
         return False  # two nodes in one place
     grain = 8 * max(math.ulp(abs(v)) for p in corners for v in p)
     if not geographic:
-        return -turned <= grain * max(sides)
+        # In a projected CRS sides are straight in the plane that the program worked in: some centimetres on ten kilometres.
+        return -turned <= grain * max(sides) + (max(sides) ** 3 / 1e8 if projected else 0)
     return -turned < 4 * grain / min(sides) + (math.radians(max(sides)) if chosen else 0)
 
 
-def check_mesh(nodes, triangles, geographic, told=0, chosen=False):
+def check_mesh(nodes, triangles, geographic, told=0, chosen=False, projected=False):
     """Counter-clockwise triangles, each edge once in each direction, each node used. As many as the program reported may be
     flat instead."""
     turn = turn_on_globe if geographic else turn_in_plane
@@ -76,7 +77,7 @@ def check_mesh(nodes, triangles, geographic, told=0, chosen=False):
         turned = turn(*corners)
         if turned <= 0:
             told -= 1
-            require(told >= 0 and is_flat(corners, turned, geographic, chosen),
+            require(told >= 0 and is_flat(corners, turned, geographic, chosen, projected),
                     f"triangle {number} is not counter-clockwise ({turned:.2g}): {corners}")
         used.update(t)
         for edge in zip(t, t[1:] + t[:1]):
