@@ -61,6 +61,7 @@ Json refineSection(const MeshJob& job, const MeshJobResult& result) {
           {"coarsen", job.mesh.coarsen},
           {"shrink", job.mesh.coarsen},  // deprecated: the former name of `coarsen`
           {"smooth", job.mesh.smooth},
+          {"quality", kGoalNames[static_cast<std::size_t>(options.goal)]},
           {"steiner_points", stats.steiner_points},
           {"by_type",
            {{"I", stats.by_type[0]}, {"II", stats.by_type[1]}, {"III", stats.by_type[2]}, {"IV", stats.by_type[3]}}},

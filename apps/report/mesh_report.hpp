@@ -9,6 +9,7 @@ namespace coastmesh {
 
 // The names that --algorithm takes, in the order of `Algorithm`.
 inline constexpr const char* kAlgorithmNames[] = {"circumcenter", "offcenter", "optimal", "relocate"};
+inline constexpr const char* kGoalNames[] = {"shape", "centred", "links"};
 
 // The report of a job as JSON text, its keys as apps/README.md documents them. `threads` is what the job ran on,
 // `warnings` all that the run gave.

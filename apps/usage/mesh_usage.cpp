@@ -13,10 +13,12 @@ namespace coastmesh {
 
 namespace {
 
-Algorithm algorithmNamed(const std::string& name) {
+// The value of an enumeration by its name, which is one of them.
+template <typename Enum, std::size_t kCount>
+Enum named(const char* const (&names)[kCount], const std::string& name) {
   std::size_t index = 0;
-  while (name != kAlgorithmNames[index]) ++index;
-  return static_cast<Algorithm>(index);
+  while (name != names[index]) ++index;
+  return static_cast<Enum>(index);
 }
 
 }  // namespace
@@ -38,6 +40,16 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
   declareSizing(line, usage.job.sizes, usage.sizing);
   line.flag("--smooth,!--no-smooth", usage.job.mesh.smooth,
             "optimise the shapes of triangles for longer; where no sizes are asked for, at all");
+  line.choice(
+          "--quality", usage.quality, {std::begin(kGoalNames), std::end(kGoalNames)},
+          "what the optimiser holds above equilateral triangles: centred asks for no angle above 90 degrees, so that "
+          "circumcentres lie within (C-grids), links for neighbours' circumcentres apart (D-Flow FM)")
+      .needs(
+          [&usage] {
+            const MeshOptions& mesh = usage.job.mesh;
+            return usage.quality == "centred" || mesh.smooth || (usage.job.sizes.any() && mesh.coarsen);
+          },
+          "without sizes or --smooth");
   declareInputOptions(line, usage.job.input);
   declarePinches(line, usage.job.input);
   declareFinishOptions(line, usage.job.finish);
@@ -75,7 +87,10 @@ CommandLine declareMeshUsage(CLI::App& root, MeshUsage& usage) {
 void settle(MeshUsage& usage) {
   const bool framed = usage.job.input.frame.box.has_value() || !usage.job.input.clip.empty();
   settleSizing(usage.sizing, usage.job.finish.depth, framed && !usage.job.finish.targets.empty(), usage.job.sizes);
-  usage.job.mesh.refine.algorithm = algorithmNamed(usage.algorithm);
+  usage.job.mesh.refine.algorithm = named<Algorithm>(kAlgorithmNames, usage.algorithm);
+  usage.job.mesh.refine.goal = named<QualityGoal>(kGoalNames, usage.quality);
+  if (usage.job.mesh.refine.goal == QualityGoal::Centred)
+    usage.job.mesh.refine.max_angle_deg = std::min(usage.job.mesh.refine.max_angle_deg, 90.0);
   // The classical algorithms are there to compare with: they insert what their papers say.
   if (!usage.coarsen_given) usage.job.mesh.coarsen = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
   if (!usage.job.finish.boundaries.column.empty()) usage.job.finish.boundaries.inputs = usage.job.input.files;

@@ -17,6 +17,7 @@ struct MeshUsage {
   std::string format;
   SizingUsage sizing;
   std::string algorithm = "relocate";
+  std::string quality = "shape";
   bool coarsen_given = false;
   bool cut = true;
   std::uint64_t threads = 0;

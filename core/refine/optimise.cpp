@@ -38,6 +38,7 @@ class Optimiser {
  public:
   Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
       : size_(options.size),
+        goal_(options.goal),
         bound_(strictBoundOf(options)),
         mesh_(std::move(mesh)),
         ops_(mesh_, pslg, bound_),
@@ -95,6 +96,8 @@ class Optimiser {
   double wantedAt(VertexId v);
   double costRound(const Point& place, double wanted, double limit) const;
   double costHere(VertexId v, Point& centre) const;
+  double goalAt(VertexId v, const Point& place) const;
+  std::optional<Point> placeForGoal(VertexId v, double cost) const;
   double leastShape(const Point& place, std::size_t& at) const;
   std::optional<Point> betterPlace(VertexId v) const;
   bool flipsAt(VertexId v, const Point& place) const;
@@ -116,6 +119,7 @@ class Optimiser {
   }
 
   const SizeFunction* size_;  // may be null
+  QualityGoal goal_;
   TriangleBound bound_;
   EditMesh mesh_;
   VertexOps ops_;
@@ -210,15 +214,61 @@ double Optimiser::leastShape(const Point& place, std::size_t& at) const {
   return least;
 }
 
+// The least of what the goal asks round a vertex at `place`, over what is enough: 1 where nothing is left to do. `place` is
+// where every triangle of the star is counter-clockwise.
+double Optimiser::goalAt(VertexId v, const Point& place) const {
+  constexpr double kEnoughCentred = 0.035;  // the cotangent of 88 degrees
+  constexpr double kEnoughLink = 0.12;
+  double least = 1.0;
+  for (std::size_t i = 0; i < ring_.corners.size() && goal_ != QualityGoal::Shape; ++i) {
+    const Point &a = corner(i), &b = corner(i + 1), &c = corner(i + 2);
+    if (goal_ == QualityGoal::Centred) {
+      least = std::min(least, centrednessOf(place, a, b) / kEnoughCentred);
+      continue;
+    }
+    least = std::min(least, linkShareOf(place, b, c, a) / kEnoughLink);
+    const EdgeRef beyond = mesh_.twin(edgeRef(ring_.triangles[i], mesh_.cornerOf(ring_.triangles[i], v)));
+    if (beyond == kNone) continue;
+    least = std::min(least, linkShareOf(a, b, place, mesh_.point(mesh_.apex(beyond))) / kEnoughLink);
+  }
+  return least;
+}
+
+// The best of some places round a vertex for what the goal asks, where its star costs little more.
+std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
+  constexpr int kDirections = 8;
+  constexpr double kMostGoalCost = 1.1;
+  const Point here = mesh_.point(v);
+  double best = goalAt(v, here) + kLeastGain;
+  for (const double step : {0.2, 0.1, 0.05, 0.025}) {
+    std::optional<Point> place;
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kDirections;
+      const Point to = here + step * wanted_[v] * Point{std::cos(angle), std::sin(angle)};
+      if (!(costRound(to, wanted_[v], kMostGoalCost * cost) < kMostGoalCost * cost)) continue;
+      const double then = goalAt(v, to);
+      if (then <= best) continue;
+      best = then;
+      place = to;
+    }
+    if (place) return place;
+  }
+  return std::nullopt;
+}
+
 // Where the star of a vertex costs less or, later on, its poorest triangle gains and the others lose next to nothing.
 std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   const Point here = mesh_.point(v);
   Point to;
   const double cost = costHere(v, to);
   if (!std::isfinite(to.x) || !std::isfinite(to.y)) return std::nullopt;
+  const double held = mends_poor_ ? goalAt(v, here) : 1.0;
+  if (held < 1.0)
+    if (const std::optional<Point> place = placeForGoal(v, cost)) return place;
+  const auto keepsGoal = [&](const Point& place) { return !mends_poor_ || goalAt(v, place) >= held; };
   const double still = kStill * wanted_[v];
   for (int attempt = 0; attempt < kAttempts && squaredDistance(here, to) >= still * still; ++attempt) {
-    if (costRound(to, wanted_[v], cost) < cost) return to;
+    if (costRound(to, wanted_[v], cost) < cost && keepsGoal(to)) return to;
     to = midpoint(here, to);
   }
   if (!mends_poor_) return std::nullopt;
@@ -231,7 +281,8 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   double share = 0.4;
   for (int attempt = 0; attempt < kAttempts; ++attempt, share *= 0.5) {
     to = here + share * (apex - here);
-    if (leastShape(to, any) > shape + kLeastGain && costRound(to, wanted_[v], kMostCost * cost) < kMostCost * cost)
+    if (leastShape(to, any) > shape + kLeastGain && costRound(to, wanted_[v], kMostCost * cost) < kMostCost * cost &&
+        keepsGoal(to))
       return to;
   }
   return std::nullopt;

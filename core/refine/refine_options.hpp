@@ -19,6 +19,13 @@ enum class Algorithm {
   Relocate,      // Erten & Üngör 2007, Algorithm 2: move a vertex where that is enough, else as Optimal
 };
 
+// What the optimiser holds above the mean of the shapes.
+enum class QualityGoal {
+  Shape,    // nothing: triangles as near to equilateral as they get
+  Centred,  // no triangle away from the boundary has an obtuse angle: circumcentres lie within
+  Links,    // circumcentres of neighbours are not near to one another
+};
+
 // Ranges hold in every function that takes these options; what lies beyond them throws std::invalid_argument.
 struct RefineOptions {
   double min_angle_deg = 33.0;                                // degrees, 0 to 45
@@ -30,6 +37,7 @@ struct RefineOptions {
   // Plane units, 0 or more: no vertex is put nearer to another. For coordinates that will be written coarser than the
   // plane's own, whose rounding sets such a distance in any case.
   double resolution = 0.0;
+  QualityGoal goal = QualityGoal::Shape;
   double size_scale = 1.0;  // above 0; wanted are these times so much: a step on the way
 };
 

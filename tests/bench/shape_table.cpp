@@ -118,7 +118,7 @@ void printRow(const std::string& file, const SizeRule& rule) {
   std::vector<Point> centres;
   std::vector<double> areas;
   double ideal = 0.0, sum = 0.0;
-  std::size_t obtuse = 0;
+  std::vector<std::uint32_t> obtuse;
   for (const auto& corners : grid.triangles) {
     const Point &a = grid.nodes[corners[0]], &b = grid.nodes[corners[1]], &c = grid.nodes[corners[2]];
     const double area = 0.5 * cross(b - a, c - a);
@@ -127,7 +127,7 @@ void printRow(const std::string& file, const SizeRule& rule) {
     sum += quality.back();
     const std::array at{angleAt(a, b, c), angleAt(b, c, a), angleAt(c, a, b)};
     angles.push_back(toDegrees(std::ranges::min(at)));
-    obtuse += std::ranges::max(at) > toRadians(90.0 + 1e-9) ? 1 : 0;
+    if (std::ranges::max(at) > toRadians(90.0 + 1e-9)) obtuse.push_back(static_cast<std::uint32_t>(quality.size() - 1));
     const double wanted = size(centroid(a, b, c));
     ideal += area / (kEquilateral * wanted * wanted);
     centres.push_back(a + circumcenterOffset(a, b, c));
@@ -158,11 +158,15 @@ void printRow(const std::string& file, const SizeRule& rule) {
     six += degree[v] == 6 ? 1 : 0;
     odd += degree[v] < 5 || degree[v] > 7 ? 1 : 0;
   }
+  const auto isInner = [&](std::uint32_t t) {
+    return std::ranges::none_of(grid.triangles[t], [&](std::uint32_t v) { return on_boundary[v] != 0; });
+  };
+  const auto inner_obtuse = static_cast<std::size_t>(std::ranges::count_if(obtuse, isInner));
   const double triangles = static_cast<double>(grid.triangles.size());
-  std::printf("%s\t%zu\t%.3f\t%.4f\t%.3f\t%.1f\t%.2f\t%.1f\t%.2f\t%.3f\t%.1f\t%zu\n", file.c_str(), grid.nodes.size(),
-              triangles / ideal, sum / triangles, quantile(quality, 0.01), quantile(angles, 0.01),
-              percent(obtuse, grid.triangles.size()), percent(six, inner), percent(odd, inner), quantile(lengths, 0.5),
-              percent(near, lengths.size()), links);
+  std::printf("%s\t%zu\t%.3f\t%.4f\t%.3f\t%.1f\t%.2f\t%zu\t%.1f\t%.2f\t%.3f\t%.1f\t%zu\n", file.c_str(),
+              grid.nodes.size(), triangles / ideal, sum / triangles, quantile(quality, 0.01), quantile(angles, 0.01),
+              percent(obtuse.size(), grid.triangles.size()), inner_obtuse, percent(six, inner), percent(odd, inner),
+              quantile(lengths, 0.5), percent(near, lengths.size()), links);
 }
 
 }  // namespace
@@ -181,7 +185,7 @@ int main(int argc, char** argv) {
   try {
     if (rule.gradation > 0.0 && !std::isfinite(rule.most)) throw std::invalid_argument("--grade needs --size-max");
     std::printf(
-        "mesh\tvertices\ttriangles/ideal\tq mean\tq 1 %%\tangle 1 %%\t> 90 %%\tdegree 6 %%\tnot 5-7 %%\t"
+        "mesh\tvertices\ttriangles/ideal\tq mean\tq 1 %%\tangle 1 %%\t> 90 %%\tinner > 90\tdegree 6 %%\tnot 5-7 %%\t"
         "edge/h median\t.8-1.25 %%\tsmall links\n");
     for (const std::string& file : files) printRow(file, rule);
   } catch (const std::exception& error) {

@@ -67,11 +67,26 @@ TEST_F(MeshRun, ReportHasItsKeys) {
             (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
                                    "projection", "projection_reason", "scale", "projections", "area_m2", "refused",
                                    "filtered", "beyond_frame", "notes", "warnings"}));
-  EXPECT_EQ(keysOf(json["refine"]),
-            (std::set<std::string>{"algorithm", "min_angle_deg", "max_angle_deg", "size_max_m", "sized", "grade",
-                                   "estimated_vertices", "coarsen", "shrink", "smooth", "steiner_points", "by_type",
-                                   "segment_splits", "relocations", "removals", "merges", "regions", "budget_reached",
-                                   "unresolved"}));
+  EXPECT_EQ(keysOf(json["refine"]), (std::set<std::string>{"algorithm",
+                                                           "min_angle_deg",
+                                                           "max_angle_deg",
+                                                           "size_max_m",
+                                                           "sized",
+                                                           "grade",
+                                                           "estimated_vertices",
+                                                           "coarsen",
+                                                           "shrink",
+                                                           "smooth",
+                                                           "quality",
+                                                           "steiner_points",
+                                                           "by_type",
+                                                           "segment_splits",
+                                                           "relocations",
+                                                           "removals",
+                                                           "merges",
+                                                           "regions",
+                                                           "budget_reached",
+                                                           "unresolved"}));
   EXPECT_EQ(keysOf(json["refine"]["by_type"]), (std::set<std::string>{"I", "II", "III", "IV"}));
   EXPECT_EQ(keysOf(json["refine"]["unresolved"]), (std::set<std::string>{"count", "places"}));
   EXPECT_EQ(

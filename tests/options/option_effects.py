@@ -182,6 +182,7 @@ def cases():
         "--time-step": Case("20", extra=stepped),
         "--courant": Case("0.4", extra=[*stepped, "--time-step", "20"]),
         "--smooth": Case(),
+        "--quality": Case("centred", extra=["--size", "10"]),
         "--pinches": Case("open", input="hourglass.geojson"),
         "--max-vertices": Case("15"),
         "--cut": Case(name="--no-cut", extra=["--size-max", "11"], because="60,000 vertices are one piece"),

@@ -127,6 +127,61 @@ TEST(Optimise, HoldsEveryBound) {
   }
 }
 
+// Inner triangles with an obtuse angle, and inner edges whose triangles have circumcentres nearer than a tenth of half the
+// sum of the square roots of their areas.
+struct Flaws {
+  std::size_t obtuse = 0, small_links = 0;
+};
+
+Flaws flawsOf(const TriMesh& mesh) {
+  const auto centreOf = [&](TriId t) {
+    const auto& v = mesh.triangles[t].v;
+    const Point &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+    const double d = 2.0 * (a.x * (b.y - c.y) + b.x * (c.y - a.y) + c.x * (a.y - b.y));
+    const double aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y, cc = c.x * c.x + c.y * c.y;
+    return Point{(aa * (b.y - c.y) + bb * (c.y - a.y) + cc * (a.y - b.y)) / d,
+                 (aa * (c.x - b.x) + bb * (a.x - c.x) + cc * (b.x - a.x)) / d};
+  };
+  const auto rootOf = [&](TriId t) {
+    const auto& v = mesh.triangles[t].v;
+    const Point &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+    return std::sqrt(0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)));
+  };
+  Flaws flaws;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t].v;
+    const auto angles = anglesDeg(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
+    bool inner = true;
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      inner = inner && mesh.segment(e) == kNone;
+      if (mesh.twin(e) == kNone || mesh.twin(e) < e) continue;
+      const Point a = centreOf(t), b = centreOf(triOf(mesh.twin(e)));
+      flaws.small_links += std::hypot(b.x - a.x, b.y - a.y) < 0.05 * (rootOf(t) + rootOf(triOf(mesh.twin(e))));
+    }
+    flaws.obtuse += inner && *std::ranges::max_element(angles) > 90.0;
+  }
+  return flaws;
+}
+
+TEST(Optimise, GoalsAreReached) {
+  const SizeOf size(0.004, 0.2,
+                    [](const Point& p) { return 0.004 + 0.15 * std::abs(std::sin(3.0 * p.x) * std::cos(4.0 * p.y)); });
+  const Pslg pslg = wideLake();
+  const auto flawsWith = [&](QualityGoal goal) {
+    const RefineOptions options{.size = &size, .goal = goal};
+    TriMesh mesh = refined(pslg, options);
+    optimise(mesh, pslg, options, kMostOptimiseSweeps);
+    expectValidMesh(mesh, pslg, {.min_angle_deg = 33.0});
+    return flawsOf(mesh);
+  };
+  const Flaws usual = flawsWith(QualityGoal::Shape);
+  ASSERT_GT(usual.small_links, 0u);
+  ASSERT_GT(usual.obtuse, 0u);
+  EXPECT_LT(flawsWith(QualityGoal::Links).small_links, usual.small_links);
+  EXPECT_EQ(flawsWith(QualityGoal::Centred).obtuse, 0u);
+}
+
 TEST(Optimise, KeepsAFineCoastAndItsAngles) {
   const Pslg pslg = fractalCoast(3, 3, 2);
   const SizeOf size(0.2, 0.2, [](const Point&) { return 0.2; });
