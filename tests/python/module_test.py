@@ -234,6 +234,16 @@ class FilesTest(unittest.TestCase):
         self.assertFalse(mesh.complete)
         self.assertTrue(any("left out" in str(w.message) for w in caught))
 
+    def test_former_names_of_options_are_taken_with_a_warning(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            former = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, shrink=False)
+        self.assertEqual([str(w.message) for w in caught],
+                         ["--no-shrink is called --no-coarsen now; the next version will not take the former name"])
+        present = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, coarsen=False)
+        self.assertFalse(former.report["refine"]["coarsen"])
+        self.assertEqual(former.report["mesh"]["digest"], present.report["mesh"]["digest"])
+
     def test_options_without_effect_are_warned_of(self):
         def said(**options):
             with warnings.catch_warnings(record=True) as caught:
@@ -246,16 +256,6 @@ class FilesTest(unittest.TestCase):
         self.assertEqual(said(courant=0.5, min_depth=2), ["--courant has no effect without --time-step",
                                                           "--min-depth has no effect without --bathymetry"])
         self.assertEqual(said(coast="keep", land_min=2), ["--land-min has no effect without --coast follow"])
-
-    def test_former_names_of_options_are_taken_with_a_warning(self):
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            former = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, shrink=False)
-        self.assertEqual([str(w.message) for w in caught],
-                         ["--no-shrink is called --no-coarsen now; the next version will not take the former name"])
-        present = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, coarsen=False)
-        self.assertFalse(former.report["refine"]["coarsen"])
-        self.assertEqual(former.report["mesh"]["digest"], present.report["mesh"]["digest"])
         self.assertEqual(said(size=5000, coast="follow", land_min=2), [])
         self.assertEqual(said(mark_pieces=True), [])
 
