@@ -214,8 +214,8 @@ double Optimiser::leastShape(const Point& place, std::size_t& at) const {
   return least;
 }
 
-// The least of what the goal asks round a vertex at `place`, over what is enough: 1 where nothing is left to do. `place` is
-// where every triangle of the star is counter-clockwise.
+// The least of what the goal asks round a vertex at `place`, over what is enough: 1 where nothing is left to do.
+// REQUIRES: every triangle of the star is counter-clockwise there.
 double Optimiser::goalAt(VertexId v, const Point& place) const {
   constexpr double kEnoughCentred = 0.035;  // the cotangent of 88 degrees
   constexpr double kEnoughLink = 0.12;

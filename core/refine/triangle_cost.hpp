@@ -36,8 +36,8 @@ inline double centrednessOf(const Point& a, const Point& b, const Point& c) {
   return std::min({cotAt(a, b, c), cotAt(b, c, a), cotAt(c, a, b)});
 }
 
-// How far apart the circumcentres of the triangles beside the edge from p to q are, over half the sum of the square roots
-// of their areas; below 0 where they have changed sides. D-Flow FM calls a link below 0.1 small.
+// How far apart the circumcentres of the triangles beside the edge from p to q are, over half the sum of the square
+// roots of their areas; below 0 where they have changed sides. D-Flow FM calls a link below 0.1 small.
 inline double linkShareOf(const Point& p, const Point& q, const Point& left, const Point& right) {
   const double length = 0.5 * distance(p, q) * (cotAt(left, p, q) + cotAt(right, q, p));
   const double roots = std::sqrt(0.5 * cross(q - p, left - p)) + std::sqrt(0.5 * cross(p - q, right - q));

@@ -127,8 +127,8 @@ TEST(Optimise, HoldsEveryBound) {
   }
 }
 
-// Inner triangles with an obtuse angle, and inner edges whose triangles have circumcentres nearer than a tenth of half the
-// sum of the square roots of their areas.
+// Inner triangles with an obtuse angle, and inner edges whose triangles have circumcentres nearer than a tenth of half
+// the sum of the square roots of their areas.
 struct Flaws {
   std::size_t obtuse = 0, small_links = 0;
 };
