@@ -97,7 +97,8 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
 MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t budget) {
   MeshOptions options = job.mesh;
   options.refine.max_vertices = budget;
-  options.refine.resolution = domain.resolution.grain;
+  // A place that is no number has no resolution; what triangulates says which it is.
+  if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
   if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
     options.refine.size_max = job.sizes.most_m;
     options.refine.size_max *= domain.projection.scaleAt(centreOf(domain.pslg));

@@ -116,7 +116,8 @@ Json timeSection(const PhaseSeconds& seconds) {
           {"optimise", seconds.optimise}, {"stitch", seconds.stitch},
           {"check", seconds.check},       {"finish", seconds.finish},
           {"write", seconds.write},       {"total", seconds.total},
-          {"shrink", seconds.coarsen}};  // deprecated: the former name of `coarsen`
+          {"shrink", seconds.coarsen},  // deprecated: the former name of `coarsen`
+          {"fit", seconds.optimise}};   // and of `optimise`
 }
 
 // What more cores would give.

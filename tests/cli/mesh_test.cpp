@@ -95,7 +95,7 @@ TEST_F(MeshRun, ReportHasItsKeys) {
                              "below_bound_explained", "excused", "unresolved", "angle_histogram", "turned", "digest"}));
   EXPECT_EQ(keysOf(json["time_s"]),
             (std::set<std::string>{"read", "clean", "size", "triangulate", "refine", "coarsen", "shrink", "optimise",
-                                   "stitch", "check", "finish", "write", "total"}));
+                                   "fit", "stitch", "check", "finish", "write", "total"}));
 }
 
 TEST_F(MeshRun, ReportAgreesWithItself) {
@@ -231,6 +231,7 @@ TEST_F(MeshRun, FormerNamesOfOptionsAndKeysAreTakenWithAWarning) {
   for (const Json& json : {present, plain, on}) {
     EXPECT_EQ(json["refine"]["shrink"], json["refine"]["coarsen"]);
     EXPECT_EQ(json["time_s"]["shrink"], json["time_s"]["coarsen"]);
+    EXPECT_EQ(json["time_s"]["fit"], json["time_s"]["optimise"]);
   }
 }
 
