@@ -176,7 +176,8 @@ bool anyOf(const std::vector<std::uint8_t>& flags) { return std::ranges::find(fl
 
 // What is asked, step after step. At first small angles, of the whole: long thin triangles from shore to shore, as a
 // triangulation without Steiner points has them, leave no way to cut it. And edges as short as little work makes them:
-// then each step asks for shorter ones, so that pieces never consist of few large triangles.
+// then each step asks for shorter ones, so that pieces never consist of few large triangles. Where lengths are wanted
+// and few triangles come of them, the first step makes them all: coarser steps would spoil the rows.
 std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& mesh) {
   std::vector<RefineOptions> steps{options};
   double area = 0.0, longest = 0.0;

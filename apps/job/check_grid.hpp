@@ -31,8 +31,8 @@ inline constexpr double kAngleSlackDeg = 0.01;
 
 struct GridCheck {
   std::vector<GridDefect> defects;
-  BoundCounts
-      bounds;  // triangles that break the bounds on angles, those that are no defects too: input angles excuse them
+  // Triangles that break the bounds on angles, those too that are no defects: input angles excuse them.
+  BoundCounts bounds;
 };
 
 // Every defect of the grid, each of its connected pieces in a plane of its own; a border between features counts as a

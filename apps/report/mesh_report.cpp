@@ -193,9 +193,11 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
             " vertices were to be expected of these sizes\n";
   if (quality.bounds.below > 0) text += boundText(quality.bounds) + "\n";
   if (result.unresolved > 0) {
-    char bound[40];
-    std::snprintf(bound, sizeof bound, "%g", job.mesh.refine.min_angle_deg);
-    text += grouped(result.unresolved) + " triangles fall short of what was asked (at least " + bound + " degrees)\n";
+    const RefineOptions& asked = job.mesh.refine;
+    char bound[80];
+    std::snprintf(bound, sizeof bound, asked.max_angle_deg < 180.0 ? "%g to %g degrees" : "at least %g degrees",
+                  asked.min_angle_deg, asked.max_angle_deg);
+    text += grouped(result.unresolved) + " triangles fall short of what was asked (" + bound + ")\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";
   const auto isOpenRing = [](const Boundary& boundary) {

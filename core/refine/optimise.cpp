@@ -72,8 +72,8 @@ class Optimiser {
         if (!active_[v] || !mesh_.isLiveVertex(v) || !isDue(v) || mesh_.kind(v) != VertexKind::Free) continue;
         active_[v] = 0;
         if (!gatherRing(v) || (merges && mergeShort(v))) continue;
-        move(v);
-        if (balances) balance(v);
+        const bool moved = move(v);
+        if (balances && (!moved || gatherRing(v))) balance(v);
       }
     }
   }
@@ -101,13 +101,13 @@ class Optimiser {
   double leastShape(const Point& place, std::size_t& at) const;
   std::optional<Point> betterPlace(VertexId v) const;
   bool flipsAt(VertexId v, const Point& place) const;
-  void move(VertexId v);
+  bool move(VertexId v);
   bool mergeShort(VertexId v);
   bool mergeInto(VertexId v, VertexId stays);
-  int imbalance(VertexId v, int change);
-  int change(VertexId v, int by) { return imbalance(v, by) - imbalance(v, 0); }
+  int excess(VertexId v);
+  int imbalanceAdded(VertexId v, int more);
   void balance(VertexId v);
-  bool mergeTooFew(VertexId v);
+  void mergeTooFew(VertexId v);
   void exchangeTooMany(VertexId v);
   void wake();
 
@@ -135,7 +135,6 @@ class Optimiser {
 
   // Scratch.
   Ring ring_;  // of the vertex whose turn it is
-  Ring spokes_;
   std::vector<EdgeRef> star_;
   std::vector<TriId> touched_;
 };
@@ -301,17 +300,20 @@ bool Optimiser::flipsAt(VertexId v, const Point& place) const {
   return false;
 }
 
-void Optimiser::move(VertexId v) {
+// Returns whether the vertex has moved.
+bool Optimiser::move(VertexId v) {
   const std::optional<Point> to = betterPlace(v);
-  if (!to) return;
+  if (!to) return false;
   const auto isBesideBad = [&](TriId t) { return ops_.isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
-  if ((any_bad_ && std::ranges::any_of(ring_.triangles, isBesideBad)) || (flips_may_harm_ && flipsAt(v, *to))) return;
+  if ((any_bad_ && std::ranges::any_of(ring_.triangles, isBesideBad)) || (flips_may_harm_ && flipsAt(v, *to)))
+    return false;
   mesh_.setPoint(v, *to);
   if (size_ != nullptr) wanted_[v] = size_->at(*to);
   touched_.assign(ring_.triangles.begin(), ring_.triangles.end());
   mesh_.restoreDelaunayRound(v, touched_);
   ++stats_.relocations;
   wake();
+  return true;
 }
 
 bool Optimiser::mergeInto(VertexId v, VertexId stays) {
@@ -333,8 +335,8 @@ bool Optimiser::mergeShort(VertexId v) {
   return false;
 }
 
-// The square of how many triangles there are too many or too few round a vertex, once they have changed by so many.
-int Optimiser::imbalance(VertexId v, int change) {
+// How many triangles there are round a vertex beyond six, or on the boundary beyond one for each 60 degrees.
+int Optimiser::excess(VertexId v) {
   int ideal = 6;
   if (mesh_.star(v, star_) == StarKind::Open) {
     const Point here = mesh_.point(v);
@@ -342,21 +344,24 @@ int Optimiser::imbalance(VertexId v, int change) {
     for (const EdgeRef e : star_) angle += angleAt(here, mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.target(e)));
     ideal = std::max(1, static_cast<int>(std::lround(angle / (std::numbers::pi / 3.0))));
   }
-  const int over = static_cast<int>(star_.size()) + change - ideal;
-  return over * over;
+  return static_cast<int>(star_.size()) - ideal;
 }
 
+// What so many more triangles round a vertex add to the square of its excess.
+int Optimiser::imbalanceAdded(VertexId v, int more) { return more * (2 * excess(v) + more); }
+
+// Mends the numbers of neighbours at a vertex, which ring_ is of.
 void Optimiser::balance(VertexId v) {
-  if (!mesh_.isLiveVertex(v) || !gatherRing(v)) return;
-  if (ring_.corners.size() < 6) mergeTooFew(v);
-  if (ring_.corners.size() > 6) exchangeTooMany(v);
+  if (ring_.corners.size() < 6)
+    mergeTooFew(v);
+  else if (ring_.corners.size() > 6)
+    exchangeTooMany(v);
 }
 
 // Merges a vertex with the neighbour that leaves numbers nearest to what they should be, if that is nearer than they
 // are.
-bool Optimiser::mergeTooFew(VertexId v) {
-  spokes_ = ring_;
-  const std::vector<VertexId>& corners = spokes_.corners;
+void Optimiser::mergeTooFew(VertexId v) {
+  const std::vector<VertexId>& corners = ring_.corners;
   const int count = static_cast<int>(corners.size());
   const int own = (count - 6) * (count - 6);
   int best = 0;
@@ -366,25 +371,25 @@ bool Optimiser::mergeTooFew(VertexId v) {
     if (mesh_.kind(w) == VertexKind::Input || !isDue(w)) continue;
     const double longest = 0.5 * (wanted_[v] + wanted_[w]);
     if (squaredDistance(mesh_.point(v), mesh_.point(w)) > longest * longest) continue;
-    const int gain = change(w, count - 4) - own + change(corners[(i + 1) % count], -1) +
-                     change(corners[(i + count - 1) % count], -1);
-    if (gain < best) {
-      best = gain;
+    const int added = imbalanceAdded(w, count - 4) - own + imbalanceAdded(corners[(i + 1) % count], -1) +
+                      imbalanceAdded(corners[(i + count - 1) % count], -1);
+    if (added < best) {
+      best = added;
       with = w;
     }
   }
-  return with != kNone && mergeInto(v, with);
+  if (with != kNone) mergeInto(v, with);
 }
 
 void Optimiser::exchangeTooMany(VertexId v) {
-  spokes_ = ring_;
-  const std::vector<VertexId>& corners = spokes_.corners;
+  const std::vector<VertexId>& corners = ring_.corners;
   const auto isOurs = [&](VertexId u) { return mesh_.kind(u) == VertexKind::Free && isDue(u); };
   const std::size_t count = corners.size();
+  const int own = imbalanceAdded(v, -1);
   for (std::size_t i = 0; i < count; ++i) {
     const VertexId w = corners[i], left = corners[(i + 1) % count], right = corners[(i + count - 1) % count];
     if (!isOurs(w) || !isOurs(left) || !isOurs(right)) continue;
-    if (change(v, -1) + change(w, -1) + change(left, 1) + change(right, 1) >= 0) continue;
+    if (own + imbalanceAdded(w, -1) + imbalanceAdded(left, 1) + imbalanceAdded(right, 1) >= 0) continue;
     touched_.clear();
     if (!exchange_.tryExchange(v, w, left, right, touched_)) continue;
     for (const VertexId u : {v, w, left, right}) {

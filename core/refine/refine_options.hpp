@@ -22,7 +22,7 @@ enum class Algorithm {
 // What the optimiser holds above the mean of the shapes.
 enum class QualityGoal {
   Shape,    // nothing: triangles as near to equilateral as they get
-  Centred,  // no triangle away from the boundary has an obtuse angle: circumcentres lie within
+  Centred,  // no obtuse angles: circumcentres lie within. `max_angle_deg` 90 besides makes refinement hold that
   Links,    // circumcentres of neighbours are not near to one another
 };
 

@@ -26,11 +26,12 @@ OpenedShores openShores(const ShoreGraph& graph, const ShoreSizes& sizes, const 
   ShoreGraph land = openLand(graph, sizes, guides, first * options.land_min, edit, opened.gained);
   if (first < 1.0) {
     OpenedWater water = openWater(land, sizes, guides, options.channel_min, KeepWater::All, edit, opened.gained);
-    land = std::move(water.graph);
+    opened.before = std::move(water.before);
     opened.straits = std::move(water.straits);
-    land = openLand(land, sizes, guides, options.land_min, edit, opened.gained);
+    land = openLand(water.graph, sizes, guides, options.land_min, edit, opened.gained);
   }
   OpenedWater water = openWater(land, sizes, guides, options.channel_min, options.keep, edit, opened.gained);
+  if (first >= 1.0) opened.before = std::move(water.before);
   opened.graph = std::move(water.graph);
   opened.waters = std::move(water.waters);
   opened.areas = std::move(water.areas);

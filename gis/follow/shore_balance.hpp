@@ -10,6 +10,7 @@
 namespace coastmesh {
 
 struct OpenedShores {
+  ShoreTriangles before;  // the water as it was first closed, when land that goes first had gone
   ShoreGraph graph;
   std::vector<WaterPart> waters;
   std::vector<ClosedStrait> straits;

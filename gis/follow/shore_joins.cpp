@@ -23,31 +23,17 @@ class Joiner {
     opened_ = balanceShores(std::move(opened_), graph_, sizes_, guides_, options_);
     if (opened_.first != 1.0) join();
     for (const auto& [water, area] : widened_m2_) opened_.gained[water] += area;
-    if (ways_.empty()) findWays();
-    return {std::move(opened_), std::move(ways_), std::move(joined_)};
+    std::vector<WaterWay> ways = waysToWaters(opened_, sizes_, options_, 0.0);
+    return {std::move(opened_), std::move(ways), std::move(joined_)};
   }
 
  private:
-  void open(double first) {
-    opened_ = openShores(graph_, sizes_, guides_, options_, first);
-    ways_.clear();
-  }
-  bool isAnyCutOff() const { return !std::ranges::all_of(opened_.waters, &WaterPart::kept); }
-
-  // Of the waters as they are opened by now; returns those that are wide enough to be widened.
-  std::vector<WaterWay> findWays() {
-    ways_.assign(opened_.waters.size(), {});
-    if (!isAnyCutOff()) return ways_;
-    WaterWays found = waysToWaters(graph_, opened_, sizes_, guides_, options_, options_.strait_min);
-    ways_ = std::move(found.any);
-    return std::move(found.wide);
-  }
+  void open(double first) { opened_ = openShores(graph_, sizes_, guides_, options_, first); }
 
   void join() {
-    ways_.clear();
     if (options_.strait_min >= options_.channel_min) return;
-    for (int round = 0; round < kRounds && isAnyCutOff(); ++round) {
-      std::vector<WaterWay> ways = findWays();
+    for (int round = 0; round < kRounds; ++round) {
+      std::vector<WaterWay> ways = waysToWaters(opened_, sizes_, options_, options_.strait_min);
       std::vector<ShoreLine> lines;
       for (std::size_t i = 0; i < ways.size(); ++i) {
         const double area = opened_.waters[i].area;
@@ -70,7 +56,6 @@ class Joiner {
   const FollowOptions& options_;
   const ShoreEdit& edit_;
   OpenedShores opened_;
-  std::vector<WaterWay> ways_;  // of its waters, however narrow; empty where they have not been looked for
   WaterAreas widened_m2_;
   std::vector<JoinedWater> joined_;
 };

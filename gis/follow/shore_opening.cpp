@@ -20,7 +20,7 @@ constexpr double kPassage = 0.55;                // of its width: what is nearer
 constexpr double kLeastOpening = 1.0;            // elements of open boundary: a shorter one may become shore
 constexpr double kLeastWater = 6.0;              // triangles of the size wanted
 constexpr double kGrazed = 0.1;                  // less water at an open boundary is not what is meant
-constexpr std::size_t kPlaces = 8;               // that are told of a water
+constexpr std::size_t kPlaces = 8;               // given for each water
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
 class Opening {
@@ -311,6 +311,7 @@ OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const Sh
                       KeepWater keep, const ShoreEdit& edit, WaterAreas& gained) {
   Opening opening(graph, sizes, guides, edit, gained);
   OpenedWater opened;
+  opened.before = opening.triangles();
   opening.openWater(narrowest);
   opening.keepWater(keep, opened.waters);
   opened.straits = closedStraits(opening.triangles(), sizes.projection);

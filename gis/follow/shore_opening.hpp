@@ -28,6 +28,7 @@ struct WaterPart {
 };
 
 struct OpenedWater {
+  ShoreTriangles before;  // the water that was opened
   ShoreGraph graph;
   std::vector<WaterPart> waters;
   std::vector<ClosedStrait> straits;

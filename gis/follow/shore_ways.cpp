@@ -63,7 +63,10 @@ class WayFinder {
     std::vector<Box> boxes;
     std::vector<std::pair<std::size_t, Point>> places;
     for (std::size_t i = 0; i < waters.size(); ++i)
-      for (const Point& x : waters[i].inside) boxes.push_back(Box::of(x, x)), places.emplace_back(i, x);
+      for (const Point& x : waters[i].inside) {
+        boxes.push_back(Box::of(x, x));
+        places.emplace_back(i, x);
+      }
     const BoxTree tree(boxes, BoxTree::Order::Hilbert);
     std::vector<std::vector<TriId>> found(waters.size());
     for (TriId t = 0; t < mesh().triangles.size(); ++t) {
@@ -145,17 +148,10 @@ class WayFinder {
 
 }  // namespace
 
-WaterWays waysToWaters(const ShoreGraph& graph, const OpenedShores& opened, const ShoreSizes& sizes,
-                       const ShoreGuides& guides, const FollowOptions& options, double least) {
-  // As water was when it was closed: land that went before makes none narrow.
-  WaterAreas ignored;
-  const ShoreEdit edit = [](EditKind, const Point&, RegionId) {};
-  const ShoreGraph land = openLand(graph, sizes, guides, opened.first * options.land_min, edit, ignored);
-  const ShoreTriangles triangles = triangulateShores(land, sizes.wanted);
-  const auto waysFrom = [&](double narrowest) {
-    return WayFinder(triangles, sizes.projection, options.channel_min, narrowest).run(opened.waters);
-  };
-  return {waysFrom(least), waysFrom(0.0)};
+std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options,
+                                   double least) {
+  if (std::ranges::all_of(opened.waters, &WaterPart::kept)) return std::vector<WaterWay>(opened.waters.size());
+  return WayFinder(opened.before, sizes.projection, options.channel_min, least).run(opened.waters);
 }
 
 }  // namespace coastmesh

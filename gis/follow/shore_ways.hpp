@@ -17,14 +17,9 @@ struct WaterWay {
   double widening_m2 = 0.0;       // of land that goes where that is made wide enough
 };
 
-// One for each of the waters that opening has made of `graph`; those that are kept have none.
-struct WaterWays {
-  std::vector<WaterWay> wide;  // no narrower than so many times the size wanted
-  std::vector<WaterWay> any;
-};
-
-// `wide` with `least` for its narrowest. Private to gis.
-WaterWays waysToWaters(const ShoreGraph& graph, const OpenedShores& opened, const ShoreSizes& sizes,
-                       const ShoreGuides& guides, const FollowOptions& options, double least);
+// One for each of the waters that opening has made; those that are kept have none, nor have those whose ways are all
+// narrower than `least` times the size wanted somewhere. Private to gis.
+std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options,
+                                   double least);
 
 }  // namespace coastmesh
