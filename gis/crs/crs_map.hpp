@@ -17,7 +17,7 @@ class CrsMap {
   CrsMap(const OGRSpatialReference& from, const OGRSpatialReference& to);
 
   Point forward(const Point& p) const;  // not finite where `p` has no image
-  Point inverse(const Point& p) const;
+  Point inverse(const Point& p) const;  // of `forward`, to rounding
 
   struct Ends;
 

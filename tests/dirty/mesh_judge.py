@@ -65,10 +65,27 @@ def is_flat(corners, turned, geographic, chosen, projected):
     return -turned < 4 * grain / min(sides) + (math.radians(max(sides)) if chosen else 0)
 
 
-def check_mesh(nodes, triangles, geographic, told=0, chosen=False, projected=False):
-    """Counter-clockwise triangles, each edge once in each direction, each node used. As many as the program reported may be
-    flat instead."""
+def on_sphere(p):
+    lon, lat = math.radians(p[0]), math.radians(p[1])
+    return [math.degrees(v) for v in (math.cos(lat) * math.cos(lon), math.cos(lat) * math.sin(lon), math.sin(lat))]
+
+
+def is_named(corners, turned, geographic):
+    """Whether a place of the report's section `turned` lies at the triangle; it lists the first 1000."""
+    if turned["count"] > len(turned["places"]):
+        return True
+    place = on_sphere if geographic else list
+    points = [place(p) for p in corners]
+    size = max(math.dist(p, q) for p in points for q in points) + 1e-12 * max(abs(v) for p in points for v in p)
+    named = ((p["lon"], p["lat"]) if "lon" in p else (p["x"], p["y"]) for p in turned["places"])
+    return any(math.dist(place(p), points[0]) <= size for p in named)
+
+
+def check_mesh(nodes, triangles, geographic, reported=None, chosen=False, projected=False):
+    """Counter-clockwise triangles, each edge once in each direction, each node used. Those that the report names as turned
+    may be flat instead."""
     turn = turn_on_globe if geographic else turn_in_plane
+    told = reported["count"] if reported else 0
     edges, used = set(), set()
     for number, t in enumerate(triangles):
         require(len(set(t)) == 3 and all(0 <= n < len(nodes) for n in t), f"triangle {number}: corners {t}")
@@ -77,7 +94,8 @@ def check_mesh(nodes, triangles, geographic, told=0, chosen=False, projected=Fal
         turned = turn(*corners)
         if turned <= 0:
             told -= 1
-            require(told >= 0 and is_flat(corners, turned, geographic, chosen, projected),
+            require(told >= 0 and is_named(corners, reported, geographic) and
+                    is_flat(corners, turned, geographic, chosen, projected),
                     f"triangle {number} is not counter-clockwise ({turned:.2g}): {corners}")
         used.update(t)
         for edge in zip(t, t[1:] + t[:1]):
