@@ -161,31 +161,33 @@ int runCheck(const CheckUsage& usage, Run& run) {
 
 Command declareCheck(CLI::App& root) {
   auto usage = std::make_shared<CheckUsage>();
-  CommandLine line(root, "check", "Look for defects in a mesh; exit code 1 where there are any");
-  declareMeshFile(line, "MESH", "mesh to check", usage->mesh);
-  line.texts("--input", usage->input.files, kVectorFile, false,
-             "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
-  declareTargets(line, usage->targets, "also look for all that makes the model refuse the mesh; repeat it for several");
-  line.number("--time-step", usage->target_check.time_step_s, "S", {0.0, 1e6},
-              "also look for triangles whose Courant number with this time step is above 1, or as --target has it; 0 "
-              "leaves them out");
-  line.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
-  line.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
-  line.flag("--delaunay", usage->check.delaunay,
-            "also look for edges that are not Delaunay; always done with --input, without which edges inside the mesh "
-            "cannot be known as constraints");
-  line.flag("--pinches", usage->check.pinches, "also look for nodes in which the mesh touches itself");
-  line.needing({"--input"}, [&] {
-    declareInputOptions(line, usage->input);
-    declarePinches(line, "--input-pinches", "the --pinches that the mesh was made with from the --input", usage->input);
+  OptionTable table = commandOptions("check", "Look for defects in a mesh; exit code 1 where there are any");
+  declareMeshFile(table, "MESH", "mesh to check", usage->mesh);
+  table.texts("--input", usage->input.files, kVectorFile, false,
+              "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
+  declareTargets(table, usage->targets,
+                 "also look for all that makes the model refuse the mesh; repeat it for several");
+  table.number("--time-step", usage->target_check.time_step_s, "S", {0.0, 1e6},
+               "also look for triangles whose Courant number with this time step is above 1, or as --target has it; 0 "
+               "leaves them out");
+  table.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
+  table.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
+  table.flag("--delaunay", usage->check.delaunay,
+             "also look for edges that are not Delaunay; always done with --input, without which edges inside the mesh "
+             "cannot be known as constraints");
+  table.flag("--pinches", usage->check.pinches, "also look for nodes in which the mesh touches itself");
+  table.needing({"--input"}, [&] {
+    declareInputOptions(table, usage->input);
+    declarePinches(table, "--input-pinches", "the --pinches that the mesh was made with from the --input",
+                   usage->input);
   });
-  line.output("-o,--output", usage->output, {}, "write the defects as a layer of points: .gpkg, .geojson or .fgb");
-  line.flag("--overwrite", usage->overwrite, "replace a file that exists").needs({"--output"});
-  line.flag("--quiet", usage->quiet, "print nothing");
-  line.example("coastmesh check lake.nc --input lake.geojson --min-angle 33",
-               "is the mesh sound, does it hold the angle, is all of the input in it?");
-  line.example("coastmesh check grid.2dm -o defects.gpkg", "the defects as a layer of points");
-  return {std::move(line), [usage](Run& run) { return runCheck(*usage, run); }};
+  table.output("-o,--output", usage->output, {}, "write the defects as a layer of points: .gpkg, .geojson or .fgb");
+  table.flag("--overwrite", usage->overwrite, "replace a file that exists").needs({"--output"});
+  table.flag("--quiet", usage->quiet, "print nothing");
+  table.example("coastmesh check lake.nc --input lake.geojson --min-angle 33",
+                "is the mesh sound, does it hold the angle, is all of the input in it?");
+  table.example("coastmesh check grid.2dm -o defects.gpkg", "the defects as a layer of points");
+  return {{root, std::move(table)}, [usage](Run& run) { return runCheck(*usage, run); }};
 }
 
 }  // namespace coastmesh

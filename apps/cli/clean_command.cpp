@@ -217,21 +217,22 @@ int runClean(const CleanUsage& usage, Run& run) {
 
 Command declareClean(CLI::App& root) {
   auto usage = std::make_shared<CleanUsage>();
-  CommandLine line(root, "clean", "Write the plane graph that would be meshed, and what was changed for it");
-  line.arguments("INPUT", usage->input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
-  line.output("-o,--output", usage->output, {.required = true},
-              "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
-  declareInputOptions(line, usage->input);
-  declarePinches(line, usage->input);
-  line.text(
+  OptionTable table =
+      commandOptions("clean", "Write the plane graph that would be meshed, and what was changed for it");
+  table.arguments("INPUT", usage->input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
+  table.output("-o,--output", usage->output, {.required = true},
+               "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
+  declareInputOptions(table, usage->input);
+  declarePinches(table, usage->input);
+  table.text(
       "--boundary-column", usage->boundary_column, "NAME",
       "the column of INPUT with the types of boundaries, which go into the layer pslg and from there into a mesh");
-  line.output("--report", usage->report, {.standard_output = true},
-              "write what was read and mended, and the time it took, as JSON; - prints it in place of the summary");
-  line.flag("--overwrite", usage->overwrite, "replace a file that exists");
-  line.flag("--quiet", usage->quiet, "print no summary");
-  line.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");
-  return {std::move(line), [usage](Run& run) { return runClean(*usage, run); }};
+  table.output("--report", usage->report, {.standard_output = true},
+               "write what was read and mended, and the time it took, as JSON; - prints it in place of the summary");
+  table.flag("--overwrite", usage->overwrite, "replace a file that exists");
+  table.flag("--quiet", usage->quiet, "print no summary");
+  table.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");
+  return {{root, std::move(table)}, [usage](Run& run) { return runClean(*usage, run); }};
 }
 
 }  // namespace coastmesh

@@ -50,15 +50,15 @@ int runConvert(const ConvertUsage& usage, Run& run) {
 
 Command declareConvert(CLI::App& root) {
   auto usage = std::make_shared<ConvertUsage>();
-  CommandLine line(root, "convert", "Write a mesh in other formats");
-  declareMeshFile(line, "MESH", "mesh to read", usage->mesh);
-  declareGridOutputs(line, usage->outputs, usage->format);
-  declareFinishOptions(line, usage->finish);
-  line.option("--boundary-column").needs({"--boundaries"});
-  line.flag("--overwrite", usage->overwrite, "replace files that exist");
-  line.flag("--quiet", usage->quiet, "print no summary");
-  line.example("coastmesh convert lake.nc -o lake.2dm -o lake.msh", "a grid in two other formats");
-  return {std::move(line), [usage](Run& run) { return runConvert(*usage, run); }};
+  OptionTable table = commandOptions("convert", "Write a mesh in other formats");
+  declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
+  declareGridOutputs(table, usage->outputs, usage->format);
+  declareFinishOptions(table, usage->finish);
+  table.option("--boundary-column").needs({"--boundaries"});
+  table.flag("--overwrite", usage->overwrite, "replace files that exist");
+  table.flag("--quiet", usage->quiet, "print no summary");
+  table.example("coastmesh convert lake.nc -o lake.2dm -o lake.msh", "a grid in two other formats");
+  return {{root, std::move(table)}, [usage](Run& run) { return runConvert(*usage, run); }};
 }
 
 }  // namespace coastmesh

@@ -63,12 +63,12 @@ std::string describe(const InfoUsage& usage, Run& run) {
 
 Command declareInfo(CLI::App& root) {
   auto usage = std::make_shared<InfoUsage>();
-  CommandLine line(root, "info", "Report what a mesh, a vector file or a .poly holds");
-  declareMeshFile(line, "FILE", "mesh, vector file or .poly", usage->file);
-  line.flag("--json", usage->json, "print it as JSON");
-  line.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");
-  line.example("coastmesh info lakes.shp", "what there is to mesh");
-  return {std::move(line), [usage](Run& run) {
+  OptionTable table = commandOptions("info", "Report what a mesh, a vector file or a .poly holds");
+  declareMeshFile(table, "FILE", "mesh, vector file or .poly", usage->file);
+  table.flag("--json", usage->json, "print it as JSON");
+  table.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");
+  table.example("coastmesh info lakes.shp", "what there is to mesh");
+  return {{root, std::move(table)}, [usage](Run& run) {
             std::fputs(describe(*usage, run).c_str(), stdout);
             return static_cast<int>(kExitDone);
           }};

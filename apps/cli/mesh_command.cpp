@@ -13,9 +13,11 @@
 #include "apps/job/mesh_job.hpp"
 #include "apps/report/mesh_report.hpp"
 #include "apps/report/mesh_warnings.hpp"
+#include "apps/usage/grid_usage.hpp"
 #include "apps/usage/mesh_usage.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
+#include "gis/format/grid_io.hpp"
 
 namespace coastmesh {
 
@@ -47,7 +49,49 @@ std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, Progr
   return warnings;
 }
 
-int runMesh(const MeshUsage& usage, Run& run) {
+// What the program is given for it besides the job.
+struct MeshCommandUsage {
+  MeshUsage mesh;
+  std::vector<std::string> outputs;
+  std::string format;
+  std::string report;
+  std::string progress = "auto";
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+OptionTable declareOptions(MeshCommandUsage& usage) {
+  OptionTable table = commandOptions("mesh", "Mesh the polygons and closed lines of vector files, or a .poly");
+  table.arguments("INPUT", usage.mesh.job.input.files,
+                  "vector files that GDAL reads ('-': standard input), or one .poly");
+  declareGridOutputs(table, usage.outputs, usage.format);
+  declareMeshOptions(table, usage.mesh);
+  table.option("--mark-pieces")
+      .needs(
+          [&usage] {
+            return std::ranges::any_of(usage.outputs, [&usage](const std::string& path) {
+              return gridFormatFor(path, usage.format).name == "ugrid";
+            });
+          },
+          "without an output that is UGRID (.nc)");
+  table.output("--report", usage.report, {.standard_output = true},
+               "write a report as JSON; - prints it in place of the summary");
+  table.choice(
+      "--progress", usage.progress, {"auto", "bar", "log", "json", "none"},
+      "how to show progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, else lines); "
+      "or JSON lines on stdout");
+  table.flag("--overwrite", usage.overwrite, "replace files that exist");
+  table.flag("--quiet", usage.quiet, "print no summary");
+  table.example("coastmesh mesh lake.geojson -o lake.gpkg -o lake.nc", "a lake as GIS layers and as a UGRID grid");
+  table.example("coastmesh mesh sea.shp -o fort.14 --min-angle 35 --size-max 5000",
+                "a sea for ADCIRC: angles of 35 degrees and more, no edge longer than 5 km");
+  table.example("coastmesh mesh lakes.gpkg -o lakes.msh --min-island-area 10000 --report lakes.json",
+                "many lakes for Gmsh's readers, islands below a hectare filled, with a report for scripts");
+  return table;
+}
+
+int runMesh(const MeshCommandUsage& usage, Run& run) {
+  const MeshJob& job = usage.mesh.job;
   const Interrupt& interrupt = run.interrupt;
   if (usage.report == "-" && usage.progress == "json")
     throw OptionError("--report - and --progress json both write to standard output: give the report a file");
@@ -61,7 +105,7 @@ int runMesh(const MeshUsage& usage, Run& run) {
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
   const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
                            [&display](std::string_view phase, double share) { display.show(phase, share); }};
-  MeshJobResult result = runMeshJob(usage.job, control);
+  MeshJobResult result = runMeshJob(job, control);
   display.clear();
   for (const std::string& warning : warningsOf(result)) run.warn(warning);
 
@@ -71,7 +115,7 @@ int runMesh(const MeshUsage& usage, Run& run) {
   result.seconds.write = secondsSince(write_start);
   result.log.addAlone("write", result.seconds.write);
   result.seconds.total = secondsSince(start);
-  outputs.writeReport(meshReport(usage.job, result, threadsAsked(usage.job.parallel), run.warnings));
+  outputs.writeReport(meshReport(job, result, threadsAsked(job.parallel), run.warnings));
   outputs.commit();
   if (!any && !result.refusals.empty() && std::ranges::all_of(result.refusals, &Refusal::over_budget)) {
     std::fprintf(stderr, "coastmesh: error: %s\n", reasonOf(result.refusals).c_str());
@@ -83,7 +127,7 @@ int runMesh(const MeshUsage& usage, Run& run) {
   display.show("done", 1.0);
   display.clear();
   if (!usage.quiet && usage.progress != "json" && usage.report != "-") {
-    std::string text = meshSummary(usage.job, result);
+    std::string text = meshSummary(job, result);
     for (const std::string& note : result.read.notes) text += note + "\n";
     for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
     if (!usage.report.empty()) text += "wrote " + usage.report + "\n";
@@ -95,13 +139,11 @@ int runMesh(const MeshUsage& usage, Run& run) {
 }  // namespace
 
 Command declareMesh(CLI::App& root) {
-  auto usage = std::make_shared<MeshUsage>();
-  Command command{declareMeshUsage(root, *usage), {}};
-  command.run = [usage](Run& run) {
-    settle(*usage);
-    return runMesh(*usage, run);
-  };
-  return command;
+  auto usage = std::make_shared<MeshCommandUsage>();
+  return {{root, declareOptions(*usage)}, [usage](Run& run) {
+            settle(usage->mesh);
+            return runMesh(*usage, run);
+          }};
 }
 
 }  // namespace coastmesh

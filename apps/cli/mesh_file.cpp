@@ -6,10 +6,10 @@
 
 namespace coastmesh {
 
-void declareMeshFile(CommandLine& line, const std::string& name, const std::string& help, MeshFile& file) {
-  line.argument(name, file.path, help);
-  line.text("--assume-crs", file.crs, "CRS",
-            "CRS of the mesh where its file does not say one; without this option a plane is assumed then");
+void declareMeshFile(OptionTable& table, const std::string& name, const std::string& help, MeshFile& file) {
+  table.argument(name, file.path, help);
+  table.text("--assume-crs", file.crs, "CRS",
+             "CRS of the mesh where its file does not say one; without this option a plane is assumed then");
 }
 
 namespace {

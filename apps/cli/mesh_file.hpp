@@ -14,7 +14,7 @@ struct MeshFile {
 };
 
 // Declares the argument `name` and the option --assume-crs.
-void declareMeshFile(CommandLine& line, const std::string& name, const std::string& help, MeshFile& file);
+void declareMeshFile(OptionTable& table, const std::string& name, const std::string& help, MeshFile& file);
 
 // Throws InputError, also for a mesh without triangles.
 Grid readMeshFile(const MeshFile& file, Run& run);

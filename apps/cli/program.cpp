@@ -31,7 +31,7 @@ std::string wholeUsage(const std::vector<Command>& commands) {
                                 {"readable", format.readable},
                                 {"writable", format.writable}});
   }
-  for (const Command& command : commands) usage["commands"].push_back(Json::parse(command.line.jsonUsage()));
+  for (const Command& command : commands) usage["commands"].push_back(Json::parse(command.line.options().jsonUsage()));
   return usage.dump(2) + "\n";
 }
 
@@ -46,7 +46,7 @@ std::string welcome(const std::vector<Command>& commands) {
       "  coastmesh plot lake.nc -o lake.png --color angle\n\n"
       "Commands:\n";
   for (const Command& command : commands) {
-    const Json usage = Json::parse(command.line.jsonUsage());
+    const Json usage = Json::parse(command.line.options().jsonUsage());
     const std::string name = usage["command"];
     text += "  " + name + std::string(10 - std::min<std::size_t>(9, name.size()), ' ') +
             usage["help"].get<std::string>() + "\n";
@@ -84,7 +84,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     std::fflush(stdout);
     throw OptionError("no command was given; start with one of those above");
   }
-  const auto isNamed = [&](const Command& command) { return command.line.name() == argv[1]; };
+  const auto isNamed = [&](const Command& command) { return command.line.options().name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, isNamed)) {
     throw OptionError("there is no command '" + std::string(argv[1]) + "'; coastmesh --help lists them");
   }
@@ -94,9 +94,10 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     const auto command = std::ranges::find_if(commands, isNamed);
     if (command != commands.end()) {
       std::set<std::string> names;
-      for (const Command& other : commands) names.insert(other.line.name());
+      for (const Command& other : commands) names.insert(other.line.options().name());
       arguments = command->line.withPresentNames(
-          expandConfig({arguments.begin() + 1, arguments.end()}, command->line.jsonUsage(), names), former_names);
+          expandConfig({arguments.begin() + 1, arguments.end()}, command->line.options().jsonUsage(), names),
+          former_names);
       arguments.insert(arguments.begin(), argv[1]);
     }
     std::ranges::reverse(arguments);  // as CLI11 wants them
@@ -110,11 +111,11 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
   }
   for (Command& command : commands) {
     if (!command.line.chosen()) continue;
-    requireOutputsApart(command.line);
+    requireOutputsApart(command.line.options());
     Run run{interrupt, {}, {}};
-    for (const auto& [option, path] : command.line.inputs()) run.inputs.push_back(path);
+    for (const auto& [option, path] : command.line.options().inputs()) run.inputs.push_back(path);
     for (const std::string& sentence : former_names) run.warn(sentence);
-    for (const std::string& sentence : command.line.withoutEffect()) run.warn(sentence);
+    for (const std::string& sentence : command.line.options().withoutEffect()) run.warn(sentence);
     return command.run(run);
   }
   throw std::logic_error("a command was parsed that was never declared");

@@ -66,7 +66,7 @@ struct Owner {
 
 class Inputs {
  public:
-  explicit Inputs(const std::vector<CommandLine::NamedFile>& named) {
+  explicit Inputs(const std::vector<OptionTable::NamedFile>& named) {
     for (const auto& [option, path] : named) {
       std::vector<std::string> all = filesNamed(path);
       for (const std::string& behind : filesBehind(path)) {
@@ -81,7 +81,7 @@ class Inputs {
     }
   }
 
-  void requireApart(const CommandLine::NamedOutput& output, const std::string& file, bool written) const {
+  void requireApart(const OptionTable::NamedOutput& output, const std::string& file, bool written) const {
     const std::string subject = output.option + " " + output.path + ": ";
     const std::string what = file == output.path ? "" : "'" + file + "', which it writes too, ";
     const auto input = files_.find(identityOf(file));
@@ -101,7 +101,7 @@ class Inputs {
 // Which outputs write a file, and which take one away or keep it as it is.
 class Claims {
  public:
-  void add(const CommandLine::NamedOutput& output) {
+  void add(const OptionTable::NamedOutput& output) {
     std::set<std::string> own;
     for (const std::string& file : output.files.targets) {
       const std::string key = identityOf(file);
@@ -121,7 +121,7 @@ class Claims {
   }
 
  private:
-  [[noreturn]] static void refuse(const CommandLine::NamedOutput& output, const Owner& other, const std::string& file) {
+  [[noreturn]] static void refuse(const OptionTable::NamedOutput& output, const Owner& other, const std::string& file) {
     if (output.option == other.option && identityOf(output.path) == identityOf(other.path))
       throw OptionError("'" + output.path + "' is given as an output twice");
     throw OptionError(output.option + " " + output.path + " and " + other.option + " " + other.path +
@@ -133,12 +133,12 @@ class Claims {
 
 }  // namespace
 
-void requireOutputsApart(const CommandLine& line) {
-  const std::vector<CommandLine::NamedOutput> outputs = line.outputs();
+void requireOutputsApart(const OptionTable& table) {
+  const std::vector<OptionTable::NamedOutput> outputs = table.outputs();
   if (outputs.empty()) return;
-  const Inputs inputs(line.inputs());
+  const Inputs inputs(table.inputs());
   Claims claims;
-  for (const CommandLine::NamedOutput& output : outputs) {
+  for (const OptionTable::NamedOutput& output : outputs) {
     for (const std::string& file : output.files.targets) inputs.requireApart(output, file, true);
     for (const std::string& file : output.files.stale) inputs.requireApart(output, file, false);
     if (!output.files.prj.empty()) inputs.requireApart(output, output.files.prj, false);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/cli/interrupt.hpp"
-#include "apps/usage/command_line.hpp"
+#include "apps/usage/option_table.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/format/grid_losses.hpp"
@@ -16,7 +16,7 @@ namespace coastmesh {
 // Throws OptionError where outputs of the run that `line` asks for share a file, or one would replace what the run
 // reads: any file that an option or an argument names, those that belong to it, and those that it takes its data from.
 // To be called before anything is read or written.
-void requireOutputsApart(const CommandLine& line);
+void requireOutputsApart(const OptionTable& table);
 
 // All outputs of a run: none comes into place before all are written, and then all do or none.
 class RunOutputs {

@@ -8,7 +8,6 @@
 #include "apps/python/arrays.hpp"
 #include "apps/python/pickle.hpp"
 #include "apps/python/run.hpp"
-#include "apps/usage/command_line.hpp"
 #include "gis/error.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"
@@ -150,8 +149,8 @@ PYBIND11_MODULE(_coastmesh, m) {
       .def(py::pickle([](const MeshResult& mesh) { return py::bytes(bytesOf(mesh)); },
                       [](const py::bytes& bytes) { return resultOf(bytes); }));
 
-  m.def("run", &runFromPython, py::arg("arguments"), py::arg("files"), py::arg("text"), py::arg("graph"),
+  m.def("run", &runFromPython, py::arg("keywords"), py::arg("files"), py::arg("text"), py::arg("graph"),
         py::arg("progress"));
   m.def("read", &readMesh);
-  m.def("usage", &usageOfMesh);
+  m.def("usage", &usageOfOptions);
 }

@@ -3,7 +3,6 @@
 #include <cpl_vsi.h>
 #include <pybind11/stl.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -14,9 +13,11 @@
 #include <thread>
 
 #include "apps/python/arrays.hpp"
+#include "apps/python/keywords.hpp"
 #include "apps/report/mesh_report.hpp"
 #include "apps/report/mesh_warnings.hpp"
 #include "apps/usage/mesh_usage.hpp"
+#include "apps/usage/option_keywords.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
 
@@ -122,16 +123,31 @@ class MemoryFile {
   std::string path_;
 };
 
-void parse(CLI::App& app, std::vector<std::string> arguments) {
-  std::ranges::reverse(arguments);  // as CLI11 takes them
-  try {
-    app.parse(std::move(arguments));
-  } catch (const CLI::ParseError& error) {
-    std::string text = error.what();
-    std::ranges::replace(text, '\n', ' ');
-    throw OptionError(text);
+// Messages of the library name options as the program does, and files as GDAL knows them.
+class Wording {
+ public:
+  Wording(const OptionTable& options, const std::optional<MemoryFile>& geojson)
+      : options_(options), geojson_(geojson) {}
+
+  std::string operator()(const std::string& message) const {
+    return inKeywords(geojson_ ? geojson_->named(message) : message, options_);
   }
-}
+  void apply(std::vector<std::string>& messages) const {
+    for (std::string& message : messages) message = (*this)(message);
+  }
+  void apply(MeshJobResult& result) const {
+    apply(result.read.warnings);
+    apply(result.read.notes);
+    for (Refusal& refusal : result.refusals) refusal.reason = (*this)(refusal.reason);
+    if (!geojson_) return;
+    for (Refusal& refusal : result.refusals) refusal.source = geojson_->named(refusal.source);
+    for (GridFeature& feature : result.grid.features) feature.source = geojson_->named(feature.source);
+  }
+
+ private:
+  const OptionTable& options_;
+  const std::optional<MemoryFile>& geojson_;
+};
 
 MeshJobResult runInBackground(const MeshJob& job, const py::object& progress) {
   Background background(job);
@@ -168,18 +184,13 @@ py::list refusalsOf(const MeshResult& result) {
   return list;
 }
 
-MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::string> files,
-                         std::optional<std::string> text, const py::object& graph, const py::object& progress) {
+MeshResult runFromPython(const py::dict& keywords, std::vector<std::string> files, std::optional<std::string> text,
+                         const py::object& graph, const py::object& progress) {
   MeshUsage usage;
-  CLI::App app("", "coastmesh");
-  const CommandLine line = declareMeshUsage(app, usage);
-  // What the command line insists on; neither is used. A mesh in memory holds what UGRID can.
-  arguments.insert(arguments.begin(), {"mesh", "--output=none.nc"});
-  arguments.emplace_back("none");
+  OptionTable options("mesh", "");
+  declareMeshOptions(options, usage);
   std::vector<std::string> warnings;
-  parse(app, line.withPresentNames(std::move(arguments), warnings));
-  settle(usage);
-  std::ranges::move(line.withoutEffect(), std::back_inserter(warnings));
+  setFromKeywords(options, keywords, warnings);
   std::optional<MemoryFile> geojson;
   if (text) {
     geojson.emplace(std::move(*text));
@@ -190,24 +201,23 @@ MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::st
     const auto parts = graph.cast<std::tuple<py::object, py::object, py::object>>();
     usage.job.input.pslg = pslgOf(std::get<0>(parts), std::get<1>(parts), std::get<2>(parts));
   }
+  std::ranges::move(options.withoutEffect(), std::back_inserter(warnings));
 
+  const Wording inWords(options, geojson);
   MeshJobResult done = [&] {
     try {
+      settle(usage);
       return runInBackground(usage.job, progress);
+    } catch (const OptionError& error) {
+      throw OptionError(inWords(error.what()));
     } catch (const InputError& error) {
-      throw InputError(geojson ? geojson->named(error.what()) : error.what());
+      throw InputError(inWords(error.what()));
     }
   }();
-  if (geojson) {
-    for (std::string& warning : done.read.warnings) warning = geojson->named(warning);
-    for (Refusal& refusal : done.refusals) {
-      refusal.source = geojson->named(refusal.source);
-      refusal.reason = geojson->named(refusal.reason);
-    }
-    for (GridFeature& feature : done.grid.features) feature.source = geojson->named(feature.source);
-    usage.job.input.files = {MemoryFile::kName};
-  }
+  inWords.apply(done);
+  if (geojson) usage.job.input.files = {MemoryFile::kName};
   std::ranges::move(warningsOf(done), std::back_inserter(warnings));
+  inWords.apply(warnings);
   MeshResult result;
   const int threads = usage.job.parallel.threads;
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
@@ -219,10 +229,11 @@ MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::st
   return result;
 }
 
-std::string usageOfMesh() {
+std::string usageOfOptions() {
   MeshUsage usage;
-  CLI::App app("", "coastmesh");
-  return declareMeshUsage(app, usage).jsonUsage();
+  OptionTable options("mesh", "");
+  declareMeshOptions(options, usage);
+  return options.jsonUsage();
 }
 
 }  // namespace coastmesh

@@ -21,16 +21,16 @@ struct MeshResult {
 
 pybind11::list refusalsOf(const MeshResult& result);
 
-// `coastmesh mesh` with what it reads from `files`, from `text` (GeoJSON), or from `graph`, a tuple (points, segments,
-// holes), where that is not None. `arguments` are options as on the command line. The work is done on threads of its
-// own, without Python's lock; `progress(phase, share)` is called, and signals are handled, in the caller's thread. What
-// either raises ends the run and is raised again. Throws OptionError, InputError. A result without a triangle says in
-// `refusals` why.
-MeshResult runFromPython(std::vector<std::string> arguments, std::vector<std::string> files,
+// Meshes what it reads from `files`, from `text` (GeoJSON), or from `graph`, a tuple (points, segments, holes), where
+// that is not None. `keywords` are options: see setFromKeywords; messages name them so. The work is done on threads of
+// its own, without Python's lock; `progress(phase, share)` is called, and signals are handled, in the caller's thread.
+// What either raises ends the run and is raised again. Throws OptionError, InputError. A result without a triangle says
+// in `refusals` why.
+MeshResult runFromPython(const pybind11::dict& keywords, std::vector<std::string> files,
                          std::optional<std::string> text, const pybind11::object& graph,
                          const pybind11::object& progress);
 
-// `coastmesh mesh --json-usage`.
-std::string usageOfMesh();
+// The options as JSON, in the form of `coastmesh mesh --json-usage`.
+std::string usageOfOptions();
 
 }  // namespace coastmesh

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "apps/usage/command_line.hpp"
+#include "gis/error.hpp"
 
 namespace coastmesh {
 

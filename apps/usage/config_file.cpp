@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/usage/command_line.hpp"
 #include "apps/usage/config_entries.hpp"
+#include "gis/error.hpp"
 
 namespace coastmesh {
 

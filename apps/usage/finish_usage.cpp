@@ -13,10 +13,10 @@ namespace {
 
 // Declares a choice of names, in the order of the enumerators of `value`.
 template <typename Enum, std::size_t N>
-void declareEnum(CommandLine& line, const std::string& names, Enum& value, const std::array<const char*, N>& choices,
+void declareEnum(OptionTable& table, const std::string& names, Enum& value, const std::array<const char*, N>& choices,
                  const std::string& help) {
   const std::vector<std::string> all(choices.begin(), choices.end());
-  line.choice(
+  table.choice(
       names, all[static_cast<std::size_t>(value)], all,
       [&value, all](const std::string& chosen) {
         for (std::size_t i = 0; i < all.size(); ++i)
@@ -27,42 +27,42 @@ void declareEnum(CommandLine& line, const std::string& names, Enum& value, const
 
 }  // namespace
 
-void declareFinishOptions(CommandLine& line, FinishOptions& options) {
+void declareFinishOptions(OptionTable& table, FinishOptions& options) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   DepthOptions& depth = options.depth;
-  line.texts("--bathymetry", depth.files, kRasterFile, false,
-             "raster that gives the nodes their depth; repeat it for several, the first that has a value counts");
-  line.needing({"--bathymetry"}, [&] {
-    declareEnum(line, "--depth-method", depth.method, kDepthMethodNames,
+  table.texts("--bathymetry", depth.files, kRasterFile, false,
+              "raster that gives the nodes their depth; repeat it for several, the first that has a value counts");
+  table.needing({"--bathymetry"}, [&] {
+    declareEnum(table, "--depth-method", depth.method, kDepthMethodNames,
                 "depth between the four pixels round a node, or the average over the pixels in its triangles");
-    line.choice(
+    table.choice(
         "--depth-sign", "up", {"up", "down"},
         [&depth](const std::string& chosen) { depth.positive_down = chosen == "down"; },
         "whether the rasters hold elevations (positive up) or depths (positive down)");
-    line.number("--water-level", depth.water_level_m, "M", {-kInfinity, kInfinity},
-                "height of the still water above the rasters' zero, which depths are counted from");
-    line.number("--min-depth", depth.min_depth_m, "M", {-kInfinity, kInfinity},
-                "nodes shallower than this are lowered");
+    table.number("--water-level", depth.water_level_m, "M", {-kInfinity, kInfinity},
+                 "height of the still water above the rasters' zero, which depths are counted from");
+    table.number("--min-depth", depth.min_depth_m, "M", {-kInfinity, kInfinity},
+                 "nodes shallower than this are lowered");
     declareEnum(
-        line, "--depth-fill", depth.fill, kDepthFillNames,
+        table, "--depth-fill", depth.fill, kDepthFillNames,
         "what nodes get for which no raster has a value: the mean of their neighbours, the value of the nearest "
         "node, or none");
   });
   BoundaryOptions& boundaries = options.boundaries;
-  line.texts(
+  table.texts(
       "--boundaries", boundaries.files, kVectorFile, false,
       "polygons, or lines along the shore, whose column says what the boundary is there: land, open or river, or a "
       "number of ADCIRC's; repeat it for several, the last counts");
-  line.text(
+  table.text(
       "--boundary-column", boundaries.column, "NAME",
       "the column with the types of boundaries, in INPUT too where it is given; else the first called type, role, "
       "boundary, ibtype or kind");
-  line.number(
+  table.number(
       "--open-deeper", boundaries.open_deeper_m, "M", {-kInfinity, kInfinity},
       "boundaries of outer loops are open where they are deeper than this; sides of a frame are open everywhere");
-  line.number("--min-boundary", boundaries.least_length_m, "M", {0.0, kInfinity},
-              "boundaries shorter than this become part of the longer one beside them");
-  declareTargets(line, options.targets,
+  table.number("--min-boundary", boundaries.least_length_m, "M", {0.0, kInfinity},
+               "boundaries shorter than this become part of the longer one beside them");
+  declareTargets(table, options.targets,
                  "mend what would make the model refuse the mesh, each repair being reported; repeat it for several");
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "apps/job/finish_grid.hpp"
-#include "apps/usage/command_line.hpp"
+#include "apps/usage/option_table.hpp"
 
 namespace coastmesh {
 
 // Declares the options of depths, boundaries and models.
-void declareFinishOptions(CommandLine& line, FinishOptions& options);
+void declareFinishOptions(OptionTable& table, FinishOptions& options);
 
 }  // namespace coastmesh

@@ -4,10 +4,10 @@
 
 namespace coastmesh {
 
-void declareGridOutputs(CommandLine& line, std::vector<std::string>& outputs, std::string& format) {
+void declareGridOutputs(OptionTable& table, std::vector<std::string>& outputs, std::string& format) {
   const auto files = [&format](const std::string& path) { return filesOf(gridFormatFor(path, format), path); };
-  line.outputs("-o,--output", outputs, {.required = true, .files = files}, "mesh to write; repeat it for several");
-  line.text("--format", format, "NAME", "format of the output, where its ending does not say");
+  table.outputs("-o,--output", outputs, {.required = true, .files = files}, "mesh to write; repeat it for several");
+  table.text("--format", format, "NAME", "format of the output, where its ending does not say");
 }
 
 }  // namespace coastmesh

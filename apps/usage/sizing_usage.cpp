@@ -1,11 +1,10 @@
 #include "apps/usage/sizing_usage.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
-#include "core/computable.hpp"
+#include "gis/error.hpp"
 
 namespace coastmesh {
 
@@ -13,25 +12,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// "10,200,500" or "200,inf,500".
-DepthBand parseBand(const std::string& text) {
-  double numbers[3] = {};
-  const char* at = text.data();
-  const char* const end = text.data() + text.size();
-  for (int i = 0; i < 3; ++i) {
-    const auto [next, error] = std::from_chars(at, end, numbers[i]);
-    const bool last = i == 2;
-    const bool open = !last && std::isinf(numbers[i]);
-    if (error != std::errc() || !(open || isComputable(numbers[i])) ||
-        (last ? next != end : next == end || *next != ','))
-      throw OptionError("--depth-band: '" + text + "' is not FROM,TO,SIZE, three numbers in metres");
-    at = next + 1;
-  }
+// FROM, TO and SIZE; what is wrong with them, if anything.
+std::string storeBand(const std::vector<double>& numbers, std::vector<DepthBand>& bands) {
+  if (numbers.empty()) return "is not FROM,TO,SIZE";
   const DepthBand band{numbers[0], numbers[1], numbers[2]};
-  if (!(band.from_m < band.to_m)) throw OptionError("--depth-band: '" + text + "' ends before it begins");
-  if (!(band.size_m > 0.0) || std::isinf(band.size_m))
-    throw OptionError("--depth-band: the size in '" + text + "' has to be a length above 0");
-  return band;
+  if (!(band.from_m < band.to_m)) return "ends before it begins";
+  if (!(band.size_m > 0.0) || std::isinf(band.size_m)) return "has a size that is no length above 0";
+  bands.push_back(band);
+  return {};
 }
 
 // Options that ask for sizes.
@@ -41,44 +29,51 @@ const std::vector<std::string> kSizes = {"--size",           "--size-shore",    
 
 }  // namespace
 
-void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
+void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
   constexpr NumberRange kAboveZero{0.0, kInfinity, true};
   constexpr NumberRange kNotNegative{0.0, kInfinity};
-  line.number("--size", sizes.size_m, "M", kAboveZero,
-              "length that edges should have everywhere, where nothing else asks for less");
-  line.number("--size-min", sizes.least_m, "M", kNotNegative,
+  table.number("--size", sizes.size_m, "M", kAboveZero,
+               "length that edges should have everywhere, where nothing else asks for less");
+  table
+      .number("--size-min", sizes.least_m, "M", kNotNegative,
               "no size is less; edges shorter than it are reported, with exit code 1 where --coast follow leaves one "
               "shorter than half")
       .needs(kSizes);
-  line.number("--size-max", sizes.most_m, "M", kAboveZero,
-              "no size is more; given without any other size, no edge is longer");
-  line.number("--grade", sizes.gradation, "G", {0.0, 1.0, true},
+  table.number("--size-max", sizes.most_m, "M", kAboveZero,
+               "no size is more; given without any other size, no edge is longer");
+  table
+      .number("--grade", sizes.gradation, "G", {0.0, 1.0, true},
               "sizes at two places differ by at most this times their distance", &usage.grade_given)
       .needs(kSizes);
-  line.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
-  line.number("--shore-rate", sizes.shore_rate, "R", {0.0, 1000.0},
+  table.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
+  table
+      .number("--shore-rate", sizes.shore_rate, "R", {0.0, 1000.0},
               "how fast that grows with the distance from the shore")
       .needs({"--size-shore"});
-  line.number("--channel-elements", sizes.channel_elements, "N", {0.0, 1000.0},
-              "elements across channels and straits; 0 asks for none");
-  line.texts("--size-features", sizes.features, kVectorFile, false,
-             "points, lines and polygons with a size in metres on them as the attribute 'size', and how fast it grows "
-             "with the "
-             "distance as 'rate', else --grade");
-  line.texts("--size-raster", sizes.rasters, kRasterFile, false,
-             "raster of sizes in metres; of several the first that covers a place counts");
-  line.number("--wave-elements", sizes.depth.wave_elements, "N", {0.0, 1e9}, "elements a wavelength; 0 asks for none");
-  line.number("--wave-period", sizes.depth.period_s, "S", {0.1, 1e8},
+  table.number("--channel-elements", sizes.channel_elements, "N", {0.0, 1000.0},
+               "elements across channels and straits; 0 asks for none");
+  table.texts("--size-features", sizes.features, kVectorFile, false,
+              "points, lines and polygons with a size in metres on them as the attribute 'size', and how fast it grows "
+              "with the "
+              "distance as 'rate', else --grade");
+  table.texts("--size-raster", sizes.rasters, kRasterFile, false,
+              "raster of sizes in metres; of several the first that covers a place counts");
+  table.number("--wave-elements", sizes.depth.wave_elements, "N", {0.0, 1e9}, "elements a wavelength; 0 asks for none");
+  table
+      .number("--wave-period", sizes.depth.period_s, "S", {0.1, 1e8},
               "period of that wave; the default is that of the M2 tide")
       .needs({"--wave-elements"});
-  line.number("--slope-elements", sizes.depth.slope_elements, "N", {0.0, 1000.0},
-              "elements on 2 pi times the depth over its slope; 0 asks for none");
-  line.number("--slope-filter", sizes.depth.slope_filter_m, "M", kNotNegative,
+  table.number("--slope-elements", sizes.depth.slope_elements, "N", {0.0, 1000.0},
+               "elements on 2 pi times the depth over its slope; 0 asks for none");
+  table
+      .number("--slope-filter", sizes.depth.slope_filter_m, "M", kNotNegative,
               "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given)
       .needs({"--slope-elements"});
-  line.texts("--depth-band", usage.bands, "FROM,TO,SIZE", false,
-             "size where the depth is FROM or more and less than TO, all in metres, depths positive");
-  line.choice(
+  table.numbers(
+      "--depth-band", "FROM,TO,SIZE", true,
+      [&sizes](const std::vector<double>& numbers) { return storeBand(numbers, sizes.depth.bands); },
+      "size where the depth is FROM or more and less than TO, all in metres, depths positive");
+  table.choice(
       "--coast", "keep", {"keep", "follow"},
       [&sizes, &usage](const std::string& chosen) {
         usage.coast_given = true;
@@ -86,18 +81,22 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
       },
       "whether the coast keeps its detail, or follows the sizes: its edges become about as long as they are, water and "
       "land narrower than elements go, and so do islands smaller than one");
-  line.number("--channel-min", sizes.follow.channel_min, "N", {0.0, 100.0},
+  table
+      .number("--channel-min", sizes.follow.channel_min, "N", {0.0, 100.0},
               "with --coast follow: water narrower than N times the size there is closed; 0 closes none")
       .needs({"--coast follow"});
-  line.number("--strait-min", sizes.follow.strait_min, "N", {0.0, 100.0},
+  table
+      .number("--strait-min", sizes.follow.strait_min, "N", {0.0, 100.0},
               "with --coast follow: narrow water that alone joins waters is not closed but made --channel-min times "
               "the size there wide, where it is no narrower than N times that and to widen it takes less than a "
               "quarter of the water behind; what --channel-min says widens none")
       .needs({"--coast follow"});
-  line.number("--land-min", sizes.follow.land_min, "N", {0.0, 100.0},
+  table
+      .number("--land-min", sizes.follow.land_min, "N", {0.0, 100.0},
               "with --coast follow: spits and capes narrower than N times the size there go; 0 keeps them")
       .needs({"--coast follow"});
-  line.choice(
+  table
+      .choice(
           "--keep-water", "auto", {"auto", "largest", "open", "all"},
           [&sizes](const std::string& chosen) {
             sizes.keep_water_given = chosen != "auto";
@@ -110,19 +109,22 @@ void declareSizing(CommandLine& line, SizeOptions& sizes, SizingUsage& usage) {
           "grazes: less than a tenth of the largest at an open boundary, or all of those where they are less than a "
           "tenth of the water")
       .needs({"--coast follow"});
-  line.texts("--passages", sizes.passages, kVectorFile, false,
+  table
+      .texts("--passages", sizes.passages, kVectorFile, false,
              "with --coast follow: lines along which water stays open, made as wide as --passage-elements where it is "
              "narrower; their attribute 'name' is reported")
       .needs({"--coast follow"});
-  line.number("--passage-elements", sizes.passage_elements, "N", {0.5, 100.0}, "elements across passages")
+  table.number("--passage-elements", sizes.passage_elements, "N", {0.5, 100.0}, "elements across passages")
       .needs({"--passages"});
-  line.texts("--barriers", sizes.barriers, kVectorFile, false,
+  table
+      .texts("--barriers", sizes.barriers, kVectorFile, false,
              "with --coast follow: lines along which water is closed, half an element wide")
       .needs({"--coast follow"});
-  line.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
-              "no element smaller than the Courant number allows with this time step; triangles in which it does not "
-              "hold are reported, with exit code 1; 0 asks for none");
-  line.number(
+  table.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
+               "no element smaller than the Courant number allows with this time step; triangles in which it does not "
+               "hold are reported, with exit code 1; 0 asks for none");
+  table
+      .number(
           "--courant", sizes.courant, "C", {1e-3, 1e3},
           "largest Courant number: sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the "
           "depth of its deepest corner")
@@ -134,8 +136,6 @@ void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may
   sizes.depth.positive_down = depths.positive_down;
   sizes.depth.water_level_m = depths.water_level_m;
   sizes.depth.least_depth_m = std::max(sizes.depth.least_depth_m, depths.min_depth_m);
-  sizes.depth.bands.clear();
-  for (const std::string& band : usage.bands) sizes.depth.bands.push_back(parseBand(band));
   if (may_choose && !depths.files.empty() && !sizes.any() && sizes.most_m == SizeOptions::kNone) {
     constexpr double kGradation = 0.2, kWaveElements = 100.0, kTimeStep = 5.0;
     sizes.choose = true;

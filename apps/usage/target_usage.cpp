@@ -4,8 +4,8 @@
 
 namespace coastmesh {
 
-void declareTargets(CommandLine& line, std::vector<std::string>& names, const std::string& help) {
-  line.texts("--target", names, allTargetNames(), false, help);
+void declareTargets(OptionTable& table, std::vector<std::string>& names, const std::string& help) {
+  table.texts("--target", names, allTargetNames(), false, help);
 }
 
 }  // namespace coastmesh

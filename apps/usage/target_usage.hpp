@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/usage/command_line.hpp"
+#include "apps/usage/option_table.hpp"
 
 namespace coastmesh {
 
 // Declares --target, which may be repeated; `names` is what the user gave.
-void declareTargets(CommandLine& line, std::vector<std::string>& names, const std::string& help);
+void declareTargets(OptionTable& table, std::vector<std::string>& names, const std::string& help);
 
 }  // namespace coastmesh

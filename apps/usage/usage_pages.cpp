@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "apps/usage/command_line.hpp"
+#include "gis/error.hpp"
 
 namespace coastmesh {
 

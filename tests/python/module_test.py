@@ -123,14 +123,89 @@ class ArraysTest(unittest.TestCase):
         refused(coastmesh.InputError, "GeoJSON", {"type": "Point", "coordinates": [0, 0]})
         refused(coastmesh.InputError, "GeoJSON", {"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [2, 2], [0, 0]]]})
         refused(coastmesh.InputError, "nothing to mesh", [])
-        refused(coastmesh.OptionError, "min-angle.*50", SQUARE, BOUNDARY, min_angle=50)
+        refused(coastmesh.OptionError, "^min_angle: '50' is not a number in the range 0 to 45$", SQUARE, BOUNDARY, min_angle=50)
         refused(coastmesh.OptionError, "min_angle", SQUARE, BOUNDARY, min_angle=True)
         refused(coastmesh.OptionError, "coarsen", SQUARE, BOUNDARY, coarsen="yes")
-        refused(coastmesh.OptionError, "--size-max", SQUARE, BOUNDARY, size_max=float("nan"))
+        refused(coastmesh.OptionError, "^size_max: 'nan'", SQUARE, BOUNDARY, size_max=float("nan"))
         refused(TypeError, "did you mean 'min_angle'", SQUARE, BOUNDARY, min_angel=30)
         refused(TypeError, "NoneType", None)
         refused(TypeError, "not callable", SQUARE, BOUNDARY, progress=3)
         self.assertTrue(issubclass(coastmesh.InputError, ValueError))
+
+
+class OptionsTest(unittest.TestCase):
+    def digest(self, source=POLYGON, **options):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return coastmesh.mesh(source, **options).report["mesh"]["digest"]
+
+    def test_values_of_any_type_that_say_the_same_are_the_same(self):
+        for forms in ({"size": [4000, 4000.0, "4000", np.float32(4000), np.int64(4000), np.array(4000)]},
+                      {"threads": [1, "1", np.uint8(1)]},
+                      {"smooth": [True, np.bool_(True)]},
+                      {"bbox": [(0.05, 0, 0.2, 0.1), [0.05, 0, np.float64(0.2), 0.1], "0.05,0,0.2,0.1",
+                                np.array([0.05, 0, 0.2, 0.1])]},
+                      {"water_at": [(0.1, 0.1), "0.1,0.1", np.array([0.1, 0.1])]}):
+            (name, values), = forms.items()
+            self.assertEqual(len({self.digest(**{name: value}) for value in values}), 1, name)
+        self.assertNotEqual(self.digest(size=4000), self.digest())
+        self.assertEqual(self.digest(size=None, bbox=None), self.digest())
+        self.assertEqual(self.digest(coarsen=True), self.digest())
+
+    def test_lists_of_what_may_be_repeated(self):
+        with tempfile.TemporaryDirectory() as folder:
+            depths = os.path.join(folder, "depths.asc")
+            with open(depths, "w", encoding="utf-8") as file:
+                file.write("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.1\n-5 -50\n-5 -50\n")
+            given = {"bathymetry": os.path.join(folder, "depths.asc"), "size_max": 8000}
+            bands = [self.digest(depth_band=band, **given) for band in (
+                [(0, 10, 1000), (10, float("inf"), 3000)], ["0,10,1000", "10,inf,3000"], [[0, 10, 1000], "10,inf,3000"],
+                np.array([[0, 10, 1000], [10, np.inf, 3000]]))]
+            self.assertEqual(len(set(bands)), 1)
+            one = [self.digest(depth_band=band, **given) for band in ((0, 10, 1000), [(0, 10, 1000)], "0,10,1000")]
+            self.assertEqual(len(set(one)), 1)
+            self.assertNotEqual(one[0], bands[0])
+            self.assertEqual(self.digest(bathymetry=[depths]), self.digest(bathymetry=depths))
+
+    def test_what_is_no_value_is_refused_by_its_keyword(self):
+        for options, said in (({"size": "4 km"}, "size: '4 km' is not a number in the range above 0"),
+                              ({"size": 10**400}, "size: '1000"),
+                              ({"size": [3]}, "size: [3] is no number"),
+                              ({"size": True}, "size: True is no number"),
+                              ({"threads": 1.5}, "threads: '1.5' is not a whole number in the range 0 to 1024"),
+                              ({"threads": -1}, "threads: '-1' is not a whole number"),
+                              ({"threads": 2**70}, "threads: '1180591620717411303424' is not a whole number"),
+                              ({"coast": "melt"}, "coast: 'melt' is none of keep, follow"),
+                              ({"coast": 3}, "coast: 3 is no text"),
+                              ({"clip": 3.5}, "clip: 3.5 is no path of a file"),
+                              ({"bbox": (1, 2, 3)}, "bbox: '(1, 2, 3)' is not W,S,E,N"),
+                              ({"bbox": (1, 2, 3, "x")}, "bbox: (1, 2, 3, 'x') is no list of numbers"),
+                              ({"bbox": (1, 2, 3, float("inf"))}, "bbox: '(1, 2, 3, inf)' is not"),
+                              ({"depth_band": (10, 5, 100)}, "depth_band: '(10, 5, 100)' ends before it begins"),
+                              ({"coarsen": 1}, "coarsen: 1 is neither True nor False")):
+            with self.assertRaises(coastmesh.OptionError) as caught:
+                coastmesh.mesh(POLYGON, **options)
+            self.assertTrue(str(caught.exception).startswith(said), str(caught.exception))
+
+    def test_no_message_names_an_option_of_the_command_line(self):
+        for options, said in (({"size_min": 9, "size_max": 8}, "size_min is more than size_max"),
+                              ({"wave_elements": 50}, "give a raster with bathymetry"),
+                              ({"coast": "follow"}, "coast='follow' needs sizes"),
+                              ({"domain": "outside"}, "domain='outside': water"),
+                              ({"crs": "nowhere"}, "crs: ")):
+            with self.assertRaises(coastmesh.Error) as caught, warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                coastmesh.mesh(POLYGON, **options)
+            self.assertIn(said, str(caught.exception))
+            self.assertNotIn("--", str(caught.exception))
+
+    def test_a_column_of_the_input_says_its_boundaries(self):
+        with tempfile.TemporaryDirectory() as folder:
+            lake = os.path.join(folder, "lake.geojson")
+            with open(lake, "w", encoding="utf-8") as file:
+                json.dump({"type": "Feature", "properties": {"shore": "open"}, "geometry": POLYGON}, file)
+            mesh = coastmesh.mesh(lake, boundary_column="shore")
+            self.assertEqual({boundary["role"] for boundary in mesh.boundaries}, {"open"})
 
 
 class FilesTest(unittest.TestCase):
@@ -239,7 +314,7 @@ class FilesTest(unittest.TestCase):
             warnings.simplefilter("always")
             former = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, shrink=False)
         self.assertEqual([str(w.message) for w in caught],
-                         ["--no-shrink is called --no-coarsen now; the next version will not take the former name"])
+                         ["shrink is called coarsen now; the next version will not take the former name"])
         present = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, coarsen=False)
         self.assertFalse(former.report["refine"]["coarsen"])
         self.assertEqual(former.report["mesh"]["digest"], present.report["mesh"]["digest"])
@@ -253,9 +328,9 @@ class FilesTest(unittest.TestCase):
             self.assertEqual(mesh.report["warnings"], texts)
             return texts
 
-        self.assertEqual(said(courant=0.5, min_depth=2), ["--courant has no effect without --time-step",
-                                                          "--min-depth has no effect without --bathymetry"])
-        self.assertEqual(said(coast="keep", land_min=2), ["--land-min has no effect without --coast follow"])
+        self.assertEqual(said(courant=0.5, min_depth=2), ["courant has no effect without time_step",
+                                                          "min_depth has no effect without bathymetry"])
+        self.assertEqual(said(coast="keep", land_min=2), ["land_min has no effect without coast='follow'"])
         self.assertEqual(said(size=5000, coast="follow", land_min=2), [])
         self.assertEqual(said(mark_pieces=True), [])
 

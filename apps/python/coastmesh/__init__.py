@@ -18,9 +18,6 @@ from . import _coastmesh
 __all__ = ["Error", "InputError", "OptionError", "OutputError", "CoastmeshWarning", "Mesh", "mesh", "options", "read"]
 __version__ = _coastmesh.version
 
-# Options of the program that have no place here: where options come from and results go is the caller's affair.
-_NOT_HERE = {"config", "output", "format", "report", "progress", "overwrite", "quiet"}
-
 
 class Error(Exception):
     """Whatever coastmesh raises, but for KeyboardInterrupt and MemoryError."""
@@ -146,12 +143,11 @@ class Mesh:
 
 def options():
     """The options of `mesh`: name as a keyword, and what `coastmesh mesh --json-usage` says of it."""
-    found = {}
-    for option in json.loads(_coastmesh.usage())["options"]:
-        name = option["name"].lstrip("-").replace("-", "_")
-        if name not in _NOT_HERE:
-            found[name] = option
-    return found
+    return {_keyword(option["name"]): option for option in json.loads(_coastmesh.usage())["options"]}
+
+
+def _keyword(name):
+    return name.lstrip("-").replace("-", "_")
 
 
 def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
@@ -178,8 +174,9 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
     files, text, graph = _split(source, segments, holes)
     if progress is not None and not callable(progress):
         raise TypeError("progress is not callable")
+    _require_known(keywords)
     with _own_errors():
-        made = _coastmesh.run([*map(os.fsencode, _arguments(keywords))], [*map(os.fsencode, files)], text, graph, progress)
+        made = _coastmesh.run(keywords, [*map(os.fsencode, files)], text, graph, progress)
     for warning in made._warnings:
         _warnings.warn(warning, CoastmeshWarning, stacklevel=2)
     refusals = made._refusals
@@ -264,50 +261,14 @@ def _geojson_text(geojson, crs=None):
         raise InputError(f"GeoJSON: {error}") from None
 
 
-def _former_options(known):
-    """Those that were called otherwise, by their former keywords; the program warns of the former names."""
-    found = {}
-    for option in known.values():
-        names = list(option.get("former_names", {}))
-        if names:
-            found[names[0].lstrip("-").replace("-", "_")] = {**option, "name": names[0], "names": names}
-    return found
-
-
-def _arguments(keywords):
-    """Keywords as arguments of the program."""
+def _require_known(keywords):
+    """Refuses what is no option, now or by its former name."""
     known = options()
-    former = _former_options(known)
-    arguments = []
-    for name, value in keywords.items():
+    former = {_keyword(name) for option in known.values() for name in list(option.get("former_names", {}))[:1]}
+    for name in keywords:
         if name not in known and name not in former:
             near = difflib.get_close_matches(name, known, 1)
             raise TypeError(f"mesh() has no option '{name}'" + (f"; did you mean '{near[0]}'?" if near else ""))
-        if value is None:
-            continue
-        option = known.get(name) or former[name]
-        if option["type"] == "flag":
-            if not isinstance(value, (bool, np.bool_)):
-                raise OptionError(f"{name}: {value!r} is neither True nor False")
-            wanted = option["name"] if value else next((n for n in option["names"] if n.startswith("--no-")), None)
-            if wanted:
-                arguments.append(wanted)
-            continue
-        for each in value if option.get("multiple") and isinstance(value, (list, tuple)) else [value]:
-            arguments.append(f"{option['name']}={_text(name, option, each)}")
-    return arguments
-
-
-def _text(name, option, value):
-    if isinstance(value, (str, os.PathLike)):
-        return os.fspath(value)
-    if hasattr(value, "to_wkt"):  # a CRS of pyproj
-        return value.to_wkt()
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating, list, tuple)):
-        raise OptionError(f"{name}: {value!r} is no {option['type']}")
-    if isinstance(value, (list, tuple)):  # a box
-        return ",".join(_text(name, option, part) for part in value)
-    return repr(int(value)) if isinstance(value, (int, np.integer)) else repr(float(value))
 
 
 def _describe(option):

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace coastmesh {
@@ -25,15 +26,19 @@ struct Values {
 
 class CommandLineTest : public testing::Test {
  protected:
-  CommandLineTest() : line_(app_, "knit", "Knit a sock") {
-    line_.arguments("INPUT", values_.inputs, "wool");
-    line_.number("--angle", values_.angle, "DEG", {0.0, 45.0}, "angle", &values_.angle_given);
-    line_.number("--size", values_.size, "M", {0.0, std::numeric_limits<double>::infinity(), true}, "size");
-    line_.integer("--count", values_.count, "N", 2, 9, "count");
-    line_.flag("--coarsen,!--no-coarsen", values_.coarsen, "coarsen").formerly({"--felt", "--no-felt"});
-    line_.choice("--name", values_.name, {"a", "b"}, "name");
-    line_.text("--path", values_.path, "FILE", "path");
-    line_.texts("-o,--output", values_.outputs, "FILE", true, "output");
+  CommandLineTest() : line_(app_, declared(values_)) {}
+
+  static OptionTable declared(Values& values) {
+    OptionTable table = commandOptions("knit", "Knit a sock");
+    table.arguments("INPUT", values.inputs, "wool");
+    table.number("--angle", values.angle, "DEG", {0.0, 45.0}, "angle", &values.angle_given);
+    table.number("--size", values.size, "M", {0.0, std::numeric_limits<double>::infinity(), true}, "size");
+    table.integer("--count", values.count, "N", 2, 9, "count");
+    table.flag("--coarsen,!--no-coarsen", values.coarsen, "coarsen").formerly({"--felt", "--no-felt"});
+    table.choice("--name", values.name, {"a", "b"}, "name");
+    table.text("--path", values.path, "FILE", "path");
+    table.texts("-o,--output", values.outputs, "FILE", true, "output");
+    return table;
   }
 
   void parse(std::vector<std::string> words) {
@@ -97,7 +102,7 @@ TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
   } catch (const UsageText& asked) {
     text = asked.text;
   }
-  EXPECT_EQ(text, line_.jsonUsage());
+  EXPECT_EQ(text, line_.options().jsonUsage());
   const Json usage = Json::parse(text);
   EXPECT_EQ(usage["command"], "knit");
   EXPECT_EQ(usage["arguments"].size(), 1u);
@@ -135,86 +140,82 @@ TEST_F(CommandLineTest, HelpShowsUnitDefaultAndRange) {
   }
 }
 
-// Two options, one of which counts only with the other.
-class NeedsTest : public testing::Test {
- protected:
-  NeedsTest() : line_(app_, "knit", "Knit a sock") {
-    line_.arguments("INPUT", inputs_, "wool");
-    line_.text("--pattern", pattern_, kVectorFile, "pattern");
-    line_.number("--heel", heel_, "CM", {0.0, 9.0}, "heel");
-    line_.number("--heel-stitches", stitches_, "N", {0.0, 9.0}, "stitches of the heel").needs({"--heel", "--pattern"});
-    line_.flag("--plain", plain_, "no pattern").ignoredWith({"--pattern"});
-    line_.choice("--toe", toe_, {"round", "wedge", "star"}, "toe");
-    line_.number("--toe-rounds", rounds_, "N", {0.0, 9.0}, "rounds of a star").needs({"--toe star"});
-    line_.outputs("-o,--output", outputs_, {.required = true, .files = twoFiles}, "socks");
-    line_.output("--bill", bill_, {.standard_output = true}, "bill");
+// Two options, one of which counts only with the other; `words` are parsed.
+struct Sock {
+  explicit Sock(std::vector<std::string> words) : line(app, declared()) {
+    words.insert(words.begin(), {"knit", "wool", "-o", "sock"});
+    std::ranges::reverse(words);
+    app.parse(words);
+  }
+
+  OptionTable declared() {
+    OptionTable table = commandOptions("knit", "Knit a sock");
+    table.arguments("INPUT", inputs, "wool");
+    table.text("--pattern", pattern, kVectorFile, "pattern");
+    table.number("--heel", heel, "CM", {0.0, 9.0}, "heel");
+    table.number("--heel-stitches", stitches, "N", {0.0, 9.0}, "stitches of the heel").needs({"--heel", "--pattern"});
+    table.flag("--plain", plain, "no pattern").ignoredWith({"--pattern"});
+    table.choice("--toe", toe, {"round", "wedge", "star"}, "toe");
+    table.number("--toe-rounds", rounds, "N", {0.0, 9.0}, "rounds of a star").needs({"--toe star"});
+    table.outputs("-o,--output", outputs, {.required = true, .files = twoFiles}, "socks");
+    table.output("--bill", bill, {.standard_output = true}, "bill");
+    return table;
   }
 
   static OutputFiles twoFiles(const std::string& path) { return {{path + ".left", path + ".right"}, {}, {}}; }
+  std::vector<std::string> withoutEffect() const { return line.options().withoutEffect(); }
 
-  void parse(std::vector<std::string> words) {
-    words.insert(words.begin(), {"knit", "wool", "-o", "sock"});
-    std::reverse(words.begin(), words.end());
-    app_.parse(words);
-  }
-
-  CLI::App app_;
-  std::vector<std::string> inputs_, outputs_;
-  std::string pattern_, bill_, toe_ = "round";
-  double heel_ = 0.0, stitches_ = 3.0, rounds_ = 4.0;
-  bool plain_ = false;
-  CommandLine line_;
+  CLI::App app;
+  std::vector<std::string> inputs, outputs;
+  std::string pattern, bill, toe = "round";
+  double heel = 0.0, stitches = 3.0, rounds = 4.0;
+  bool plain = false;
+  CommandLine line;
 };
 
 using Sentences = std::vector<std::string>;
 
-TEST_F(NeedsTest, WhatHasNoEffectIsSaid) {
-  parse({"--heel-stitches", "3", "--plain"});
-  EXPECT_EQ(line_.withoutEffect(), Sentences{"--heel-stitches has no effect without one of --heel, --pattern"});
+TEST(NeedsTest, WhatHasNoEffectIsSaid) {
+  EXPECT_EQ(Sock({"--heel-stitches", "3", "--plain"}).withoutEffect(),
+            Sentences{"--heel-stitches has no effect without one of --heel, --pattern"});
 }
 
-TEST_F(NeedsTest, AnOptionAtItsDefaultIsAsGoodAsNotGiven) {
-  parse({"--heel-stitches", "3", "--heel", "0.0"});
-  EXPECT_EQ(line_.withoutEffect().size(), 1u);
+TEST(NeedsTest, AnOptionAtItsDefaultIsAsGoodAsNotGiven) {
+  EXPECT_EQ(Sock({"--heel-stitches", "3", "--heel", "0.0"}).withoutEffect().size(), 1u);
 }
 
-TEST_F(NeedsTest, WithWhatItNeedsNothingIsSaid) {
-  parse({"--heel-stitches", "4", "--pattern", "stars"});
-  EXPECT_TRUE(line_.withoutEffect().empty());
+TEST(NeedsTest, WithWhatItNeedsNothingIsSaid) {
+  EXPECT_TRUE(Sock({"--heel-stitches", "4", "--pattern", "stars"}).withoutEffect().empty());
 }
 
-TEST_F(NeedsTest, AnotherOptionMayHaveToBeGivenAsOneOfItsValues) {
+TEST(NeedsTest, AnotherOptionMayHaveToBeGivenAsOneOfItsValues) {
   for (const std::string toe : {"round", "wedge"}) {
-    parse({"--toe-rounds", "5", "--toe", toe});
-    EXPECT_EQ(line_.withoutEffect(), Sentences{"--toe-rounds has no effect without --toe star"}) << toe;
-    app_.clear();
+    EXPECT_EQ(Sock({"--toe-rounds", "5", "--toe", toe}).withoutEffect(),
+              Sentences{"--toe-rounds has no effect without --toe star"})
+        << toe;
   }
-  parse({"--toe-rounds", "5"});
-  EXPECT_EQ(line_.withoutEffect().size(), 1u);
-  app_.clear();
-  parse({"--toe-rounds", "5", "--toe", "star"});
-  EXPECT_TRUE(line_.withoutEffect().empty());
+  EXPECT_EQ(Sock({"--toe-rounds", "5"}).withoutEffect().size(), 1u);
+  EXPECT_TRUE(Sock({"--toe-rounds", "5", "--toe", "star"}).withoutEffect().empty());
 }
 
-TEST_F(NeedsTest, WhatAnotherOptionOverridesIsSaid) {
-  parse({"--plain", "--pattern", "stars"});
-  EXPECT_EQ(line_.withoutEffect(), Sentences{"--plain has no effect with --pattern"});
+TEST(NeedsTest, WhatAnotherOptionOverridesIsSaid) {
+  EXPECT_EQ(Sock({"--plain", "--pattern", "stars"}).withoutEffect(), Sentences{"--plain has no effect with --pattern"});
 }
 
-TEST_F(NeedsTest, FilesOfTheRunAreKnownByTheirOptions) {
-  parse({"yarn", "-", "--pattern", "stars", "--config", "job.toml", "--bill", "-"});
+TEST(NeedsTest, FilesOfTheRunAreKnownByTheirOptions) {
+  const Sock sock({"yarn", "-", "--pattern", "stars", "--config", "job.toml", "--bill", "-"});
   std::vector<std::string> read, written;
-  for (const auto& [option, path] : line_.inputs()) read.push_back(option + " " + path);
-  for (const auto& output : line_.outputs()) {
+  for (const auto& [option, path] : sock.line.options().inputs()) read.push_back(option + " " + path);
+  for (const auto& output : sock.line.options().outputs()) {
     for (const std::string& file : output.files.targets) written.push_back(output.option + " " + file);
   }
   EXPECT_EQ(read, (Sentences{"--config job.toml", "INPUT wool", "INPUT yarn", "--pattern stars"}));
   EXPECT_EQ(written, (Sentences{"--output sock.left", "--output sock.right"}));
 }
 
-TEST_F(NeedsTest, StandardOutputIsForThoseThatAllowIt) {
-  parse({"-o", "-"});
-  EXPECT_THROW(line_.outputs(), OptionError);
+TEST(NeedsTest, StandardOutputIsForThoseThatAllowIt) {
+  const Sock sock({"-o", "-"});
+  EXPECT_THROW(sock.line.options().outputs(), OptionError);
 }
 
 }  // namespace

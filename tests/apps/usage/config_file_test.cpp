@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "apps/usage/command_line.hpp"
+#include "gis/error.hpp"
 
 namespace coastmesh {
 namespace {

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/usage/option_value.hpp"
+#include "gis/error.hpp"
+#include "gis/file/output_files.hpp"
+
+namespace coastmesh {
+
+struct NumberRange {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;  // `low` itself is out
+};
+
+// Units of options that name files to read, shown as FILE; what follows the colon is their role in --json-usage, where
+// "FILE" alone says "input": programs offer layers of that kind. Files to write are declared by `output` and `outputs`.
+inline constexpr const char* kVectorFile = "FILE:vector";
+inline constexpr const char* kRasterFile = "FILE:raster";
+
+// The options of a job or a command. Each is declared once, by one call: that declaration checks its values, stores
+// them, and is what --help, --json-usage, Python and QGIS show. An option's default is what its variable holds when it
+// is declared; the variables must outlive the table. Who gives options is not known here: see command_line.hpp for
+// arguments of a program, option_keywords.hpp for keywords.
+class OptionTable {
+ public:
+  OptionTable(const std::string& name, const std::string& help);
+  ~OptionTable();
+  OptionTable(OptionTable&&) noexcept;
+
+  // An option that was declared, to say when it counts. Given without what it needs, it is warned of: see
+  // `withoutEffect`.
+  class Option {
+   public:
+    // It has an effect only where one of `others` is given besides, and is not what it is by default; "--coast follow"
+    // stands for that option given as that.
+    const Option& needs(std::vector<std::string> others) const;
+    // It has no effect where one of `others` is given.
+    const Option& ignoredWith(std::vector<std::string> others) const;
+    // It has an effect only where `holds`, once all is set, says so; `else_text` follows "has no effect ".
+    const Option& needs(std::function<bool()> holds, const std::string& else_text) const;
+    // What its names were called in the last version, in the same order.
+    const Option& formerly(const std::vector<std::string>& names) const;
+
+   private:
+    friend class OptionTable;
+    Option(OptionTable& table, std::string name) : table_(&table), name_(std::move(name)) {}
+    OptionTable* table_;
+    std::string name_;
+  };
+
+  // Declarations -----------------------------------------------------------------------------------------------------
+
+  // Arguments known by their place. Names are as the help shows them: "INPUT".
+  void argument(const std::string& name, std::string& value, const std::string& help);
+  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
+
+  // Options. Names are as a user of the program types them: "-o,--output". `unit` is what the value is counted in
+  // ("DEG", "M"), or what it is ("FILE"). Numbers must be within their range and `isComputable`; an infinite default,
+  // or the greatest of integers, means none. `given`, where there is one, becomes true when the user gives the option.
+  Option number(const std::string& names, double& value, const std::string& unit, const NumberRange& range,
+                const std::string& help, bool* given = nullptr);
+  Option integer(const std::string& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
+                 std::uint64_t high, const std::string& help);
+  // As many numbers as `unit` names: "W,S,E,N". `store` gets as many, or none where the text given is empty, and
+  // returns what is wrong with them as the end of a sentence about them ("is not ..."), empty where nothing is.
+  // `multiple`: the option may be repeated, `store` being called for each.
+  using StoreNumbers = std::function<std::string(const std::vector<double>&)>;
+  Option numbers(const std::string& names, const std::string& unit, bool multiple, const StoreNumbers& store,
+                 const std::string& help);
+  Option text(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
+  // `values` is empty when declared.
+  Option texts(const std::string& names, std::vector<std::string>& values, const std::string& unit, bool required,
+               const std::string& help);
+  Option requiredText(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
+  Option choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
+                const std::string& help);
+  // The same for a value that is no text: `store` takes the user's choice.
+  Option choice(const std::string& names, const std::string& initial, const std::vector<std::string>& choices,
+                const std::function<void(const std::string&)>& store, const std::string& help);
+  // "--coarsen,!--no-coarsen" declares a flag and its opposite.
+  Option flag(const std::string& names, bool& value, const std::string& help, bool* given = nullptr);
+
+  // A file to read that whoever fills the table reads himself: nothing is stored.
+  Option file(const std::string& names, const std::string& help);
+
+  // One that is declared already, by its longest name.
+  Option option(const std::string& name) { return {*this, name}; }
+  // All that `declare` declares needs one of `others`.
+  void needing(const std::vector<std::string>& others, const std::function<void()>& declare);
+
+  // Files to write. `files` says all that a path given stands for; empty: the file of that name alone.
+  // `standard_output`: "-" is allowed and means it.
+  using FilesOf = std::function<OutputFiles(const std::string& path)>;
+  struct OutputKind {
+    bool required = false;
+    FilesOf files = {};
+    bool standard_output = false;
+  };
+  Option output(const std::string& names, std::string& value, OutputKind kind, const std::string& help);
+  Option outputs(const std::string& names, std::vector<std::string>& values, OutputKind kind, const std::string& help);
+
+  // A command line as a user might type it, and what it does.
+  void example(const std::string& command, const std::string& help);
+
+  // What was declared ------------------------------------------------------------------------------------------------
+
+  struct Entry {
+    std::string name;   // the longest; of a flag with an opposite, the one that turns it on
+    std::string names;  // all of them, as declared
+    OptionKind kind = OptionKind::Text;
+    bool multiple = false;
+    bool required = false;
+    std::string shown_unit;
+    std::string shown_help;     // with its range
+    std::string shown_default;  // empty: none is shown
+    std::vector<std::string> choices;
+    std::vector<std::pair<std::string, std::string>> former_names;  // each with what it is called now
+    bool argument = false;                                          // known by its place
+  };
+  // In the order of declaration, arguments among them.
+  std::vector<const Entry*> entries() const;
+  const std::string& name() const;
+  const std::string& help() const;
+  std::string examplesText() const;  // empty without examples
+  // The declarations as a JSON object, indented.
+  std::string jsonUsage() const;
+
+  // Values -----------------------------------------------------------------------------------------------------------
+
+  // Gives an option, by `Entry::name`, a value of its kind, or a text to be read as one. `shown` is what the user gave,
+  // for messages. Throws OptionError, which says what is wrong with the value and leaves it to the caller to say
+  // whose it is.
+  void set(const std::string& name, const OptionValue& value, const std::string& shown);
+  void setText(const std::string& name, const std::string& text);
+
+  // Once all is set: the files to read that arguments and options name, whichever they are, and those to write. Throws
+  // OptionError for "-" where standard output is not allowed, and what `FilesOf` throws.
+  struct NamedFile {
+    std::string option, path;
+  };
+  struct NamedOutput {
+    std::string option, path;
+    OutputFiles files;
+  };
+  std::vector<NamedFile> inputs() const;
+  std::vector<NamedOutput> outputs() const;
+
+  // Once all is set: a sentence for each option that was given and has no effect.
+  std::vector<std::string> withoutEffect() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace coastmesh

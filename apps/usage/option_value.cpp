@@ -1,0 +1,68 @@
+#include "apps/usage/option_value.hpp"
+
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+namespace coastmesh {
+
+namespace {
+
+// All of the text but for spaces round it and a plus before it, as a number.
+template <typename Number>
+std::optional<Number> numberIn(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+OptionValue listIn(const std::string& text) {
+  std::vector<double> list;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const std::optional<double> number = numberIn<double>(part);
+    if (!number) return text;
+    list.push_back(*number);
+  }
+  if (text.ends_with(',')) return text;
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::string> namesIn(const std::string& declared) {
+  std::vector<std::string> names;
+  std::istringstream parts(declared);
+  for (std::string name; std::getline(parts, name, ',');)
+    names.push_back(name.starts_with('!') ? name.substr(1) : name);
+  return names;
+}
+
+OptionValue valueOf(const std::string& text, OptionKind kind) {
+  switch (kind) {
+    case OptionKind::Flag:
+      return text == "true";
+    case OptionKind::Number:
+      return numberIn<double>(text).value_or(std::numeric_limits<double>::quiet_NaN());
+    case OptionKind::Integer: {
+      const std::optional<std::uint64_t> number = numberIn<std::uint64_t>(text);
+      if (number) return *number;
+      return text;
+    }
+    case OptionKind::Numbers:
+      return listIn(text);
+    case OptionKind::Text:
+    case OptionKind::File:
+    case OptionKind::Choice:
+      break;
+  }
+  return text;
+}
+
+}  // namespace coastmesh
