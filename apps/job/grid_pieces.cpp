@@ -1,10 +1,12 @@
 #include "apps/job/grid_pieces.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "gis/coast/coastline.hpp"
 #include "gis/geometry/union_find.hpp"
+#include "gis/grid/grid_lines.hpp"
 
 namespace coastmesh {
 
@@ -41,6 +43,23 @@ void markBorders(TriMesh& mesh) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef twin = mesh.triangles[t].adj[i];
       if (twin != kNone && mesh.regions[t] != mesh.regions[triOf(twin)]) mesh.triangles[t].seg[i] = kSomeSegment;
+    }
+  }
+}
+
+// Lines within the mesh were constraints too, each a segment of its own.
+void markLines(const Grid& grid, GridPiece& piece) {
+  std::map<NodePair, SegmentId> segment_of;
+  for (std::size_t line = 0; line < grid.lines.size(); ++line)
+    for (const auto& [a, b] : edgesOf(grid.lines[line]))
+      segment_of.emplace(NodePair{std::min(a, b), std::max(a, b)}, static_cast<SegmentId>(line + 1));
+  if (segment_of.empty()) return;
+  for (TriId t = 0; t < piece.mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      const std::uint32_t a = piece.nodes[piece.mesh.origin(e)], b = piece.nodes[piece.mesh.target(e)];
+      const auto found = segment_of.find({std::min(a, b), std::max(a, b)});
+      if (found != segment_of.end()) piece.mesh.triangles[t].seg[i] = found->second;
     }
   }
 }
@@ -94,6 +113,7 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
     }
     markBorders(piece.mesh);
   }
+  markLines(grid, piece);
   return piece;
 }
 

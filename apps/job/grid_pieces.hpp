@@ -12,7 +12,8 @@ namespace coastmesh {
 // A part of a grid as a mesh in a working plane.
 struct GridPiece {
   Projection projection = Projection::plane();
-  TriMesh mesh;  // regions are the grid's `feature_of`, 0 where it has none; borders between them are constraints
+  TriMesh
+      mesh;  // regions are the grid's `feature_of`, 0 where it has none; constraints: borders between them, and lines
   std::vector<std::uint32_t> nodes;      // one a point of the mesh: the grid's node
   std::vector<std::uint32_t> triangles;  // one a triangle of the mesh: the grid's triangle
   std::vector<EdgeConflict> conflicts;   // in points of the mesh

@@ -136,16 +136,6 @@ void requireSound(const TriMesh& mesh, const Domain& domain, const Feature& firs
                 dumpRegion(domain.pslg, digestOf(mesh)) + "'");
 }
 
-void placeBoundViolations(const RefineStats& stats, const Projection& projection, GroupResult& result) {
-  result.unresolved = stats.unresolved.size();
-  const std::size_t listed = std::min(stats.unresolved.size(), kBoundViolationPlaces);
-  for (std::size_t i = 0; i < listed; ++i) {
-    const BoundViolation& violation = stats.unresolved[i];
-    result.unresolved_places.push_back(
-        {projection.inverse(violation.place), violation.min_angle_deg, violation.max_angle_deg});
-  }
-}
-
 // Triangles in a region belong to a part of their feature that says so. Borders of regions are edges of the mesh, so
 // that each triangle lies in one as a whole; of several regions the first counts.
 void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
@@ -295,7 +285,6 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   MeshedRegion region = meshRegion(domain.pslg, options, control);
   result.mesh_s = region.seconds;
   result.refine = std::move(region.stats);
-  placeBoundViolations(result.refine, domain.projection, result);
   result.refine.unresolved = {};
 
   result.pieces = region.pieces;
@@ -306,8 +295,10 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   const auto loop = [&](std::string_view stage) { return large ? recorder.loop(stage, control) : ItemLoop(inOrder); };
   const Stopwatch checking;
   requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()], loop("check"));
-  result.quality =
-      measureQuality(region.mesh, options.refine.min_angle_deg, options.refine.max_angle_deg, loop("check"));
+  result.plane = {domain.projection, options.refine.size_max};
+  MeshJudgement judgement = judgeMesh(region.mesh, *result.plane, options.refine, 0.0, loop("check"));
+  result.quality = judgement.quality;
+  result.short_of = std::move(judgement.short_of);
   result.digest = digestOf(region.mesh, 0, loop("check"));
   result.check_s = checking.seconds();
   std::vector<double> size_m;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/job/judge_mesh.hpp"
 #include "apps/job/mesh_job_options.hpp"
 #include "apps/job/mesh_job_result.hpp"
 
@@ -13,9 +14,9 @@ struct GroupResult {
   std::string projection_reason;
   double least_scale = 1.0, greatest_scale = 1.0;  // plane length over true length, at the vertices
   RefineStats refine;
-  std::uint64_t unresolved = 0;
-  std::vector<BoundViolationPlace> unresolved_places;
+  Shortfall short_of;
   MeshQuality quality;
+  std::optional<WorkingPlane> plane;
   std::optional<double> input_area_m2;
   std::uint64_t digest = 0;
   double clean_s = 0.0;

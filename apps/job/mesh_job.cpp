@@ -7,8 +7,10 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "apps/job/available_memory.hpp"
+#include "apps/job/check_grid.hpp"
 #include "apps/job/grid_pieces.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/stopwatch.hpp"
@@ -105,10 +107,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   result.least_scale = std::min(result.least_scale, part.least_scale);
   result.greatest_scale = std::max(result.greatest_scale, part.greatest_scale);
   result.refine.add(part.refine);
-  result.unresolved += part.unresolved;
-  for (const BoundViolationPlace& place : part.unresolved_places) {
-    if (result.unresolved_places.size() < kBoundViolationPlaces) result.unresolved_places.push_back(place);
-  }
+  result.short_of.add(std::move(part.short_of));
   result.quality.add(part.quality);
   if (part.input_area_m2) result.input_area_m2 = result.input_area_m2.value_or(0.0) + *part.input_area_m2;
   result.digest = result.regions == 1 ? part.digest : combineDigests(result.digest, part.digest);
@@ -128,12 +127,17 @@ class OrderedMerge {
   OrderedMerge(const JobInput& input, MeshJobResult& result)
       : input_(input), result_(result), waiting_(input.groups()) {}
 
+  const std::vector<GroupPlane>& planes() const { return planes_; }
+
   void add(std::size_t group, GroupResult&& part) {
     const std::lock_guard lock(mutex_);
     waiting_[group] = std::make_unique<GroupResult>(std::move(part));
     const double before = threadSeconds();
     for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
-      addGroup(input_, next_, std::move(*waiting_[next_]), result_, small_groups_);
+      GroupResult& group = *waiting_[next_];
+      if (group.plane)
+        planes_.push_back({std::move(*group.plane), static_cast<std::uint32_t>(result_.grid.features.size())});
+      addGroup(input_, next_, std::move(group), result_, small_groups_);
       waiting_[next_].reset();
     }
     merging_s_ += threadSeconds() - before;
@@ -152,6 +156,7 @@ class OrderedMerge {
   std::mutex mutex_;
   std::vector<std::unique_ptr<GroupResult>> waiting_;
   Stage small_groups_{"regions", 0.0, {}};
+  std::vector<GroupPlane> planes_;
   std::size_t next_ = 0;
   double merging_s_ = 0.0;
 };
@@ -169,13 +174,19 @@ std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
 
 namespace {
 
-// After repairs: the grid as it is now.
-void measureAgain(const MeshJob& job, MeshJobResult& result) {
+// After repairs: the grid as it is now, each group in the plane that it was made in.
+void measureAgain(const MeshJob& job, const std::vector<GroupPlane>& planes, MeshJobResult& result) {
   result.quality = {};
+  result.short_before_repairs = std::exchange(result.short_of, {}).count;
   bool first = true;
-  for (const GridPiece& piece : splitGrid(result.grid)) {
-    result.quality.add(measureQuality(piece.mesh, job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg));
-    result.digest = first ? digestOf(piece.mesh) : combineDigests(result.digest, digestOf(piece.mesh));
+  const std::vector<std::vector<std::uint32_t>> triangles = trianglesOfGroups(result.grid, planes);
+  for (std::size_t g = 0; g < planes.size(); ++g) {
+    if (triangles[g].empty()) continue;
+    const TriMesh mesh = makePiece(result.grid, triangles[g], planes[g].plane.projection).mesh;
+    MeshJudgement judgement = judgeMesh(mesh, planes[g].plane, job.mesh.refine, kAngleSlackDeg);
+    result.quality.add(judgement.quality);
+    result.short_of.add(std::move(judgement.short_of));
+    result.digest = first ? digestOf(mesh) : combineDigests(result.digest, digestOf(mesh));
     first = false;
   }
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
@@ -227,7 +238,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
     result.finish = finishGrid(result.grid, finish, inner);
-    if (!result.finish.repairs.repairs.empty()) measureAgain(job, result);
+    if (!result.finish.repairs.repairs.empty()) measureAgain(job, merge.planes(), result);
     result.seconds.finish = finishing.seconds();
     result.log.addAlone("finish", result.seconds.finish);
   }

@@ -38,6 +38,14 @@ struct BoundViolationPlace {
 };
 inline constexpr std::size_t kBoundViolationPlaces = 1000;  // those past it are counted, not listed
 
+// All triangles that fall short of the bounds on angles and, where `--size-max` is a bound, on lengths.
+struct Shortfall {
+  std::uint64_t count = 0;
+  std::vector<BoundViolationPlace> places;  // the first kBoundViolationPlaces of them
+
+  void add(Shortfall&& other);
+};
+
 // Seconds by the clock; all but read, finish, write and total are summed over groups, several of which may be meshed at
 // once.
 struct PhaseSeconds {
@@ -69,8 +77,8 @@ struct MeshJobResult {
   WorkLog log;                      // groups that were cut, one after another, then the others
   double estimated_vertices = 0.0;  // from the sizes asked for, of what was refused too; 0 where there are none
   RefineStats refine;               // `unresolved` is empty: see below
-  std::uint64_t unresolved = 0;
-  std::vector<BoundViolationPlace> unresolved_places;  // the first kBoundViolationPlaces of them
+  Shortfall short_of;               // of the mesh as it is written
+  std::uint64_t short_before_repairs = 0;
   std::uint64_t turned = 0;          // triangles that are not counter-clockwise on the ground: see `turnedTriangles`
   std::vector<Point> turned_places;  // the first kBoundViolationPlaces of them, in the input's CRS
   std::vector<Refusal> refusals;
@@ -85,7 +93,7 @@ struct MeshJobResult {
   std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
 
   bool complete() const {
-    return unresolved == 0 && turned == 0 && !refine.budget_reached && refusals.empty() &&
+    return short_of.count == 0 && turned == 0 && !refine.budget_reached && refusals.empty() &&
            finish.repairs.left.empty() && step.held();
   }
 };

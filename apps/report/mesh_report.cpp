@@ -39,13 +39,13 @@ const char* yName(const Crs& crs) { return crs.geographic ? "lat" : "y"; }
 
 Json unresolvedSection(const MeshJobResult& result) {
   Json places = Json::array();
-  for (const BoundViolationPlace& violation : result.unresolved_places) {
+  for (const BoundViolationPlace& violation : result.short_of.places) {
     places.push_back({{xName(result.crs), violation.place.x},
                       {yName(result.crs), violation.place.y},
                       {"min_angle_deg", violation.min_angle_deg},
                       {"max_angle_deg", violation.max_angle_deg}});
   }
-  return {{"count", result.unresolved}, {"places", std::move(places)}};
+  return {{"count", result.short_of.count}, {"places", std::move(places)}};
 }
 
 Json refineSection(const MeshJob& job, const MeshJobResult& result) {
@@ -192,12 +192,12 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     text += "about " + grouped(static_cast<std::uint64_t>(std::min(result.estimated_vertices, 1e18))) +
             " vertices were to be expected of these sizes\n";
   if (quality.bounds.below > 0) text += boundText(quality.bounds) + "\n";
-  if (result.unresolved > 0) {
+  if (result.short_of.count > 0) {
     const RefineOptions& asked = job.mesh.refine;
     char bound[80];
     std::snprintf(bound, sizeof bound, asked.max_angle_deg < 180.0 ? "%g to %g degrees" : "at least %g degrees",
                   asked.min_angle_deg, asked.max_angle_deg);
-    text += grouped(result.unresolved) + " triangles fall short of what was asked (" + bound + ")\n";
+    text += grouped(result.short_of.count) + " triangles fall short of what was asked (" + bound + ")\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";
   const auto isOpenRing = [](const Boundary& boundary) {

@@ -18,6 +18,13 @@ std::vector<std::string> warningsOf(const MeshJobResult& result) {
                   ": sides that are straight in the working plane are not so there; cut the long edges of the input at "
                   "that place (ogr2ogr -segmentize), or widen its angle");
   }
+  if (result.short_of.count > 0 && !result.finish.repairs.repairs.empty() &&
+      result.short_of.count > result.short_before_repairs) {
+    all.push_back("repairs for --target left triangles short of the bounds that were asked for: " +
+                  std::to_string(result.short_of.count) + " in all, the first at " +
+                  pointText(result.short_of.places.front().place) + "; before there were " +
+                  std::to_string(result.short_before_repairs));
+  }
   if (result.regions == 0 && result.refusals.size() == 1) return all;
   const std::size_t shown = std::min(kRefusalsShown, result.refusals.size());
   for (std::size_t i = 0; i < shown; ++i) all.push_back("left out: " + result.refusals[i].reason);

@@ -40,4 +40,12 @@ BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, cons
   return judgement;
 }
 
+BoundJudgement judgeFinished(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, double size_max,
+                             double slack_deg, const ItemLoop& loop) {
+  // Corners are those of refinement: one of exactly the bound cannot be divided at slightly more.
+  const double hair = 2.0 * TriangleBound::kMarginDeg + slack_deg;
+  const TriangleBound asked(std::max(0.0, min_angle_deg - hair), std::min(180.0, max_angle_deg + hair), size_max);
+  return judgeBounds(mesh, asked, TriangleBound(min_angle_deg, max_angle_deg, size_max), loop);
+}
+
 }  // namespace coastmesh

@@ -23,4 +23,9 @@ struct BoundJudgement {
 BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
                            const ItemLoop& loop = inOrder);
 
+// Of a finished mesh: refinement aims slightly above the bounds, here they themselves count, less `slack_deg` for what
+// rounding made of coordinates. `size_max` in plane units.
+BoundJudgement judgeFinished(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, double size_max,
+                             double slack_deg = 0.0, const ItemLoop& loop = inOrder);
+
 }  // namespace coastmesh

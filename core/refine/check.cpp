@@ -110,14 +110,9 @@ void checkUnused(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
 }
 
 BoundCounts checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
-  // The refinement aims slightly above the bound; here the bound itself counts. Corners are the same in both: one of
-  // exactly the bound cannot be divided at slightly more.
-  constexpr double kHair = 2.0 * TriangleBound::kMarginDeg;
   constexpr double kAnySize = std::numeric_limits<double>::infinity();
-  const double least = options.min_angle_deg, most = options.max_angle_deg;
-  const TriangleBound asked(std::max(0.0, least - kHair), std::min(180.0, most + kHair), kAnySize);
-  const TriangleBound in_reach(least, most, kAnySize);
-  const BoundJudgement judgement = judgeBounds(mesh, asked, in_reach, loop);
+  const BoundJudgement judgement =
+      judgeFinished(mesh, options.min_angle_deg, options.max_angle_deg, kAnySize, 0.0, loop);
   for (const BoundViolation& s : judgement.unresolved)
     defects.push_back({DefectKind::AngleBelowBound, s.place, kNone, s.min_angle_deg});
   return judgement.counts;

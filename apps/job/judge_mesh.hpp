@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/job/mesh_job_result.hpp"
+#include "core/item_loop.hpp"
+#include "core/quality.hpp"
+#include "core/refine/refine_options.hpp"
+#include "core/tri_mesh.hpp"
+#include "gis/projection/projection.hpp"
+
+namespace coastmesh {
+
+// What a group of features is meshed in.
+struct WorkingPlane {
+  Projection projection;
+  double size_max;  // longest edge, plane units; infinite where none is asked
+};
+
+struct MeshJudgement {
+  MeshQuality quality;
+  Shortfall short_of;
+};
+
+// A finished mesh and what of it falls short of the bounds of `options` on angles, and of the plane's on lengths.
+// `slack_deg` as in `judgeFinished`.
+MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const RefineOptions& options, double slack_deg,
+                        const ItemLoop& loop = inOrder);
+
+// The plane of a group, and the first of its features in a grid that has the groups one after another.
+struct GroupPlane {
+  WorkingPlane plane;
+  std::uint32_t first_feature;
+};
+
+// The triangles of each group, ascending; a grid without features is one group. REQUIRES: `planes` ascend by their
+// first features.
+std::vector<std::vector<std::uint32_t>> trianglesOfGroups(const Grid& grid, const std::vector<GroupPlane>& planes);
+
+}  // namespace coastmesh
