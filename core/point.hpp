@@ -2,7 +2,8 @@
 
 namespace coastmesh {
 
-// A place in the parameter plane, or a pair of longitude and latitude where a name says so.
+// A place in a plane: the one that is meshed, or that of a CRS, whose x are eastings or longitudes as its files have
+// them. Longitudes and latitudes on an ellipsoid are a LonLat: see gis/crs/lon_lat.hpp.
 struct Point {
   double x = 0.0;
   double y = 0.0;

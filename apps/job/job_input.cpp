@@ -62,7 +62,7 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
   if (!coastline.crs.geographic) return;
   const Feature* odd = nullptr;
   const auto look = [&](const Feature& feature, const std::vector<Point>& chain) {
-    const auto isOdd = [](const Point& p) { return !isLonLat(p); };
+    const auto isOdd = [](const Point& p) { return !isOnEarth(asLonLat(p)); };
     if (odd == nullptr && std::ranges::any_of(chain, isOdd)) odd = &feature;
   };
   for (const Feature& feature : coastline.features) {

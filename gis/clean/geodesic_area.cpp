@@ -9,8 +9,6 @@
 #include <numeric>
 #include <utility>
 
-#include "gis/crs/ogr_support.hpp"
-
 namespace coastmesh {
 
 namespace {
@@ -26,77 +24,76 @@ double planeArea(const Ring& ring) {
 
 // The ring with longitudes that go on past ±180 where it crosses the antimeridian, its first point repeated at the end:
 // 360 degrees further where it goes round a pole.
-Ring unrolled(const Ring& lonlat) {
-  Ring result = lonlat;
-  result.push_back(lonlat.front());
+std::vector<LonLat> unrolled(const std::vector<LonLat>& ring) {
+  std::vector<LonLat> result = ring;
+  result.push_back(ring.front());
   for (std::size_t i = 1; i < result.size(); ++i) {
-    result[i].x = result[i - 1].x + GeographicLib::Math::AngDiff(lonlat[i - 1].x, lonlat[i % lonlat.size()].x);
+    result[i].lon = result[i - 1].lon + GeographicLib::Math::AngDiff(ring[i - 1].lon, ring[i % ring.size()].lon);
   }
   return result;
 }
 
 // Area of a closed ring with straight edges on Lambert's cylindrical map of the unit sphere.
-double roughArea(const Ring& lonlat) {
+double roughArea(const std::vector<LonLat>& ring) {
   const double degree = GeographicLib::Math::degree();
   double area = 0;
-  for (std::size_t i = 0; i < lonlat.size(); ++i) {
-    const Point &a = lonlat[i], &b = lonlat[(i + 1) % lonlat.size()];
-    area += (b.x - a.x) * degree * (std::sin(a.y * degree) + std::sin(b.y * degree)) / 2;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const LonLat &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    area += (b.lon - a.lon) * degree * (std::sin(a.lat * degree) + std::sin(b.lat * degree)) / 2;
   }
   return std::abs(area);
 }
 
 // True iff some edge jumps across the antimeridian. An edge from pole to pole has no length, whatever its longitudes.
-bool jumps(const Ring& lonlat) {
-  for (std::size_t i = 0; i < lonlat.size(); ++i) {
-    const Point &a = lonlat[i], &b = lonlat[(i + 1) % lonlat.size()];
-    if (std::abs(a.x - b.x) > 180 && !(a.y == b.y && std::abs(a.y) == 90)) return true;
+bool jumps(const std::vector<LonLat>& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const LonLat &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    if (std::abs(a.lon - b.lon) > 180 && !(a.lat == b.lat && std::abs(a.lat) == 90)) return true;
   }
   return false;
 }
 
 }  // namespace
 
-RingArea::RingArea(const Crs& crs) : plane_(crs.isPlane()), edges_(crs.semi_major_m, crs.flattening) {
-  if (!plane_ && !crs.geographic) to_lonlat_ = std::make_unique<CrsMap>(toOgr(crs), geographicBase(crs));
+RingArea::RingArea(const Crs& crs) : edges_(crs.semi_major_m, crs.flattening) {
+  if (!crs.isPlane()) to_geographic_.emplace(crs);
 }
 
 double RingArea::of(const Ring& ring) const {
   if (ring.size() < 3) return 0;
-  if (plane_) return planeArea(ring);
-  if (!to_lonlat_) return onEllipsoid(ring);
-  Ring lonlat;
-  lonlat.reserve(ring.size());
-  for (const Point& p : ring) lonlat.push_back(to_lonlat_->forward(p));
-  return onEllipsoid(lonlat);
+  if (!to_geographic_) return planeArea(ring);
+  std::vector<LonLat> places;
+  places.reserve(ring.size());
+  for (const Point& p : ring) places.push_back(to_geographic_->forward(p));
+  return onEllipsoid(places);
 }
 
 // None for rings whose longitudes jump or that come near to a pole.
-std::optional<double> RingArea::awayFromPoles(const Ring& lonlat) const {
+std::optional<double> RingArea::awayFromPoles(const std::vector<LonLat>& ring) const {
   constexpr double kWidest = 90, kHighest = 89;  // degrees
   GeographicLib::Accumulator<double> sum;
-  EdgeArea::Vertex from = edges_.at(lonlat.back());
-  for (const Point& p : lonlat) {
+  EdgeArea::Vertex from = edges_.at(ring.back());
+  for (const LonLat& p : ring) {
     const EdgeArea::Vertex to = edges_.at(p);
-    if (std::abs(p.y) > kHighest || std::abs(to.lon_deg - from.lon_deg) > kWidest) return std::nullopt;
+    if (std::abs(p.lat) > kHighest || std::abs(to.lon_deg - from.lon_deg) > kWidest) return std::nullopt;
     sum += edges_.under(from, to);
     from = to;
   }
   return std::abs(sum());
 }
 
-double RingArea::onEllipsoid(const Ring& lonlat) const {
-  if (const std::optional<double> area = awayFromPoles(lonlat)) return *area;
+double RingArea::onEllipsoid(const std::vector<LonLat>& ring) const {
+  if (const std::optional<double> area = awayFromPoles(ring)) return *area;
   GeographicLib::PolygonArea polygon(edges_.geodesic());
-  for (const Point& p : lonlat) polygon.AddPoint(p.y, p.x);
+  for (const LonLat& p : ring) polygon.AddPoint(p.lat, p.lon);
   double perimeter, area;  // the smaller part of the globe, negative where it lies to the right
   polygon.Compute(false, true, perimeter, area);
   area = std::abs(area);
   const double globe = edges_.geodesic().EllipsoidArea(), rest = globe - area;
-  Ring plain = lonlat;
-  if (jumps(lonlat)) {
-    plain = unrolled(lonlat);
-    if (std::abs(plain.back().x - plain.front().x) > 180) return area;
+  std::vector<LonLat> plain = ring;
+  if (jumps(ring)) {
+    plain = unrolled(ring);
+    if (std::abs(plain.back().lon - plain.front().lon) > 180) return area;
   }
   const double rough = roughArea(plain) / (4 * std::numbers::pi) * globe;
   return std::abs(area - rough) <= std::abs(rest - rough) ? area : rest;
@@ -130,19 +127,19 @@ class AreaSum {
  public:
   explicit AreaSum(const Crs& crs) : edges_(crs.semi_major_m, crs.flattening) {}
 
-  void add(const Point& from, const Point& to) {
+  void add(const LonLat& from, const LonLat& to) {
     using GeographicLib::Math;
     constexpr double kWidest = 90, kHighest = 89;  // degrees
     double area = 0, unused = 0;
-    if (std::abs(from.x - to.x) < kWidest && std::max(std::abs(from.y), std::abs(to.y)) < kHighest) {
+    if (std::abs(from.lon - to.lon) < kWidest && std::max(std::abs(from.lat), std::abs(to.lat)) < kHighest) {
       area = edges_.under(edges_.at(from), edges_.at(to));
     } else {
-      edges_.geodesic().GenInverse(from.y, from.x, to.y, to.x, GeographicLib::Geodesic::AREA, unused, unused, unused,
-                                   unused, unused, unused, area);
+      edges_.geodesic().GenInverse(from.lat, from.lon, to.lat, to.lon, GeographicLib::Geodesic::AREA, unused, unused,
+                                   unused, unused, unused, unused, area);
     }
     sum_ -= area;
-    const double step = Math::AngDiff(from.x, to.x);
-    const bool west_before = Math::AngNormalize(from.x) < 0, west_after = Math::AngNormalize(to.x) < 0;
+    const double step = Math::AngDiff(from.lon, to.lon);
+    const bool west_before = Math::AngNormalize(from.lon) < 0, west_after = Math::AngNormalize(to.lon) < 0;
     // Only where the meridian of 0 degrees is crossed, not the one of 180.
     if ((step > 0 && west_before && !west_after) || (step < 0 && !west_before && west_after)) odd_ = !odd_;
   }
@@ -162,21 +159,25 @@ class AreaSum {
 }  // namespace
 
 double geodesicArea(const Domain& domain, const Crs& crs) {
-  std::vector<Point> places = domain.input_points;
-  if (!crs.isPlane() && !crs.geographic) {
-    const CrsMap to_lonlat(toOgr(crs), geographicBase(crs));
-    for (Point& p : places) p = to_lonlat.forward(p);
+  const std::vector<Point>& points = domain.input_points;
+  std::optional<GeographicMap> to_geographic;
+  std::vector<LonLat> places;
+  if (!crs.isPlane()) {
+    to_geographic.emplace(crs);
+    places.reserve(points.size());
+    for (const Point& p : points) places.push_back(to_geographic->forward(p));
   }
   double twice = 0;
   AreaSum sum(crs);
   for (const Segment& s : domain.pslg.segments) {
     if ((s.left >= 0) == (s.right >= 0)) continue;
-    const Point &a = places[s.left >= 0 ? s.a : s.b], &b = places[s.left >= 0 ? s.b : s.a], &o = places.front();
-    if (crs.isPlane()) {
-      twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-    } else {
-      sum.add(a, b);
+    const VertexId from = s.left >= 0 ? s.a : s.b, to = s.left >= 0 ? s.b : s.a;
+    if (!crs.isPlane()) {
+      sum.add(places[from], places[to]);
+      continue;
     }
+    const Point &a = points[from], &b = points[to], &o = points.front();
+    twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
   }
   return crs.isPlane() ? twice / 2 : sum.area();
 }

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/item_loop.hpp"
 #include "gis/clean/domain.hpp"
 #include "gis/coast/coastline.hpp"
-#include "gis/crs/crs_map.hpp"
 #include "gis/crs/edge_area.hpp"
+#include "gis/crs/geographic_map.hpp"
 
 namespace coastmesh {
 
@@ -22,11 +21,10 @@ class RingArea {
   double of(const Ring& ring) const;
 
  private:
-  double onEllipsoid(const Ring& lonlat) const;
-  std::optional<double> awayFromPoles(const Ring& lonlat) const;
+  double onEllipsoid(const std::vector<LonLat>& ring) const;
+  std::optional<double> awayFromPoles(const std::vector<LonLat>& ring) const;
 
-  bool plane_;
-  std::unique_ptr<CrsMap> to_lonlat_;  // for projected CRS
+  std::optional<GeographicMap> to_geographic_;  // none for a plane
   EdgeArea edges_;
 };
 

@@ -19,11 +19,11 @@ constexpr double kLargestEccentricity2 = 0.01;  // squared
 EdgeArea::EdgeArea(double semi_major_m, double flattening)
     : geodesic_(semi_major_m, flattening), a_(semi_major_m), e2_(flattening * (2 - flattening)) {}
 
-EdgeArea::Vertex EdgeArea::at(const Point& lonlat) const {
-  const double s = std::sin(lonlat.y * kDegree), x = e2_ * s * s;
+EdgeArea::Vertex EdgeArea::at(const LonLat& place) const {
+  const double s = std::sin(place.lat * kDegree), x = e2_ * s * s;
   // b^2 / 2 (s / (1 - x) + atanh(e s) / e), Snyder (1987), equation 3-12; the series of atanh ends below 1e-16.
   const double series = 1 + x * (1.0 / 3 + x * (1.0 / 5 + x * (1.0 / 7 + x * (1.0 / 9 + x * (1.0 / 11 + x / 13)))));
-  return {lonlat.x, lonlat.y, s, a_ * a_ * (1 - e2_) / 2 * s * (1 / (1 - x) + series)};
+  return {place.lon, place.lat, s, a_ * a_ * (1 - e2_) / 2 * s * (1 / (1 - x) + series)};
 }
 
 // On the map whose x is the longitude and whose y is `per_radian`, areas are true, and a geodesic y(x) has y'' =

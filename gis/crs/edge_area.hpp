@@ -2,7 +2,7 @@
 
 #include <GeographicLib/Geodesic.hpp>
 
-#include "core/point.hpp"
+#include "gis/crs/lon_lat.hpp"
 
 namespace coastmesh {
 
@@ -18,7 +18,7 @@ class EdgeArea {
     double sin_lat = 0;
     double per_radian = 0;  // area between its parallel and the equator, for a radian of longitude
   };
-  Vertex at(const Point& lonlat) const;
+  Vertex at(const LonLat& place) const;
 
   // REQUIRES: the longitudes are less than 180 degrees apart as they are given, no pole between them or among them. To
   // some 1e-9 of what the edge might enclose with others of its length.

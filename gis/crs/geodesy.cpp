@@ -11,15 +11,16 @@
 #include <string>
 
 #include "core/quality.hpp"
+#include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
 namespace {
 
-// Points as degrees of longitude and latitude on an ellipsoid.
+// Places on an ellipsoid.
 struct Geodetic {
-  std::vector<Point> lonlat;
+  std::vector<LonLat> places;
   double a = 0.0;  // semi-major axis, metres
   double f = 0.0;  // flattening
 };
@@ -36,15 +37,13 @@ Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoo
   const OgrErrors errors;
   const OGRSpatialReference srs = toOgr(crs);
   Geodetic out;
-  reserveOn(loop, out.lonlat, points.size());
-  out.lonlat.assign(points.begin(), points.end());
+  reserveOn(loop, out.places, points.size());
+  for (const Point& p : points) out.places.push_back(asLonLat(p));
   out.a = crs.semi_major_m;
   out.f = crs.flattening;
-  const std::unique_ptr<OGRSpatialReference> base(srs.CloneGeogCS());
-  if (!base) throw InputError("the CRS " + nameOf(crs) + " has no longitude and latitude, so areas are unknown");
-  base->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   if (!srs.IsGeographic()) {
-    const std::unique_ptr<OGRCoordinateTransformation> to_base(OGRCreateCoordinateTransformation(&srs, base.get()));
+    const OGRSpatialReference base = geographicBase(crs);
+    const std::unique_ptr<OGRCoordinateTransformation> to_base(OGRCreateCoordinateTransformation(&srs, &base));
     if (!to_base)
       throw InputError("no way from the CRS " + nameOf(crs) + " to longitude and latitude: " + errors.text());
     std::vector<double> x(points.size()), y(points.size());
@@ -56,7 +55,7 @@ Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoo
     to_base->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, nullptr, ok.data());
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!ok[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) refuseNode(points, i, crs, path);
-      out.lonlat[i] = {x[i], y[i]};
+      out.places[i] = {x[i], y[i]};
     }
   }
   return out;
@@ -70,8 +69,8 @@ Vector cross(const Vector& u, const Vector& v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-Vector toEarthCentred(const Point& lonlat, double a, double e2) {
-  const double lon = lonlat.x * std::numbers::pi / 180.0, lat = lonlat.y * std::numbers::pi / 180.0;
+Vector toEarthCentred(const LonLat& place, double a, double e2) {
+  const double lon = place.lon * std::numbers::pi / 180.0, lat = place.lat * std::numbers::pi / 180.0;
   const double n = a / std::sqrt(1.0 - e2 * std::sin(lat) * std::sin(lat));
   return {n * std::cos(lat) * std::cos(lon), n * std::cos(lat) * std::sin(lon), n * (1.0 - e2) * std::sin(lat)};
 }
@@ -96,7 +95,7 @@ double smallTriangleArea(const Vector& u, const Vector& v, const Vector& w, doub
 
 }  // namespace
 
-bool isLonLat(const Point& p) { return std::abs(p.x) <= 540.0 && std::abs(p.y) <= 90.0; }
+bool isOnEarth(const LonLat& place) { return std::abs(place.lon) <= 540.0 && std::abs(place.lat) <= 90.0; }
 
 void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::string& path) {
   if (crs.isPlane()) return;
@@ -104,7 +103,7 @@ void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::stri
     toGeodetic(nodes, crs, inOrder, path);
     return;
   }
-  const auto odd = std::ranges::find_if_not(nodes, isLonLat);
+  const auto odd = std::ranges::find_if_not(nodes, isOnEarth, asLonLat);
   if (odd != nodes.end()) refuseNode(nodes, static_cast<std::size_t>(odd - nodes.begin()), crs, path);
 }
 
@@ -126,7 +125,7 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
   reserveOn(loop, places, nodes.size());
   places.resize(nodes.size());
   forEachByStretches(loop, nodes.size(),
-                     [&](std::size_t i) { places[i] = toEarthCentred(geodetic.lonlat[i], geodetic.a, e2); });
+                     [&](std::size_t i) { places[i] = toEarthCentred(geodetic.places[i], geodetic.a, e2); });
   const GeographicLib::Geodesic geodesic(geodetic.a, geodetic.f);
   forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
     const Vector &u = places[triangles[t][0]], &v = places[triangles[t][1]], &w = places[triangles[t][2]];
@@ -136,7 +135,7 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
       return;
     }
     GeographicLib::PolygonArea polygon(geodesic);
-    for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.lonlat[n].y, geodetic.lonlat[n].x);
+    for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.places[n].lat, geodetic.places[n].lon);
     double perimeter = 0.0;
     polygon.Compute(false, true, perimeter, areas[t]);
   });
@@ -159,7 +158,7 @@ std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
   const Geodetic geodetic = toGeodetic(nodes, crs);
   const double e2 = geodetic.f * (2.0 - geodetic.f);
   std::vector<Vector> places;
-  for (const Point& p : geodetic.lonlat) places.push_back(toEarthCentred(p, geodetic.a, e2));
+  for (const LonLat& p : geodetic.places) places.push_back(toEarthCentred(p, geodetic.a, e2));
   measure([&](std::uint32_t a, std::uint32_t b) {
     const Vector along = places[b] - places[a];
     const double chord = std::sqrt(dot(along, along));
@@ -184,9 +183,9 @@ std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, 
   std::size_t at = 0;
   for (std::size_t c = 0; c < chains.size(); ++c) {
     for (std::size_t i = 1; i < chains[c].size(); ++i) {
-      const Point &p = geodetic.lonlat[at + i - 1], &q = geodetic.lonlat[at + i];
+      const LonLat &p = geodetic.places[at + i - 1], &q = geodetic.places[at + i];
       double piece = 0.0;
-      geodesic.Inverse(p.y, p.x, q.y, q.x, piece);
+      geodesic.Inverse(p.lat, p.lon, q.lat, q.lon, piece);
       lengths[c] += piece;
     }
     at += chains[c].size();

@@ -9,12 +9,13 @@
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "gis/crs/crs.hpp"
+#include "gis/crs/lon_lat.hpp"
 
 namespace coastmesh {
 
-// Whether a point can be degrees of longitude and latitude: within ±540, which is -180 to 180, 0 to 360, and some
-// overlap, and within ±90.
-bool isLonLat(const Point& p);
+// Whether there is such a place: longitudes within ±540, which is -180 to 180, 0 to 360, and some overlap, and
+// latitudes within ±90.
+bool isOnEarth(const LonLat& place);
 
 // Throws InputError with `path`, the number of the node, and its place, where one has none on the ellipsoid of the
 // grid's CRS. What passes can be measured, projected, and read again from whatever it is written to.

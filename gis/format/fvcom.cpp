@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "gis/crs/crs_map.hpp"
-#include "gis/crs/ogr_support.hpp"
+#include "gis/crs/geographic_map.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
@@ -42,12 +41,8 @@ std::vector<std::uint32_t> openNodes(const Grid& grid) {
 std::vector<double> latitudes(const Grid& grid) {
   std::vector<double> out(grid.nodes.size(), 0.0);
   if (grid.crs.isPlane()) return out;
-  if (grid.crs.geographic) {
-    std::ranges::transform(grid.nodes, out.begin(), &Point::y);
-    return out;
-  }
-  const CrsMap map(toOgr(grid.crs), geographicBase(grid.crs));
-  std::ranges::transform(grid.nodes, out.begin(), [&](const Point& p) { return map.forward(p).y; });
+  const GeographicMap map(grid.crs);
+  std::ranges::transform(grid.nodes, out.begin(), [&](const Point& p) { return map.forward(p).lat; });
   return out;
 }
 

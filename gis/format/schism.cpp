@@ -2,8 +2,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "gis/crs/crs_map.hpp"
-#include "gis/crs/ogr_support.hpp"
+#include "gis/crs/geographic_map.hpp"
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/format/fort14_text.hpp"
@@ -13,10 +12,9 @@ namespace coastmesh {
 namespace {
 
 std::vector<Point> longitudesAndLatitudes(const Grid& grid) {
-  if (grid.crs.geographic) return grid.nodes;
-  const CrsMap map(toOgr(grid.crs), geographicBase(grid.crs));
+  const GeographicMap map(grid.crs);
   std::vector<Point> places(grid.nodes.size());
-  std::ranges::transform(grid.nodes, places.begin(), [&](const Point& p) { return map.forward(p); });
+  std::ranges::transform(grid.nodes, places.begin(), [&](const Point& p) { return asGeographic(map.forward(p)); });
   return places;
 }
 

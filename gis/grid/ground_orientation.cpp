@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/predicates.hpp"
+#include "gis/crs/lon_lat.hpp"
 #include "gis/grid/grid_edit.hpp"
 
 namespace coastmesh {
@@ -19,15 +20,15 @@ struct Direction {
 
 // Where `to` lies as seen from `from` on the unit sphere: parts of its vector along the tangents there. Made of the
 // differences of longitudes and latitudes, they keep their digits however near the two are.
-Direction seenFrom(const Point& from, const Point& to) {
+Direction seenFrom(const LonLat& from, const LonLat& to) {
   double rest_lon, rest_lat;
-  const double lon = Math::AngDiff(from.x, to.x, rest_lon), lat = Math::AngDiff(from.y, to.y, rest_lat);
+  const double lon = Math::AngDiff(from.lon, to.lon, rest_lon), lat = Math::AngDiff(from.lat, to.lat, rest_lat);
   double sin_lon, cos_lon, sin_half, cos_half, sin_lat, cos_lat, sin_from, cos_from, sin_to, cos_to;
   Math::sincosd(lon + rest_lon, sin_lon, cos_lon);
   Math::sincosd((lon + rest_lon) / 2, sin_half, cos_half);
   Math::sincosd(lat + rest_lat, sin_lat, cos_lat);
-  Math::sincosd(from.y, sin_from, cos_from);
-  Math::sincosd(to.y, sin_to, cos_to);
+  Math::sincosd(from.lat, sin_from, cos_from);
+  Math::sincosd(to.lat, sin_to, cos_to);
   return {cos_to * sin_lon, sin_lat + 2 * sin_from * cos_to * sin_half * sin_half};
 }
 
@@ -36,7 +37,8 @@ Direction seenFrom(const Point& from, const Point& to) {
 int orientationOnGround(const Point& a, const Point& b, const Point& c, const Crs& crs) {
   if (!crs.geographic) return orient2d(a, b, c);
   constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
-  const Direction to_b = seenFrom(a, b), to_c = seenFrom(a, c);
+  const LonLat apex = asLonLat(a);
+  const Direction to_b = seenFrom(apex, asLonLat(b)), to_c = seenFrom(apex, asLonLat(c));
   const double left = to_b.east * to_c.north, right = to_b.north * to_c.east;
   const double determinant = left - right;
   if (std::abs(determinant) <= kRounding * (std::abs(left) + std::abs(right))) return 0;

@@ -4,15 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "gis/crs/lon_lat.hpp"
+
 namespace coastmesh {
 namespace {
 
 using Vector = std::array<double, 3>;
 
-Vector unitVector(const Point& place) {
+Vector unitVector(const LonLat& place) {
   constexpr double kRadian = std::numbers::pi / 180.0;
-  const double cosine = std::cos(place.y * kRadian);
-  return {cosine * std::cos(place.x * kRadian), cosine * std::sin(place.x * kRadian), std::sin(place.y * kRadian)};
+  const double cosine = std::cos(place.lat * kRadian);
+  return {cosine * std::cos(place.lon * kRadian), cosine * std::sin(place.lon * kRadian),
+          std::sin(place.lat * kRadian)};
 }
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -29,7 +32,7 @@ void flattenLocally(const Crs& crs, std::span<Point> places) {
   if (!crs.geographic || places.empty()) return;
   Vector middle{};
   for (const Point& place : places) {
-    const Vector on_sphere = unitVector(place);
+    const Vector on_sphere = unitVector(asLonLat(place));
     for (std::size_t k = 0; k < 3; ++k) middle[k] += on_sphere[k];
   }
   middle = scaled(middle, 1.0 / std::sqrt(dot(middle, middle)));
@@ -39,7 +42,7 @@ void flattenLocally(const Crs& crs, std::span<Point> places) {
   east = scaled(east, 1.0 / std::sqrt(dot(east, east)));
   const Vector north = cross(middle, east);
   for (Point& place : places) {
-    const Vector on_sphere = unitVector(place);
+    const Vector on_sphere = unitVector(asLonLat(place));
     place = {crs.semi_major_m * dot(on_sphere, east), crs.semi_major_m * dot(on_sphere, north)};
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/predicates.hpp"
+#include "gis/crs/lon_lat.hpp"
 
 namespace coastmesh {
 
@@ -33,25 +34,32 @@ std::vector<Point> placesOf(std::span<const Point> nodes, std::span<const std::u
   return ring;
 }
 
+std::vector<LonLat> onEllipsoid(std::span<const Point> ring) {
+  std::vector<LonLat> places;
+  places.reserve(ring.size());
+  for (const Point& p : ring) places.push_back(asLonLat(p));
+  return places;
+}
+
 // With longitudes that go on where the loop crosses ±180 or has points of other revolutions. They are moved by whole
 // revolutions alone.
-std::vector<Point> unrolled(std::vector<Point> ring) {
+std::vector<LonLat> unrolled(std::vector<LonLat> ring) {
   double turns = 0.0;
   for (std::size_t i = 1; i < ring.size(); ++i) {
-    turns -= 360.0 * std::round((ring[i].x + turns - ring[i - 1].x) / 360.0);
-    ring[i].x += turns;
+    turns -= 360.0 * std::round((ring[i].lon + turns - ring[i - 1].lon) / 360.0);
+    ring[i].lon += turns;
   }
   return ring;
 }
 
 // The area to the left of a ring with great circles as edges, on the sphere of radius 1. That between an edge and the
 // equator is Bevis and Cambareri's (1987), which holds over poles and for edges along a meridian too.
-double areaToTheLeft(std::span<const Point> ring) {
+double areaToTheLeft(std::span<const LonLat> ring) {
   GeographicLib::Accumulator<double> below, turn;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point &from = ring[i], &to = ring[(i + 1) % ring.size()];
-    const double step = Math::AngDiff(from.x, to.x) * Math::degree();
-    const double s = std::tan(0.5 * from.y * Math::degree()), t = std::tan(0.5 * to.y * Math::degree());
+    const LonLat &from = ring[i], &to = ring[(i + 1) % ring.size()];
+    const double step = Math::AngDiff(from.lon, to.lon) * Math::degree();
+    const double s = std::tan(0.5 * from.lat * Math::degree()), t = std::tan(0.5 * to.lat * Math::degree());
     below += 2.0 * std::atan2(std::sin(0.5 * step) * (s + t), std::cos(0.5 * step) * (1.0 + s * t));
     turn += step;
   }
@@ -61,11 +69,11 @@ double areaToTheLeft(std::span<const Point> ring) {
 }
 
 // Whether straight lines in degrees make the same loop as great circles, but for slivers.
-bool degreesTell(std::span<const Point> unrolled_ring) {
+bool isPlainInDegrees(std::span<const LonLat> unrolled_ring) {
   constexpr double kWidest = 180.0, kHighest = 89.0;
-  const auto [west, east] = std::ranges::minmax(unrolled_ring, {}, &Point::x);
-  const auto [south, north] = std::ranges::minmax(unrolled_ring, {}, &Point::y);
-  return east.x - west.x < kWidest && std::max(north.y, -south.y) < kHighest;
+  const auto [west, east] = std::ranges::minmax(unrolled_ring, {}, &LonLat::lon);
+  const auto [south, north] = std::ranges::minmax(unrolled_ring, {}, &LonLat::lat);
+  return east.lon - west.lon < kWidest && std::max(north.lat, -south.lat) < kHighest;
 }
 
 }  // namespace
@@ -74,16 +82,17 @@ std::optional<BoundaryRole> roleByArea(std::span<const Point> nodes, std::span<c
                                        const Crs& crs) {
   if (!crs.geographic) return std::nullopt;
   constexpr double kSure = 1e-4;  // of the sphere of radius 1: beyond all that bent sides of slivers could be wrong by
-  const std::vector<Point> ring = unrolled(placesOf(nodes, loop));
+  const std::vector<LonLat> ring = unrolled(onEllipsoid(placesOf(nodes, loop)));
   const double left = areaToTheLeft(ring);
-  if (degreesTell(ring) && std::min(left, kSphere - left) < kSure) return std::nullopt;
+  if (isPlainInDegrees(ring) && std::min(left, kSphere - left) < kSure) return std::nullopt;
   return left < 0.5 * kSphere ? BoundaryRole::Land : BoundaryRole::Island;
 }
 
 BoundaryRole roleOfLoop(std::span<const Point> nodes, std::span<const std::uint32_t> loop, const Crs& crs) {
   if (const std::optional<BoundaryRole> role = roleByArea(nodes, loop, crs)) return *role;
   std::vector<Point> ring = placesOf(nodes, loop);
-  return roleInPlane(crs.geographic ? unrolled(std::move(ring)) : std::move(ring));
+  if (crs.geographic) std::ranges::transform(unrolled(onEllipsoid(ring)), ring.begin(), asGeographic);
+  return roleInPlane(ring);
 }
 
 }  // namespace coastmesh

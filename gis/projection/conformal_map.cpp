@@ -16,16 +16,16 @@ using GeographicLib::Math;
 template <typename Library>
 class AboutMeridian final : public ConformalMap {
  public:
-  AboutMeridian(Library library, const Point& centre) : library_(std::move(library)), meridian_(centre.x) {
+  AboutMeridian(Library library, const LonLat& centre) : library_(std::move(library)), meridian_(centre.lon) {
     origin_ = forward(centre);
   }
 
-  Point forward(const Point& lonlat) const override {
+  Point forward(const LonLat& place) const override {
     double x, y;
-    library_.Forward(meridian_, lonlat.y, lonlat.x, x, y);
+    library_.Forward(meridian_, place.lat, place.lon, x, y);
     return {x - origin_.x, y - origin_.y};
   }
-  Point inverse(const Point& plane) const override {
+  LonLat inverse(const Point& plane) const override {
     double lat, lon;
     library_.Reverse(meridian_, plane.x + origin_.x, plane.y + origin_.y, lat, lon);
     return {lon, lat};
@@ -47,12 +47,12 @@ class PolarMap final : public ConformalMap {
   PolarMap(const Ellipsoid& ellipsoid, bool north, double meridian)
       : library_(ellipsoid.a, ellipsoid.f, 1.0), north_(north), meridian_(meridian) {}
 
-  Point forward(const Point& lonlat) const override {
+  Point forward(const LonLat& place) const override {
     double x, y;
-    library_.Forward(north_, lonlat.y, Math::AngDiff(meridian_, lonlat.x), x, y);
+    library_.Forward(north_, place.lat, Math::AngDiff(meridian_, place.lon), x, y);
     return {x, y};
   }
-  Point inverse(const Point& plane) const override {
+  LonLat inverse(const Point& plane) const override {
     double lat, lon;
     library_.Reverse(north_, plane.x, plane.y, lat, lon);
     return {Math::AngNormalize(lon + meridian_), lat};
@@ -63,7 +63,7 @@ class PolarMap final : public ConformalMap {
     return scale;
   }
   // A little beside the pole, where data that reach it have an edge.
-  std::optional<Point> infinity() const override { return Point{17.123, north_ ? -89.999 : 89.999}; }
+  std::optional<LonLat> infinity() const override { return LonLat{17.123, north_ ? -89.999 : 89.999}; }
 
  private:
   GeographicLib::PolarStereographic library_;
@@ -76,25 +76,25 @@ class PolarMap final : public ConformalMap {
 // the antipode is special.
 class ObliqueStereographic final : public ConformalMap {
  public:
-  ObliqueStereographic(const Ellipsoid& ellipsoid, const Point& centre)
+  ObliqueStereographic(const Ellipsoid& ellipsoid, const LonLat& centre)
       : e2_(ellipsoid.f * (2 - ellipsoid.f)),
         es_((ellipsoid.f < 0 ? -1 : 1) * std::sqrt(std::abs(e2_))),
-        meridian_(centre.x),
-        centre_(onSphere(centre.y)),
+        meridian_(centre.lon),
+        centre_(onSphere(centre.lat)),
         diameter_(2 * ellipsoid.a / centre_.scale),
         a_(ellipsoid.a) {}
 
-  Point forward(const Point& lonlat) const override {
-    const OnSphere at = onSphere(lonlat.y);
+  Point forward(const LonLat& place) const override {
+    const OnSphere at = onSphere(place.lat);
     double sin_lon, cos_lon;
-    Math::sincosd(Math::AngDiff(meridian_, lonlat.x), sin_lon, cos_lon);
+    Math::sincosd(Math::AngDiff(meridian_, place.lon), sin_lon, cos_lon);
     const double east = at.cos * sin_lon;
     const double north = centre_.cos * at.sin - centre_.sin * at.cos * cos_lon;
     const double up = centre_.sin * at.sin + centre_.cos * at.cos * cos_lon;
     return {diameter_ * east / (1 + up), diameter_ * north / (1 + up)};
   }
 
-  Point inverse(const Point& plane) const override {
+  LonLat inverse(const Point& plane) const override {
     const double x = plane.x / diameter_, y = plane.y / diameter_;
     const double q = x * x + y * y;
     const double east = 2 * x / (1 + q), north = 2 * y / (1 + q), up = (1 - q) / (1 + q);
@@ -108,9 +108,9 @@ class ObliqueStereographic final : public ConformalMap {
 
   double scaleAt(const Point& plane) const override {
     const double x = plane.x / diameter_, y = plane.y / diameter_;
-    return diameter_ / (2 * a_) * onSphere(inverse(plane).y).scale * (1 + x * x + y * y);
+    return diameter_ / (2 * a_) * onSphere(inverse(plane).lat).scale * (1 + x * x + y * y);
   }
-  std::optional<Point> infinity() const override { return inverse({1e18 * diameter_, 0}); }
+  std::optional<LonLat> infinity() const override { return inverse({1e18 * diameter_, 0}); }
 
  private:
   // Sine and cosine of the conformal latitude, and the scale of the map from the ellipsoid of semi-major axis 1 to the
@@ -136,12 +136,12 @@ class ObliqueStereographic final : public ConformalMap {
 
 }  // namespace
 
-std::unique_ptr<ConformalMap> transverseMercator(const Ellipsoid& ellipsoid, const Point& centre) {
+std::unique_ptr<ConformalMap> transverseMercator(const Ellipsoid& ellipsoid, const LonLat& centre) {
   using Library = GeographicLib::TransverseMercator;
   return std::make_unique<AboutMeridian<Library>>(Library(ellipsoid.a, ellipsoid.f, 1.0), centre);
 }
 
-std::unique_ptr<ConformalMap> lambertConic(const Ellipsoid& ellipsoid, const Point& centre, double parallel1,
+std::unique_ptr<ConformalMap> lambertConic(const Ellipsoid& ellipsoid, const LonLat& centre, double parallel1,
                                            double parallel2) {
   using Library = GeographicLib::LambertConformalConic;
   return std::make_unique<AboutMeridian<Library>>(Library(ellipsoid.a, ellipsoid.f, parallel1, parallel2, 1.0), centre);
@@ -151,7 +151,7 @@ std::unique_ptr<ConformalMap> polarStereographic(const Ellipsoid& ellipsoid, boo
   return std::make_unique<PolarMap>(ellipsoid, north, central_meridian);
 }
 
-std::unique_ptr<ConformalMap> obliqueStereographic(const Ellipsoid& ellipsoid, const Point& centre) {
+std::unique_ptr<ConformalMap> obliqueStereographic(const Ellipsoid& ellipsoid, const LonLat& centre) {
   return std::make_unique<ObliqueStereographic>(ellipsoid, centre);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/point.hpp"
+#include "gis/crs/lon_lat.hpp"
 
 namespace coastmesh {
 
@@ -13,23 +14,23 @@ struct Ellipsoid {
   double f = 1.0 / 298.257223563;
 };
 
-// A conformal map of the ellipsoid: x, y in degrees of longitude and latitude there, metres in the plane. Private to
-// gis. Thread-safe. `inverse` gives longitudes in [-180, 180]; a latitude beyond the poles makes NaN.
+// A conformal map of the ellipsoid onto a plane in metres. Private to gis. Thread-safe. `inverse` gives longitudes in
+// [-180, 180]; a latitude beyond the poles makes NaN.
 class ConformalMap {
  public:
   virtual ~ConformalMap() = default;
-  virtual Point forward(const Point& lonlat) const = 0;
-  virtual Point inverse(const Point& plane) const = 0;
+  virtual Point forward(const LonLat& place) const = 0;
+  virtual LonLat inverse(const Point& plane) const = 0;
   virtual double scaleAt(const Point& plane) const = 0;  // plane length over length on the ellipsoid
   // The one place that lies beyond all of the plane, where the map shows all others, to a thousandth of a degree.
-  virtual std::optional<Point> infinity() const { return std::nullopt; }
+  virtual std::optional<LonLat> infinity() const { return std::nullopt; }
 };
 
 // Each has its origin and the scale 1 at the centre named, the conic on its two parallels.
-std::unique_ptr<ConformalMap> transverseMercator(const Ellipsoid& ellipsoid, const Point& centre);
-std::unique_ptr<ConformalMap> lambertConic(const Ellipsoid& ellipsoid, const Point& centre, double parallel1,
+std::unique_ptr<ConformalMap> transverseMercator(const Ellipsoid& ellipsoid, const LonLat& centre);
+std::unique_ptr<ConformalMap> lambertConic(const Ellipsoid& ellipsoid, const LonLat& centre, double parallel1,
                                            double parallel2);
 std::unique_ptr<ConformalMap> polarStereographic(const Ellipsoid& ellipsoid, bool north, double central_meridian);
-std::unique_ptr<ConformalMap> obliqueStereographic(const Ellipsoid& ellipsoid, const Point& centre);
+std::unique_ptr<ConformalMap> obliqueStereographic(const Ellipsoid& ellipsoid, const LonLat& centre);
 
 }  // namespace coastmesh

@@ -24,14 +24,14 @@ struct Direction {
 
 double dot(const Direction& u, const Direction& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
 
-Direction toDirection(const Point& lonlat) {
+Direction toDirection(const LonLat& place) {
   double sin_lon, cos_lon, sin_lat, cos_lat;
-  Math::sincosd(lonlat.x, sin_lon, cos_lon);
-  Math::sincosd(lonlat.y, sin_lat, cos_lat);
+  Math::sincosd(place.lon, sin_lon, cos_lon);
+  Math::sincosd(place.lat, sin_lat, cos_lat);
   return {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat};
 }
 
-Point toLonLat(const Direction& d) { return {Math::atan2d(d.y, d.x), Math::atan2d(d.z, std::hypot(d.x, d.y))}; }
+LonLat toLonLat(const Direction& d) { return {Math::atan2d(d.y, d.x), Math::atan2d(d.z, std::hypot(d.x, d.y))}; }
 
 double degreesBetween(const Direction& u, const Direction& v) {
   const double chord = std::sqrt(std::max(0.0, 2 - 2 * dot(u, v)));
@@ -48,32 +48,32 @@ double angDiff(double x, double y) {
 constexpr std::size_t kLonCells = 360, kLatCells = 180;
 
 // Many points are thinned to the outermost ones in each cell of one degree: enough for radii and centres.
-std::vector<Direction> thinned(const std::vector<Point>& lonlat) {
+std::vector<Direction> thinned(const std::vector<LonLat>& places) {
   std::vector<Direction> directions;
-  if (lonlat.size() < kLonCells * kLatCells) {
-    for (const Point& p : lonlat) directions.push_back(toDirection(p));
+  if (places.size() < kLonCells * kLatCells) {
+    for (const LonLat& p : places) directions.push_back(toDirection(p));
     return directions;
   }
   std::vector<std::uint32_t> number(kLonCells * kLatCells, 0);  // of the cell among those used, from 1
-  std::vector<std::array<Point, 4>> outermost;
-  for (const Point& given : lonlat) {
-    const Point p{angNormalize(given.x), given.y};
-    const auto i = static_cast<std::size_t>(std::clamp(p.x + 180, 0.0, 359.0));
-    const auto j = static_cast<std::size_t>(std::clamp(p.y + 90, 0.0, 179.0));
+  std::vector<std::array<LonLat, 4>> outermost;
+  for (const LonLat& given : places) {
+    const LonLat p{angNormalize(given.lon), given.lat};
+    const auto i = static_cast<std::size_t>(std::clamp(p.lon + 180, 0.0, 359.0));
+    const auto j = static_cast<std::size_t>(std::clamp(p.lat + 90, 0.0, 179.0));
     std::uint32_t& cell = number[j * kLonCells + i];
     if (cell == 0) {
       outermost.push_back({p, p, p, p});
       cell = static_cast<std::uint32_t>(outermost.size());
     }
     auto& [west, east, south, north] = outermost[cell - 1];
-    if (p.x < west.x) west = p;
-    if (p.x > east.x) east = p;
-    if (p.y < south.y) south = p;
-    if (p.y > north.y) north = p;
+    if (p.lon < west.lon) west = p;
+    if (p.lon > east.lon) east = p;
+    if (p.lat < south.lat) south = p;
+    if (p.lat > north.lat) north = p;
   }
   for (const std::uint32_t cell : number) {
     if (cell == 0) continue;
-    for (const Point& p : outermost[cell - 1]) directions.push_back(toDirection(p));
+    for (const LonLat& p : outermost[cell - 1]) directions.push_back(toDirection(p));
   }
   return directions;
 }
@@ -87,13 +87,13 @@ struct Extent {
   double height() const { return north - south; }
 };
 
-Extent extentOf(const std::vector<Point>& lonlat) {
+Extent extentOf(const std::vector<LonLat>& places) {
   Extent extent;
   std::array<bool, kLonCells> used{};
-  for (const Point& p : lonlat) {
-    extent.south = std::min(extent.south, p.y), extent.north = std::max(extent.north, p.y);
-    if (std::abs(p.y) == 90) continue;  // a pole has no longitude
-    used[static_cast<std::size_t>(std::clamp(angNormalize(p.x) + 180, 0.0, 359.0))] = true;
+  for (const LonLat& p : places) {
+    extent.south = std::min(extent.south, p.lat), extent.north = std::max(extent.north, p.lat);
+    if (std::abs(p.lat) == 90) continue;  // a pole has no longitude
+    used[static_cast<std::size_t>(std::clamp(angNormalize(p.lon) + 180, 0.0, 359.0))] = true;
   }
   // The middle of the longest run of empty cells, round the globe, is where the arc is not.
   std::size_t best_run = 0, best_end = 0, run = 0;
@@ -104,9 +104,9 @@ Extent extentOf(const std::vector<Point>& lonlat) {
   const double empty_mid = static_cast<double>(best_end) + 1 - static_cast<double>(best_run) / 2 - 180;
   const double roughly = Math::AngNormalize(empty_mid + 180);
   double west = 180, east = -180;
-  for (const Point& p : lonlat) {
-    if (std::abs(p.y) == 90) continue;
-    const double d = angDiff(roughly, p.x);
+  for (const LonLat& p : places) {
+    if (std::abs(p.lat) == 90) continue;
+    const double d = angDiff(roughly, p.lon);
     west = std::min(west, d), east = std::max(east, d);
   }
   if (west > east) return extent;  // poles only
@@ -117,11 +117,11 @@ Extent extentOf(const std::vector<Point>& lonlat) {
 
 // A cap of the sphere.
 struct Cap {
-  Point centre;
+  LonLat centre;
   double radius = 0;  // degrees
 };
 
-Cap capAround(const Point& centre, const std::vector<Direction>& directions) {
+Cap capAround(const LonLat& centre, const std::vector<Direction>& directions) {
   const Direction middle = toDirection(centre);
   Direction farthest = middle;
   double least = std::numeric_limits<double>::infinity();
@@ -176,19 +176,19 @@ class Clearest {
   Clearest(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions)
       : left_out_(groups), west_(west), directions_(directions) {}
 
-  void offer(const Point& trial) {
+  void offer(const LonLat& trial) {
     const Direction d = toDirection(trial);
     double nearest = -1;
     for (const Direction& vertex : directions_) nearest = std::max(nearest, dot(d, vertex));
     const double clearance = std::acos(std::clamp(nearest, -1.0, 1.0)) / Math::degree();
     if (clearance <= clearance_) return;
-    const Point as_given{west_ + std::fmod(trial.x - west_ + 720, 360.0), trial.y};
+    const Point as_given{west_ + std::fmod(trial.lon - west_ + 720, 360.0), trial.lat};
     if (!left_out_.holds(as_given)) return;
     best_ = trial;
     clearance_ = clearance;
   }
 
-  const std::optional<Point>& best() const { return best_; }
+  const std::optional<LonLat>& best() const { return best_; }
 
  private:
   static constexpr double kLeastClearance = 0.5;
@@ -196,7 +196,7 @@ class Clearest {
   LeftOut left_out_;
   double west_;
   const std::vector<Direction>& directions_;
-  std::optional<Point> best_;
+  std::optional<LonLat> best_;
   double clearance_ = kLeastClearance;  // degrees
 };
 
@@ -242,7 +242,7 @@ void offerInsides(const std::vector<RingGroup>& groups, Clearest& clearest) {
 
 // The centre of a stereographic projection for what is larger than a hemisphere: its antipode, which has no image, lies
 // as far inside of what is left out as possible.
-Point centreAwayFromLand(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions) {
+LonLat centreAwayFromLand(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions) {
   Clearest clearest(groups, west, directions);
   offerSpiral(clearest);
   if (!clearest.best()) offerInsides(groups, clearest);
@@ -251,7 +251,7 @@ Point centreAwayFromLand(const std::vector<RingGroup>& groups, double west, cons
         "the features cover the whole globe but for places less than some 100 km wide, and a plane needs a wider one: "
         "leave one out, as --bbox=-180,-85,180,90 does round the south pole");
   }
-  return {Math::AngNormalize(clearest.best()->x + 180), -clearest.best()->y};
+  return {Math::AngNormalize(clearest.best()->lon + 180), -clearest.best()->lat};
 }
 
 std::string degreesInWords(double degrees) {
@@ -260,18 +260,18 @@ std::string degreesInWords(double degrees) {
   return text;
 }
 
-FittedMap polar(const Point& centre, const Ellipsoid& ellipsoid) {
-  const bool north = centre.y > 0;
-  return {polarStereographic(ellipsoid, north, centre.x),
+FittedMap polar(const LonLat& centre, const Ellipsoid& ellipsoid) {
+  const bool north = centre.lat > 0;
+  return {polarStereographic(ellipsoid, north, centre.lon),
           std::string("polar stereographic about the ") + (north ? "north" : "south") + " pole, central meridian " +
-              degreesInWords(centre.x),
+              degreesInWords(centre.lon),
           ""};
 }
 
-FittedMap oblique(const Point& centre, const Ellipsoid& ellipsoid) {
+FittedMap oblique(const LonLat& centre, const Ellipsoid& ellipsoid) {
   return {obliqueStereographic(ellipsoid, centre),
-          "oblique stereographic, centre at longitude " + degreesInWords(centre.x) + ", latitude " +
-              degreesInWords(centre.y),
+          "oblique stereographic, centre at longitude " + degreesInWords(centre.lon) + ", latitude " +
+              degreesInWords(centre.lat),
           ""};
 }
 
@@ -288,45 +288,45 @@ bool isPlainlySmall(const Extent& extent) {
 }
 
 // The map for what is large or near a pole, if it is.
-std::optional<FittedMap> mapAboutCentre(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups,
+std::optional<FittedMap> mapAboutCentre(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups,
                                         const Extent& extent, const Ellipsoid& ellipsoid) {
-  const std::vector<Direction> directions = thinned(lonlat);
+  const std::vector<Direction> directions = thinned(places);
   const Cap cap = leastCap(extent, directions);
-  const auto atPole = [](const Point& p) { return std::abs(p.y) == 90; };
+  const auto atPole = [](const LonLat& p) { return std::abs(p.lat) == 90; };
   if (cap.radius > 90) {
-    const double west = std::ranges::min(lonlat, {}, &Point::x).x;  // longitudes may run from -180 or from 0
-    const Point centre = centreAwayFromLand(groups, west, directions);
+    const double west = std::ranges::min(places, {}, &LonLat::lon).lon;  // longitudes may run from -180 or from 0
+    const LonLat centre = centreAwayFromLand(groups, west, directions);
     return because(atPole(centre) ? polar(centre, ellipsoid) : oblique(centre, ellipsoid),
                    "larger than a hemisphere: projected away from the middle of what is left out");
   }
   const std::string radius = "lies within " + degreesInWords(cap.radius) + " of ";
   if (atPole(cap.centre)) return because(polar(cap.centre, ellipsoid), radius + "the pole");
-  const bool holds_pole = 90 - std::abs(cap.centre.y) <= cap.radius;
+  const bool holds_pole = 90 - std::abs(cap.centre.lat) <= cap.radius;
   if (cap.radius > kLargeCap || holds_pole) {
     return because(oblique(cap.centre, ellipsoid), radius + "the centre" + (holds_pole ? ", a pole among it" : ""));
   }
   return std::nullopt;
 }
 
-FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups,
+FittedMap chooseMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups,
                     const Ellipsoid& ellipsoid) {
   constexpr double kElongated = 1.5;
-  const Extent extent = extentOf(lonlat);
+  const Extent extent = extentOf(places);
   if (!isPlainlySmall(extent)) {
-    if (std::optional<FittedMap> map = mapAboutCentre(lonlat, groups, extent, ellipsoid)) return std::move(*map);
+    if (std::optional<FittedMap> map = mapAboutCentre(places, groups, extent, ellipsoid)) return std::move(*map);
   }
-  const Point middle{extent.mid_lon, extent.midLat()};
-  const double width = extent.width * std::cos(middle.y * Math::degree());
+  const LonLat middle{extent.mid_lon, extent.midLat()};
+  const double width = extent.width * std::cos(middle.lat * Math::degree());
   const std::string spans = "spans " + degreesInWords(extent.height()) + " from south to north and " +
                             degreesInWords(width) + " of arc from west to east: ";
   if (extent.height() >= kElongated * width) {
-    return {transverseMercator(ellipsoid, middle), "transverse Mercator, central meridian " + degreesInWords(middle.x),
-            spans + "long from south to north"};
+    return {transverseMercator(ellipsoid, middle),
+            "transverse Mercator, central meridian " + degreesInWords(middle.lon), spans + "long from south to north"};
   }
   if (width >= kElongated * extent.height()) {
     const double parallel1 = extent.south + extent.height() / 6, parallel2 = extent.north - extent.height() / 6;
     return {lambertConic(ellipsoid, middle, parallel1, parallel2),
-            "Lambert conformal conic, central meridian " + degreesInWords(middle.x) + ", parallels " +
+            "Lambert conformal conic, central meridian " + degreesInWords(middle.lon) + ", parallels " +
                 degreesInWords(parallel1) + " and " + degreesInWords(parallel2),
             spans + "long from west to east"};
   }
@@ -335,8 +335,8 @@ FittedMap chooseMap(const std::vector<Point>& lonlat, const std::vector<RingGrou
 
 }  // namespace
 
-FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid) {
-  return chooseMap(lonlat, groups, ellipsoid);
+FittedMap fitMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid) {
+  return chooseMap(places, groups, ellipsoid);
 }
 
 }  // namespace coastmesh

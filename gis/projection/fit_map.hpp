@@ -16,17 +16,17 @@ struct FittedMap {
   std::string reason;  // why this one, for people
 };
 
-// Rings in longitudes and latitudes that hold something together, by the even-odd rule.
+// Rings in coordinates of a geographic CRS that hold something together, by the even-odd rule.
 struct RingGroup {
   std::vector<const Ring*> rings;
   bool is_land = false;  // what it holds is left out, whatever else holds it
 };
 
-// Chooses by the extent of `lonlat` (degrees; any longitudes): transverse Mercator for what reaches north and south,
+// Chooses by the extent of the places (any longitudes): transverse Mercator for what reaches north and south,
 // Lambert's conic for what reaches east and west, polar stereographic around a pole, oblique stereographic for the rest
 // and for all that is larger than a cap of 30 degrees. What is larger than a hemisphere is projected away from the
 // middle of the largest place that is left out: on land, or in no group. Throws InputError where there is none.
-// REQUIRES: `lonlat` is not empty, latitudes within ±90.
-FittedMap fitMap(const std::vector<Point>& lonlat, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid);
+// REQUIRES: `places` is not empty, latitudes within ±90.
+FittedMap fitMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid);
 
 }  // namespace coastmesh

@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "gis/coast/turned_rings.hpp"
-#include "gis/crs/crs_map.hpp"
 #include "gis/crs/geodesy.hpp"
-#include "gis/crs/ogr_support.hpp"
+#include "gis/crs/geographic_map.hpp"
 #include "gis/error.hpp"
 #include "gis/projection/fit_map.hpp"
 #include "gis/projection/projection.hpp"
@@ -18,23 +17,9 @@ namespace coastmesh {
 
 namespace {
 
-// Longitudes and latitudes of features, from whatever CRS they are in.
-class ToGeographic {
- public:
-  explicit ToGeographic(const Crs& crs) {
-    if (!crs.geographic) map_ = std::make_shared<CrsMap>(toOgr(crs), geographicBase(crs));
-  }
-  Point forward(const Point& input) const { return map_ ? map_->forward(input) : input; }
-  Point inverse(const Point& lonlat) const { return map_ ? map_->inverse(lonlat) : lonlat; }
-  bool isIdentity() const { return !map_; }
-
- private:
-  std::shared_ptr<const CrsMap> map_;
-};
-
 class Fitted final : public ProjectionMap {
  public:
-  Fitted(ToGeographic to_geographic, FittedMap fitted, double middle_longitude)
+  Fitted(GeographicMap to_geographic, FittedMap fitted, double middle_longitude)
       : to_geographic_(std::move(to_geographic)), map_(std::move(fitted.map)), middle_(middle_longitude) {
     description = std::move(fitted.description);
     reason = std::move(fitted.reason);
@@ -42,19 +27,21 @@ class Fitted final : public ProjectionMap {
 
   Point forward(const Point& input) const override { return map_->forward(to_geographic_.forward(input)); }
   Point inverse(const Point& plane) const override {
-    Point lonlat = map_->inverse(plane);
+    LonLat place = map_->inverse(plane);
     // As the input has it: the same turn round the globe.
-    if (lonlat.x < middle_ - 180) lonlat.x += 360;
-    if (lonlat.x > middle_ + 180) lonlat.x -= 360;
-    return to_geographic_.inverse(lonlat);
+    if (place.lon < middle_ - 180) place.lon += 360;
+    if (place.lon > middle_ + 180) place.lon -= 360;
+    return to_geographic_.inverse(place);
   }
   double scaleAt(const Point& plane) const override { return map_->scaleAt(plane); }
   std::optional<Point> infinity() const override {
-    return to_geographic_.isIdentity() ? map_->infinity() : std::nullopt;
+    const std::optional<LonLat> beyond = to_geographic_.isIdentity() ? map_->infinity() : std::nullopt;
+    if (!beyond) return std::nullopt;
+    return asGeographic(*beyond);
   }
 
  private:
-  ToGeographic to_geographic_;
+  GeographicMap to_geographic_;
   std::unique_ptr<ConformalMap> map_;
   double middle_;
 };
@@ -91,8 +78,8 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
 }
 
 std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std::vector<std::size_t>& members,
-                                           const ToGeographic& to_geographic) {
-  std::vector<Point> lonlat;
+                                           const GeographicMap& to_geographic) {
+  std::vector<LonLat> places;
   std::deque<Ring> projected_rings;
   std::vector<RingGroup> groups(1);  // the frame and lines of the coast; then one a feature
   const Feature* last = nullptr;
@@ -100,13 +87,13 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
   std::size_t count = 0;
   forEachChain(coastline, members,
                [&](const Feature&, const std::vector<Point>& chain, bool) { count += chain.size(); });
-  lonlat.reserve(count);
+  places.reserve(count);
   forEachChain(coastline, members, [&](const Feature& feature, const std::vector<Point>& chain, bool is_ring) {
     for (const Point& input : chain) {
-      const Point p = to_geographic.forward(input);
-      if (!isLonLat(p)) refuse(feature, input, coastline.crs);
-      west = std::min(west, p.x), east = std::max(east, p.x);
-      lonlat.push_back(p);
+      const LonLat place = to_geographic.forward(input);
+      if (!isOnEarth(place)) refuse(feature, input, coastline.crs);
+      west = std::min(west, place.lon), east = std::max(east, place.lon);
+      places.push_back(place);
     }
     if (!is_ring) return;
     const bool is_whole = feature.use == FeatureUse::Land || feature.use == FeatureUse::Area;
@@ -120,13 +107,16 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
         for (Ring& turned : turnedRings(chain)) addProjected(std::move(turned));
       }
     } else {
-      addProjected({lonlat.end() - static_cast<std::ptrdiff_t>(chain.size()), lonlat.end()});
+      Ring ring;
+      for (auto i = places.end() - static_cast<std::ptrdiff_t>(chain.size()); i != places.end(); ++i)
+        ring.push_back(asGeographic(*i));
+      addProjected(std::move(ring));
     }
   });
-  if (lonlat.empty()) throw InputError("the features hold no point");
+  if (places.empty()) throw InputError("the features hold no point");
   const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
   const Ellipsoid ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
-  return std::make_shared<Fitted>(to_geographic, fitMap(lonlat, groups, ellipsoid), middle);
+  return std::make_shared<Fitted>(to_geographic, fitMap(places, groups, ellipsoid), middle);
 }
 
 }  // namespace
@@ -134,7 +124,7 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
 std::vector<Projection> Projection::fittedEach(const Coastline& coastline,
                                                const std::vector<std::vector<std::size_t>>& groups) {
   if (coastline.crs.isPlane()) return std::vector<Projection>(groups.size(), plane());
-  const ToGeographic to_geographic(coastline.crs);
+  const GeographicMap to_geographic(coastline.crs);
   std::vector<Projection> projections;
   projections.reserve(groups.size());
   for (const auto& members : groups) projections.push_back(Projection(fitTo(coastline, members, to_geographic)));

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "gis/crs/crs_map.hpp"
+#include "gis/crs/geographic_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/projection/projection.hpp"
@@ -15,7 +16,7 @@ class ToCrs final : public ProjectionMap {
  public:
   ToCrs(const Crs& input, const Crs& working)
       : map_(toOgr(input), toOgr(working)),
-        to_lonlat_(toOgr(working), geographicBase(working)),
+        to_geographic_(working),
         geodesic_(working.semi_major_m, working.flattening) {
     // Some 50 m.
     step_ = working.geographic ? 5e-4 : 50 / toOgr(working).GetLinearUnits();
@@ -35,14 +36,14 @@ class ToCrs final : public ProjectionMap {
 
  private:
   double trueLength(const Point& p, const Point& q) const {
-    const Point a = to_lonlat_.forward(p), b = to_lonlat_.forward(q);
+    const LonLat a = to_geographic_.forward(p), b = to_geographic_.forward(q);
     double length;
-    geodesic_.Inverse(a.y, a.x, b.y, b.x, length);
+    geodesic_.Inverse(a.lat, a.lon, b.lat, b.lon, length);
     return length;
   }
 
   CrsMap map_;
-  CrsMap to_lonlat_;
+  GeographicMap to_geographic_;
   GeographicLib::Geodesic geodesic_;
   double step_ = 0;
 };

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "core/point.hpp"
+#include "gis/crs/crs.hpp"
+#include "gis/crs/lon_lat.hpp"
+
+namespace coastmesh {
+
+class CrsMap;
+
+// From coordinates of a CRS to longitudes and latitudes on its ellipsoid, and back; the same numbers for a geographic
+// one. Cheap to copy; usable from several threads at once. Private to gis.
+class GeographicMap {
+ public:
+  // REQUIRES: !crs.isPlane(). Throws InputError where PROJ knows no way.
+  explicit GeographicMap(const Crs& crs);
+
+  LonLat forward(const Point& input) const;  // not finite where `input` has no place
+  Point inverse(const LonLat& place) const;
+  bool isIdentity() const { return !map_; }
+
+ private:
+  std::shared_ptr<const CrsMap> map_;
+};
+
+}  // namespace coastmesh
