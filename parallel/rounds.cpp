@@ -219,6 +219,7 @@ void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, co
                  bool mends) {
   MeshState& whole = run.whole();
   const std::uint64_t vertices = whole.mesh.points.size();
+  if (vertices > options.most_in_memory) throw OutOfRoom(whole.mesh.points.back());
   const std::uint64_t room = options.max_vertices - std::min(options.max_vertices, vertices);
   const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? expectedOf(whole.mesh, t, bound) : kOfACopy; };
   run.stats().budget_reached = false;

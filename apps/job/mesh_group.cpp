@@ -58,6 +58,8 @@ std::pair<double, double> scaleRange(const Domain& domain) {
 
 // At its peak, of the whole program, with what GIS layers take besides: measured.
 constexpr double kBytesPerVertex = 600.0;
+// What a run took at least of it: refinement that grows beyond this much of the memory is stopped.
+constexpr double kLeastBytesPerVertex = 520.0;
 // Estimates are right to half as much; what asks for more than this many times the budget is not begun.
 constexpr double kClearlyMore = 2.0;
 constexpr double kMostTold = 1e18;
@@ -94,9 +96,10 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
   return over_budget ? text + " or --max-vertices" : text;
 }
 
-MeshOptions optionsFor(const MeshJob& job, const Domain& domain, std::uint64_t budget) {
+MeshOptions optionsFor(const MeshJob& job, const Domain& domain, const GroupRoom& room) {
   MeshOptions options = job.mesh;
-  options.refine.max_vertices = budget;
+  options.refine.max_vertices = room.vertices;
+  options.refine.most_in_memory = static_cast<std::uint64_t>(std::min(kMostTold, room.memory / kLeastBytesPerVertex));
   // A place that is no number has no resolution; what triangulates says which it is.
   if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
   if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
@@ -278,11 +281,23 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   result.log.append(clean_recorder.finish("clean"));
 
   requireMemory(job, domain, room, result.input_area_m2);
-  MeshOptions options = optionsFor(job, domain, room.vertices);
+  MeshOptions options = optionsFor(job, domain, room);
   std::unique_ptr<SizeFunction> size;
   if (job.sizes.any()) size = sizeGroup(job, input, sizes, room, control, domain, result);
   options.refine.size = size.get();
-  MeshedRegion region = meshRegion(domain.pslg, options, control);
+  MeshedRegion region;
+  try {
+    region = meshRegion(domain.pslg, options, control);
+  } catch (const OutOfRoom& error) {
+    result.refusal_place = domain.projection.inverse(error.place);
+    throw InputError(featureText(input.coastline().features[input.members(group).front()]) +
+                     ": the bounds on angles and lengths take more than " +
+                     amount("%.2g", static_cast<double>(options.refine.most_in_memory)) +
+                     " vertices, which is all that there is memory for, the last of them near " +
+                     pointText(*result.refusal_place) +
+                     ": mend shores there that all but coincide (--snap, --simplify), ask for less, or give "
+                     "--max-vertices for a mesh as far as those go");
+  }
   result.mesh_s = region.seconds;
   result.refine = std::move(region.stats);
   result.refine.unresolved = {};

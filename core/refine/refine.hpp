@@ -18,8 +18,7 @@ namespace coastmesh {
 // Refines a mesh made by `constrainedDelaunay(pslg)` until every triangle that no corner of the input excuses holds the
 // bounds, or until no further point helps. The result is valid, constrained Delaunay and compact in every case; what
 // falls short is in `unresolved`. Ends by itself: every vertex inserted keeps a distance that the input's own spacing
-// bounds from below. Throws Cancelled, and
-// std::invalid_argument for options beyond their ranges.
+// bounds from below. Throws Cancelled, OutOfRoom, and std::invalid_argument for options beyond their ranges.
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
 
 // Takes out and merges vertices that the bounds do not need. REQUIRES: `mesh` as `refine` left it, with the same

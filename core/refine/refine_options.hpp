@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "core/metric.hpp"
@@ -33,6 +34,8 @@ struct RefineOptions {
   double size_max = std::numeric_limits<double>::infinity();  // longest edge, plane units, above 0
   Algorithm algorithm = Algorithm::Relocate;
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  // vertices in all, input included
+  // What takes more vertices throws OutOfRoom. Each piece of a mesh may have so many: it never changes what is made.
+  std::uint64_t most_in_memory = std::numeric_limits<std::uint64_t>::max();
   const SizeFunction* size = nullptr;  // lengths that edges should have; outlives the run; null where none are wanted
   // Plane units, 0 or more: no vertex is put nearer to another. For coordinates that will be written coarser than the
   // plane's own, whose rounding sets such a distance in any case.
@@ -47,6 +50,13 @@ void requireInRange(const RefineOptions& options);
 // A triangle with an edge longer than this share of the length wanted there is refined: edges then come out about as
 // wanted.
 inline constexpr double kLongestShare = 1.5;
+
+// A mesh that grows beyond `most_in_memory` vertices, and where it grew.
+struct OutOfRoom : std::runtime_error {
+  explicit OutOfRoom(const Point& where)
+      : std::runtime_error("refinement takes more vertices than there is room for"), place(where) {}
+  Point place;
+};
 
 // What these options ask of a triangle; and what of that a mesh may not fall short of, which wanted lengths are no part
 // of.

@@ -122,6 +122,7 @@ void Refiner::drainQueue(const RunControl& control) {
       return;
     }
     const BadTriangle bad = queue_.pop();
+    if (mesh_.vertexCount() > options_.most_in_memory) throw OutOfRoom(mesh_.point(bad.corners[0]));
     if (mesh_.triangle(bad.triangle).v == bad.corners) mend(bad.triangle);
   }
 }

@@ -20,6 +20,8 @@ constexpr int kMostSteps = 40;
 // From one place to the next along the shore, in radii of the circle there.
 constexpr double kStep = 0.5;
 constexpr double kMostPlaces = 1e6;  // on one segment
+// Vertices of equilateral triangles with edges of length 1, on an area of 1.
+const double kVerticesPerArea = 2.0 / std::sqrt(3.0);
 
 class Shores {
  public:
@@ -85,20 +87,24 @@ Circle shrink(const Shores& shores, const Point& at, const Point& normal, double
 
 }  // namespace
 
-std::vector<SizedLine> channelLines(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
-                                    const std::function<double(const Point&)>& scale) {
+ChannelLines channelLines(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
+                          const std::function<double(const Point&)>& scale, const ChannelRoom& room) {
   const Shores shores(pslg);
   const bool labelled =
       std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
   double extent = 0.0;
   for (const Point& p : pslg.points) extent = std::max(extent, distance(p, pslg.points.front()));
-  std::vector<SizedLine> lines;
+  ChannelLines found;
+  double walked = 0.0;  // of the shores' length
+  const auto isTooMuch = [&] {
+    return found.vertices > room.vertices || static_cast<double>(found.lines.size()) > room.lines;
+  };
   const auto alongSide = [&](const Point& a, const Point& b, const Point& normal) {
     const double length = distance(a, b), local = scale(midpoint(a, b));
     const double least_step = std::max(kStep * 0.5 * elements * least_m * local, length / kMostPlaces);
     const double largest = std::min(extent, 0.5 * elements * most_m * local);
     double along = std::min(0.5 * length, 0.5 * least_step);
-    while (along < length) {
+    while (along < length && !isTooMuch()) {
       const Point at = a + (along / length) * (b - a);
       const Circle circle = shrink(shores, at, normal, largest);
       if (circle.other) {
@@ -106,20 +112,32 @@ std::vector<SizedLine> channelLines(const Pslg& pslg, double elements, double ra
         const Point to_at = at - centre, to_other = *circle.other - centre;
         const double cosine = dot(to_at, to_other) / std::sqrt(squaredLength(to_at) * squaredLength(to_other));
         const double size = std::max(least_m, 2.0 * circle.radius / local / elements);
-        if (cosine < kCosApart && size < most_m) lines.push_back({at, *circle.other, size, rate});
+        if (cosine < kCosApart && size < most_m) {
+          found.lines.push_back({at, *circle.other, size, rate});
+          // Half of the channel's width along the step to the next place; where that is less, the shore itself.
+          const double step = std::min(length - along, std::max(least_step, kStep * circle.radius));
+          const double edge = size * local;
+          found.vertices += std::max(kVerticesPerArea * step * circle.radius / edge / edge, 0.5 * step / edge);
+        }
       }
       along += std::max(least_step, kStep * circle.radius);
     }
+    walked += std::min(along, length);
   };
+  double whole = 0.0;
   for (const Segment& s : pslg.segments) {
     if (s.tag == kOpenTag) continue;
     const Point &a = pslg.points[s.a], &b = pslg.points[s.b];
+    whole += distance(a, b) * (labelled ? (s.left >= 0) + (s.right >= 0) : 2);
+    if (isTooMuch()) continue;
     const Point d = (1.0 / distance(a, b)) * (b - a);
     // Water on the left, on the right; where nothing says, on both.
     if (!labelled || s.left >= 0) alongSide(a, b, {-d.y, d.x});
     if (!labelled || s.right >= 0) alongSide(b, a, {d.y, -d.x});
   }
-  return lines;
+  found.complete = !isTooMuch();
+  if (!found.complete) found.vertices *= whole / walked;
+  return found;
 }
 
 }  // namespace coastmesh

@@ -276,10 +276,16 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     source.add("--size-shore", std::make_unique<DistanceField>(
                                    shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale, most_m));
   if (options.channel_elements > 0.0) {
-    source.add("--channel-elements",
-               std::make_unique<DistanceField>(channelLines(domain.pslg, options.channel_elements, options.gradation,
-                                                            options.least_m, std::min(most_m, reach_m), scale),
-                                               scale, most_m));
+    // What the time step allows may be longer than what channels ask for: then their lines alone count.
+    ChannelLines channels = channelLines(domain.pslg, options.channel_elements, options.gradation, options.least_m,
+                                         std::min(most_m, reach_m), scale,
+                                         {options.time_step_s > 0.0 ? kInfinity : most_vertices, most_vertices});
+    if (!channels.complete) {
+      const SizedLine& last = channels.lines.back();
+      throw TooManyVertices({channels.vertices, projection.inverse(last.a), last.size_m, "--channel-elements",
+                             !(channels.vertices > most_vertices)});
+    }
+    source.add("--channel-elements", std::make_unique<DistanceField>(std::move(channels.lines), scale, most_m));
   }
   for (const SizedFeatures& features : inputs.features)
     for (auto& field : featureFields(features, projection, scale)) source.add("--size-features", std::move(field));

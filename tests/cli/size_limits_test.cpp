@@ -1,6 +1,7 @@
 // Sizes that ask for more than there is room for: reported at once, with how much that is, and nothing is made.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -73,6 +74,40 @@ TEST_F(SizeLimits, BeyondTheMemoryNothingIsTaken) {
     EXPECT_FALSE(isMeshThere()) << shown;
     EXPECT_LT(report()["peak_memory_mib"].get<double>(), 500.0) << shown;
   }
+}
+
+// A creek of 200 km, a decimetre wide: finding its widths takes more than the mesh may.
+TEST_F(SizeLimits, ChannelsAreWalkedNoFurtherThanTheyMayAskFor) {
+  LonLatRing creek;
+  for (int k = 0; k <= 200; ++k) creek.emplace_back(1000.0 * k, 30.0 * (k % 2));
+  for (int k = 200; k >= 0; --k) creek.emplace_back(1000.0 * k, 30.0 * (k % 2) + 0.1);
+  const std::string input = write("creek.geojson", geoJsonPolygons({{creek}}));
+  const ProgramRun run = runProgram({"mesh", input, "--crs", "plane", "-o", file("a.2dm"), "--channel-elements", "10",
+                                     "--size-min", "1e-3", "--max-vertices", "20000", "--report", file("a.json")});
+  EXPECT_EQ(run.code, 1) << run.errors;
+  EXPECT_NE(run.errors.find("where --channel-elements asks for"), std::string::npos) << run.errors;
+  EXPECT_NE(run.errors.find("--max-vertices allows 20000"), std::string::npos) << run.errors;
+  EXPECT_FALSE(isMeshThere());
+  EXPECT_GT(report()["refine"]["estimated_vertices"].get<double>(), 1e6);
+  EXPECT_LT(report()["peak_memory_mib"].get<double>(), 100.0);
+}
+
+// Two shores of a kilometre ten micrometres apart: 33 degrees take a hundred million triangles between them.
+TEST_F(SizeLimits, RefinementBeyondTheMemoryStopsAndSaysWhere) {
+  const std::string strip = write("strip.geojson", geoJsonPolygons({{{{0, 0}, {1000, 0}, {1000, 1e-5}, {0, 1e-5}}}}));
+  const std::string command = "\"$0\" mesh '" + strip + "' --crs plane --snap 0 -o '" + file("a.2dm") + "' --quiet";
+  const ProgramRun run = runShell("ulimit -v 700000; " + command);
+  EXPECT_EQ(run.code, 3) << run.errors;
+  EXPECT_NE(run.errors.find("all that there is memory for"), std::string::npos) << run.errors;
+  double x = -1.0, y = -1.0;
+  const std::size_t at = run.errors.find("near (");
+  ASSERT_NE(at, std::string::npos) << run.errors;
+  ASSERT_EQ(std::sscanf(run.errors.c_str() + at, "near (%lf, %lf)", &x, &y), 2);
+  EXPECT_TRUE(x >= 0.0 && x <= 1000.0 && y >= 0.0 && y <= 1e-5) << run.errors;
+  EXPECT_FALSE(isMeshThere());
+  EXPECT_EQ(names(), std::set<std::string>{"strip.geojson"});
+  EXPECT_EQ(runShell(command + " --max-vertices 5000").code, 1);
+  EXPECT_TRUE(isMeshThere());
 }
 
 TEST_F(SizeLimits, NamesTheOptionAndThePlace) {

@@ -390,6 +390,26 @@ TEST(Refine, AtTheEndsOfTheRangeOfCoordinates) {
   }
 }
 
+// The same gap between two shores: more than there is room for lies in it, and nowhere else.
+TEST(Refine, StopsWhereTheMemoryWouldNotHoldWhatTheInputTakes) {
+  Pslg pslg = squarePslg();
+  pslg.points.insert(pslg.points.end(), {{0.1, 0.5}, {0.9, 0.5}, {0.1, 0.50001}, {0.9, 0.50001}});
+  pslg.segments.insert(pslg.segments.end(), {{4, 5}, {6, 7}});
+  for (const std::uint64_t most : {1000u, 5000u}) {
+    TriMesh mesh = constrainedDelaunay(pslg);
+    const RefineOptions options{.min_angle_deg = 33.0, .most_in_memory = most};
+    try {
+      refine(mesh, pslg, options);
+      FAIL() << most;
+    } catch (const OutOfRoom& error) {
+      EXPECT_NEAR(error.place.y, 0.5, 0.01);
+      EXPECT_TRUE(error.place.x > 0.05 && error.place.x < 0.95) << error.place.x;
+    }
+  }
+  TriMesh mesh = constrainedDelaunay(squareWithHole());
+  EXPECT_NO_THROW(refine(mesh, squareWithHole(), {.min_angle_deg = 33.0, .most_in_memory = 1000}));
+}
+
 // A gap of a thousandth, which takes vertices as near to one another: none comes nearer than asked for.
 TEST(Refine, PutsNoVertexNearerThanTheResolution) {
   Pslg pslg = squarePslg();

@@ -137,7 +137,7 @@ TEST(Wavelength, HoldsTheDispersionRelation) {
 
 TEST(ChannelLines, FindTheWidthOfAChannel) {
   // Long sides without vertices: the width has to be found between them.
-  const std::vector<SizedLine> lines = channelLines(rectangle(100.0, 2.0), 4.0, 0.2, 0.01, 100.0, one);
+  const std::vector<SizedLine> lines = channelLines(rectangle(100.0, 2.0), 4.0, 0.2, 0.01, 100.0, one).lines;
   ASSERT_GT(lines.size(), 50u);
   double first = 100.0, last = 0.0;
   for (const SizedLine& line : lines) {
@@ -149,6 +149,21 @@ TEST(ChannelLines, FindTheWidthOfAChannel) {
   EXPECT_GT(last, 97.0);
 }
 
+// Edges of half a metre on 200 square metres, two triangles of a quarter of sqrt(3) of their square a vertex.
+TEST(ChannelLines, StopWhereTheyAskForMoreThanIsAllowed) {
+  const Pslg channel = rectangle(100.0, 2.0);
+  const ChannelLines all = channelLines(channel, 4.0, 0.2, 0.01, 100.0, one);
+  ASSERT_TRUE(all.complete);
+  const double vertices = 200.0 / (0.5 * 0.5 * std::sqrt(3.0) / 2.0);
+  EXPECT_NEAR(all.vertices / vertices, 1.0, 0.15);
+  for (const ChannelRoom& room : {ChannelRoom{0.1 * vertices, 1e9}, ChannelRoom{1e9, 0.1 * all.lines.size()}}) {
+    const ChannelLines some = channelLines(channel, 4.0, 0.2, 0.01, 100.0, one, room);
+    EXPECT_FALSE(some.complete);
+    EXPECT_LE(some.lines.size(), 0.15 * all.lines.size());
+    EXPECT_NEAR(some.vertices / vertices, 1.0, 0.3);
+  }
+}
+
 TEST(ChannelLines, BendsOfOneShoreAreNone) {
   // A sea with a toothed shore, its teeth blunt: wide everywhere.
   Pslg pslg;
@@ -157,7 +172,7 @@ TEST(ChannelLines, BendsOfOneShoreAreNone) {
   pslg.points.push_back({0.0, 60.0});
   const auto count = static_cast<VertexId>(pslg.points.size());
   for (VertexId i = 0; i < count; ++i) pslg.segments.push_back({i, (i + 1) % count, 0, 0, kOutside});
-  for (const SizedLine& line : channelLines(pslg, 1.0, 0.2, 0.01, 100.0, one)) EXPECT_GT(line.size_m, 5.0);
+  for (const SizedLine& line : channelLines(pslg, 1.0, 0.2, 0.01, 100.0, one).lines) EXPECT_GT(line.size_m, 5.0);
 }
 
 TEST(ComposedSizes, ShoreDistanceInThePlane) {
