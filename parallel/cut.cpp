@@ -95,9 +95,10 @@ std::vector<CutSide> place(const CutSubmesh& cut, std::size_t p, const Layout& l
     for (unsigned i = 0; i < 3; ++i) {
       if (mesh.triangle(t).seg[i] != kFrozen) continue;
       const std::pair ends(mesh.origin(edgeRef(t, i)), mesh.target(edgeRef(t, i)));
-      const CutEdge& edge =
-          *std::ranges::lower_bound(cut.edges, ends, {}, [](const CutEdge& e) { return std::pair(e.a, e.b); });
-      sides.push_back({edge.name, edgeRef(at, i), edge.seg});
+      const auto endsOf = [](const CutEdge& e) { return std::pair(e.a, e.b); };
+      const auto edge = std::ranges::lower_bound(cut.edges, ends, {}, endsOf);
+      // Else the whole has nothing beyond it: it stays frozen.
+      if (edge != cut.edges.end() && endsOf(*edge) == ends) sides.push_back({edge->name, edgeRef(at, i), edge->seg});
     }
     if (!whole.due_triangles.empty()) whole.due_triangles[at] = cut.state.due_triangles[t];
   }

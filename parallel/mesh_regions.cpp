@@ -1,12 +1,15 @@
 #include "parallel/mesh_regions.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
+#include "core/lattice/lattice_core.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/optimise.hpp"
+#include "core/refine/vertex_notes.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/rounds.hpp"
 
@@ -33,10 +36,27 @@ int optimiseSweeps(const MeshOptions& options) {
   return options.refine.size != nullptr && options.coarsen ? kOptimiseSweeps : 0;
 }
 
+// Where lengths rule, most vertices are known beforehand. Algorithms for comparison stay as they were published.
+std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
+  if (options.algorithm != Algorithm::Relocate) return {};
+  const std::uint64_t most = std::min<std::uint64_t>(options.max_vertices, kNone / 4);
+  const std::uint64_t left = most - std::min<std::uint64_t>(most, mesh.points.size());
+  return layLattices(mesh, {options.size_max, options.size, options.min_angle_deg, options.max_angle_deg, left}, loop);
+}
+
 void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   Stopwatch watch;
   Recorder recorder;
-  region.stats = refine(region.mesh, pslg, options.refine, control);
+  std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options.refine, inOrder);
+  if (lattices.empty()) {
+    region.stats = refine(region.mesh, pslg, options.refine, control);
+  } else {
+    VertexNotes notes = noteInput(region.mesh, boundOf(options.refine));
+    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), false);
+    region.mesh = std::move(seeded.mesh);
+    noteFurther(region.mesh, notes);
+    region.stats = refine(region.mesh, pslg, options.refine, std::move(notes), control);
+  }
   region.seconds.refine = watch.lap();
   if (options.coarsen) {
     RefineStats coarsened = coarsen(region.mesh, pslg, options.refine, control);
@@ -53,6 +73,32 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
   region.log.append(recorder.finish("refine"));
 }
 
+// Mends, in the whole mesh, triangles that could not be mended while cores were out of it: by repairs near them first,
+// which leave the rest as it is, then by refining more and more of what lies round them.
+template <typename Add>
+void mendBesideCores(TriMesh& mesh, std::vector<TriId> bad, const Pslg& pslg, const RefineOptions& options,
+                     const VertexNotes& notes, const RunControl& control, const Add& add) {
+  constexpr unsigned kNear = 16, kFar = 256;
+  for (unsigned edges = kNear; !bad.empty() && edges <= kFar; edges *= 4) {
+    Submesh patch = extractNear(mesh, notes, bad, edges);
+    const std::uint64_t rest = mesh.points.size() - patch.parent.size();
+    RefineOptions own = options;
+    own.max_vertices -= std::min(own.max_vertices, rest);
+    RoundsWorkspace workspace;
+    TriMesh solved = patch.mesh;
+    RoundsReport report = mendInRounds(solved, pslg, own, patch.notes, edges == kNear, control, workspace);
+    report.pieces = 0;  // of a part
+    const bool is_full = report.stats.budget_reached;
+    add(std::move(report));
+    const std::size_t known = patch.triangles.size(), next = mesh.triangles.size();
+    bad.clear();
+    for (const TriId t : trianglesInViolation(solved, options, notes.corners.get()))
+      bad.push_back(t < known ? patch.triangles[t] : static_cast<TriId>(next + t - known));
+    putBack(mesh, patch, solved);
+    if (is_full || solved.triangles.size() < known) break;
+  }
+}
+
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   RoundsWorkspace workspace;
   CutTree cuts;
@@ -65,20 +111,41 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
     region.log.append(std::move(report.log));
   };
   Stopwatch watch;
-  add(refineInRounds(region.mesh, pslg, options.refine, control, workspace));
+  Recorder recorder;
+  VertexNotes notes = noteInput(region.mesh, boundOf(options.refine));
+  std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options.refine, recorder.loop("lattice", control));
+  std::vector<LatticeCore> cores;
+  const VertexNotes input_notes = lattices.empty() ? VertexNotes() : notes;
+  RefineOptions refine = options.refine;
+  if (!lattices.empty()) {
+    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), true, recorder.loop("lattice", control));
+    noteFurther(seeded.mesh, notes);
+    refine.max_vertices -= std::min(refine.max_vertices, seeded.coreVertices());
+    region.mesh = std::move(seeded.mesh);
+    cores = std::move(seeded.cores);
+  }
+  region.log.append(recorder.finish("triangulate"));
+  region.seconds.triangulate += watch.lap();
+  add(refineInRounds(region.mesh, pslg, refine, std::move(notes), control, workspace));
   region.seconds.refine = watch.lap();
   if (options.coarsen) {
-    add(coarsenInRounds(region.mesh, pslg, options.refine, control, workspace));
+    add(coarsenInRounds(region.mesh, pslg, refine, control, workspace));
     region.seconds.coarsen = watch.lap();
   }
   if (const int sweeps = optimiseSweeps(options); sweeps > 0) {
-    add(optimiseInRounds(region.mesh, pslg, options.refine, sweeps, control, workspace));
+    add(optimiseInRounds(region.mesh, pslg, refine, sweeps, control, workspace));
     region.seconds.optimise = watch.lap();
   }
-  Recorder recorder;
-  region.stats.unresolved = findBoundViolations(region.mesh, options.refine, recorder.loop("label", control));
+  const ItemLoop label = recorder.loop("label", control);
+  if (!cores.empty()) {
+    const std::vector<TriId> left = trianglesInViolation(region.mesh, options.refine, input_notes.corners.get(), label);
+    insertCores(region.mesh, static_cast<VertexId>(pslg.points.size()), cores, recorder.loop("stitch", control));
+    region.log.append(recorder.finish("stitch"));
+    mendBesideCores(region.mesh, left, pslg, options.refine, input_notes, control, add);
+  }
+  region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
   labelRegions(region.mesh, pslg);
-  if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, recorder.loop("label", control));
+  if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, label);
   region.log.append(recorder.finish());
   region.seconds.stitch = watch.lap();
 }

@@ -64,6 +64,8 @@ constexpr double kOfABadOne = 3.0;
 // Halvings of a triangle's sides in adding up what wanted lengths make of it: four to this power of places. A bound on
 // the time.
 constexpr int kMostDepth = 9;
+// The work of solving patches round a triangle anew.
+constexpr double kOfARepair = 500.0;
 // The work of copying a triangle, beside refining one.
 constexpr double kOfACopy = 0.1;
 
@@ -242,28 +244,63 @@ double expectedTriangles(const TriMesh& mesh, const RefineOptions& options) {
   return sum;
 }
 
-RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsWorkspace& workspace) {
+namespace {
+
+// Rounds of one step, of which the last is not cut. `mends` where nothing may be left; `checkpoint(share)` reports how
+// far it is.
+template <typename Checkpoint>
+void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, bool whole_first, bool mends,
+                const Checkpoint& checkpoint) {
+  MeshState& whole = run.whole();
+  const TriangleBound bound = boundOf(options);
+  markBad(run, bound);
+  for (int round = 0; round <= kMostRounds; ++round) {
+    const double left = run.total([&](TriId t) { return static_cast<double>(whole.due_triangles[t]); });
+    // Only the last step has to leave nothing: its last round is not cut. The first step is not cut at all.
+    if (left == 0.0 || (whole_first && round > 0)) break;
+    if (!mends && (left < kFewDue || round == kMostRounds)) break;
+    checkpoint(static_cast<double>(round) / (kMostRounds + 1));
+    const bool soon_done = mends && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
+    refineRound(run, pslg, options, bound, whole_first || round == kMostRounds || soon_done, mends);
+  }
+}
+
+}  // namespace
+
+RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
+                            const RunControl& control, RoundsWorkspace& workspace) {
   const std::vector<RefineOptions> steps = stepsTo(options, mesh);
   Rounds run(std::move(mesh), control, workspace);
   MeshState& whole = run.whole();
-  whole.notes = noteInput(whole.mesh, boundOf(options));
+  whole.notes = std::move(notes);
   if (options.size != nullptr) splitSegments(whole.mesh, pslg, whole.notes, options);
   for (std::size_t step = 0; step < steps.size() && !run.stats().budget_reached; ++step) {
-    const bool last_step = step + 1 == steps.size();
-    const TriangleBound bound = boundOf(steps[step]);
-    markBad(run, bound);
-    const auto due = [&] { return run.total([&](TriId t) { return static_cast<double>(whole.due_triangles[t]); }); };
-    for (int round = 0; round <= kMostRounds; ++round) {
-      const double left = due();
-      // Only the last step has to leave nothing: its last round is not cut. The first step is not cut at all.
-      if (left == 0.0 || (step == 0 && round > 0)) break;
-      if (!last_step && (left < kFewDue || round == kMostRounds)) break;
-      control.checkpoint((static_cast<double>(step) + static_cast<double>(round) / (kMostRounds + 1)) /
-                         static_cast<double>(steps.size()));
-      const bool soon_done = last_step && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
-      refineRound(run, pslg, steps[step], bound, step == 0 || round == kMostRounds || soon_done, last_step);
+    refineStep(run, pslg, steps[step], step == 0, step + 1 == steps.size(), [&](double share) {
+      control.checkpoint((static_cast<double>(step) + share) / static_cast<double>(steps.size()));
+    });
+  }
+  return run.finish(mesh);
+}
+
+RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
+                          bool repairs_alone, const RunControl& control, RoundsWorkspace& workspace) {
+  Rounds run(std::move(mesh), control, workspace);
+  MeshState& whole = run.whole();
+  whole.notes = std::move(notes);
+  if (repairs_alone) {
+    // What lies at a cut waits for the next round, which cuts elsewhere.
+    constexpr int kRepairRounds = 3;
+    for (int round = 0; round < kRepairRounds; ++round) {
+      markBad(run, strictBoundOf(options));
+      if (!anyOf(whole.due_triangles)) break;
+      control.checkpoint(static_cast<double>(round) / kRepairRounds);
+      const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? kOfARepair : kOfACopy; };
+      run.round("refine", weigh, round + 1 == kRepairRounds, [&](MeshState& state, double, const RunControl& inner) {
+        return anyOf(state.due_triangles) ? repairSubmesh(state, pslg, options, inner) : RefineStats{};
+      });
     }
+  } else {
+    refineStep(run, pslg, options, false, true, [&](double share) { control.checkpoint(share); });
   }
   return run.finish(mesh);
 }

@@ -32,9 +32,14 @@ struct RoundsReport {
 // pieces are refined at the same time, each clear of the cuts, and put together again; the next round cuts under
 // another angle, so that what was left lies inside its pieces. Where an edge length is asked, rounds come to it by
 // steps, so that pieces never consist of few large triangles. The result does not depend on the number of threads.
-// Throws Cancelled.
-RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                            RoundsWorkspace& workspace);
+// `notes` are those on the mesh, with the free vertices that it has already. Throws Cancelled.
+RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
+                            const RunControl& control, RoundsWorkspace& workspace);
+
+// Refines what falls short in a mesh that holds the bounds nearly everywhere, in rounds of the same kind; or repairs it
+// alone, in one round, which spreads no further than patches reach.
+RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
+                          bool repairs_alone, const RunControl& control, RoundsWorkspace& workspace);
 
 // Coarsens in rounds of the same kind.
 RoundsReport coarsenInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,

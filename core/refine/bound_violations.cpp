@@ -7,6 +7,35 @@
 
 namespace coastmesh {
 
+namespace {
+
+std::array<Point, 3> cornersOf(const TriMesh& mesh, TriId t) {
+  const auto& v = mesh.triangles[t].v;
+  return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
+}
+
+std::vector<TriId> badTriangles(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop) {
+  return joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<TriId> some;
+    for (auto t = static_cast<TriId>(first); t < last; ++t)
+      if (const auto [a, b, c] = cornersOf(mesh, t); isBad(a, b, c, bound)) some.push_back(t);
+    return some;
+  }));
+}
+
+}  // namespace
+
+std::vector<TriId> trianglesInViolation(const TriMesh& mesh, const RefineOptions& options, const InputCorners* corners,
+                                        const ItemLoop& loop) {
+  std::vector<TriId> bad = badTriangles(mesh, strictBoundOf(options), loop);
+  if (corners == nullptr) return bad;
+  std::erase_if(bad, [&](TriId t) {
+    const auto [a, b, c] = cornersOf(mesh, t);
+    return corners->excuseOf(a, b, c) != Excuse::None;
+  });
+  return bad;
+}
+
 std::vector<BoundViolation> findBoundViolations(const TriMesh& mesh, const RefineOptions& options,
                                                 const ItemLoop& loop) {
   const TriangleBound bound = strictBoundOf(options);
@@ -15,22 +44,12 @@ std::vector<BoundViolation> findBoundViolations(const TriMesh& mesh, const Refin
 
 BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
                            const ItemLoop& loop) {
-  const auto cornersOf = [&](TriId t) -> std::array<Point, 3> {
-    const auto& v = mesh.triangles[t].v;
-    return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
-  };
-  const std::vector<TriId> bad =
-      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-        std::vector<TriId> some;
-        for (auto t = static_cast<TriId>(first); t < last; ++t)
-          if (const auto [a, b, c] = cornersOf(t); isBad(a, b, c, asked)) some.push_back(t);
-        return some;
-      }));
+  const std::vector<TriId> bad = badTriangles(mesh, asked, loop);
   if (bad.empty()) return {};
   const InputCorners corners(mesh, in_reach, loop);
   BoundJudgement judgement;
   for (const TriId t : bad) {
-    const auto [a, b, c] = cornersOf(t);
+    const auto [a, b, c] = cornersOf(mesh, t);
     const Excuse excuse = corners.excuseOf(a, b, c);
     judgement.counts.add(excuse);
     if (excuse != Excuse::None) continue;

@@ -14,6 +14,10 @@ namespace coastmesh {
 std::vector<BoundViolation> findBoundViolations(const TriMesh& mesh, const RefineOptions& options,
                                                 const ItemLoop& loop = inOrder);
 
+// The same as triangles; `corners` are those of the input, null where there are none.
+std::vector<TriId> trianglesInViolation(const TriMesh& mesh, const RefineOptions& options, const InputCorners* corners,
+                                        const ItemLoop& loop = inOrder);
+
 struct BoundJudgement {
   BoundCounts counts;
   std::vector<BoundViolation> unresolved;  // what nothing excuses, in order

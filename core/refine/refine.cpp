@@ -16,9 +16,8 @@ namespace coastmesh {
 
 namespace {
 
-RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RefineVariant& variant,
-                       const RunControl& control) {
-  VertexNotes notes = noteInput(mesh, boundOf(options));
+RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
+                       const RefineVariant& variant, const RunControl& control) {
   if (options.size != nullptr) splitSegments(mesh, pslg, notes, options);
   Refiner refiner(std::move(mesh), pslg, options, std::move(notes), variant);
   refiner.run(control);
@@ -62,12 +61,13 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
   const bool few =
       mesh.input_vertices <= kFewPoints && options.algorithm == Algorithm::Relocate && options.size == nullptr;
   const TriMesh unrefined = few ? mesh : TriMesh();
-  RefineStats stats = refineOnce(mesh, pslg, options, usualVariant(options), control);
+  const VertexNotes notes = noteInput(mesh, boundOf(options));
+  RefineStats stats = refineOnce(mesh, pslg, options, notes, usualVariant(options), control);
   if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;
   std::size_t smallest = coarsenedSize(mesh, pslg, options, control);
   for (const RefineVariant& variant : furtherVariants(options)) {
     TriMesh other = unrefined;
-    RefineStats other_stats = refineOnce(other, pslg, options, variant, control);
+    RefineStats other_stats = refineOnce(other, pslg, options, notes, variant, control);
     if (!other_stats.unresolved.empty() || other_stats.budget_reached) continue;
     const std::size_t size = coarsenedSize(other, pslg, options, control);
     if (size >= smallest) continue;
@@ -76,6 +76,12 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
     stats = std::move(other_stats);
   }
   return stats;
+}
+
+RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
+                   const RunControl& control) {
+  requireInRange(options);
+  return refineOnce(mesh, pslg, options, std::move(notes), usualVariant(options), control);
 }
 
 }  // namespace coastmesh

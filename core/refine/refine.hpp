@@ -9,6 +9,7 @@
 #include "core/metric.hpp"
 #include "core/pslg.hpp"
 #include "core/refine/refine_options.hpp"
+#include "core/refine/vertex_notes.hpp"
 #include "core/run_control.hpp"
 #include "core/size_function.hpp"
 #include "core/tri_mesh.hpp"
@@ -20,6 +21,10 @@ namespace coastmesh {
 // falls short is in `unresolved`. Ends by itself: every vertex inserted keeps a distance that the input's own spacing
 // bounds from below. Throws Cancelled, OutOfRoom, and std::invalid_argument for options beyond their ranges.
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
+
+// The same where free vertices are there already: `notes` are those on the mesh before them, and on them.
+RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
+                   const RunControl& control = {});
 
 // Takes out and merges vertices that the bounds do not need. REQUIRES: `mesh` as `refine` left it, with the same
 // options. `unresolved` in the result replaces that of `refine`. Throws Cancelled.

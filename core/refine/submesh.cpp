@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
+
+#include "core/links.hpp"
 
 namespace coastmesh {
 
@@ -97,6 +100,104 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
     }
   }
   parent.replace(hole, fresh, gone, touched, inner);
+}
+
+Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges) {
+  std::vector<TriId> triangles;
+  std::unordered_map<TriId, TriId> slots;
+  const auto take = [&](TriId t) {
+    if (slots.emplace(t, static_cast<TriId>(triangles.size())).second) triangles.push_back(t);
+  };
+  for (const TriId t : centre) take(t);
+  std::size_t done = 0;
+  for (unsigned ring = 0; ring < edges; ++ring) {
+    for (const std::size_t end = triangles.size(); done < end; ++done)
+      for (const EdgeRef twin : parent.triangle(triangles[done]).adj)
+        if (twin != kNone) take(triOf(twin));
+  }
+  const auto slotOf = [&](TriId t) {
+    const auto slot = slots.find(t);
+    return slot == slots.end() ? kNone : slot->second;
+  };
+  std::unordered_map<VertexId, VertexId> numbers;
+  const auto numberOf = [&](VertexId v) -> VertexId& { return numbers.try_emplace(v, kNone).first->second; };
+  VertexNotes without_spacing = notes;
+  without_spacing.spacing.clear();
+  Submesh sub = extractSubmesh(parent, parent.input_vertices, without_spacing, triangles, slotOf, numberOf);
+  noteSpacingOfNeighbours(sub.mesh, sub.notes);
+  for (VertexId v = 0; v < sub.mesh.input_vertices; ++v)
+    if (sub.parent[v] < parent.input_vertices) sub.notes.spacing[v] = notes.spacing[sub.parent[v]];
+  return sub;
+}
+
+namespace {
+
+// Closes the gaps that triangles and vertices leave which are no more.
+void removeUnused(TriMesh& mesh, std::span<const TriId> triangles, std::span<const VertexId> vertices) {
+  if (triangles.empty() && vertices.empty()) return;
+  const auto numbersWithout = [](std::size_t count, std::span<const std::uint32_t> gone) {
+    std::vector<std::uint32_t> number(count, 0);
+    for (const std::uint32_t i : gone) number[i] = kNone;
+    std::uint32_t next = 0;
+    for (std::uint32_t& n : number)
+      if (n != kNone) n = next++;
+    return number;
+  };
+  const std::vector<TriId> triangle = numbersWithout(mesh.triangles.size(), triangles);
+  const std::vector<VertexId> vertex = numbersWithout(mesh.points.size(), vertices);
+  for (TriId t = 0; t < triangle.size(); ++t)
+    if (triangle[t] != kNone)
+      mesh.triangles[triangle[t]] = renumbered(
+          mesh.triangle(t), [&](TriId n) { return triangle[n]; }, [&](VertexId v) { return vertex[v]; });
+  for (VertexId v = 0; v < vertex.size(); ++v)
+    if (vertex[v] != kNone) mesh.points[vertex[v]] = mesh.points[v];
+  mesh.triangles.resize(mesh.triangles.size() - triangles.size());
+  mesh.points.resize(mesh.points.size() - vertices.size());
+}
+
+}  // namespace
+
+void putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved) {
+  struct Beyond {
+    VertexId from, to;
+    EdgeRef twin;
+    SegmentId seg;
+  };
+  const auto endsOf = [](const Beyond& b) { return std::pair(b.from, b.to); };
+  std::vector<Beyond> beyond;
+  for (const EdgeRef e : patch.frozen)
+    beyond.push_back({parent.origin(e), parent.target(e), parent.twin(e), parent.segment(e)});
+  std::ranges::sort(beyond, {}, endsOf);
+
+  // Old numbers first, then new ones.
+  const auto numbersFor = [](std::size_t count, std::span<const std::uint32_t> old, std::size_t next) {
+    std::vector<std::uint32_t> numbers(old.begin(),
+                                       old.begin() + static_cast<std::ptrdiff_t>(std::min(count, old.size())));
+    while (numbers.size() < count) numbers.push_back(static_cast<std::uint32_t>(next++));
+    return numbers;
+  };
+  const std::vector<VertexId> vertex = numbersFor(solved.points.size(), patch.parent, parent.points.size());
+  const std::vector<TriId> triangle = numbersFor(solved.triangles.size(), patch.triangles, parent.triangles.size());
+  parent.points.resize(parent.points.size() + vertex.size() - std::min(vertex.size(), patch.parent.size()));
+  parent.triangles.resize(parent.triangles.size() + triangle.size() -
+                          std::min(triangle.size(), patch.triangles.size()));
+  for (VertexId v = patch.mesh.input_vertices; v < vertex.size(); ++v) parent.points[vertex[v]] = solved.points[v];
+  for (TriId t = 0; t < triangle.size(); ++t) {
+    parent.triangles[triangle[t]] = renumbered(
+        solved.triangle(t), [&](TriId n) { return triangle[n]; }, [&](VertexId v) { return vertex[v]; });
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(triangle[t], i);
+      if (parent.segment(e) != kFrozen) continue;
+      const auto at = std::ranges::lower_bound(beyond, std::pair(parent.origin(e), parent.target(e)), {}, endsOf);
+      assert(at != beyond.end() && endsOf(*at) == std::pair(parent.origin(e), parent.target(e)));
+      link(parent.triangles, e, at->twin, at->seg);
+    }
+  }
+  const std::span<const VertexId> old_vertices = patch.parent;
+  const std::span<const TriId> old_triangles = patch.triangles;
+  removeUnused(parent, old_triangles.subspan(std::min(triangle.size(), old_triangles.size())),
+               old_vertices.subspan(std::min(vertex.size(), old_vertices.size())));
+  assert(findBrokenLink(parent.triangles) == kNone);
 }
 
 }  // namespace coastmesh

@@ -87,4 +87,12 @@ Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::spa
 void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std::vector<VertexId>& added,
              std::vector<TriId>& touched);
 
+// The triangles of a mesh that are at most so many edges away from some of them, as a mesh. `notes` are those on input
+// vertices, as `noteInput` made them.
+Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges);
+
+// Puts another mesh of the same submesh into its parent, as above; triangles and free vertices get new numbers. Leaves
+// regions alone.
+void putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved);
+
 }  // namespace coastmesh

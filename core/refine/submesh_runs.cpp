@@ -8,12 +8,27 @@
 
 namespace coastmesh {
 
-RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, bool mends,
-                          const RunControl& control) {
+namespace {
+
+Refiner takeSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options) {
   RefineVariant variant = usualVariant(options);
   variant.clear_of_frozen = true;
+  return Refiner(std::move(state.mesh), pslg, options, std::move(state.notes), variant);
+}
+
+RefineStats giveBack(Refiner& refiner, MeshState& state) {
+  state.mesh = refiner.release(state.notes, state.due_triangles);
+  RefineStats stats = std::move(refiner.stats());
+  stats.steiner_points = 0;
+  return stats;
+}
+
+}  // namespace
+
+RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, bool mends,
+                          const RunControl& control) {
   std::vector<std::uint8_t> due = std::move(state.due_triangles);
-  Refiner refiner(std::move(state.mesh), pslg, options, std::move(state.notes), variant);
+  Refiner refiner = takeSubmesh(state, pslg, options);
 
   std::vector<TriId> first;
   std::vector<BadTriangle> given_up;
@@ -29,10 +44,13 @@ RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOption
     refiner.growFans(Refiner::Beyond::StaysGood, control);
     repair(refiner, pslg, options, control, given_up);
   }
-  state.mesh = refiner.release(state.notes, state.due_triangles);
-  RefineStats stats = std::move(refiner.stats());
-  stats.steiner_points = 0;
-  return stats;
+  return giveBack(refiner, state);
+}
+
+RefineStats repairSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  Refiner refiner = takeSubmesh(state, pslg, options);
+  repair(refiner, pslg, options, control);
+  return giveBack(refiner, state);
 }
 
 MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due) {

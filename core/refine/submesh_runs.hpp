@@ -20,6 +20,10 @@ namespace coastmesh {
 RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, bool mends,
                           const RunControl& control = {});
 
+// Repairs alone: patches round bad triangles are solved anew, nothing else is touched. What a frozen edge was in the
+// way of is due afterwards.
+RefineStats repairSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, const RunControl& control);
+
 // Takes out and merges the due vertices where the bounds do not need them. Afterwards those that a frozen edge was in
 // the way of are due; due triangles and notes are not kept. Throws Cancelled.
 RefineStats coarsenSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options,

@@ -66,4 +66,24 @@ VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound) {
   return notes;
 }
 
+void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes) {
+  const std::size_t known = notes.spacing.size();
+  notes.spacing.resize(mesh.points.size(), std::numeric_limits<double>::infinity());
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const VertexId a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
+      if (a < known && b < known) continue;
+      const double length = distance(mesh.point(a), mesh.point(b));
+      for (const VertexId v : {a, b})
+        if (v >= known) notes.spacing[v] = std::min(notes.spacing[v], length);
+    }
+  }
+}
+
+void noteFurther(const TriMesh& mesh, VertexNotes& notes) {
+  noteSpacingOfNeighbours(mesh, notes);
+  notes.shell_unit.resize(mesh.input_vertices, 0.0);
+  notes.small_angle.resize(mesh.input_vertices, false);
+}
+
 }  // namespace coastmesh

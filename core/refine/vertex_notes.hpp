@@ -21,4 +21,11 @@ struct VertexNotes {
 // Notes on a mesh as `constrainedDelaunay` made it.
 VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound);
 
+// Gives vertices that have no spacing yet the distance to their nearest neighbour for it.
+void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes);
+
+// Makes notes on input vertices, as `noteInput` made them, notes on a mesh that has free vertices besides, of which
+// those below `mesh.input_vertices` count as input.
+void noteFurther(const TriMesh& mesh, VertexNotes& notes);
+
 }  // namespace coastmesh

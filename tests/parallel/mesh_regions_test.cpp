@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/delaunay.hpp"
+#include "core/metric.hpp"
 #include "parallel/workers.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
@@ -178,6 +179,52 @@ TEST(MeshRegion, IsTriangulateRefineAndCoarsen) {
     EXPECT_GE(region.seconds.refine, 0.0);
   }
 }
+
+// A coast under a longest edge, large enough to be cut and to have cores of lattices.
+class CappedRegion : public ::testing::TestWithParam<double> {
+ protected:
+  const Pslg pslg_ = fractalCoast(5, 3, 4);
+  MeshOptions options() const { return {.refine = {.min_angle_deg = GetParam(), .size_max = 0.006}}; }
+};
+
+TEST_P(CappedRegion, HoldsTheBoundsWithFewTriangles) {
+  const MeshedRegion region = meshRegion(pslg_, options());
+  EXPECT_GT(region.pieces, 1u);
+  EXPECT_TRUE(region.stats.unresolved.empty());
+  EXPECT_EQ(region.mesh.input_vertices, pslg_.points.size());
+  expectValidMesh(region.mesh, pslg_, {.min_angle_deg = GetParam()});
+  EXPECT_EQ(wrongBoundViolations(region.mesh, pslg_, options().refine, {}), "");
+  double area = 0.0;
+  std::size_t equilateral = 0;
+  for (const Triangle& t : region.mesh.triangles) {
+    const Point &a = region.mesh.point(t.v[0]), &b = region.mesh.point(t.v[1]), &c = region.mesh.point(t.v[2]);
+    const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
+    EXPECT_LE(longest, 0.006);
+    equilateral += std::min({distance(a, b), distance(b, c), distance(c, a)}) > longest * (1.0 - 1e-9);
+    area += 0.5 * cross(b - a, c - a);
+  }
+  EXPECT_GT(equilateral, region.mesh.triangles.size() / 2);
+  // Refinement alone takes 1.5 to 1.6 times the equilateral triangles that would fill the domain.
+  EXPECT_LT(static_cast<double>(region.mesh.triangles.size()), 1.5 * area / (0.4330127 * 0.006 * 0.006));
+}
+
+TEST_P(CappedRegion, ThreadsChangeNoBit) {
+  std::vector<std::uint64_t> digests;
+  for (const int threads : {1, 2, 3})
+    withThreads({.threads = threads}, [&] { digests.push_back(digestOf(meshRegion(pslg_, options()).mesh)); });
+  EXPECT_EQ(digests, std::vector<std::uint64_t>(3, digests.front()));
+}
+
+TEST_P(CappedRegion, KeepsToTheBudgetOfVertices) {
+  MeshOptions few = options();
+  few.refine.max_vertices = 30000;
+  const MeshedRegion region = meshRegion(pslg_, few);
+  EXPECT_TRUE(region.stats.budget_reached);
+  EXPECT_LE(region.mesh.points.size(), 30000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, CappedRegion, ::testing::Values(28.0, 33.0, 40.0),
+                         [](const auto& named) { return std::to_string(static_cast<int>(named.param)); });
 
 TEST(MeshRegion, WhatFallsShortIsListedOnce) {
   // A bound out of reach: what coarsening leaves replaces what refinement left.

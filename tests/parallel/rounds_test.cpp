@@ -42,12 +42,14 @@ struct Meshed {
   RoundsReport refined, coarsened;
 };
 
+VertexNotes notesOf(const TriMesh& mesh, const Case& c) { return noteInput(mesh, boundOf(c.options)); }
+
 Meshed runInRounds(const Case& c, int threads) {
   Meshed run;
   withThreads({.threads = threads}, [&] {
     run.mesh = constrainedDelaunay(c.pslg);
     RoundsWorkspace workspace;
-    run.refined = refineInRounds(run.mesh, c.pslg, c.options, {}, workspace);
+    run.refined = refineInRounds(run.mesh, c.pslg, c.options, notesOf(run.mesh, c), {}, workspace);
     run.coarsened = coarsenInRounds(run.mesh, c.pslg, c.options, {}, workspace);
   });
   return run;
@@ -96,7 +98,8 @@ TEST_P(InRounds, KeepsToTheBudgetOfVertices) {
     TriMesh mesh = constrainedDelaunay(c.pslg);
     RoundsReport report;
     RoundsWorkspace workspace;
-    withThreads({.threads = threads}, [&] { report = refineInRounds(mesh, c.pslg, c.options, {}, workspace); });
+    withThreads({.threads = threads},
+                [&] { report = refineInRounds(mesh, c.pslg, c.options, notesOf(mesh, c), {}, workspace); });
     EXPECT_TRUE(report.stats.budget_reached);
     EXPECT_LE(mesh.points.size(), c.options.max_vertices);
     expectValid(mesh, c.pslg);
@@ -131,8 +134,8 @@ TEST_P(InRounds, CanBeCancelled) {
     control.cancelled = [&] { return asked++ >= most; };
     TriMesh mesh = constrainedDelaunay(c.pslg);
     RoundsWorkspace workspace;
-    withThreads({.threads = 1},
-                [&] { EXPECT_THROW(refineInRounds(mesh, c.pslg, c.options, control, workspace), Cancelled) << most; });
+    const auto run = [&] { refineInRounds(mesh, c.pslg, c.options, notesOf(mesh, c), control, workspace); };
+    withThreads({.threads = 1}, [&] { EXPECT_THROW(run(), Cancelled) << most; });
   }
 }
 

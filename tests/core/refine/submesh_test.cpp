@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "core/delaunay.hpp"
+#include "core/flip.hpp"
+#include "core/label_regions.hpp"
+#include "core/metric.hpp"
 #include "core/refine/refine.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"
@@ -149,6 +152,57 @@ TEST_P(SubmeshOf, ChangedPatchFits) {
     EXPECT_EQ(added.size(), solved.points.size() - patch.mesh.input_vertices);
     mesh.restoreDelaunay(touched);
     expectValidMesh(releasedCopy(mesh), GetParam().pslg);
+  }
+}
+
+// The same for a compact mesh, with as many triangles as before, more and fewer.
+TEST_P(SubmeshOf, FitsIntoACompactMesh) {
+  const TriMesh whole = releasedCopy(mesh_);
+  for (TriId centre = 0; centre < whole.triangles.size();
+       centre += 1 + static_cast<TriId>(whole.triangles.size()) / 6) {
+    for (const unsigned edges : {0u, 3u, 8u}) {
+      const Submesh patch = extractNear(whole, notes_, {&centre, 1}, edges);
+      expectValidMesh(patch.mesh);
+      EXPECT_EQ(patch.triangles.front(), centre);
+      TriMesh same = whole;
+      putBack(same, patch, patch.mesh);
+      EXPECT_EQ(digestOf(same), digestOf(whole));
+
+      EditMesh finer{TriMesh(patch.mesh)};
+      std::vector<TriId> touched;
+      Patch cavity;
+      for (TriId t = 0; t < patch.triangles.size(); t += 2) {
+        if (!finer.isLive(t)) continue;
+        const Point x = centroid(finer.corner(t, 0), finer.corner(t, 1), finer.corner(t, 2));
+        if (finer.findCavity(x, t, cavity)) finer.insertInCavity(x, cavity, touched);
+      }
+      EditMesh coarser{TriMesh(patch.mesh)};
+      for (VertexId v = coarser.inputVertices(); v < patch.parent.size(); ++v) {
+        if (coarser.kind(v) != VertexKind::Free || !coarser.gatherPatch({&v, 1}, cavity)) continue;
+        std::vector<VertexId> polygon;
+        for (const BoundaryEdge& r : cavity.boundary) polygon.push_back(r.a);
+        std::vector<Corners> fresh;
+        if (triangulatePolygon(coarser, polygon, fresh)) coarser.replace(cavity, fresh, {&v, 1}, touched);
+      }
+      for (EditMesh* changed : {&finer, &coarser}) {
+        const TriMesh solved = changed->release();
+        TriMesh mesh = whole;
+        putBack(mesh, patch, solved);
+        EXPECT_EQ(mesh.points.size(), whole.points.size() + solved.points.size() - patch.mesh.points.size());
+        EXPECT_EQ(mesh.triangles.size(),
+                  whole.triangles.size() + solved.triangles.size() - patch.mesh.triangles.size());
+        // Whole again: no gap, no overlap, links that agree. The patch's boundary need not be Delaunay.
+        std::vector<EdgeRef> edges_of_mesh;
+        for (TriId t = 0; t < mesh.triangles.size(); ++t)
+          for (unsigned i = 0; i < 3; ++i)
+            if (mesh.twin(edgeRef(t, i)) != kNone && mesh.segment(edgeRef(t, i)) == kNone)
+              edges_of_mesh.push_back(edgeRef(t, i));
+        restoreDelaunay(mesh, std::move(edges_of_mesh));
+        mesh.regions.assign(mesh.triangles.size(), 0);
+        labelRegions(mesh, GetParam().pslg);
+        expectValidMesh(mesh, GetParam().pslg);
+      }
+    }
   }
 }
 

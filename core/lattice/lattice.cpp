@@ -1,0 +1,313 @@
+#include "core/lattice/lattice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/metric.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kRowHeight = 0.86602540378443865;  // of an equilateral triangle with edges of length 1
+// Places keep this share of the spacing from segments and points of the input: about where a row beside a shore of even
+// pieces lies.
+constexpr double kClearance = 0.7;
+// A longest edge is a bound, which rounding must not break.
+constexpr double kBelowTheBound = 1.0 - 1e-6;
+// Lengths down to this share of the longest of them share a lattice.
+constexpr double kSameLength = 0.87;
+// Where lengths differ from place to place they are looked at in about so many places first.
+constexpr double kProbes = 16384.0;
+// Places that are looked at, over the vertices that there will be.
+constexpr double kMostLooks = 2.0;
+// A lattice of fewer places is not worth its boundary to the rest.
+constexpr double kFewestPlaces = 100.0;
+constexpr double kMostRows = 1e7;
+
+// The spacing under a longest edge, as a share of it. Where that is 1, no vertex of a lattice can move: beside the
+// shore each point put in asks for another, on and on, unless the halves of equilateral triangles will do. Found by
+// trial on the Great Lakes: the fewest triangles, but for what takes long to mend.
+double shareOfLongest(const LatticeWishes& wishes) {
+  constexpr double kOfHalves = 30.0, kEasy = 36.0, kHard = 38.0, kObtuse = 120.0;
+  if (wishes.min_angle_deg > kHard || wishes.max_angle_deg < kObtuse) return 0.87;
+  if (wishes.min_angle_deg > kEasy) return 0.95;
+  return wishes.min_angle_deg < kOfHalves ? kBelowTheBound : 0.98;
+}
+
+struct Box {
+  Point least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point most{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+};
+
+Box boxOf(const TriMesh& mesh) {
+  Box box;
+  for (const Triangle& t : mesh.triangles) {
+    for (const VertexId v : t.v) {
+      const Point& p = mesh.point(v);
+      box.least = {std::min(box.least.x, p.x), std::min(box.least.y, p.y)};
+      box.most = {std::max(box.most.x, p.x), std::max(box.most.y, p.y)};
+    }
+  }
+  return box;
+}
+
+double areaOf(const TriMesh& mesh) {
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Point& a = mesh.point(t.v[0]);
+    area += 0.5 * cross(mesh.point(t.v[1]) - a, mesh.point(t.v[2]) - a);
+  }
+  return area;
+}
+
+// Rows of a lattice that cover a box.
+struct Grid {
+  Lattice lattice;
+  std::int64_t rows = 0;
+
+  Grid(const Box& box, double spacing)
+      : lattice{box.least, spacing},
+        rows(static_cast<std::int64_t>((box.most.y - box.least.y) / (kRowHeight * spacing)) + 1) {}
+
+  double yOf(std::int64_t b) const { return lattice.at(0, b).y; }
+  // The first row at y or above, within those that there are.
+  std::int64_t rowFrom(double y) const {
+    const double row = std::ceil((y - lattice.origin.y) / (kRowHeight * lattice.spacing));
+    return static_cast<std::int64_t>(std::clamp(row, 0.0, static_cast<double>(rows)));
+  }
+  // The first place of row b at x or beyond.
+  std::int64_t placeFrom(double x, std::int64_t b) const {
+    return static_cast<std::int64_t>(std::ceil((x - lattice.at(0, b).x) / lattice.spacing));
+  }
+};
+
+// Something of row b between two places along x; or at x alone.
+struct Span {
+  std::int64_t row;
+  double from, to;
+};
+
+std::vector<std::vector<Span>> byRow(std::vector<std::vector<Span>>&& lists, std::int64_t rows) {
+  std::vector<std::size_t> counts(static_cast<std::size_t>(rows), 0);
+  for (const auto& list : lists)
+    for (const Span& s : list) ++counts[static_cast<std::size_t>(s.row)];
+  std::vector<std::vector<Span>> of_row(counts.size());
+  for (std::size_t b = 0; b < counts.size(); ++b) of_row[b].reserve(counts[b]);
+  for (auto& list : lists) {
+    for (const Span& s : list) of_row[static_cast<std::size_t>(s.row)].push_back(s);
+    list = {};
+  }
+  return of_row;
+}
+
+// The places between the first and the second, the third and the fourth boundary that a row meets.
+LatticeRows insideOf(const TriMesh& mesh, const Grid& grid, const ItemLoop& loop) {
+  auto crossings = overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<Span> some;
+    for (std::size_t t = first; t < last; ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
+        if (mesh.twin(e) != kNone) continue;
+        Point p = mesh.point(mesh.origin(e)), q = mesh.point(mesh.target(e));
+        if (p.y > q.y) std::swap(p, q);
+        for (std::int64_t b = grid.rowFrom(p.y); b < grid.rows; ++b) {
+          const double y = grid.yOf(b);
+          if (y >= q.y) break;
+          if (y < p.y) continue;
+          const double x = p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x);
+          some.push_back({b, x, x});
+        }
+      }
+    }
+    return some;
+  });
+  std::vector<std::vector<Span>> rows = byRow(std::move(crossings), grid.rows);
+  LatticeRows inside{0, std::vector<Intervals>(rows.size())};
+  return eachRow(inside, loop, [&](std::int64_t b) {
+    std::vector<Span>& row = rows[static_cast<std::size_t>(b)];
+    std::ranges::sort(row, {}, &Span::from);
+    Intervals some;
+    for (std::size_t i = 0; i + 1 < row.size(); i += 2)
+      some.push_back({grid.placeFrom(row[i].from, b), grid.placeFrom(row[i + 1].from, b)});
+    return unionOf(std::move(some));
+  });
+}
+
+// What lies nearer than r to the segment from p to q, along the row at y.
+std::optional<std::array<double, 2>> nearAlong(double y, const Point& p, const Point& q, double r) {
+  std::array<double, 2> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const auto widen = [&](double x) { range = {std::min(range[0], x), std::max(range[1], x)}; };
+  for (const Point& end : {p, q}) {
+    const double dy = y - end.y;
+    if (std::abs(dy) > r) continue;
+    const double dx = std::sqrt(r * r - dy * dy);
+    widen(end.x - dx);
+    widen(end.x + dx);
+  }
+  const double length = distance(p, q);
+  if (length > 0.0) {
+    const Point side = (r / length) * Point{p.y - q.y, q.x - p.x};
+    const std::array<Point, 4> corners{p + side, p - side, q - side, q + side};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Point &c = corners[i], &d = corners[(i + 1) % 4];
+      if ((c.y <= y) != (d.y <= y)) widen(c.x + (y - c.y) / (d.y - c.y) * (d.x - c.x));
+    }
+  }
+  if (range[0] > range[1]) return std::nullopt;
+  return range;
+}
+
+// The places nearer to a segment, or to a point that is on none, than the clearance.
+LatticeRows nearInput(const TriMesh& mesh, const Grid& grid, const ItemLoop& loop) {
+  const double r = kClearance * grid.lattice.spacing;
+  const auto isConstrained = [&](EdgeRef e) { return mesh.segment(e) != kNone || mesh.twin(e) == kNone; };
+  std::vector<std::uint8_t> alone = usedVertices(mesh, loop);
+  for (TriId t = 0; t < mesh.triangles.size(); ++t)
+    for (unsigned i = 0; i < 3; ++i)
+      if (isConstrained(edgeRef(t, i))) alone[mesh.origin(edgeRef(t, i))] = alone[mesh.target(edgeRef(t, i))] = 0;
+  const auto listNear = [&](const Point& p, const Point& q, std::vector<Span>& some) {
+    for (std::int64_t b = grid.rowFrom(std::min(p.y, q.y) - r); b < grid.rows; ++b) {
+      const double y = grid.yOf(b);
+      if (y > std::max(p.y, q.y) + r) break;
+      if (const auto range = nearAlong(y, p, q, r)) some.push_back({b, (*range)[0], (*range)[1]});
+    }
+  };
+  auto lists = overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<Span> some;
+    for (std::size_t t = first; t < last; ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
+        if (!isConstrained(e) || (mesh.twin(e) != kNone && mesh.twin(e) < e)) continue;
+        listNear(mesh.point(mesh.origin(e)), mesh.point(mesh.target(e)), some);
+      }
+    }
+    return some;
+  });
+  for (VertexId v = 0; v < alone.size(); ++v)
+    if (alone[v]) listNear(mesh.point(v), mesh.point(v), lists.front());
+  const std::vector<std::vector<Span>> rows = byRow(std::move(lists), grid.rows);
+  LatticeRows near{0, std::vector<Intervals>(rows.size())};
+  return eachRow(near, loop, [&](std::int64_t b) {
+    Intervals some;
+    for (const Span& s : rows[static_cast<std::size_t>(b)])
+      some.push_back({grid.placeFrom(s.from, b), grid.placeFrom(s.to, b)});
+    return unionOf(std::move(some));
+  });
+}
+
+// Those of some places for which `holds(point)`.
+template <typename Holds>
+LatticeRows where(const LatticeRows& places, const Lattice& lattice, const ItemLoop& loop, const Holds& holds) {
+  return eachRow(places, loop, [&](std::int64_t b) {
+    Intervals some;
+    for (const Interval& i : places.row(b)) {
+      for (std::int64_t a = i.first; a < i.last; ++a) {
+        if (!holds(lattice.at(a, b))) continue;
+        if (!some.empty() && some.back().last == a) {
+          ++some.back().last;
+        } else {
+          some.push_back({a, a + 1});
+        }
+      }
+    }
+    return some;
+  });
+}
+
+// The lengths from `least` to `most` get a lattice of this spacing.
+struct Length {
+  double spacing, least, most;
+};
+
+// The lengths wanted in much of the domain, the longest first.
+std::vector<Length> wantedLengths(const TriMesh& mesh, const Box& box, double area, const SizeFunction& size,
+                                  const ItemLoop& loop) {
+  if (size.least() == size.most()) return {{size.most(), size.least(), size.most()}};
+  const Grid grid(box, std::sqrt(area / (kRowHeight * kProbes)));
+  if (static_cast<double>(grid.rows) > kMostRows) return {};
+  const LatticeRows probes = insideOf(mesh, grid, loop);
+  std::vector<double> lengths;
+  for (std::int64_t b = 0; b < grid.rows; ++b)
+    for (const Interval& i : probes.row(b))
+      for (std::int64_t a = i.first; a < i.last; ++a) lengths.push_back(size.at(grid.lattice.at(a, b)));
+  std::ranges::sort(lengths, std::greater());
+  const double cell = kRowHeight * grid.lattice.spacing * grid.lattice.spacing;
+  double vertices = 0.0;  // that there will be
+  for (const double h : lengths) vertices += cell / (kRowHeight * h * h);
+
+  std::vector<Length> wanted;
+  double looked_at = 0.0;
+  for (std::size_t first = 0, last = 0; first < lengths.size(); first = last) {
+    const double least = kSameLength * lengths[first];
+    while (last < lengths.size() && lengths[last] >= least) ++last;
+    const double spacing = lengths[first + (last - first) / 2];
+    if (static_cast<double>(last - first) * cell < kFewestPlaces * kRowHeight * spacing * spacing) continue;
+    // Every place of the lattice is looked at, wherever this length is wanted.
+    looked_at += area / (kRowHeight * spacing * spacing);
+    if (looked_at > kMostLooks * vertices) break;
+    wanted.push_back({spacing, least, lengths[first]});
+  }
+  return wanted;
+}
+
+// A place and its neighbours.
+LatticeRows dilated(const LatticeRows& set, const ItemLoop& loop) {
+  return eachRow(set, loop, [&](std::int64_t b) {
+    Intervals all;
+    const auto add = [&](std::span<const Interval> some, std::int64_t from, std::int64_t to) {
+      for (const Interval& i : some) all.push_back({i.first + from, i.last + to});
+    };
+    add(set.row(b), -1, 1);
+    add(set.row(b + 1), 0, 1);
+    add(set.row(b - 1), -1, 0);
+    return unionOf(std::move(all));
+  });
+}
+
+LatticeRows without(const LatticeRows& set, const LatticeRows& taken, const ItemLoop& loop) {
+  return eachRow(set, loop, [&](std::int64_t b) { return differenceOf(set.row(b), taken.row(b)); });
+}
+
+}  // namespace
+
+Point Lattice::at(std::int64_t a, std::int64_t b) const {
+  return {origin.x + spacing * (static_cast<double>(a) + 0.5 * static_cast<double>(b)),
+          origin.y + kRowHeight * spacing * static_cast<double>(b)};
+}
+
+std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes& wishes, const ItemLoop& loop) {
+  const double most = wishes.size_max * shareOfLongest(wishes);
+  if (wishes.size == nullptr && std::isinf(most)) return {};
+  const Box box = boxOf(mesh);
+  const double area = areaOf(mesh);
+  const std::vector<Length> lengths = wishes.size == nullptr ? std::vector<Length>{{most, most, most}}
+                                                             : wantedLengths(mesh, box, area, *wishes.size, loop);
+  std::vector<LatticePlaces> lattices;
+  std::uint64_t places = 0;
+  for (const Length& length : lengths) {
+    const double spacing = std::min(length.spacing, most);
+    const double count = area / (kRowHeight * spacing * spacing);
+    if (count < kFewestPlaces || count > static_cast<double>(wishes.most_places - places)) continue;
+    const Grid grid(box, spacing);
+    if (static_cast<double>(grid.rows) > kMostRows) continue;
+    const LatticeRows inside = insideOf(mesh, grid, loop);
+    LatticeRows kept = without(inside, nearInput(mesh, grid, loop), loop);
+    if (length.least < length.most) {
+      const auto isOther = [&](const Point& p) {
+        const double h = wishes.size->at(p);
+        return h < length.least || h > length.most;
+      };
+      kept = without(kept, dilated(where(inside, grid.lattice, loop, isOther), loop), loop);
+    }
+    const std::int64_t found = kept.count();
+    if (static_cast<double>(found) < kFewestPlaces) continue;
+    places += static_cast<std::uint64_t>(found);
+    lattices.push_back({grid.lattice, std::move(kept)});
+  }
+  return lattices;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,398 @@
+#include "core/lattice/lattice_core.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <tuple>
+#include <utility>
+
+#include "core/delaunay.hpp"
+#include "core/links.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Rows of the lattice that stay in the mesh round a core: what is done beside the shore spreads so far.
+constexpr int kRowsKept = 4;
+
+bool holds(const LatticeRows& set, std::int64_t a, std::int64_t b) {
+  const auto row = set.row(b);
+  const auto next = std::ranges::upper_bound(row, a, {}, &Interval::first);
+  return next != row.begin() && a < std::prev(next)->last;
+}
+
+// What is left of some places that far inside, as corners of triangles.
+LatticeCore coreOf(const LatticePlaces& places, const ItemLoop& loop) {
+  LatticeRows inner = places.places;
+  for (int i = 0; i < kRowsKept; ++i) inner = eroded(inner, loop);
+  LatticeCore core{places.lattice, {}, {}, {}, {}};
+  // One row more than there are places: row b of triangles lies between rows b and b + 1 of places.
+  core.up = eachRow(inner, loop, [&](std::int64_t b) {
+    const auto here = inner.row(b);
+    return intersectionOf(intersectionOf(here, shifted(here, -1)), inner.row(b + 1));
+  });
+  core.down = eachRow(inner, loop, [&](std::int64_t b) {
+    const auto above = inner.row(b + 1);
+    return intersectionOf(intersectionOf(above, shifted(above, -1)), shifted(inner.row(b), -1));
+  });
+  core.interior = eroded(inner, loop);
+  core.edge = eachRow(inner, loop, [&](std::int64_t b) {
+    Intervals corners;
+    const auto add = [&](std::span<const Interval> row, std::int64_t from, std::int64_t to) {
+      for (const Interval& i : row) corners.push_back({i.first + from, i.last + to});
+    };
+    add(core.up.row(b), 0, 1);
+    add(core.up.row(b - 1), 0, 0);
+    add(core.down.row(b), 1, 1);
+    add(core.down.row(b - 1), 0, 1);
+    return differenceOf(unionOf(std::move(corners)), core.interior.row(b));
+  });
+  return core;
+}
+
+struct Place {
+  std::int64_t a = 0, b = 0;
+};
+
+std::vector<Place> placesIn(const LatticeRows& set) {
+  std::vector<Place> places;
+  places.reserve(static_cast<std::size_t>(set.count()));
+  for (std::size_t r = 0; r < set.rows.size(); ++r)
+    for (const Interval& i : set.rows[r])
+      for (std::int64_t a = i.first; a < i.last; ++a) places.push_back({a, set.first + static_cast<std::int64_t>(r)});
+  return places;
+}
+
+// The triangle of the core to the upper right, above, to the upper left ... of a place, between its neighbours k and
+// k + 1.
+bool hasTriangle(const LatticeCore& core, const Place& p, unsigned k) {
+  switch (k) {
+    case 0:
+      return holds(core.up, p.a, p.b);
+    case 1:
+      return holds(core.down, p.a - 1, p.b);
+    case 2:
+      return holds(core.up, p.a - 1, p.b);
+    case 3:
+      return holds(core.down, p.a - 1, p.b - 1);
+    case 4:
+      return holds(core.up, p.a, p.b - 1);
+    default:
+      return holds(core.down, p.a, p.b - 1);
+  }
+}
+
+// An edge of the boundary of a core, which lies to its left.
+bool isCoreEdge(const LatticeCore& core, const Place& from, const Place& to) {
+  constexpr std::array<std::array<int, 2>, 6> kNeighbours{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
+  for (unsigned k = 0; k < 6; ++k)
+    if (to.a - from.a == kNeighbours[k][0] && to.b - from.b == kNeighbours[k][1])
+      return hasTriangle(core, from, k) && !hasTriangle(core, from, (k + 5) % 6);
+  return false;
+}
+
+// Takes the triangles of the cores out of a triangulation of the rest: what their boundaries enclose.
+class CoreCarver {
+ public:
+  CoreCarver(const TriMesh& mesh, VertexId first, const std::vector<LatticeCore>& cores) : mesh_(mesh), first_(first) {
+    for (const LatticeCore& core : cores) {
+      for (const Place& place : placesIn(core.edge)) {
+        places_.push_back(place);
+        core_of_.push_back(&core);
+      }
+    }
+  }
+
+  TriMesh run() {
+    std::vector<std::uint8_t> inside(mesh_.triangles.size(), 0);
+    std::vector<TriId> stack;
+    for (TriId start = 0; start < inside.size(); ++start) {
+      if (inside[start] || !isAtCore(start)) continue;
+      inside[start] = 1;
+      for (stack.assign(1, start); !stack.empty();) {
+        const TriId t = stack.back();
+        stack.pop_back();
+        for (unsigned i = 0; i < 3; ++i) {
+          const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
+          if (isBoundary(e) || inside[triOf(twin)]) continue;
+          inside[triOf(twin)] = 1;
+          stack.push_back(triOf(twin));
+        }
+      }
+    }
+    return without(inside);
+  }
+
+ private:
+  bool isBoundary(EdgeRef e) const {
+    const VertexId a = mesh_.origin(e) - first_, b = mesh_.target(e) - first_;
+    return a < places_.size() && b < places_.size() && core_of_[a] == core_of_[b] &&
+           isCoreEdge(*core_of_[a], places_[a], places_[b]);
+  }
+  bool isAtCore(TriId t) const {
+    return isBoundary(edgeRef(t, 0)) || isBoundary(edgeRef(t, 1)) || isBoundary(edgeRef(t, 2));
+  }
+
+  TriMesh without(const std::vector<std::uint8_t>& inside) const {
+    std::vector<TriId> number(inside.size(), kNone);
+    TriId count = 0;
+    for (TriId t = 0; t < inside.size(); ++t)
+      if (!inside[t]) number[t] = count++;
+    TriMesh rest;
+    rest.points = mesh_.points;
+    rest.input_vertices = mesh_.input_vertices;
+    rest.triangles.reserve(count);
+    for (TriId t = 0; t < inside.size(); ++t)
+      if (!inside[t])
+        rest.triangles.push_back(renumbered(
+            mesh_.triangle(t), [&](TriId n) { return number[n]; }, std::identity(), kFrozen));
+    assert(findBrokenLink(rest.triangles) == kNone);
+    return rest;
+  }
+
+  const TriMesh& mesh_;
+  VertexId first_;  // of the vertices on boundaries of cores
+  std::vector<Place> places_;
+  std::vector<const LatticeCore*> core_of_;
+};
+
+// The numbers of a row's places in ascending order; asked for in ascending order.
+class RowNumbers {
+ public:
+  RowNumbers(std::span<const Interval> row, std::uint32_t first) : row_(row), next_(first) {}
+
+  std::uint32_t at(std::int64_t a) {
+    while (i_ < row_.size() && row_[i_].last <= a) {
+      next_ += static_cast<std::uint32_t>(row_[i_].last - row_[i_].first);
+      ++i_;
+    }
+    return i_ < row_.size() && row_[i_].first <= a ? next_ + static_cast<std::uint32_t>(a - row_[i_].first) : kNone;
+  }
+
+ private:
+  std::span<const Interval> row_;
+  std::uint32_t next_;
+  std::size_t i_ = 0;
+};
+
+// Where the numbers of each row begin, and after the last row where they end; the same for a row before the first.
+struct RowStarts {
+  std::int64_t first_row = 0;
+  std::vector<std::uint32_t> start;
+
+  std::uint32_t of(std::int64_t b) const {
+    return start[static_cast<std::size_t>(
+        std::clamp<std::int64_t>(b - first_row, 0, static_cast<std::int64_t>(start.size()) - 1))];
+  }
+};
+
+template <typename CountOf>
+RowStarts startsOf(const LatticeRows& like, std::uint32_t first, const CountOf& countIn) {
+  RowStarts starts{like.first, {first}};
+  for (std::size_t r = 0; r < like.rows.size(); ++r)
+    starts.start.push_back(starts.start.back() +
+                           static_cast<std::uint32_t>(countIn(like.first + static_cast<std::int64_t>(r))));
+  return starts;
+}
+
+// A frozen edge of the mesh round the cores, by the vertices that it leads from and to.
+struct FrozenEdge {
+  VertexId from, to;
+  EdgeRef edge;
+
+  friend auto operator<=>(const FrozenEdge&, const FrozenEdge&) = default;
+};
+
+std::vector<FrozenEdge> frozenEdges(const TriMesh& mesh, const ItemLoop& loop) {
+  auto edges = joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<FrozenEdge> some;
+    for (std::size_t t = first; t < last; ++t)
+      for (unsigned i = 0; i < 3; ++i)
+        if (const EdgeRef e = edgeRef(static_cast<TriId>(t), i); mesh.segment(e) == kFrozen)
+          some.push_back({mesh.origin(e), mesh.target(e), e});
+    return some;
+  }));
+  std::ranges::sort(edges);
+  return edges;
+}
+
+// Writes one core into a mesh that has room for it.
+class CoreWriter {
+ public:
+  CoreWriter(TriMesh& mesh, const LatticeCore& core, const std::vector<FrozenEdge>& frozen, VertexId edge_vertex,
+             VertexId interior_vertex, TriId triangle)
+      : mesh_(mesh),
+        core_(core),
+        frozen_(frozen),
+        edge_(startsOf(core.edge, edge_vertex, [&](std::int64_t b) { return countOf(core.edge.row(b)); })),
+        interior_(startsOf(core.edge, interior_vertex, [&](std::int64_t b) { return countOf(core.interior.row(b)); })),
+        triangle_(startsOf(core.edge, triangle,
+                           [&](std::int64_t b) { return countOf(core.up.row(b)) + countOf(core.down.row(b)); })) {}
+
+  void run(const ItemLoop& loop) {
+    eachOf(loop, [&](std::int64_t b) { writeRow(b); });
+    eachOf(loop, [&](std::int64_t b) { linkRow(b); });
+  }
+
+ private:
+  template <typename Work>
+  void eachOf(const ItemLoop& loop, const Work& work) {
+    forEachByRows(loop, core_.edge.rows.size(),
+                  [&](std::size_t r) { work(core_.edge.first + static_cast<std::int64_t>(r)); });
+  }
+  template <typename Work>
+  static void forEachByRows(const ItemLoop& loop, std::size_t count, const Work& work) {
+    constexpr std::size_t kRowsAtOnce = 8;
+    forStretches(
+        loop, count,
+        [&](std::size_t first, std::size_t last) {
+          for (std::size_t r = first; r < last; ++r) work(r);
+        },
+        kRowsAtOnce);
+  }
+
+  struct Vertices {
+    RowNumbers edge, interior;
+    VertexId at(std::int64_t a) {
+      const VertexId v = interior.at(a);
+      return v != kNone ? v : edge.at(a);
+    }
+  };
+  Vertices verticesOf(std::int64_t b) const {
+    return {RowNumbers(core_.edge.row(b), edge_.of(b)), RowNumbers(core_.interior.row(b), interior_.of(b))};
+  }
+  RowNumbers upOf(std::int64_t b) const { return {core_.up.row(b), triangle_.of(b)}; }
+  RowNumbers downOf(std::int64_t b) const {
+    return {core_.down.row(b), triangle_.of(b) + static_cast<std::uint32_t>(countOf(core_.up.row(b)))};
+  }
+
+  void writeRow(std::int64_t b) {
+    VertexId v = interior_.of(b);
+    for (const Interval& i : core_.interior.row(b))
+      for (std::int64_t a = i.first; a < i.last; ++a) mesh_.points[v++] = core_.lattice.at(a, b);
+    TriId t = triangle_.of(b);
+    const auto write = [&](std::span<const Interval> row, const std::array<std::array<int, 2>, 3>& corners) {
+      std::array<Vertices, 3> of{verticesOf(b + corners[0][1]), verticesOf(b + corners[1][1]),
+                                 verticesOf(b + corners[2][1])};
+      for (const Interval& i : row)
+        for (std::int64_t a = i.first; a < i.last; ++a)
+          mesh_.triangles[t++] =
+              unlinked({of[0].at(a + corners[0][0]), of[1].at(a + corners[1][0]), of[2].at(a + corners[2][0])});
+    };
+    write(core_.up.row(b), {{{0, 0}, {1, 0}, {0, 1}}});
+    write(core_.down.row(b), {{{1, 0}, {1, 1}, {0, 1}}});
+  }
+
+  // Every edge inside the core lies between an upward and a downward triangle.
+  void linkRow(std::int64_t b) {
+    RowNumbers up = upOf(b), right = downOf(b), left = downOf(b), below = downOf(b - 1);
+    for (const Interval& i : core_.up.row(b)) {
+      for (std::int64_t a = i.first; a < i.last; ++a) {
+        const TriId t = up.at(a);
+        linkUp(edgeRef(t, 0), right.at(a), 1);
+        linkUp(edgeRef(t, 1), left.at(a - 1), 2);
+        linkUp(edgeRef(t, 2), below.at(a), 0);
+      }
+    }
+    RowNumbers down = downOf(b), beside = upOf(b), beyond = upOf(b), above = upOf(b + 1);
+    for (const Interval& i : core_.down.row(b)) {
+      for (std::int64_t a = i.first; a < i.last; ++a) {
+        const TriId t = down.at(a);
+        if (above.at(a) == kNone) linkOut(edgeRef(t, 0));
+        if (beside.at(a) == kNone) linkOut(edgeRef(t, 1));
+        if (beyond.at(a + 1) == kNone) linkOut(edgeRef(t, 2));
+      }
+    }
+  }
+
+  void linkUp(EdgeRef e, TriId down, unsigned i) {
+    if (down != kNone) {
+      link(mesh_.triangles, e, edgeRef(down, i), kNone);
+    } else {
+      linkOut(e);
+    }
+  }
+
+  void linkOut(EdgeRef e) {
+    const auto at = std::ranges::lower_bound(frozen_, FrozenEdge{mesh_.target(e), mesh_.origin(e), 0});
+    assert(at != frozen_.end() && at->from == mesh_.target(e) && at->to == mesh_.origin(e));
+    link(mesh_.triangles, e, at->edge, kNone);
+  }
+
+  TriMesh& mesh_;
+  const LatticeCore& core_;
+  const std::vector<FrozenEdge>& frozen_;
+  RowStarts edge_, interior_, triangle_;
+};
+
+std::uint64_t interiorOf(const LatticeCore& core) { return static_cast<std::uint64_t>(core.interior.count()); }
+std::uint64_t trianglesOf(const LatticeCore& core) {
+  return static_cast<std::uint64_t>(core.up.count() + core.down.count());
+}
+
+}  // namespace
+
+std::uint64_t LatticeMesh::coreVertices() const {
+  std::uint64_t sum = 0;
+  for (const LatticeCore& core : cores) sum += interiorOf(core);
+  return sum;
+}
+
+std::uint64_t LatticeMesh::coreTriangles() const {
+  std::uint64_t sum = 0;
+  for (const LatticeCore& core : cores) sum += trianglesOf(core);
+  return sum;
+}
+
+LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattices, bool with_cores,
+                            const ItemLoop& loop) {
+  LatticeMesh made;
+  made.pslg_vertices = static_cast<VertexId>(pslg.points.size());
+  Pslg all = pslg;
+  const auto add = [&](const Lattice& lattice, const LatticeRows& rows) {
+    for (const Place& p : placesIn(rows)) all.points.push_back(lattice.at(p.a, p.b));
+  };
+  for (LatticePlaces& some : lattices) {
+    if (!with_cores) break;
+    LatticeCore core = coreOf(some, loop);
+    if (core.interior.count() == 0) continue;
+    add(core.lattice, core.edge);
+    some.places = eachRow(some.places, loop, [&](std::int64_t b) {
+      return differenceOf(differenceOf(some.places.row(b), core.edge.row(b)), core.interior.row(b));
+    });
+    made.cores.push_back(std::move(core));
+  }
+  const auto fixed = static_cast<VertexId>(all.points.size());
+  for (const LatticePlaces& some : lattices) add(some.lattice, some.places);
+  made.mesh = constrainedDelaunay(all);
+  made.mesh.input_vertices = fixed;
+  if (!made.cores.empty()) made.mesh = CoreCarver(made.mesh, made.pslg_vertices, made.cores).run();
+  return made;
+}
+
+void insertCores(TriMesh& mesh, VertexId pslg_vertices, const std::vector<LatticeCore>& cores, const ItemLoop& loop) {
+  const std::vector<FrozenEdge> frozen = frozenEdges(mesh, loop);
+  VertexId edge_vertex = pslg_vertices;
+  std::uint64_t vertices = mesh.points.size(), triangles = mesh.triangles.size();
+  for (const LatticeCore& core : cores) {
+    vertices += interiorOf(core);
+    triangles += trianglesOf(core);
+  }
+  auto vertex = static_cast<VertexId>(mesh.points.size());
+  auto triangle = static_cast<TriId>(mesh.triangles.size());
+  reserveOn(loop, mesh.points, vertices);
+  reserveOn(loop, mesh.triangles, triangles);
+  mesh.points.resize(vertices);
+  mesh.triangles.resize(triangles);
+  for (const LatticeCore& core : cores) {
+    CoreWriter(mesh, core, frozen, edge_vertex, vertex, triangle).run(loop);
+    edge_vertex += static_cast<VertexId>(core.edge.count());
+    vertex += static_cast<VertexId>(interiorOf(core));
+    triangle += static_cast<TriId>(trianglesOf(core));
+  }
+  mesh.input_vertices = pslg_vertices;
+  assert(findBrokenLink(mesh.triangles) == kNone);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/item_loop.hpp"
+
+namespace coastmesh {
+
+// Integers from `first` to before `last`.
+struct Interval {
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+
+  friend bool operator==(const Interval&, const Interval&) = default;
+};
+
+// A set of integers: disjoint intervals that do not touch, ascending.
+using Intervals = std::vector<Interval>;
+
+// The set that any intervals make up; empty ones count for nothing.
+Intervals unionOf(Intervals any);
+Intervals intersectionOf(std::span<const Interval> a, std::span<const Interval> b);
+Intervals differenceOf(std::span<const Interval> a, std::span<const Interval> b);
+Intervals shifted(std::span<const Interval> a, std::int64_t by);
+std::int64_t countOf(std::span<const Interval> a);
+
+// Places of a lattice of equilateral triangles, row by row. Place (a, b) of row b has the neighbours (a ± 1, b),
+// (a, b ± 1), (a - 1, b + 1) and (a + 1, b - 1).
+struct LatticeRows {
+  std::int64_t first = 0;  // the number of the first row
+  std::vector<Intervals> rows;
+
+  // Row b, which may lie beyond those that are kept: empty there.
+  std::span<const Interval> row(std::int64_t b) const;
+  std::int64_t count() const;
+};
+
+// `make(b)` for every row that `like` has.
+template <typename Make>
+LatticeRows eachRow(const LatticeRows& like, const ItemLoop& loop, const Make& make) {
+  LatticeRows made{like.first, std::vector<Intervals>(like.rows.size())};
+  loop(made.rows.size(), [&](std::size_t i) { made.rows[i] = make(like.first + static_cast<std::int64_t>(i)); });
+  return made;
+}
+
+// The places of which all six neighbours are in the set as well.
+LatticeRows eroded(const LatticeRows& set, const ItemLoop& loop);
+
+}  // namespace coastmesh

@@ -1,0 +1,174 @@
+#include "core/lattice/lattice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/delaunay.hpp"
+#include "core/lattice/lattice_core.hpp"
+#include "core/metric.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+std::vector<Point> pointsOf(const LatticePlaces& some) {
+  std::vector<Point> points;
+  for (std::size_t r = 0; r < some.places.rows.size(); ++r)
+    for (const Interval& i : some.places.rows[r])
+      for (std::int64_t a = i.first; a < i.last; ++a)
+        points.push_back(some.lattice.at(a, some.places.first + static_cast<std::int64_t>(r)));
+  return points;
+}
+
+bool isInside(const TriMesh& mesh, const Point& p) {
+  return std::ranges::any_of(mesh.triangles, [&](const Triangle& t) {
+    for (unsigned i = 0; i < 3; ++i)
+      if (cross(mesh.point(t.v[next3(i)]) - mesh.point(t.v[i]), p - mesh.point(t.v[i])) < 0.0) return false;
+    return true;
+  });
+}
+
+double distanceToInput(const Pslg& pslg, const TriMesh& mesh, const Point& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  // The boundary of points alone is that of their hull.
+  for (const Triangle& t : mesh.triangles)
+    for (unsigned i = 0; i < 3; ++i)
+      if (t.adj[i] == kNone)
+        nearest = std::min(nearest, squaredDistanceToSegment(p, mesh.point(t.v[next3(i)]), mesh.point(t.v[prev3(i)])));
+  for (const Segment& s : pslg.segments)
+    nearest = std::min(nearest, squaredDistanceToSegment(p, pslg.points[s.a], pslg.points[s.b]));
+  for (const Point& q : pslg.points) nearest = std::min(nearest, squaredDistance(p, q));
+  return std::sqrt(nearest);
+}
+
+class LatticeOn : public ::testing::TestWithParam<NamedPslg> {};
+
+// All places of the domain that keep clear of the input, and no others, judged point by point.
+TEST_P(LatticeOn, TakesWhatIsInsideAndClear) {
+  const Pslg& pslg = GetParam().pslg;
+  const TriMesh mesh = constrainedDelaunay(pslg);
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    area += 0.5 * cross(mesh.point(t.v[1]) - mesh.point(t.v[0]), mesh.point(t.v[2]) - mesh.point(t.v[0]));
+  const double spacing = std::sqrt(area / 600.0);
+  const ConstantSize size(spacing);
+  const std::vector<LatticePlaces> found = layLattices(mesh, {.size = &size, .most_places = 100000});
+  if (found.empty()) return;
+  ASSERT_EQ(found.size(), 1u);
+  const Lattice& lattice = found.front().lattice;
+  EXPECT_EQ(lattice.spacing, spacing);
+  std::map<std::pair<double, double>, int> taken;
+  for (const Point& p : pointsOf(found.front())) ++taken[{p.x, p.y}];
+  std::size_t expected = 0;
+  for (std::int64_t b = 0; b < 400; ++b) {
+    for (std::int64_t a = -400; a < 400; ++a) {
+      const Point p = lattice.at(a, b);
+      const double clear = distanceToInput(pslg, mesh, p);
+      if (std::abs(clear - 0.7 * spacing) < 1e-9 * spacing) continue;
+      const bool is_taken = taken.contains({p.x, p.y});
+      const bool wanted = clear > 0.7 * spacing && isInside(mesh, p);
+      EXPECT_EQ(is_taken, wanted) << p.x << " " << p.y;
+      expected += is_taken;
+    }
+  }
+  EXPECT_EQ(taken.size(), expected);
+}
+
+using Corners = std::array<std::pair<double, double>, 3>;
+
+std::vector<Corners> trianglesOf(const TriMesh& mesh) {
+  std::vector<Corners> all;
+  for (const Triangle& t : mesh.triangles) {
+    Corners corners;
+    for (unsigned i = 0; i < 3; ++i) corners[i] = {mesh.point(t.v[i]).x, mesh.point(t.v[i]).y};
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    all.push_back(corners);
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+// The triangulation of all points is that of the rest with the cores' own triangles.
+TEST_P(LatticeOn, CoresAreTheirPartOfTheTriangulation) {
+  const Pslg& pslg = GetParam().pslg;
+  const TriMesh mesh = constrainedDelaunay(pslg);
+  const std::vector<LatticePlaces> places = layLattices(mesh, {.size_max = 0.02, .most_places = 1000000});
+  if (places.empty()) return;
+  const LatticeMesh plain = triangulateWith(pslg, places, false);
+  EXPECT_TRUE(plain.cores.empty());
+  EXPECT_EQ(plain.mesh.input_vertices, pslg.points.size());
+  LatticeMesh cored = triangulateWith(pslg, places, true);
+  EXPECT_EQ(cored.mesh.triangles.size() + cored.coreTriangles(), plain.mesh.triangles.size());
+  EXPECT_EQ(cored.mesh.points.size() + cored.coreVertices(), plain.mesh.points.size());
+  if (cored.cores.empty()) return;
+  insertCores(cored.mesh, cored.pslg_vertices, cored.cores);
+  EXPECT_EQ(trianglesOf(cored.mesh), trianglesOf(plain.mesh));
+  for (const Triangle& t : cored.mesh.triangles)
+    for (const SegmentId s : t.seg) EXPECT_NE(s, kFrozen);
+  cored.mesh.regions.assign(cored.mesh.triangles.size(), 0);
+  expectValidMesh(cored.mesh);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LatticeOn, ::testing::ValuesIn(assortedPslgs()),
+                         [](const auto& param_info) { return nameOf(param_info.param); });
+
+// Two lengths, each over half of a square, and a band between them where neither is wanted.
+class TwoLengths final : public SizeFunction {
+ public:
+  double at(const Point& p) const override { return p.x < 0.45 ? 0.01 : p.x > 0.55 ? 0.02 : 0.014; }
+  double least() const override { return 0.01; }
+  double most() const override { return 0.02; }
+};
+
+TEST(LayLattices, GivesEachLengthItsOwn) {
+  const TriMesh mesh = constrainedDelaunay(squarePslg());
+  const TwoLengths size;
+  const std::vector<LatticePlaces> found = layLattices(mesh, {.size = &size, .most_places = 1000000});
+  ASSERT_GE(found.size(), 2u);
+  double nearest = 1.0;
+  for (const LatticePlaces& some : found) {
+    const std::vector<Point> points = pointsOf(some);
+    EXPECT_GE(points.size(), 100u);
+    for (const Point& p : points) {
+      EXPECT_NEAR(size.at(p), some.lattice.spacing, 0.13 * some.lattice.spacing);
+      for (const LatticePlaces& other : found)
+        if (&other != &some)
+          for (const Point& q : pointsOf(other))
+            nearest = std::min(nearest, distance(p, q) / std::max(some.lattice.spacing, other.lattice.spacing));
+    }
+    // Half of a square holds so many of them, but for its sides.
+    if (some.lattice.spacing == 0.01) {
+      EXPECT_GT(points.size(), 0.9 * 0.43 / (0.8660254 * 1e-4));
+    }
+  }
+  EXPECT_GT(nearest, 0.8);
+}
+
+TEST(LayLattices, LaysNoneWithoutLengthsOrRoom) {
+  const TriMesh mesh = constrainedDelaunay(squarePslg());
+  const ConstantSize size(0.01);
+  EXPECT_TRUE(layLattices(mesh, {.most_places = 1000000}).empty());
+  EXPECT_TRUE(layLattices(mesh, {.size = &size, .most_places = 1000}).empty());
+  EXPECT_TRUE(layLattices(mesh, {.size_max = 0.5, .most_places = 1000}).empty());
+}
+
+TEST(LayLattices, LeavesRoomUnderALongestEdge) {
+  const TriMesh mesh = constrainedDelaunay(squarePslg());
+  for (const double angle : {20.0, 30.0, 33.0, 37.0, 42.0}) {
+    const auto found = layLattices(mesh, {.size_max = 0.02, .min_angle_deg = angle, .most_places = 100000});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_LT(found.front().lattice.spacing, 0.02);
+    EXPECT_GT(found.front().lattice.spacing, 0.017);
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh
