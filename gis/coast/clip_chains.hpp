@@ -14,7 +14,7 @@ struct ClipBox {
 };
 
 // The part of a ring's inside that lies in the box, even-odd; its edges may run along the box's sides more than once.
-// Points of the ring keep their bits. After Sutherland & Hodgman, "Reentrant polygon clipping" (1974). Private to gis.
+// Points of the ring keep their bits. After Sutherland & Hodgman, "Reentrant polygon clipping" (1974).
 Ring clipRing(const Ring& ring, const ClipBox& clip);
 
 // The parts of a line that lie in the box.

@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// A chain between two junctions of lines. Private to gis.
+// A chain between two junctions of lines.
 struct Arc {
   std::uint32_t from = 0, to = 0;  // nodes
   std::vector<Point> points;       // both ends included

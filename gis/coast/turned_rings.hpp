@@ -11,7 +11,7 @@ bool longitudesJump(const Ring& lonlat);
 
 // A ring in longitudes and latitudes as rings of the plate carrée that hold the same places. One whose longitudes jump
 // across the antimeridian goes on past it, and is there in three turns; one that goes round a pole is closed by way of
-// the pole that is nearer. Any other is given as it is. Private to gis.
+// the pole that is nearer. Any other is given as it is.
 std::vector<Ring> turnedRings(const Ring& lonlat);
 
 }  // namespace coastmesh

@@ -10,7 +10,7 @@
 namespace coastmesh {
 
 // PROJ's transformation from one CRS to another, usable from several threads at once: PROJ's own objects are not, so
-// each thread makes its own. Cheap to copy. Private to gis.
+// each thread makes its own. Cheap to copy.
 class CrsMap {
  public:
   // Throws InputError where PROJ knows no way.

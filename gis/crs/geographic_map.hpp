@@ -11,7 +11,7 @@ namespace coastmesh {
 class CrsMap;
 
 // From coordinates of a CRS to longitudes and latitudes on its ellipsoid, and back; the same numbers for a geographic
-// one. Cheap to copy; usable from several threads at once. Private to gis.
+// one. Cheap to copy; usable from several threads at once.
 class GeographicMap {
  public:
   // REQUIRES: !crs.isPlane(). Throws InputError where PROJ knows no way.

@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// How a format is written and read. Private to gis.
+// How a format is written and read.
 struct FormatFunctions {
   void (*write)(const Grid&, const std::string& path) = nullptr;
   // `unsaid` is the CRS where nothing says one.

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "gis/error.hpp"
 #include "gis/file/text_writer.hpp"
@@ -9,23 +11,9 @@
 namespace coastmesh {
 namespace {
 
-// A text in JSON's quotes.
-std::string quoted(std::string_view text) {
-  constexpr char kHex[] = "0123456789abcdef";
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += "\\u00";
-      out += kHex[c >> 4];
-      out += kHex[c & 15];
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
+// A text in JSON's quotes; bytes that are no UTF-8 become U+FFFD.
+std::string jsonText(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string crsMember(const Crs& crs, const std::string& path) {
@@ -38,7 +26,7 @@ std::string crsMember(const Crs& crs, const std::string& path) {
     throw OutputError("cannot write '" + path + "': GeoJSON can only name a CRS by its code, and " + nameOf(crs) +
                       " has none; choose .gpkg");
   const std::string urn = "urn:ogc:def:crs:" + crs.authority.substr(0, colon) + "::" + crs.authority.substr(colon + 1);
-  return R"("crs": {"type": "name", "properties": {"name": )" + quoted(urn) + "}},\n";
+  return R"("crs": {"type": "name", "properties": {"name": )" + jsonText(urn) + "}},\n";
 }
 
 void writeValue(TextWriter& file, const LayerColumn& column, std::size_t row) {
@@ -46,13 +34,19 @@ void writeValue(TextWriter& file, const LayerColumn& column, std::size_t row) {
     file << ((*flag)(row) ? "true" : "false");
   } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
     const std::optional<std::int64_t> value = (*whole)(row);
-    value ? file << *value : file << "null";
+    if (value)
+      file << *value;
+    else
+      file << "null";
   } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
     const double value = (*real)(row);
-    std::isfinite(value) ? file << value : file << "null";
+    if (std::isfinite(value))
+      file << value;
+    else
+      file << "null";
   } else {
     const std::string_view text = std::get<LayerColumn::Text>(column.value)(row);
-    text.empty() ? file << "null" : file << quoted(text);
+    file << (text.empty() ? "null" : jsonText(text));
   }
 }
 
@@ -89,11 +83,11 @@ void writeShape(TextWriter& file, const Grid& grid, GridLayer::Shape shape, cons
 
 void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs_member, const std::string& path) {
   TextWriter file(path);
-  file << "{\n\"type\": \"FeatureCollection\",\n\"name\": " << quoted(layer.name) << ",\n"
+  file << "{\n\"type\": \"FeatureCollection\",\n\"name\": " << jsonText(layer.name) << ",\n"
        << crs_member << "\"features\": [\n";
   std::vector<std::string> keys;
   keys.reserve(layer.columns.size());
-  for (const LayerColumn& column : layer.columns) keys.push_back(quoted(column.name));
+  for (const LayerColumn& column : layer.columns) keys.push_back(jsonText(column.name));
   std::vector<std::uint32_t> nodes;
   for (std::size_t row = 0; row < layer.rows; ++row) {
     file << R"({"type":"Feature","properties":{)";

@@ -23,6 +23,9 @@ namespace coastmesh {
 namespace {
 
 // The date that formats note inside: the same input has to give the same bytes.
+// Which GeoPackageIndex mends; it goes with the last such GDAL.
+constexpr bool kOgrIndexesSlowly = GDAL_VERSION_NUM < GDAL_COMPUTE_VERSION(3, 7, 0);
+
 constexpr const char* kGeoPackageDate = "2000-01-01T00:00:00.000Z";
 constexpr const char* kTableDate = "2000-01-01";
 
@@ -81,13 +84,22 @@ void setField(OGRFeature& feature, int index, const LayerColumn& column, std::si
     feature.SetField(index, (*flag)(row) ? 1 : 0);
   } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
     const std::optional<std::int64_t> value = (*whole)(row);
-    value ? feature.SetField(index, static_cast<GIntBig>(*value)) : feature.SetFieldNull(index);
+    if (value)
+      feature.SetField(index, static_cast<GIntBig>(*value));
+    else
+      feature.SetFieldNull(index);
   } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
     const double value = (*real)(row);
-    std::isnan(value) ? feature.SetFieldNull(index) : feature.SetField(index, value);
+    if (std::isnan(value))
+      feature.SetFieldNull(index);
+    else
+      feature.SetField(index, value);
   } else {
     scratch = std::get<LayerColumn::Text>(column.value)(row);
-    scratch.empty() ? feature.SetFieldNull(index) : feature.SetField(index, scratch.c_str());
+    if (scratch.empty())
+      feature.SetFieldNull(index);
+    else
+      feature.SetField(index, scratch.c_str());
   }
 }
 
@@ -258,11 +270,18 @@ void writeGeoPackage(const Grid& grid, const std::string& path) {
   const OgrOption journal("OGR_SQLITE_JOURNAL", "OFF");
   const OgrOption synchronous("OGR_SQLITE_SYNCHRONOUS", "OFF");
   // Said in this way or OGR calls it an undefined geographic CRS.
-  const Writer writer{"GPKG", {"SPATIAL_INDEX=NO"}, false, "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
+  const Writer writer{"GPKG",
+                      {kOgrIndexesSlowly ? "SPATIAL_INDEX=NO" : "SPATIAL_INDEX=YES"},
+                      false,
+                      "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
   DatasetPtr dataset = create(writer, path, errors);
   if (dataset->StartTransaction() != OGRERR_NONE) fail(path, errors);
   for (const GridLayer& layer : layersOf(grid)) {
     OGRLayer& target = createLayer(*dataset, path, writer, grid, layer, layer.name, errors);
+    if (!kOgrIndexesSlowly) {
+      writeFeatures(target, path, grid, layer, errors);
+      continue;
+    }
     GeoPackageIndex index(*dataset, layer.name, target.GetGeometryColumn());
     if (!index.create()) fail(path, errors);
     writeFeatures(target, path, grid, layer, errors);

@@ -19,12 +19,16 @@ struct Box {
   }
   bool empty() const { return xmin > xmax; }
   void add(const Point& p) {
-    xmin = std::min(xmin, p.x), ymin = std::min(ymin, p.y);
-    xmax = std::max(xmax, p.x), ymax = std::max(ymax, p.y);
+    xmin = std::min(xmin, p.x);
+    ymin = std::min(ymin, p.y);
+    xmax = std::max(xmax, p.x);
+    ymax = std::max(ymax, p.y);
   }
   void add(const Box& other) {
-    xmin = std::min(xmin, other.xmin), ymin = std::min(ymin, other.ymin);
-    xmax = std::max(xmax, other.xmax), ymax = std::max(ymax, other.ymax);
+    xmin = std::min(xmin, other.xmin);
+    ymin = std::min(ymin, other.ymin);
+    xmax = std::max(xmax, other.xmax);
+    ymax = std::max(ymax, other.ymax);
   }
   bool meets(const Box& other) const {
     return xmin <= other.xmax && other.xmin <= xmax && ymin <= other.ymax && other.ymin <= ymax;

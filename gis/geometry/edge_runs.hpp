@@ -10,7 +10,7 @@ namespace coastmesh {
 
 // A spatial index of edges that mostly follow one another, as those of rings do: a tree over runs of up to kLongest
 // edges whose boxes meet, so that there is an eighth of boxes to sort and to keep. `box_of(e)` is the box of edge e,
-// the same at every call. Private to gis.
+// the same at every call.
 class EdgeRuns {
  public:
   template <typename BoxOf>

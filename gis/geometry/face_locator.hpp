@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// Finds the face of a plane graph in which a point lies. Private to gis.
+// Finds the face of a plane graph in which a point lies.
 class FaceLocator {
  public:
   // All are kept by reference.

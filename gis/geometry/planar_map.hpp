@@ -12,7 +12,7 @@
 
 namespace coastmesh {
 
-// The faces of a plane graph whose edges meet in common ends only; private to gis. Edge e makes two half-edges: 2e from
+// The faces of a plane graph whose edges meet in common ends only. Edge e makes two half-edges: 2e from
 // its first end to its second, 2e + 1 back. A half-edge belongs to the face on its left; kOuterFace is the unbounded
 // one. Pieces that are not connected are nested: a face knows of the islands in it.
 //

@@ -70,7 +70,10 @@ VertexId PointGrid::find(const Point& p) const {
         if (!(std::abs(q.x - p.x) <= tolerance_ && std::abs(q.y - p.y) <= tolerance_)) continue;
         const double distance = std::hypot(q.x - p.x, q.y - p.y);
         if (distance > tolerance_) continue;
-        if (distance < best_distance || (distance == best_distance && v < best)) best = v, best_distance = distance;
+        if (distance < best_distance || (distance == best_distance && v < best)) {
+          best = v;
+          best_distance = distance;
+        }
       }
     }
   }

@@ -14,7 +14,7 @@ struct Ellipsoid {
   double f = 1.0 / 298.257223563;
 };
 
-// A conformal map of the ellipsoid onto a plane in metres. Private to gis. Thread-safe. `inverse` gives longitudes in
+// A conformal map of the ellipsoid onto a plane in metres. Thread-safe. `inverse` gives longitudes in
 // [-180, 180]; a latitude beyond the poles makes NaN.
 class ConformalMap {
  public:

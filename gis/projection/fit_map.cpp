@@ -91,7 +91,8 @@ Extent extentOf(const std::vector<LonLat>& places) {
   Extent extent;
   std::array<bool, kLonCells> used{};
   for (const LonLat& p : places) {
-    extent.south = std::min(extent.south, p.lat), extent.north = std::max(extent.north, p.lat);
+    extent.south = std::min(extent.south, p.lat);
+    extent.north = std::max(extent.north, p.lat);
     if (std::abs(p.lat) == 90) continue;  // a pole has no longitude
     used[static_cast<std::size_t>(std::clamp(angNormalize(p.lon) + 180, 0.0, 359.0))] = true;
   }
@@ -99,7 +100,10 @@ Extent extentOf(const std::vector<LonLat>& places) {
   std::size_t best_run = 0, best_end = 0, run = 0;
   for (std::size_t i = 0; i < 2 * kLonCells; ++i) {
     run = used[i % kLonCells] ? 0 : run + 1;
-    if (run > best_run && run <= kLonCells) best_run = run, best_end = i;
+    if (run > best_run && run <= kLonCells) {
+      best_run = run;
+      best_end = i;
+    }
   }
   const double empty_mid = static_cast<double>(best_end) + 1 - static_cast<double>(best_run) / 2 - 180;
   const double roughly = Math::AngNormalize(empty_mid + 180);
@@ -107,7 +111,8 @@ Extent extentOf(const std::vector<LonLat>& places) {
   for (const LonLat& p : places) {
     if (std::abs(p.lat) == 90) continue;
     const double d = angDiff(roughly, p.lon);
-    west = std::min(west, d), east = std::max(east, d);
+    west = std::min(west, d);
+    east = std::max(east, d);
   }
   if (west > east) return extent;  // poles only
   extent.mid_lon = Math::AngNormalize(roughly + (west + east) / 2);
@@ -127,7 +132,10 @@ Cap capAround(const LonLat& centre, const std::vector<Direction>& directions) {
   double least = std::numeric_limits<double>::infinity();
   for (const Direction& d : directions) {
     const double cosine = dot(middle, d);
-    if (cosine < least) least = cosine, farthest = d;
+    if (cosine < least) {
+      least = cosine;
+      farthest = d;
+    }
   }
   return {centre, degreesBetween(middle, farthest)};
 }
@@ -223,8 +231,10 @@ void offerInsides(const std::vector<RingGroup>& groups, Clearest& clearest) {
     for (const Ring* ring : group.rings) {
       Bounds& e = extents.emplace_back();
       for (const Point& p : *ring) {
-        e.west = std::min(e.west, p.x), e.east = std::max(e.east, p.x);
-        e.south = std::min(e.south, p.y), e.north = std::max(e.north, p.y);
+        e.west = std::min(e.west, p.x);
+        e.east = std::max(e.east, p.x);
+        e.south = std::min(e.south, p.y);
+        e.north = std::max(e.north, p.y);
       }
     }
   }

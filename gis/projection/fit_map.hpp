@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// A conformal map chosen for an extent, and its name for people. Private to gis.
+// A conformal map chosen for an extent, and its name for people.
 struct FittedMap {
   std::unique_ptr<ConformalMap> map;
   std::string description;

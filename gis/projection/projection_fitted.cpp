@@ -92,7 +92,8 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
     for (const Point& input : chain) {
       const LonLat place = to_geographic.forward(input);
       if (!isOnEarth(place)) refuse(feature, input, coastline.crs);
-      west = std::min(west, place.lon), east = std::max(east, place.lon);
+      west = std::min(west, place.lon);
+      east = std::max(east, place.lon);
       places.push_back(place);
     }
     if (!is_ring) return;

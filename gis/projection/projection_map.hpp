@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// What stands behind a Projection; private to gis.
+// What stands behind a Projection.
 struct ProjectionMap {
   virtual ~ProjectionMap() = default;
   virtual Point forward(const Point& input) const = 0;

@@ -12,7 +12,7 @@
 namespace coastmesh {
 
 // What one geometry holds, taken out of OGR: Z and M dropped, curves made of straight pieces. A ring comes without its
-// repeated last point. Private to gis.
+// repeated last point.
 struct GeometryParts {
   std::vector<Polygon> polygons;
   std::vector<std::vector<Point>> lines;  // as given: a closed one repeats its first point

@@ -12,7 +12,7 @@
 
 namespace coastmesh {
 
-// A vector source, opened, with the layers that are wanted of it. Private to gis.
+// A vector source, opened, with the layers that are wanted of it.
 struct OpenSource {
   std::string name;  // as errors name it
   std::unique_ptr<GDALDataset> dataset;

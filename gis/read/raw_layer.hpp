@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// A layer as OGR gives it, in its own CRS; private to gis.
+// A layer as OGR gives it, in its own CRS.
 struct RawLayer {
   struct Line {
     std::vector<Point> points;

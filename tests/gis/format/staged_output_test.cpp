@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
@@ -279,6 +281,18 @@ TEST(StagedOutput, GeoJsonRefusesACrsThatItCannotName) {
   grid.crs = parseCrs("+proj=laea +lat_0=44 +lon_0=-87 +ellps=GRS80");
   EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.geojson", grid); }), HasSubstr(".gpkg"));
   EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(StagedOutput, GeoJsonIsJsonWhateverNamesHold) {
+  const TemporaryFolder folder;
+  Grid grid = lakes();
+  grid.features.front().attributes = {{"name", "a \"lake\" \\ of\x01\n\xff bytes, \xc3\xa4"}};
+  writeWhole(folder / "lake.geojson", grid);
+  const auto json = nlohmann::json::parse(textOf(folder / "lake.geojson"));  // throws for what is no UTF-8
+  std::set<std::string> names;
+  for (const auto& feature : json["features"])
+    if (feature["properties"]["name"].is_string()) names.insert(feature["properties"]["name"]);
+  EXPECT_EQ(names.count("a \"lake\" \\ of\x01\n\xef\xbf\xbd bytes, \xc3\xa4"), 1u);
 }
 
 TEST(Shapefile, RefusesMoreThanItsOffsetsHold) {
