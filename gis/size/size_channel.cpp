@@ -72,7 +72,10 @@ Circle shrink(const Shores& shores, const Point& at, const Point& normal, double
   Circle circle{radius, std::nullopt};
   for (int step = 0; step < kMostSteps; ++step) {
     const Point centre = at + circle.radius * normal;
-    const std::optional<Point> inside = shores.nearest(centre, circle.radius * (1.0 - 1e-6));
+    // Less than rounding: the first circle is as large as the domain, and the other shore may be near.
+    const double rounding =
+        16.0 * std::numeric_limits<double>::epsilon() * (circle.radius + std::max(std::abs(at.x), std::abs(at.y)));
+    const std::optional<Point> inside = shores.nearest(centre, circle.radius - rounding);
     if (!inside) return circle;
     const Point chord = *inside - at;
     const double along = dot(chord, normal);

@@ -88,7 +88,9 @@ TEST_F(SizeLimits, ChannelsAreWalkedNoFurtherThanTheyMayAskFor) {
   EXPECT_NE(run.errors.find("where --channel-elements asks for"), std::string::npos) << run.errors;
   EXPECT_NE(run.errors.find("--max-vertices allows 20000"), std::string::npos) << run.errors;
   EXPECT_FALSE(isMeshThere());
-  EXPECT_GT(report()["refine"]["estimated_vertices"].get<double>(), 1e6);
+  // Edges of a tenth of the width: a vertex each sqrt(3) / 2 of their square.
+  const double vertices = 200e3 * 0.1 / (0.01 * 0.01 * std::sqrt(3.0) / 2.0);
+  EXPECT_NEAR(report()["refine"]["estimated_vertices"].get<double>() / vertices, 1.0, 0.15);
   EXPECT_LT(report()["peak_memory_mib"].get<double>(), 100.0);
 }
 

@@ -5,6 +5,7 @@
 
 #include <GeographicLib/Geodesic.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -147,6 +148,22 @@ TEST(ChannelLines, FindTheWidthOfAChannel) {
   }
   EXPECT_LT(first, 3.0);
   EXPECT_GT(last, 97.0);
+}
+
+// A millionth of the extent across, along all of its length; the circles begin with the extent.
+TEST(ChannelLines, AreFoundHoweverNarrow) {
+  for (const double width : {1.0, 0.1, 0.01}) {
+    const double length = 1e4 * width < 2000.0 ? 2000.0 : 1e4 * width;
+    Pslg pslg = rectangle(length, width);
+    pslg.points.insert(pslg.points.end(), {{2e5, -1e5}, {2e5 + 1, -1e5}, {2e5, 1 - 1e5}});  // another water, far away
+    pslg.segments.insert(pslg.segments.end(), {{4, 5, 0, 0, kOutside}, {5, 6, 0, 0, kOutside}, {6, 4, 0, 0, kOutside}});
+    const ChannelLines found = channelLines(pslg, 4.0, 0.2, 1e-4, 1e6, one);
+    std::array<int, 2> tenths{};  // bits: of the length, along either shore
+    for (const SizedLine& line : found.lines)
+      if (std::abs(line.size_m - width / 4.0) < 1e-6 * width)
+        tenths[line.a.y > 0.5 * width] |= 1 << static_cast<int>(10.0 * line.a.x / length);
+    EXPECT_EQ(tenths, (std::array{1023, 1023})) << width;
+  }
 }
 
 // Edges of half a metre on 200 square metres, two triangles of a quarter of sqrt(3) of their square a vertex.
