@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string nameOf(Target target) { return kTargetNames[static_cast<std::size_t>(target)]; }
+std::string nameOf(const Repair& repair) { return repair.target ? nameOf(*repair.target) : "time step"; }
 
 }  // namespace
 
@@ -35,15 +36,20 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   const std::vector<Target> targets = targetsNamed(options.targets);
   if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
-  if (!grid.triangles.empty() && !targets.empty()) report.repairs = repairForTargets(grid, targets);
-  // Nodes that repairs made or moved get a depth of their own; openings may be above the water then.
+  report.mended = !targets.empty() || options.repair.time_step_s > 0.0;
+  if (!grid.triangles.empty() && report.mended) report.repairs = repairForTargets(grid, targets, options.repair);
+  // Nodes that repairs made or moved get a depth of their own; openings may be above the water then, and time steps too
+  // short.
+  constexpr int kRounds = 3;
   const auto ofDepths = [](const Repair& repair) { return repair.kind == TargetDefectKind::DryOpening; };
-  if (!std::ranges::all_of(report.repairs.repairs, ofDepths) && !options.depth.files.empty()) {
+  bool changed = !std::ranges::all_of(report.repairs.repairs, ofDepths);
+  for (int round = 0; round < kRounds && changed && !options.depth.files.empty(); ++round) {
     const std::vector<std::string> warnings = std::move(report.depth.warnings);
     report.depth = setDepths(grid, options.depth, control);
     report.depth.warnings = warnings;
     std::erase_if(report.repairs.repairs, ofDepths);
-    RepairReport again = repairForTargets(grid, targets);
+    RepairReport again = repairForTargets(grid, targets, options.repair);
+    changed = !std::ranges::all_of(again.repairs, ofDepths);
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
@@ -62,18 +68,18 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
   constexpr std::size_t kRepairsShown = 20;
   const std::vector<Repair>& repairs = report.repairs.repairs;
   for (std::size_t i = 0; i < std::min(kRepairsShown, repairs.size()); ++i)
-    text += nameOf(repairs[i].target) + ": " + std::string(toString(repairs[i].kind)) + " at " +
-            pointText(repairs[i].place) + ": " + repairs[i].what + "\n";
+    text += nameOf(repairs[i]) + ": " + std::string(toString(repairs[i].kind)) + " at " + pointText(repairs[i].place) +
+            ": " + repairs[i].what + "\n";
   if (repairs.size() > kRepairsShown)
     text += "and " + std::to_string(repairs.size() - kRepairsShown) + " more repairs\n";
   return text;
 }
 
-std::string repairSection(const FinishOptions& options, const FinishReport& report) {
-  if (options.targets.empty()) return "null";
+std::string repairSection(const FinishReport& report) {
+  if (!report.mended) return "null";
   Json done = Json::array(), left = Json::array();
   for (const Repair& repair : report.repairs.repairs)
-    done.push_back({{"target", nameOf(repair.target)},
+    done.push_back({{"target", repair.target ? Json(nameOf(*repair.target)) : Json(nullptr)},
                     {"defect", toString(repair.kind)},
                     {"x", repair.place.x},
                     {"y", repair.place.y},

@@ -7,7 +7,7 @@
 #include "gis/grid/grid.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/depth.hpp"
-#include "gis/model/repair_target.hpp"
+#include "gis/repair/repair_target.hpp"
 
 namespace coastmesh {
 
@@ -16,13 +16,15 @@ struct FinishOptions {
   DepthOptions depth;
   BoundaryOptions boundaries;
   std::vector<std::string> targets;  // names of models that the grid is mended for
+  RepairOptions repair;
 
-  bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty(); }
+  bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
 };
 
 struct FinishReport {
   DepthReport depth;
   BoundaryReport boundaries;
+  bool mended = false;  // repairs were asked for
   RepairReport repairs;
 
   std::vector<std::string> warnings() const;
@@ -36,7 +38,7 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
 
 // Sections of the report as JSON text; "depth" and "repairs" are null where they were not asked for.
 std::string depthSection(const FinishOptions& options, const FinishReport& report);
-std::string repairSection(const FinishOptions& options, const FinishReport& report);
+std::string repairSection(const FinishReport& report);
 std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid);
 
 }  // namespace coastmesh

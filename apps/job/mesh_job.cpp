@@ -233,6 +233,8 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   FinishOptions finish = job.finish;
   if (result.read.boundary_types) finish.boundaries.inputs = job.input.files;
+  finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
+                   job.mesh.refine.min_angle_deg};
   if (finish.any()) {
     const Stopwatch finishing;
     RunControl inner{control.cancelled, {}};

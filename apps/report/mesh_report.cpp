@@ -172,7 +172,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"boundaries", Json::parse(boundarySection(job.finish, result.finish, result.grid))},
                     {"step", outcomeJson(result.step, job.sizes)},
                     {"lines", lineSection(result.grid)},
-                    {"repairs", Json::parse(repairSection(job.finish, result.finish))},
+                    {"repairs", Json::parse(repairSection(result.finish))},
                     {"output_warnings", result.output_warnings},
                     {"time_s", timeSection(result.seconds)},
                     {"parallel", parallelSection(result.log)},

@@ -111,10 +111,10 @@ std::size_t sharperThan(double degrees, const Fort14& grid) {
 // A star without a corner below 60 degrees: every smaller angle is the mesh's own. What is made of it holds 42 degrees,
 // until a repair takes a node elsewhere.
 TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
-  const std::vector<std::array<int, 2>> ring{{972, 0},  {717, 288},   {624, 525},   {508, 638},   {303, 706},
-                                             {0, 923},  {-292, 810},  {-445, 585},  {-788, 526},  {-684, 284},
-                                             {-774, 0}, {-753, -248}, {-783, -413}, {-448, -600}, {-245, -695},
-                                             {0, -973}, {282, -874},  {415, -758},  {799, -431},  {721, -254}};
+  const std::vector<std::array<int, 2>> ring{{987, 0},  {706, 229},   {572, 416},   {588, 809},   {233, 718},
+                                             {0, 736},  {-277, 852},  {-472, 650},  {-782, 568},  {-732, 238},
+                                             {-988, 0}, {-757, -246}, {-712, -517}, {-576, -793}, {-280, -861},
+                                             {0, -977}, {282, -868},  {420, -578},  {780, -567},  {834, -271}};
   std::ostringstream star;
   star << ring.size() << " 2 0 0\n";
   for (std::size_t i = 0; i < ring.size(); ++i) star << i + 1 << ' ' << ring[i][0] << ' ' << ring[i][1] << '\n';

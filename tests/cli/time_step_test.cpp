@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -40,6 +41,32 @@ class TimeStep : public ProgramTest {
       text += "\n";
     }
     return write("bed.asc", text);
+  }
+  // A sea of 120 by 60 km with a ragged coast in the south, and a bed that falls to 305 m from the coast on.
+  std::string raggedSea() const {
+    std::string ring;
+    for (int i = 0; i <= 600; ++i) {
+      const double x = 200.0 * i;
+      const double y = 20000.0 + 3000.0 * std::sin(x / 9000.0) + 1500.0 * std::sin(x / 2300.0) +
+                       700.0 * std::sin(x / 870.0) + 300.0 * (i % 3);
+      ring += "[" + std::to_string(x) + ", " + std::to_string(y) + "], ";
+    }
+    ring += "[120000, 80000], [0, 80000], [0, 20000]";
+    return write(
+        "ragged.geojson",
+        R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32631"}}, )"
+        R"("features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[)" +
+            ring + "]]}}]}");
+  }
+  std::string raggedBed() const {
+    std::string text = "ncols 240\nnrows 160\nxllcorner 0\nyllcorner 0\ncellsize 500\n";
+    for (int j = 0; j < 160; ++j) {
+      const double y = 80000.0 - 500.0 * (j + 0.5);
+      for (int i = 0; i < 240; ++i)
+        text += std::to_string(-5.0 - 300.0 * std::clamp((y - 14000.0) / 20000.0, 0.0, 1.0)) + " ";
+      text += "\n";
+    }
+    return write("ragged.asc", text);
   }
   ProgramRun mesh(std::vector<std::string> more) const {
     std::vector<std::string> arguments{"mesh", bay(), "-o", file("bay.2dm"), "--report", file("r.json"), "--overwrite"};
@@ -108,6 +135,25 @@ TEST_F(TimeStep, AskedForHoldsOrIsListedWithExitCode1) {
   const Json asked = step().at("asked");
   EXPECT_GT(asked.at("missed").get<int>(), 0);
   EXPECT_NEAR(asked.at("places").at(0).at("time_step_s").get<double>() / leastStep(), 1.0, 0.01);
+}
+
+// Some edges of a shore that follows come out shorter than the step needs: these are mended in the mesh.
+TEST_F(TimeStep, AskedForHoldsAlongARaggedCoast) {
+  const ProgramRun run =
+      runProgram({"mesh", raggedSea(), "-o", file("bay.2dm"), "--report", file("r.json"), "--size", "600", "--size-max",
+                  "9000", "--time-step", "30", "--bathymetry", raggedBed(), "--coast", "follow"});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_GE(leastStep(), 30.0 * 0.997);
+  const Json report = Json::parse(readText(file("r.json")));
+  EXPECT_EQ(report.at("step").at("asked").at("missed"), 0);
+  const Json done = report.at("repairs").at("done");
+  ASSERT_FALSE(done.empty());
+  for (const Json& repair : done) EXPECT_EQ(repair.at("defect"), "courant");
+  // No worse a mesh for it, and the same sea.
+  EXPECT_EQ(report.at("mesh").at("below_bound"), 0);
+  const double meshed = report.at("mesh").at("area_m2"), given = report.at("input").at("area_m2");
+  EXPECT_NEAR(meshed / given, 1.0, 0.005);
+  EXPECT_EQ(runProgram({"check", file("bay.2dm"), "--target", "adcirc", "--min-angle", "33"}).code, 0);
 }
 
 TEST_F(TimeStep, SizeMinThatTheCoastUndercutsIsSaid) {

@@ -13,7 +13,7 @@
 
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/boundary_kinds.hpp"
-#include "gis/model/repair_target.hpp"
+#include "gis/repair/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {

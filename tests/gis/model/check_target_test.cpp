@@ -16,7 +16,7 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/flow_links.hpp"
-#include "gis/model/repair_target.hpp"
+#include "gis/repair/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -31,6 +32,16 @@ struct GridLinks {
   std::set<NodePair> line_edges;                         // by `edgeKey`; these stay
 };
 
+class ShoreIndex;
+
+// The time step that triangles have to leave (`timeSteps`).
+struct StepBound {
+  double time_step_s = 0.0;      // 0: none
+  double least_angle_deg = 0.0;  // for that no smaller angles are made
+  // By triangle: lengths on the ground over those of the plane that is flat there.
+  std::span<const double> metres_per_unit{};
+};
+
 // What a search for repairs looks at.
 struct RepairView {
   const Grid& grid;
@@ -39,6 +50,8 @@ struct RepairView {
   // By triangle, degrees: the smallest angle, less than 0 for one that is clockwise or without area; NaN where nobody
   // has asked yet. Holds for triangles that were not changed in this round.
   std::span<double> smallest_angle;
+  StepBound step{};
+  const ShoreIndex* shores = nullptr;  // nodes of the shore may move along it, and go, where there is one
 
   bool isFor(Target target) const { return std::ranges::count(targets, target) > 0; }
 };
@@ -63,17 +76,19 @@ struct EditedTriangle {
   std::uint32_t source = kNone;  // the one that it is cut from
 };
 
-enum class PatchEditKind { EdgeFlip, EdgeSplit, NodeSplit, NodeMove };
+enum class PatchEditKind { EdgeFlip, EdgeSplit, NodeSplit, NodeMove, EdgeCollapse };
 
 struct PatchEdit {
   PatchEditKind kind = PatchEditKind::EdgeFlip;
-  NodePair nodes{};                         // the edge; what a node moves towards: the middle between these
-  double share = 0.0;                       // of the way along the edge, or of the move's
-  std::uint32_t placed = kNone;             // the node that is moved, or added behind the grid's last
-  Point place{};                            // of it
-  std::vector<EditedTriangle> triangles{};  // those that change, then new ones
-  BoundaryKinds halves{};                   // edges of the boundary that splitting made
-  std::optional<NodePair> gone{};           // and the one it split
+  NodePair nodes{};                                     // the edge; what a node moves towards: the middle between these
+  double share = 0.0;                                   // of the way along the edge, or of the move's
+  std::uint32_t placed = kNone;                         // the node that is moved, or added behind the grid's last
+  Point place{};                                        // of it
+  double z = std::numeric_limits<double>::quiet_NaN();  // of it, as the grid's
+  std::vector<EditedTriangle> triangles{};              // those that change, then new ones
+  std::vector<std::uint32_t> removed{};                 // those that go
+  BoundaryKinds made{};                                 // edges of the boundary that the edit makes
+  std::vector<NodePair> gone{};                         // and those it takes away
 };
 
 // The corners of these triangles, ascending.
@@ -99,11 +114,23 @@ std::vector<std::uint32_t> ringRound(const RepairView& view, std::uint32_t node)
 std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node, std::span<const std::uint32_t> ring,
                                      const std::set<std::uint32_t>& fixed, std::size_t first, std::size_t count);
 
-// An inner node that no edge holds in its place.
+// The other ends of a node's edges.
+std::set<std::uint32_t> neighboursOf(const RepairView& view, std::uint32_t node);
+
+// A node between two edges of shore of the same kind that nothing else holds.
+bool isOnFreeShore(const RepairView& view, std::uint32_t node);
+
+// Its neighbours along the boundary.
+std::vector<std::uint32_t> boundaryNeighbours(const RepairView& view, std::uint32_t node);
+
+// A node that no edge holds in its place: an inner one, or one of a shore that may move.
 bool isMovable(const RepairView& view, std::uint32_t node);
 
 // The node moved `share` of the way towards the middle between `a` and `b`, nodes of its ring.
 PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share);
+
+// NaN where it is not known at both; metres, positive up.
+double zBetween(const Grid& grid, std::uint32_t a, std::uint32_t b, double share);
 
 // The other ends of edges at a node that have to stay: parts of lines, and those where features meet.
 std::set<std::uint32_t> fixedNeighbours(const RepairView& view, std::uint32_t node);

@@ -1,4 +1,4 @@
-#include "gis/model/repair_target.hpp"
+#include "gis/repair/repair_target.hpp"
 
 #include <algorithm>
 #include <set>
@@ -7,21 +7,26 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/local_plane.hpp"
-#include "gis/model/repair_boundaries.hpp"
-#include "gis/model/repair_depths.hpp"
-#include "gis/model/repair_pinches.hpp"
-#include "gis/model/repair_shape.hpp"
-#include "gis/model/repair_state.hpp"
+#include "gis/repair/repair_boundaries.hpp"
+#include "gis/repair/repair_depths.hpp"
+#include "gis/repair/repair_pinches.hpp"
+#include "gis/repair/repair_shape.hpp"
+#include "gis/repair/repair_state.hpp"
 
 namespace coastmesh {
 namespace {
 
 constexpr int kMostRounds = 40;
 
-std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets) {
+constexpr int kRelaxRounds = 12;
+constexpr double kAngleSlackDeg = 0.01;  // planes of the grid's own place angles so near to those of the mesh's
+
+std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
   std::vector<FoundDefect> found;
   for (const Target target : targets)
     for (TargetDefect& defect : checkTarget(grid, target)) found.push_back({target, std::move(defect)});
+  if (options.time_step_s > 0.0 && !grid.z.empty())
+    for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s)) found.push_back({{}, std::move(defect)});
   return found;
 }
 
@@ -42,10 +47,10 @@ void requireNoWeirs(const Grid& grid) {
     throw InputError("the mesh has weirs and defects; mend these by hand, or take the weirs out");
 }
 
-void requireTriangles(const Grid& grid, Target target) {
-  if (!grid.triangles.empty()) return;
+void requireTriangles(const Grid& grid, std::span<const Target> targets) {
+  if (!grid.triangles.empty() || targets.empty()) return;
   throw InputError(std::string("no triangle is left once those that ") +
-                   kTargetNames[static_cast<std::size_t>(target)] +
+                   kTargetNames[static_cast<std::size_t>(targets.front())] +
                    " refuses are taken out: each stood alone; a smaller --size-max makes more of them");
 }
 
@@ -89,6 +94,8 @@ void mend(RepairState& state, const FoundDefect& found) {
       return lengthenFlowLink(state, found);
     case TargetDefectKind::Valence:
       return mendValence(state, found);
+    case TargetDefectKind::Courant:
+      return lengthenEdges(state, found);
     case TargetDefectKind::NoBoundary:
     case TargetDefectKind::StrayBoundary:
     case TargetDefectKind::BoundaryTwice:
@@ -99,7 +106,6 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::RepeatedNode:
     case TargetDefectKind::HangingNode:
     case TargetDefectKind::UnknownDepth:
-    case TargetDefectKind::Courant:
       return;
   }
 }
@@ -126,6 +132,11 @@ bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool
   return again;
 }
 
+double smallestAngle(const Grid& grid, std::size_t t) {
+  const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
+  return std::ranges::min(anglesDeg(p[0], p[1], p[2]));
+}
+
 void measureChanged(Grid& grid, const std::vector<bool>& changed) {
   std::vector<GridCorners> corners;
   std::vector<std::size_t> which;
@@ -133,20 +144,39 @@ void measureChanged(Grid& grid, const std::vector<bool>& changed) {
     if (!changed[t]) continue;
     which.push_back(t);
     corners.push_back(grid.triangles[t]);
-    if (grid.min_angle_deg.empty()) continue;
-    const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
-    grid.min_angle_deg[t] = std::ranges::min(anglesDeg(p[0], p[1], p[2]));
+    if (!grid.min_angle_deg.empty()) grid.min_angle_deg[t] = smallestAngle(grid, t);
   }
   if (grid.area_m2.empty() || which.empty()) return;
   const std::vector<double> areas = triangleAreas(grid.nodes, corners, grid.crs);
   for (std::size_t k = 0; k < which.size(); ++k) grid.area_m2[which[k]] = areas[k];
 }
 
+std::vector<std::uint32_t> sharpened(const RepairState& state) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t t = 0; t < state.grid.triangles.size(); ++t)
+    if (state.changed[t] && smallestAngle(state.grid, t) < state.options.min_angle_deg - kAngleSlackDeg)
+      found.push_back(t);
+  return found;
+}
+
+// Repairs take what mends, though angles get smaller by it: what is around gives way a little then.
+void relax(RepairState& state) {
+  for (int round = 0; round < kRelaxRounds; ++round) {
+    const std::vector<std::uint32_t> small = sharpened(state);
+    if (small.empty()) return;
+    startRound(state);
+    bool any = false;
+    for (const std::uint32_t t : small)
+      if (relaxTriangle(state, t)) any = true;
+    if (!any) return;
+  }
+}
+
 }  // namespace
 
-RepairReport repairForTargets(Grid& grid, std::span<const Target> targets) {
-  RepairState state{grid, targets};
-  std::vector<FoundDefect> defects = findDefects(grid, targets);
+RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
+  RepairState state{grid, targets, options};
+  std::vector<FoundDefect> defects = findDefects(grid, targets, options);
   if (defects.empty()) return {};
   requireNoWeirs(grid);
   state.changed.assign(grid.triangles.size(), false);
@@ -156,10 +186,12 @@ RepairReport repairForTargets(Grid& grid, std::span<const Target> targets) {
   bool again = true, boundaries_done = false;
   for (int round = 0; round < kMostRounds && again && !defects.empty(); ++round) {
     again = mendRound(state, defects, boundaries_done);
-    defects = findDefects(grid, targets);
+    defects = findDefects(grid, targets, options);
   }
-  requireTriangles(grid, targets.front());
-  for (FoundDefect& found : defects) state.report.left.emplace_back(found.target, std::move(found.defect));
+  requireTriangles(grid, targets);
+  relax(state);
+  for (FoundDefect& found : defects)
+    if (found.target) state.report.left.emplace_back(*found.target, std::move(found.defect));
   measureChanged(grid, state.changed);
   requireConsistent(grid);
   return std::move(state.report);

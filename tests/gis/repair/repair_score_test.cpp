@@ -1,5 +1,5 @@
 // What an edit is said to change, against defects counted in the whole mesh before and after it.
-#include "gis/model/repair_score.hpp"
+#include "gis/repair/repair_score.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 
 #include "core/quality.hpp"
 #include "gis/model/check_target.hpp"
+#include "gis/repair/repair_shore.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {
@@ -67,10 +68,16 @@ Grid edited(Grid grid, const GridLinks& links, const PatchEdit& edit) {
       grid.triangles[triangle.slot] = triangle.v;
     }
   }
+  if (!edit.removed.empty()) {
+    std::vector<bool> gone(grid.triangles.size(), false);
+    for (const std::uint32_t t : edit.removed) gone[t] = true;
+    removeTriangles(grid, gone);
+  }
   grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
     const NodePair key = edgeKey(a, b);
-    return edit.halves.contains(key) ? edit.halves.at(key) : links.kinds.at(key);
+    return edit.made.contains(key) ? edit.made.at(key) : links.kinds.at(key);
   });
+  removeUnusedNodes(grid);
   return grid;
 }
 
@@ -95,14 +102,17 @@ bool hasTurned(const Grid& grid) {
 }
 
 void expectTrueScores(Target target, const Crs& crs) {
-  int judged = 0, changed = 0;
+  int judged = 0, changed = 0, collapsed = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     const Grid grid = shakenGrid(seed, crs);
     if (hasTurned(grid)) continue;
     const GridLinks links = linksOf(grid);
     const std::array targets{target};
     std::vector<double> smallest_angle(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
-    const RepairView view{grid, links, targets, smallest_angle};
+    const std::vector<double> metres(grid.triangles.size(), 1.0);
+    RepairView view{grid, links, targets, smallest_angle, {0.0, 0.0, metres}};
+    const ShoreIndex shores(view);
+    view.shores = &shores;
     const int before = defectsOf(grid, target);
     for (std::uint32_t t = 0; t < grid.triangles.size(); t += 5) {
       std::vector<std::uint32_t> near;
@@ -115,8 +125,10 @@ void expectTrueScores(Target target, const Crs& crs) {
         const std::uint32_t c = grid.triangles[t][prev3(i)];
         std::vector<std::optional<PatchEdit>> edits{flipOf(view, patch, a, b), splitOf(view, patch, a, b, 0.4)};
         if (isMovable(view, a)) edits.push_back(moveOf(view, a, b, c, 0.3));
+        for (const double share : {0.0, 0.4}) edits.push_back(collapseOf(view, a, b, share));
         for (const auto& edit : edits) {
           if (!edit) continue;
+          collapsed += edit->kind == PatchEditKind::EdgeCollapse;
           const Grid after = edited(grid, links, *edit);
           const int said = scoreOf(view, patch, scale, *edit).defects;
           EXPECT_EQ(said == kTurnedOver, hasTurned(after));
@@ -130,6 +142,7 @@ void expectTrueScores(Target target, const Crs& crs) {
   }
   EXPECT_GT(judged, 200);
   EXPECT_GT(changed, 8);
+  EXPECT_GT(collapsed, 100);
 }
 
 TEST(RepairScore, IsWhatTheWholeMeshGains) {

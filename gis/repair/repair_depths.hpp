@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gis/model/repair_state.hpp"
+#include "gis/repair/repair_state.hpp"
 
 namespace coastmesh {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gis/model/repair_state.hpp"
+#include "gis/repair/repair_state.hpp"
 
 namespace coastmesh {
 
@@ -13,6 +13,12 @@ void reshapeTriangle(RepairState& state, const FoundDefect& found);
 void lengthenFlowLink(RepairState& state, const FoundDefect& found);
 
 // A node with too few or too many triangles.
+// For a triangle that leaves too short a time step.
+void lengthenEdges(RepairState& state, const FoundDefect& found);
+
+// Whether the triangle's smallest angle could be made larger.
+bool relaxTriangle(RepairState& state, std::uint32_t t);
+
 void mendValence(RepairState& state, const FoundDefect& found);
 
 }  // namespace coastmesh

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "gis/model/repair_patch.hpp"
+#include "gis/repair/repair_patch.hpp"
 
 namespace coastmesh {
 
@@ -14,6 +14,8 @@ namespace coastmesh {
 struct EditScore {
   int defects = 0;         // more than the patch has now; less than 0 where it gets better
   double min_angle = 0.0;  // degrees, of the whole patch
+  // Degrees, of the triangles that the edit makes, and of those that they take the place of.
+  double made_angle = 180.0, replaced_angle = 180.0;
 
   // How many of these the smallest angle reaches.
   int grade() const {

@@ -1,6 +1,8 @@
-#include "gis/model/repair_patch.hpp"
+#include "gis/repair/repair_patch.hpp"
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace coastmesh {
 namespace {
@@ -21,6 +23,8 @@ std::optional<PatchEdge> findSide(const RepairView& view, const Patch& patch, st
   }
   return std::nullopt;
 }
+
+bool isShore(const BoundaryKind& kind) { return kind.role == BoundaryRole::Land || kind.role == BoundaryRole::Island; }
 
 }  // namespace
 
@@ -57,8 +61,8 @@ Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle) 
 
 const BoundaryKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b) {
   const NodePair key = edgeKey(a, b);
-  if (const auto half = edit.halves.find(key); half != edit.halves.end()) return &half->second;
-  if (edit.gone == key) return nullptr;
+  if (const auto made = edit.made.find(key); made != edit.made.end()) return &made->second;
+  if (std::ranges::count(edit.gone, key) > 0) return nullptr;
   const auto at = view.links.kinds.find(key);
   return at == view.links.kinds.end() ? nullptr : &at->second;
 }
@@ -77,6 +81,7 @@ PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, s
   const auto middle = static_cast<std::uint32_t>(view.grid.nodes.size());
   PatchEdit edit{.kind = PatchEditKind::EdgeSplit, .nodes = {a, b}, .share = share, .placed = middle};
   edit.place = placeBetween(view.grid.crs, view.grid.nodes[a], view.grid.nodes[b], share);
+  edit.z = zBetween(view.grid, a, b, share);
   std::vector<EditedTriangle> added;
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
     const std::optional<PatchEdge> side = findSide(view, patch, from, to);
@@ -86,8 +91,8 @@ PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, s
   }
   edit.triangles.insert(edit.triangles.end(), added.begin(), added.end());
   if (const BoundaryKind* const kind = kindOf(view, edit, a, b)) {
-    edit.halves[edgeKey(a, middle)] = edit.halves[edgeKey(middle, b)] = *kind;
-    edit.gone = edgeKey(a, b);
+    edit.made[edgeKey(a, middle)] = edit.made[edgeKey(middle, b)] = *kind;
+    edit.gone = {edgeKey(a, b)};
   }
   return edit;
 }
@@ -116,6 +121,7 @@ std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node,
     moved.insert({from, ring[(first + k + 1) % n]});
   }
   PatchEdit edit{.kind = PatchEditKind::NodeSplit, .nodes = {node, node}, .placed = fresh};
+  edit.z = zBetween(view.grid, node, node, 0.0);
   std::uint32_t source = kNone;
   for (const std::uint32_t t : view.links.triangles_at[node]) {
     GridCorners v = view.grid.triangles[t];
@@ -130,8 +136,33 @@ std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node,
   return edit;
 }
 
+std::set<std::uint32_t> neighboursOf(const RepairView& view, std::uint32_t node) {
+  std::set<std::uint32_t> others;
+  for (const std::uint32_t t : view.links.triangles_at[node])
+    others.insert(view.grid.triangles[t].begin(), view.grid.triangles[t].end());
+  others.erase(node);
+  return others;
+}
+
+std::vector<std::uint32_t> boundaryNeighbours(const RepairView& view, std::uint32_t node) {
+  std::vector<std::uint32_t> others;
+  if (!view.links.on_boundary[node]) return others;
+  for (const std::uint32_t other : neighboursOf(view, node))
+    if (view.links.kinds.contains(edgeKey(node, other))) others.push_back(other);
+  return others;
+}
+
+bool isOnFreeShore(const RepairView& view, std::uint32_t node) {
+  const std::vector<std::uint32_t> others = boundaryNeighbours(view, node);
+  if (others.size() != 2 || !fixedNeighbours(view, node).empty()) return false;
+  const BoundaryKind &one = view.links.kinds.at(edgeKey(node, others[0])),
+                     &other = view.links.kinds.at(edgeKey(node, others[1]));
+  return isShore(one) && one == other;
+}
+
 bool isMovable(const RepairView& view, std::uint32_t node) {
-  return !view.links.on_boundary[node] && fixedNeighbours(view, node).empty();
+  if (view.links.on_boundary[node]) return view.shores != nullptr && isOnFreeShore(view, node);
+  return fixedNeighbours(view, node).empty();
 }
 
 PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share) {
@@ -139,8 +170,15 @@ PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, st
   const std::vector<Point>& nodes = view.grid.nodes;
   PatchEdit edit{.kind = PatchEditKind::NodeMove, .nodes = {a, b}, .share = share, .placed = node};
   edit.place = placeBetween(crs, nodes[node], placeBetween(crs, nodes[a], nodes[b], 0.5), share);
+  const double here = zBetween(view.grid, node, node, 0.0), there = zBetween(view.grid, a, b, 0.5);
+  edit.z = std::isnan(there) ? here : here + share * (there - here);
   for (const std::uint32_t t : view.links.triangles_at[node]) edit.triangles.push_back({view.grid.triangles[t], t, t});
   return edit;
+}
+
+double zBetween(const Grid& grid, std::uint32_t a, std::uint32_t b, double share) {
+  if (grid.z.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return grid.z[a] + share * (grid.z[b] - grid.z[a]);
 }
 
 std::set<std::uint32_t> fixedNeighbours(const RepairView& view, std::uint32_t node) {

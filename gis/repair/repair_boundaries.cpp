@@ -1,4 +1,4 @@
-#include "gis/model/repair_boundaries.hpp"
+#include "gis/repair/repair_boundaries.hpp"
 
 #include <map>
 
@@ -64,7 +64,7 @@ void rebuildBoundaries(RepairState& state) {
 }
 
 void reportRebuilt(RepairState& state, std::span<const FoundDefect> pending, std::size_t boundaries_before) {
-  std::map<std::pair<Target, TargetDefectKind>, std::pair<std::size_t, const FoundDefect*>> by_kind;
+  std::map<std::pair<std::optional<Target>, TargetDefectKind>, std::pair<std::size_t, const FoundDefect*>> by_kind;
   for (const FoundDefect& found : pending)
     ++by_kind.try_emplace({found.target, found.defect.kind}, 0, &found).first->second.first;
   for (const auto& [which, counted] : by_kind)

@@ -1,4 +1,4 @@
-#include "gis/model/repair_depths.hpp"
+#include "gis/repair/repair_depths.hpp"
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-#include "gis/model/repair_pinches.hpp"
+#include "gis/repair/repair_pinches.hpp"
 
 #include <algorithm>
 #include <array>

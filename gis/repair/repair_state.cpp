@@ -1,7 +1,12 @@
-#include "gis/model/repair_state.hpp"
+#include "gis/repair/repair_state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+
+#include "core/metric.hpp"
+#include "gis/crs/geodesy.hpp"
+#include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
 namespace {
@@ -31,6 +36,19 @@ void forgetNear(RepairState& state) {
   grow();
   for (std::size_t node = 0; node < near.size(); ++node)
     if (near[node]) state.hopeless_nodes[node] = false;
+}
+
+// Lengths on the ground over those of planes that are flat at each triangle.
+void measureGround(RepairState& state) {
+  const Grid& grid = state.grid;
+  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
+  state.metres_per_unit.clear();
+  for (std::size_t t = 0; t < lengths.size(); ++t) {
+    const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
+    const auto shortest = std::ranges::min_element(lengths[t]);
+    const auto i = static_cast<unsigned>(shortest - lengths[t].begin());
+    state.metres_per_unit.push_back(*shortest / distance(p[i], p[next3(i)]));
+  }
 }
 
 // Flags of what got another index; of what was added since, they are not set.
@@ -70,6 +88,8 @@ void startRound(RepairState& state) {
   for (std::vector<bool>* flags : {&state.touched, &state.dead, &state.disturbed})
     flags->assign(grid.triangles.size(), false);
   state.smallest_angle.assign(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
+  if (state.options.time_step_s > 0.0) measureGround(state);
+  if (state.options.shore_moves) state.shores.emplace(state.view());
 }
 
 void compact(RepairState& state) {

@@ -1,11 +1,11 @@
-#include "gis/model/repair_shape.hpp"
+#include "gis/repair/repair_shape.hpp"
 
 #include <algorithm>
 #include <array>
 #include <set>
 #include <string_view>
 
-#include "gis/model/repair_search.hpp"
+#include "gis/repair/repair_search.hpp"
 
 namespace coastmesh {
 namespace {
@@ -39,18 +39,23 @@ void placeNode(RepairState& state, const PatchEdit& edit) {
     case PatchEditKind::NodeMove:
       moveNode(state.grid, edit.placed, a, b, edit.share);
       return;
+    case PatchEditKind::EdgeCollapse:
+      if (edit.share > 0.0) moveNode(state.grid, edit.placed, b, b, edit.share);
+      return;
   }
 }
 
 std::string_view textOf(PatchEditKind kind) {
-  constexpr std::array<std::string_view, 4> kTexts{"edge flipped", "edge split", "node split in two", "node moved"};
+  constexpr std::array<std::string_view, 5> kTexts{"edge flipped", "edge split", "node split in two", "node moved",
+                                                   "edge collapsed"};
   return kTexts[static_cast<std::size_t>(kind)];
 }
 
-void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit, const FoundDefect& found) {
+void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit) {
   placeNode(state, edit);
-  if (edit.gone) state.links.kinds.erase(*edit.gone);
-  for (const auto& [edge, kind] : edit.halves) state.links.kinds[edge] = kind;
+  for (const NodePair& edge : edit.gone) state.links.kinds.erase(edge);
+  for (const auto& [edge, kind] : edit.made) state.links.kinds[edge] = kind;
+  for (const std::uint32_t t : edit.removed) state.dead[t] = true;
   for (const std::uint32_t t : patch.triangles) state.touched[t] = true;
   for (const EditedTriangle& triangle : edit.triangles) {
     if (triangle.slot == kNone) {
@@ -62,6 +67,10 @@ void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit, co
     state.grid.triangles[triangle.slot] = triangle.v;
     state.changed[triangle.slot] = state.disturbed[triangle.slot] = true;
   }
+}
+
+void applyRepair(RepairState& state, const Patch& patch, const PatchEdit& edit, const FoundDefect& found) {
+  applyEdit(state, patch, edit);
   addRepair(state, found, found.defect.place, std::string(textOf(edit.kind)));
 }
 
@@ -74,7 +83,7 @@ Attempt splitNode(RepairState& state, std::uint32_t node, const FoundDefect& fou
   const auto patch = untouchedPatch(state, state.links.triangles_at[node]);
   if (!patch) return {};
   const std::optional<PatchEdit> chosen = bestNodeSplit(state.view(), node, *patch);
-  if (chosen) applyEdit(state, *patch, *chosen, found);
+  if (chosen) applyRepair(state, *patch, *chosen, found);
   return {true, chosen.has_value()};
 }
 
@@ -95,7 +104,7 @@ Attempt reshape(RepairState& state, std::span<const std::uint32_t> inside, const
   const auto patch = untouchedPatch(state, middle);
   if (!patch) return {};
   const std::optional<PatchEdit> chosen = bestReshaping(state.view(), inside, reach, *patch);
-  if (chosen) applyEdit(state, *patch, *chosen, found);
+  if (chosen) applyRepair(state, *patch, *chosen, found);
   return {true, chosen.has_value()};
 }
 
@@ -107,6 +116,14 @@ std::vector<std::uint32_t> movableCorners(const RepairState& state, std::span<co
   for (const std::uint32_t node : nodes)
     if (isMovable(state.view(), node)) movable.push_back(node);
   return movable;
+}
+
+// The triangles at a triangle's corners.
+std::vector<std::uint32_t> roundOf(const RepairState& state, std::uint32_t t) {
+  std::vector<std::uint32_t> round;
+  for (const std::uint32_t node : state.grid.triangles[t])
+    round.insert(round.end(), state.links.triangles_at[node].begin(), state.links.triangles_at[node].end());
+  return round;
 }
 
 // An inner node of three triangles goes, and these become one.
@@ -143,6 +160,25 @@ void lengthenFlowLink(RepairState& state, const FoundDefect& found) {
   Attempt attempt = reshape(state, inside, {kShares, movable}, found);
   if (attempt.made && !attempt.done) attempt = reshape(state, inside, {kFarShares, {}}, found);
   state.hopeless_triangles[t] = attempt.made && !attempt.done;
+}
+
+void lengthenEdges(RepairState& state, const FoundDefect& found) {
+  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
+  if (state.hopeless_triangles[t]) return;
+  const std::vector<std::uint32_t> movable = movableCorners(state, std::array{t});
+  const auto patch = untouchedPatch(state, roundOf(state, t));
+  if (!patch) return;
+  const std::optional<PatchEdit> chosen = bestLengthening(state.view(), t, movable, *patch);
+  if (chosen) applyRepair(state, *patch, *chosen, found);
+  state.hopeless_triangles[t] = !chosen;
+}
+
+bool relaxTriangle(RepairState& state, std::uint32_t t) {
+  const auto patch = untouchedPatch(state, roundOf(state, t));
+  if (!patch) return false;
+  const std::optional<PatchEdit> chosen = bestRelaxing(state.view(), t, movableCorners(state, std::array{t}), *patch);
+  if (chosen) applyEdit(state, *patch, *chosen);
+  return chosen.has_value();
 }
 
 void mendValence(RepairState& state, const FoundDefect& found) {

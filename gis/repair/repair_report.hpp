@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,10 +12,10 @@ namespace coastmesh {
 
 // One thing that was done to a grid for a model.
 struct Repair {
-  TargetDefectKind kind;  // of the defect
-  Target target;          // the model that minds it
-  Point place;            // in the grid's CRS
-  std::string what;       // "node doubled, and moved apart by 12.5 m"
+  TargetDefectKind kind;         // of the defect
+  std::optional<Target> target;  // the model that minds it; none: the time step is missed, whatever the model
+  Point place;                   // in the grid's CRS
+  std::string what;              // "node doubled, and moved apart by 12.5 m"
 };
 
 struct RepairReport {

@@ -1,14 +1,16 @@
-#include "gis/model/repair_score.hpp"
+#include "gis/repair/repair_score.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/long_wave.hpp"
 #include "gis/model/flow_links.hpp"
 #include "gis/model/target_limits.hpp"
 
@@ -35,15 +37,31 @@ struct TriangleScore {
   double min_angle = 0.0;
 };
 
+// Depths of nodes that an edit places come from rasters later on: a little is left for what these say.
+constexpr double kStepMargin = 1.02;
+
+// Whether the triangle, in a plane, leaves a shorter time step than is asked for. `source` is what it is cut from.
+bool missesStep(const RepairView& view, const PatchEdit& edit, const GridCorners& v, std::uint32_t source,
+                const std::array<Point, 3>& p) {
+  const StepBound& step = view.step;
+  if (step.time_step_s <= 0.0 || view.grid.z.empty()) return false;
+  double deepest = std::numeric_limits<double>::quiet_NaN();
+  for (const std::uint32_t node : v) deepest = std::fmax(deepest, -(node == edit.placed ? edit.z : view.grid.z[node]));
+  if (!(deepest > 0.0)) return false;
+  const double shortest = std::min({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+  return shortest * step.metres_per_unit[source] < kStepMargin * step.time_step_s * longWaveSpeed(deepest);
+}
+
 // None for a triangle that is clockwise, or without area.
-std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEdit& edit, const GridCorners& v) {
+std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEdit& edit, const GridCorners& v,
+                                           std::uint32_t source) {
   const auto p = planeOf(view, edit, v);
   if (orient2d(p[0], p[1], p[2]) <= 0) return std::nullopt;
   // The plane is rounded: what is flat to within that is asked of the places themselves, as the report does.
   const auto on_ground = placesOf(view, edit, v);
   if (orientationOnGround(on_ground[0], on_ground[1], on_ground[2], view.grid.crs) <= 0) return std::nullopt;
   const auto angles = anglesDeg(p[0], p[1], p[2]);
-  TriangleScore score{0, std::ranges::min(angles)};
+  TriangleScore score{missesStep(view, edit, v, source, p) ? 1 : 0, std::ranges::min(angles)};
   if (view.isFor(Target::Swan)) {
     const auto q = placesOf(view, edit, v);
     score.defects += largestFileAngle(q[0], q[1], q[2]) > kSwanLargestAngleDeg;
@@ -67,6 +85,7 @@ std::vector<std::uint32_t> replacedBy(const PatchEdit& edit) {
   std::vector<std::uint32_t> replaced;
   for (const EditedTriangle& triangle : edit.triangles)
     if (triangle.slot != kNone) replaced.push_back(triangle.slot);
+  replaced.insert(replaced.end(), edit.removed.begin(), edit.removed.end());
   std::ranges::sort(replaced);
   return replaced;
 }
@@ -90,10 +109,11 @@ int edgeDefectsAdded(const RepairView& view, const Patch& patch, const PatchEdit
       const NodePair key = edgeKey(triangle.v[next3(i)], triangle.v[prev3(i)]);
       made.push_back({key, triangle.slot, triangle.v[i]});
       keys.push_back(key);
-      if (triangle.slot == kNone) continue;
-      const GridCorners& old = view.grid.triangles[triangle.slot];
-      keys.push_back(edgeKey(old[next3(i)], old[prev3(i)]));
     }
+  }
+  for (const std::uint32_t t : replaced) {
+    const GridCorners& old = view.grid.triangles[t];
+    for (unsigned i = 0; i < 3; ++i) keys.push_back(edgeKey(old[next3(i)], old[prev3(i)]));
   }
   std::ranges::sort(keys);
   keys.erase(std::ranges::unique(keys).begin(), keys.end());
@@ -114,13 +134,12 @@ int edgeDefectsAdded(const RepairView& view, const Patch& patch, const PatchEdit
 }
 
 // Triangles too many or too few round the nodes that get more or fewer.
-int badValencesAdded(const RepairView& view, const PatchEdit& edit) {
+int badValencesAdded(const RepairView& view, const PatchEdit& edit, std::span<const std::uint32_t> replaced) {
   std::vector<std::pair<std::uint32_t, int>> changes;
-  for (const EditedTriangle& triangle : edit.triangles) {
+  for (const EditedTriangle& triangle : edit.triangles)
     for (const std::uint32_t node : triangle.v) changes.emplace_back(node, 1);
-    if (triangle.slot == kNone) continue;
-    for (const std::uint32_t node : view.grid.triangles[triangle.slot]) changes.emplace_back(node, -1);
-  }
+  for (const std::uint32_t t : replaced)
+    for (const std::uint32_t node : view.grid.triangles[t]) changes.emplace_back(node, -1);
   std::ranges::sort(changes);
   const auto bad = [](int count) {
     return count > 0 ? std::max({0, kSwanFewestCells - count, count - kSwanMostCells}) : 0;
@@ -131,7 +150,7 @@ int badValencesAdded(const RepairView& view, const PatchEdit& edit) {
     int change = 0;
     for (; i < changes.size() && changes[i].first == node; ++i) change += changes[i].second;
     const bool is_new = node >= view.links.triangles_at.size();
-    if (is_new ? !edit.halves.empty() : view.links.on_boundary[node]) continue;
+    if (is_new ? !edit.made.empty() : view.links.on_boundary[node]) continue;
     const int count = is_new ? 0 : static_cast<int>(view.links.triangles_at[node].size());
     added += bad(count + change) - bad(count);
   }
@@ -145,7 +164,7 @@ PatchScale scaleOf(const RepairView& view, const Patch& patch) {
   for (const std::uint32_t t : patch.triangles) {
     double& angle = view.smallest_angle[t];
     if (std::isnan(angle)) {
-      const auto score = scoreTriangle(view, {}, view.grid.triangles[t]);
+      const auto score = scoreTriangle(view, {}, view.grid.triangles[t], t);
       angle = score ? score->min_angle : -1.0;
     }
     if (angle < 0.0) {
@@ -170,17 +189,21 @@ EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& 
   const auto isKept = [&replaced](std::uint32_t t) { return !std::ranges::binary_search(replaced, t); };
   if (std::ranges::any_of(scale.turned, isKept)) return worst;
   for (const EditedTriangle& triangle : edit.triangles) {
-    const auto made = scoreTriangle(view, edit, triangle.v);
+    const auto made = scoreTriangle(view, edit, triangle.v, triangle.source);
     if (!made) return worst;
     score.defects += made->defects;
-    score.min_angle = std::min(score.min_angle, made->min_angle);
-    if (triangle.slot == kNone) continue;
-    if (const auto old = scoreTriangle(view, {}, view.grid.triangles[triangle.slot])) score.defects -= old->defects;
+    score.made_angle = std::min(score.made_angle, made->min_angle);
+  }
+  score.min_angle = score.made_angle;
+  for (const std::uint32_t t : replaced) {
+    const auto old = scoreTriangle(view, {}, view.grid.triangles[t], t);
+    score.defects -= old ? old->defects : 0;
+    score.replaced_angle = std::min(score.replaced_angle, old ? old->min_angle : 0.0);
   }
   const auto kept = std::ranges::find_if(scale.angles, isKept, &std::pair<double, std::uint32_t>::second);
   if (kept != scale.angles.end()) score.min_angle = std::min(score.min_angle, kept->first);
   if (view.isFor(Target::Dflowfm)) score.defects += edgeDefectsAdded(view, patch, edit, replaced);
-  if (view.isFor(Target::Swan)) score.defects += badValencesAdded(view, edit);
+  if (view.isFor(Target::Swan)) score.defects += badValencesAdded(view, edit, replaced);
   return score;
 }
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "gis/model/repair_patch.hpp"
+#include "gis/repair/repair_patch.hpp"
 
 namespace coastmesh {
 
@@ -20,6 +20,16 @@ struct SearchReach {
 // of the movable nodes.
 std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
                                        const SearchReach& reach, const Patch& patch);
+
+// For a triangle that leaves too short a time step: a node moved, or one of its edges collapsed. REQUIRES: the patch is
+// that round the triangles at the movable nodes and at the triangle's own.
+std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
+                                         std::span<const std::uint32_t> movable, const Patch& patch);
+
+// For a triangle with a small angle: the move or the flip that leaves the largest smallest angle in what it changes,
+// and no defect more. REQUIRES: as above.
+std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,
+                                      const Patch& patch);
 
 // An inner node split in two: half of its triangles get a node of their own, between it and their
 // other ends.

@@ -1,0 +1,137 @@
+#include "gis/repair/repair_search.hpp"
+
+#include "gis/repair/repair_score.hpp"
+#include "gis/repair/repair_shore.hpp"
+
+namespace coastmesh {
+namespace {
+
+// Asked last: it takes a search for what lies near.
+bool keepsShores(const RepairView& view, const PatchEdit& edit) {
+  return view.shores == nullptr || view.shores->keepsApart(view, edit);
+}
+
+// The best of what is offered that is better than the patch as it is; the first of those as good.
+class Contest {
+ public:
+  // Triangles with a smaller angle than `least_angle_deg` are made only of such.
+  Contest(const RepairView& view, const Patch& patch, double least_angle_deg = 0.0)
+      : view_(view),
+        patch_(patch),
+        scale_(scaleOf(view, patch)),
+        now_(scoreOf(scale_)),
+        least_angle_deg_(least_angle_deg) {}
+
+  void offer(const PatchEdit& edit) {
+    const EditScore score = scoreOf(view_, patch_, scale_, edit);
+    if (score.made_angle < std::min(least_angle_deg_, score.replaced_angle)) return;
+    if (score.defects >= now_.defects || (best_ && !score.betterThan(score_)) || !keepsShores(view_, edit)) return;
+    score_ = score;
+    best_ = edit;
+  }
+
+  std::optional<PatchEdit> take() { return std::move(best_); }
+
+ private:
+  const RepairView& view_;
+  const Patch& patch_;
+  const PatchScale scale_;
+  const EditScore now_;
+  const double least_angle_deg_;
+  EditScore score_;
+  std::optional<PatchEdit> best_;
+};
+
+// Towards nodes of the ring and the middles between two of them; on the shore along it.
+void forEachMove(const RepairView& view, std::uint32_t node, auto&& use) {
+  for (const std::uint32_t other : boundaryNeighbours(view, node))
+    for (const double share : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5}) use(moveOf(view, node, other, other, share));
+  if (view.links.on_boundary[node]) return;
+  const std::vector<std::uint32_t> ring = ringRound(view, node);
+  for (const double share : {0.02, 0.05, 0.1, 0.15, 0.2, 0.3}) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      use(moveOf(view, node, ring[i], ring[i], share));
+      use(moveOf(view, node, ring[i], ring[(i + 1) % ring.size()], share));
+    }
+  }
+}
+
+void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
+  forEachMove(view, node, [&contest](const PatchEdit& edit) { contest.offer(edit); });
+}
+
+}  // namespace
+
+std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
+                                       const SearchReach& reach, const Patch& patch) {
+  std::set<NodePair> edges;
+  for (const std::uint32_t t : inside) {
+    const GridCorners& v = view.grid.triangles[t];
+    for (unsigned i = 0; i < 3; ++i) edges.insert(edgeKey(v[i], v[next3(i)]));
+  }
+  Contest contest(view, patch);
+  for (const std::uint32_t node : reach.movable) offerMoves(contest, view, node);
+  for (const auto& [a, b] : edges) {
+    if (const auto flip = flipOf(view, patch, a, b)) contest.offer(*flip);
+    for (const double share : reach.shares) contest.offer(splitOf(view, patch, a, b, share));
+  }
+  return contest.take();
+}
+
+std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
+                                         std::span<const std::uint32_t> movable, const Patch& patch) {
+  const GridCorners& v = view.grid.triangles[t];
+  Contest contest(view, patch, view.step.least_angle_deg);
+  for (const std::uint32_t node : movable) offerMoves(contest, view, node);
+  for (unsigned i = 0; i < 3; ++i) {
+    for (const auto& [gone, kept] : {std::pair(v[i], v[next3(i)]), std::pair(v[next3(i)], v[i])})
+      for (const double share : {0.0, 0.25, 0.5})
+        if (const auto edit = collapseOf(view, gone, kept, share)) contest.offer(*edit);
+  }
+  return contest.take();
+}
+
+std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,
+                                      const Patch& patch) {
+  constexpr double kBetterDeg = 0.1;
+  const PatchScale scale = scaleOf(view, patch);
+  std::optional<PatchEdit> best;
+  double most = 0.0;
+  const auto offer = [&](const PatchEdit& edit) {
+    const bool changes_it = std::ranges::any_of(edit.triangles, [t](const EditedTriangle& e) { return e.slot == t; });
+    if (!changes_it) return;
+    const EditScore score = scoreOf(view, patch, scale, edit);
+    if (score.defects > 0 || score.made_angle <= std::max(most, score.replaced_angle + kBetterDeg)) return;
+    if (!keepsShores(view, edit)) return;
+    most = score.made_angle;
+    best = edit;
+  };
+  const GridCorners& v = view.grid.triangles[t];
+  for (unsigned i = 0; i < 3; ++i) {
+    if (const auto flip = flipOf(view, patch, v[i], v[next3(i)])) offer(*flip);
+    if (std::ranges::count(movable, v[i]) > 0) forEachMove(view, v[i], offer);
+  }
+  return best;
+}
+
+std::optional<PatchEdit> bestNodeSplit(const RepairView& view, std::uint32_t node, const Patch& patch) {
+  const std::vector<std::uint32_t> ring = ringRound(view, node);
+  if (ring.size() < 8) return std::nullopt;
+  const std::size_t n = ring.size(), half = n / 2;
+  const std::set<std::uint32_t> fixed = fixedNeighbours(view, node);
+  Contest contest(view, patch);
+  for (std::size_t first = 0; first < n; ++first) {
+    std::optional<PatchEdit> edit = nodeSplitOf(view, node, ring, fixed, first, half);
+    if (!edit) continue;
+    std::vector<Point> places;
+    for (std::size_t k = 0; k <= half; ++k) places.push_back(view.grid.nodes[ring[(first + k) % n]]);
+    const Point middle = meanPlace(view.grid.crs, places);
+    for (const double share : {0.3, 0.5, 0.7}) {
+      edit->place = placeBetween(view.grid.crs, view.grid.nodes[node], middle, share);
+      contest.offer(*edit);
+    }
+  }
+  return contest.take();
+}
+
+}  // namespace coastmesh
