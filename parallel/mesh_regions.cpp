@@ -44,19 +44,43 @@ std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions&
   return layLattices(mesh, {options.size_max, options.size, options.min_angle_deg, options.max_angle_deg, left}, loop);
 }
 
+// What goes with a mesh that has the places of lattices for vertices.
+struct Seeds {
+  VertexNotes input;               // notes on the input alone; empty where there are no cores
+  VertexNotes notes;               // and on all; empty where the mesh is as it was, and not to be cut
+  std::vector<LatticeCore> cores;  // what is out of the mesh
+  std::uint64_t core_vertices = 0;
+};
+
+// Triangulates once more where there are lattices to be laid.
+Seeds seed(MeshedRegion& region, const Pslg& pslg, const RefineOptions& options, bool with_cores,
+           const RunControl& control) {
+  Recorder recorder;
+  const ItemLoop loop = recorder.loop("lattice", control);
+  Seeds seeds;
+  std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options, loop);
+  if (with_cores || !lattices.empty()) seeds.notes = noteInput(region.mesh, boundOf(options));
+  if (!lattices.empty()) {
+    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), with_cores, loop);
+    if (!seeded.cores.empty()) seeds.input = seeds.notes;
+    noteFurther(seeded.mesh, seeds.notes);
+    seeds.core_vertices = seeded.coreVertices();
+    seeds.cores = std::move(seeded.cores);
+    region.mesh = std::move(seeded.mesh);
+  }
+  region.log.append(recorder.finish("triangulate"));
+  return seeds;
+}
+
 void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   Stopwatch watch;
+  Seeds seeds = seed(region, pslg, options.refine, false, control);
+  region.seconds.triangulate += watch.lap();
   Recorder recorder;
-  std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options.refine, inOrder);
-  if (lattices.empty()) {
-    region.stats = refine(region.mesh, pslg, options.refine, control);
-  } else {
-    VertexNotes notes = noteInput(region.mesh, boundOf(options.refine));
-    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), false);
-    region.mesh = std::move(seeded.mesh);
-    noteFurther(region.mesh, notes);
-    region.stats = refine(region.mesh, pslg, options.refine, std::move(notes), control);
-  }
+  // Without further vertices a small input may be refined in several ways.
+  region.stats = region.mesh.points.size() == pslg.points.size()
+                     ? refine(region.mesh, pslg, options.refine, control)
+                     : refine(region.mesh, pslg, options.refine, std::move(seeds.notes), control);
   region.seconds.refine = watch.lap();
   if (options.coarsen) {
     RefineStats coarsened = coarsen(region.mesh, pslg, options.refine, control);
@@ -111,38 +135,31 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
     region.log.append(std::move(report.log));
   };
   Stopwatch watch;
-  Recorder recorder;
-  VertexNotes notes = noteInput(region.mesh, boundOf(options.refine));
-  std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options.refine, recorder.loop("lattice", control));
-  std::vector<LatticeCore> cores;
-  const VertexNotes input_notes = lattices.empty() ? VertexNotes() : notes;
-  RefineOptions refine = options.refine;
-  if (!lattices.empty()) {
-    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), true, recorder.loop("lattice", control));
-    noteFurther(seeded.mesh, notes);
-    refine.max_vertices -= std::min(refine.max_vertices, seeded.coreVertices());
-    region.mesh = std::move(seeded.mesh);
-    cores = std::move(seeded.cores);
-  }
-  region.log.append(recorder.finish("triangulate"));
+  Seeds seeds = seed(region, pslg, options.refine, true, control);
+  RefineOptions around = options.refine;
+  around.max_vertices -= std::min(around.max_vertices, seeds.core_vertices);
   region.seconds.triangulate += watch.lap();
-  add(refineInRounds(region.mesh, pslg, refine, std::move(notes), control, workspace));
+  add(refineInRounds(region.mesh, pslg, around, std::move(seeds.notes), control, workspace));
   region.seconds.refine = watch.lap();
   if (options.coarsen) {
-    add(coarsenInRounds(region.mesh, pslg, refine, control, workspace));
+    add(coarsenInRounds(region.mesh, pslg, around, control, workspace));
     region.seconds.coarsen = watch.lap();
   }
   if (const int sweeps = optimiseSweeps(options); sweeps > 0) {
-    add(optimiseInRounds(region.mesh, pslg, refine, sweeps, control, workspace));
+    add(optimiseInRounds(region.mesh, pslg, around, sweeps, control, workspace));
     region.seconds.optimise = watch.lap();
   }
-  const ItemLoop label = recorder.loop("label", control);
-  if (!cores.empty()) {
-    const std::vector<TriId> left = trianglesInViolation(region.mesh, options.refine, input_notes.corners.get(), label);
-    insertCores(region.mesh, static_cast<VertexId>(pslg.points.size()), cores, recorder.loop("stitch", control));
+  if (!seeds.cores.empty()) {
+    Recorder recorder;
+    const ItemLoop stitch = recorder.loop("stitch", control);
+    const std::vector<TriId> left =
+        trianglesInViolation(region.mesh, options.refine, seeds.input.corners.get(), stitch);
+    insertCores(region.mesh, static_cast<VertexId>(pslg.points.size()), seeds.cores, stitch);
     region.log.append(recorder.finish("stitch"));
-    mendBesideCores(region.mesh, left, pslg, options.refine, input_notes, control, add);
+    mendBesideCores(region.mesh, left, pslg, options.refine, seeds.input, control, add);
   }
+  Recorder recorder;
+  const ItemLoop label = recorder.loop("label", control);
   region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
   labelRegions(region.mesh, pslg);
   if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, label);
