@@ -62,7 +62,7 @@ constexpr double kBytesPerVertex = 600.0;
 constexpr double kLeastBytesPerVertex = 520.0;
 // Estimates are right to half as much; what asks for more than this many times the budget is not begun.
 constexpr double kClearlyMore = 2.0;
-constexpr double kMostTold = 1e18;
+constexpr double kMostReported = 1e18;
 
 double mostVertices(const GroupRoom& room) {
   return std::min(kClearlyMore * static_cast<double>(room.vertices), room.memory / kBytesPerVertex);
@@ -80,8 +80,8 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
   if (demand.map_too_large) {
     text += "change so much that a map of them takes more than the mesh may, most of all near ";
   } else {
-    text += demand.vertices > kMostTold ? "ask for more than " : "ask for about ";
-    text += amount("%.2g", std::min(demand.vertices, kMostTold)) + " vertices, most of them near ";
+    text += demand.vertices > kMostReported ? "ask for more than " : "ask for about ";
+    text += amount("%.2g", std::min(demand.vertices, kMostReported)) + " vertices, most of them near ";
   }
   text += pointText(demand.place);
   if (std::isfinite(demand.size_m)) text += ", where " + demand.option + amount(" asks for %.3g m", demand.size_m);
@@ -99,7 +99,8 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
 MeshOptions optionsFor(const MeshJob& job, const Domain& domain, const GroupRoom& room) {
   MeshOptions options = job.mesh;
   options.refine.max_vertices = room.vertices;
-  options.refine.most_in_memory = static_cast<std::uint64_t>(std::min(kMostTold, room.memory / kLeastBytesPerVertex));
+  options.refine.most_in_memory =
+      static_cast<std::uint64_t>(std::min(kMostReported, room.memory / kLeastBytesPerVertex));
   // A place that is no number has no resolution; what triangulates says which it is.
   if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
   if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
@@ -345,7 +346,7 @@ void refuse(const BadPslg& error, const JobInput& input, std::size_t group, Grou
 
 void refuse(const TooManyVertices& error, const GroupRoom& room, std::uint64_t whole_budget, const Feature& first,
             GroupResult& result) {
-  result.estimated_vertices = std::min(error.demand.vertices, kMostTold);
+  result.estimated_vertices = std::min(error.demand.vertices, kMostReported);
   result.over_budget = kClearlyMore * static_cast<double>(room.vertices) <= room.memory / kBytesPerVertex;
   result.refusal_place = error.demand.place;
   result.refusal =

@@ -75,7 +75,7 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
   CleanChains chains = makeChains(coastline, members, projection, options, report, loop);
   const NodedEdges edges = nodeChains(chains, coastline, projection, report, loop);
   LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report, loop);
-  if (options.pinches == Pinches::Keep) tellPinches(chains.vertices, labelled.segments, coastline, report);
+  if (options.pinches == Pinches::Keep) reportPinches(chains.vertices, labelled.segments, coastline, report);
   refuseEmpty(coastline, members, labelled.segments);
   keepFramedEdits(coastline, members, edits_before, report);
   const Resolution& resolution = chains.resolution;

@@ -135,7 +135,7 @@ class VertexMaker {
     vertices.input.reserve(expected);
   }
 
-  // The vertex for a point; `snapped` tells whether it is another point nearby.
+  // The vertex for a point; `snapped`: whether it is another point nearby.
   VertexId make(const Point& plane, const Point& input, bool& snapped) {
     const VertexId found = grid_.find(plane);
     if (found != kNone) {

@@ -20,7 +20,7 @@ struct CleanVertices {
   std::vector<char> is_new;  // made by us: `input` is computed
 };
 
-// A ring or an open line over vertices. Private to gis.
+// A ring or an open line over vertices.
 struct CleanChain {
   enum class Role { Outer, Hole, Line, Point };
   Role role = Role::Outer;

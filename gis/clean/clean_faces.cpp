@@ -53,8 +53,8 @@ class Labeller {
     fillFaces();
     if (chains_.coast) findWaterFaces();
     labelAll();
-    if (!dissolve_) tellOverlaps();
-    tellMisplacedRings();
+    if (!dissolve_) reportOverlaps();
+    reportMisplacedRings();
     LabelledEdges result;
     if (dissolve_) result.traces = dissolve();
     result.segments = keepEdges(result.lines);
@@ -273,8 +273,8 @@ class Labeller {
       if (chain.role != CleanChain::Role::Point) continue;
       const VertexId v = chain.walk.front();
       if (used[v]) continue;
-      const auto fan = map_.leaving(v);
-      const std::uint32_t face = fan.empty() ? locator.faceAt(chains_.vertices.plane[v]) : map_.faceOf(fan.front());
+      const auto star = map_.leaving(v);
+      const std::uint32_t face = star.empty() ? locator.faceAt(chains_.vertices.plane[v]) : map_.faceOf(star.front());
       if (label(face) == kOutside) {
         report_.add(EditKind::OutsideWater, inputOf(v), fidOf(chain.feature));
         continue;
@@ -286,7 +286,7 @@ class Labeller {
     return points;
   }
 
-  void tellOverlaps() {
+  void reportOverlaps() {
     if (chains_.coast || chains_.land) return;
     for (std::uint32_t face = 0; face < holders_.size(); ++face) {
       bool first = true;
@@ -299,7 +299,7 @@ class Labeller {
   }
 
   // A ring is judged by the first of its edges that is left. Those that cross something have no side to judge by.
-  void tellMisplacedRings() {
+  void reportMisplacedRings() {
     std::vector<char> done = noded_.crossed;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       for (std::size_t u = edges_[e].first_use; u < edges_[e].last_use; ++u) {

@@ -19,7 +19,7 @@ struct LabelledEdges {
 // Labels the faces between noded edges: a face belongs to the first feature that holds it by the even-odd rule, within
 // the frame where there is one; framed water belongs to the frame. With `dissolve` features that share an edge are one,
 // the first of them. What is dropped goes to the report. Throws
-// InputError where coasts do not tell water from land.
+// InputError where coasts leave open which side is water.
 LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
                          const Projection& projection, bool dissolve, CleanReport& report,
                          const ItemLoop& loop = inOrder);

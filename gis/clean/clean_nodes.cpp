@@ -164,7 +164,7 @@ class Noder {
     // The first round takes the input exactly, but for the snap distance asked for; what rounding made comes after.
     find(round == 0 ? chains_.snap : tolerance);
     if (splits_.empty() && crossings_.empty()) return false;
-    if (round == 0) tellSplits();
+    if (round == 0) reportSplits();
     if (!crossings_.empty()) putCrossings(tolerance, round == 0);
     apply();
     return true;
@@ -239,7 +239,7 @@ class Noder {
     std::ranges::sort(crossings_, {}, [&](const Crossing& c) { return std::tuple(c.e, along[c.f], c.f); });
   }
 
-  void tellSplits() {
+  void reportSplits() {
     for (const Split& split : splits_) {
       if (ofFrame(uses_[edges_[split.edge].first_use])) continue;
       report_.add(EditKind::OverlappingEdge, chains_.vertices.input[split.vertex], fidOf(split.edge));

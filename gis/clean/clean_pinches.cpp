@@ -478,8 +478,8 @@ class PinchOpener {
 
 }  // namespace
 
-void tellPinches(const CleanVertices& vertices, const std::vector<Segment>& segments, const Coastline& coastline,
-                 CleanReport& report) {
+void reportPinches(const CleanVertices& vertices, const std::vector<Segment>& segments, const Coastline& coastline,
+                   CleanReport& report) {
   std::vector<std::uint32_t> sectors = outsideSectors(vertices.plane.size(), segments);
   for (const Segment& s : segments) {
     for (const VertexId v : {s.a, s.b}) {

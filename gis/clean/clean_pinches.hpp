@@ -8,11 +8,10 @@
 namespace coastmesh {
 
 // A pinch is a vertex where the outside of the domain lies in two sectors or more, so that water touches itself there.
-// Private to gis.
 
 // Reports every pinch in a vertex of the input; one that was made where edges cross was reported as a crossing.
-void tellPinches(const CleanVertices& vertices, const std::vector<Segment>& segments, const Coastline& coastline,
-                 CleanReport& report);
+void reportPinches(const CleanVertices& vertices, const std::vector<Segment>& segments, const Coastline& coastline,
+                   CleanReport& report);
 
 // Lets water pass at every pinch. The widest of the sectors outside keeps the vertex, one at an open boundary before
 // others; in each of the others the corner gives way, by kPinchGap times the shortest edge at the vertex (less where

@@ -24,7 +24,7 @@ struct Touch {
 // Points that lie exactly on an edge of another chain, or of their own, become points of that edge as well: what
 // touches in the input's coordinates (polygons cut along a grid of longitudes, say) must touch in the working plane
 // too, where its edges run a little differently. Edges wider than `widest` are left alone: longitudes that jump from
-// one end of the map to the other do not run between them. Private to gis.
+// one end of the map to the other do not run between them.
 std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains,
                                         double widest = std::numeric_limits<double>::infinity(),
                                         const ItemLoop& loop = inOrder);

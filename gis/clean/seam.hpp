@@ -17,7 +17,7 @@ struct Seam {
 
 // Where the rings' longitudes span exactly 360 degrees (data cut at the antimeridian, say) and `projection` brings the
 // first and the last meridian together, edges that run along either of the two get the points that lie on the other as
-// well, so that the two sides of the cut agree. Points are only added. Private to gis.
+// well, so that the two sides of the cut agree. Points are only added.
 std::optional<Seam> healSeam(const std::vector<Ring*>& rings, const Crs& crs, const Projection& projection);
 
 }  // namespace coastmesh

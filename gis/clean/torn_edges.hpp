@@ -19,7 +19,6 @@ struct ProjectedChain {
 // Throws InputError, with the edge, where `projection` shows the two ends of an edge far apart that the input's
 // coordinates have near one another: a CRS of the user's choice may be torn where the input is not, at ±180 or along
 // the edge of an interrupted map. `extent` is that of the whole plane: a tear reaches through a good part of it.
-// Private to gis.
 void requireUntorn(const ProjectedChain& chain, double extent, const Crs& crs, const Projection& projection);
 
 }  // namespace coastmesh

@@ -21,7 +21,7 @@ class Network {
   Network(const std::vector<Arc>& arcs, std::uint32_t node_count)
       : arcs_(arcs), leaving_(node_count), alive_(arcs.size(), 1), left_(arcs.size()), mark_(node_count, kNone) {
     for (HalfArc h = 0; h < 2 * arcs.size(); ++h) leaving_[tail(h)].push_back(h);
-    for (auto& fan : leaving_) sortAround(fan);
+    for (auto& star : leaving_) sortAround(star);
   }
 
   PeeledNetwork peel() {
@@ -45,12 +45,12 @@ class Network {
   }
 
   // Counter-clockwise, from due east on.
-  void sortAround(std::vector<HalfArc>& fan) const {
+  void sortAround(std::vector<HalfArc>& star) const {
     const auto lower = [&](HalfArc h) {
       const Point &v = tailPoint(h), &p = secondPoint(h);
       return p.y < v.y || (p.y == v.y && p.x < v.x);
     };
-    std::sort(fan.begin(), fan.end(), [&](HalfArc g, HalfArc h) {
+    std::sort(star.begin(), star.end(), [&](HalfArc g, HalfArc h) {
       if (lower(g) != lower(h)) return lower(h);
       const int turn = orient2d(tailPoint(g), secondPoint(g), secondPoint(h));
       return turn != 0 ? turn > 0 : g < h;
@@ -116,9 +116,9 @@ class Network {
     }
     // All that leaves the least vertex does so between due south (not included) and due north: outside is what lies to
     // the left of the last of them.
-    const auto& fan = leaving_[vertex == 0 ? arcs_[arc].from : arcs_[arc].to];
-    HalfArc last = fan.front();
-    for (const HalfArc h : fan) {
+    const auto& star = leaving_[vertex == 0 ? arcs_[arc].from : arcs_[arc].to];
+    HalfArc last = star.front();
+    for (const HalfArc h : star) {
       if (orient2d(tailPoint(last), secondPoint(last), secondPoint(h)) > 0) last = h;
     }
     return last;
@@ -130,9 +130,9 @@ class Network {
     HalfArc h = first;
     do {
       walk.push_back(h);
-      const auto& fan = leaving_[head(h)];
-      const auto at = std::find(fan.begin(), fan.end(), twin(h));
-      h = at == fan.begin() ? fan.back() : *(at - 1);
+      const auto& star = leaving_[head(h)];
+      const auto at = std::find(star.begin(), star.end(), twin(h));
+      h = at == star.begin() ? star.back() : *(at - 1);
     } while (h != first);
     return walk;
   }

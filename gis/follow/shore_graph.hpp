@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// A domain's graph while its coast is made to follow sizes. Private to gis.
+// A domain's graph while its coast is made to follow sizes.
 struct ShoreGraph {
   Pslg pslg;                     // labelled
   std::vector<VertexId> source;  // of each point: the domain's that it is, or kNone

@@ -6,7 +6,7 @@
 
 namespace coastmesh {
 
-// Triangles that hang together by edges. Private to gis.
+// Triangles that hang together by edges.
 struct Patches {
   std::vector<std::uint32_t> of;  // by triangle; kNone: in none
   std::vector<std::vector<TriId>> triangles;

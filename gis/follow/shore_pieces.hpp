@@ -13,7 +13,7 @@ namespace coastmesh {
 inline constexpr double kSmallShoreAngle = toRadians(50.0);  // on the water's side: smaller ones make bad triangles
 
 // What lies near a vertex's piece of shore (the vertex and its two neighbours), to judge a place that it may be moved
-// to. Private to gis.
+// to.
 class ShorePieces {
  public:
   explicit ShorePieces(const ShoreChains& chains) : c_(chains) {}

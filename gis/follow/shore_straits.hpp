@@ -15,7 +15,7 @@ struct ClosedStrait {
 };
 
 // Of what was water and is land by now: of each patch the longest way through it between places of the same water,
-// where it is longer than an element or two. Private to gis.
+// where it is longer than an element or two.
 std::vector<ClosedStrait> closedStraits(const ShoreTriangles& triangles, const Projection& projection);
 
 }  // namespace coastmesh

@@ -18,7 +18,7 @@ struct WaterWay {
 };
 
 // One for each of the waters that opening has made; those that are kept have none, nor have those whose ways are all
-// narrower than `least` times the size wanted somewhere. Private to gis.
+// narrower than `least` times the size wanted somewhere.
 std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options,
                                    double least);
 

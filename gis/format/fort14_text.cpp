@@ -22,9 +22,9 @@ struct Segment {
 
 // A weir's number without its heights would make a file that ADCIRC misreads: the role's own stands there then.
 int adcircType(const Boundary& boundary) {
-  const Ibtype* const told = findIbtype(boundary.ibtype);
-  const bool complete = told != nullptr && !isBareWeir(boundary);
-  return complete ? told->number : ibtypeOf(boundary.role, boundary.closed);
+  const Ibtype* const known = findIbtype(boundary.ibtype);
+  const bool complete = known != nullptr && !isBareWeir(boundary);
+  return complete ? known->number : ibtypeOf(boundary.role, boundary.closed);
 }
 
 int typeOf(const Boundary& boundary, Fort14Kind kind) {

@@ -41,7 +41,7 @@ struct GridLayer {
 inline constexpr std::string_view kTriangleLayer = "triangles", kNodeLayer = "nodes", kBoundaryLayer = "boundaries",
                                   kLineLayer = "lines";
 
-// Of the triangles' layer: the ids of a triangle's nodes, counter-clockwise. Polygons tell neither which of several
+// Of the triangles' layer: the ids of a triangle's nodes, counter-clockwise. Polygons say neither which of several
 // nodes at a place is meant nor, after a Shapefile has turned them, the winding.
 inline constexpr std::array<std::string_view, 3> kCornerColumns = {"node1", "node2", "node3"};
 

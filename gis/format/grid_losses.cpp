@@ -92,10 +92,10 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
       return rivers == 0 ? "" : "that " + counted(rivers, "boundary is a river", "boundaries are rivers");
     }
     case GridPart::Ibtypes: {
-      const auto told = [](const Boundary& boundary) { return boundary.ibtype >= 0; };
-      const std::size_t types = countBoundaries(grid, told);
+      const auto hasIbtype = [](const Boundary& boundary) { return boundary.ibtype >= 0; };
+      const std::size_t types = countBoundaries(grid, hasIbtype);
       if (types == 0) return "";
-      return "ADCIRC's types of " + counted(types, "boundary", "boundaries") + ' ' + typesOf(grid, told);
+      return "ADCIRC's types of " + counted(types, "boundary", "boundaries") + ' ' + typesOf(grid, hasIbtype);
     }
     case GridPart::Weirs: {
       const std::size_t weirs = countBoundaries(grid, [](const Boundary& boundary) { return !boundary.weir.empty(); });

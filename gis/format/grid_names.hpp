@@ -19,15 +19,15 @@ std::vector<int> regionNumbers(const Grid& grid, const std::vector<std::string>&
 // in Bay" in a region. Quotes and ends of lines become blanks.
 std::vector<std::string> featureLabels(const Grid& grid);
 
-// The feature that such a name tells; another name becomes that of a feature `number`.
+// The feature that such a name names; another name becomes that of a feature `number`.
 GridFeature featureOfLabel(const std::string& label, std::int64_t number);
 
 // Without what ends a name in quotes: these, and ends of lines.
 std::string quotable(std::string_view name);
 
-// Gives the grid a feature for each fid and region and each triangle its own, both told one a triangle; `regions` are
-// numbers into `names` as above, and empty where there are none. Does nothing where neither is told, or fids are none:
-// not a number, or past what a double tells apart.
+// Gives the grid a feature for each fid and region and each triangle its own, both given one a triangle; `regions` are
+// numbers into `names` as above, and empty where there are none. Does nothing where neither is given, or fids are none:
+// not a number, or past the whole numbers that a double has.
 void addFeatures(const std::vector<double>& fids, const std::vector<double>& regions,
                  const std::vector<std::string>& names, Grid& grid);
 

@@ -276,9 +276,9 @@ void readBoundaries(const VtuFile& file, Grid& grid) {
   const auto types = file.array("FieldData", "boundary_ibtypes");
   for (Chain& chain : readChains(file, "boundary", "roles", kBoundaryRoles.size(), grid.nodes.size())) {
     const std::size_t b = grid.boundaries.size();
-    const bool told = types && b < types->size() && (*types)[b] >= 0.0 && (*types)[b] < 1000.0;
+    const bool known = types && b < types->size() && (*types)[b] >= 0.0 && (*types)[b] < 1000.0;
     grid.boundaries.push_back(
-        {kBoundaryRoles[chain.kind], chain.closed, std::move(chain.nodes), told ? static_cast<int>((*types)[b]) : -1});
+        {kBoundaryRoles[chain.kind], chain.closed, std::move(chain.nodes), known ? static_cast<int>((*types)[b]) : -1});
   }
 }
 

@@ -79,7 +79,7 @@ struct MarkedSegments {
   std::vector<NodePair> edges;
 };
 
-// Segments in the order and with the markers that `writeTriangle` gives them; others tell no roles and are left out.
+// Segments in the order and with the markers that `writeTriangle` gives them; others have no roles and are left out.
 void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) {
   TextReader file(path, kComment);
   file.needLine();

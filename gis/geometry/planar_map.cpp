@@ -50,10 +50,10 @@ struct PlanarMap::Builder {
 
   // The half-edge after h around the face to its left: at its head, the first clockwise from the way back.
   HalfEdge next(HalfEdge h) const {
-    const auto fan = map.leaving(head(h));
-    if (fan.size() == 2) return fan[0] == (h ^ 1u) ? fan[1] : fan[0];
-    const auto back = std::find(fan.begin(), fan.end(), h ^ 1u);
-    return back == fan.begin() ? fan.back() : *(back - 1);
+    const auto star = map.leaving(head(h));
+    if (star.size() == 2) return star[0] == (h ^ 1u) ? star[1] : star[0];
+    const auto back = std::find(star.begin(), star.end(), h ^ 1u);
+    return back == star.begin() ? star.back() : *(back - 1);
   }
 
   void walkLoops() {
@@ -82,9 +82,9 @@ struct PlanarMap::Builder {
   // The half-edge leaving the least vertex of a piece that has the piece's outside on its left: all leave between due
   // south (not included) and due north, and it is the last of them.
   HalfEdge outerAt(VertexId least) const {
-    const auto fan = map.leaving(least);
-    HalfEdge last = fan.front();
-    for (const HalfEdge h : fan) {
+    const auto star = map.leaving(least);
+    HalfEdge last = star.front();
+    for (const HalfEdge h : star) {
       if (orient2d(at(least), at(head(last)), at(head(h))) > 0) last = h;
     }
     return last;

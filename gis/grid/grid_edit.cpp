@@ -360,7 +360,7 @@ void appendGrid(Grid& whole, Grid&& part) {
   }
   if (part.triangles.empty() && part.nodes.empty()) return;
   if (whole.feature_of.empty() != part.feature_of.empty() && !whole.triangles.empty() && !part.triangles.empty())
-    throw std::logic_error("a grid that tells features was put together with one that does not");
+    throw std::logic_error("a grid with features was put together with one without");
   if (whole.piece_of.empty() != part.piece_of.empty()) {
     Grid& silent = whole.piece_of.empty() ? whole : part;
     silent.piece_of.assign(silent.triangles.size(), 0);

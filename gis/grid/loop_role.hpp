@@ -15,7 +15,7 @@ namespace coastmesh {
 // its left. A sea that has no outer shore has islands only.
 BoundaryRole roleOfLoop(std::span<const Point> nodes, std::span<const std::uint32_t> loop, const Crs& crs);
 
-// The same for loops that are large, or whose direction degrees do not tell; none for all others.
+// The same for loops that are large, or whose direction is not plain in degrees; none for all others.
 std::optional<BoundaryRole> roleByArea(std::span<const Point> nodes, std::span<const std::uint32_t> loop,
                                        const Crs& crs);
 

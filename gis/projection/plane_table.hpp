@@ -13,7 +13,7 @@ namespace coastmesh {
 class PlaneTable {
  public:
   // Between the places of the table values lie off by `tolerance` at most, in either coordinate, as far as a test
-  // halfway between them tells; where no table of moderate size is good enough, or the map is not finite everywhere,
+  // halfway between them says; where no table of moderate size is good enough, or the map is not finite everywhere,
   // the map itself is asked.
   PlaneTable(std::function<Point(const Point&)> map, const Box& box, double tolerance);
 

@@ -7,7 +7,7 @@ namespace coastmesh {
 
 // Edges: kind (open, shore, border, constraint, weir, region), region (the part of the graph, from 0), left_fid,
 // right_fid (-1: outside), left_id, right_id, line_id (features), first and last (numbers of its ends within the part);
-// boundary (what the boundary is there), where that was told.
+// boundary (what the boundary is there), where that was given.
 inline constexpr const char* kPslgLayer = "pslg";
 inline constexpr const char* kBoundaryField = "boundary";
 inline constexpr const char* kEditLayer = "edits";            // points: kind, fid_of_feature

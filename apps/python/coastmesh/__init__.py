@@ -169,7 +169,7 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
         OptionError, InputError, KeyboardInterrupt (on Ctrl-C; nothing is left), TypeError for an unknown option.
 
     Where angles cannot be reached, the best mesh is returned: `complete` is False and `report["refine"]["unresolved"]`
-    tells the places. Features that cannot be meshed are left out with a CoastmeshWarning.
+    has the places. Features that cannot be meshed are left out with a CoastmeshWarning.
     """
     files, text, graph = _split(source, segments, holes)
     if progress is not None and not callable(progress):

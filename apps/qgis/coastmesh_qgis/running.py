@@ -49,13 +49,13 @@ class _Talk:
         if not line.strip():
             return
         text = self.in_words(line)
-        for prefix, tell in (("coastmesh: warning: ", self.feedback.pushWarning), ("coastmesh: error: ", None)):
+        for prefix, report in (("coastmesh: warning: ", self.feedback.pushWarning), ("coastmesh: error: ", None)):
             if text.startswith(prefix):
                 text = text[len(prefix):]
-                if tell is None:
+                if report is None:
                     self.errors.append(text)
                 else:
-                    tell(text)
+                    report(text)
                 return
         self.feedback.pushWarning(text)
 
