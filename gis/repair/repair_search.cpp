@@ -98,7 +98,8 @@ std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, s
   std::optional<PatchEdit> best;
   double most = 0.0;
   const auto offer = [&](const PatchEdit& edit) {
-    const bool changes_it = std::ranges::any_of(edit.triangles, [t](const EditedTriangle& e) { return e.slot == t; });
+    const bool changes_it = std::ranges::count(edit.removed, t) > 0 ||
+                            std::ranges::any_of(edit.triangles, [t](const EditedTriangle& e) { return e.slot == t; });
     if (!changes_it) return;
     const EditScore score = scoreOf(view, patch, scale, edit);
     if (score.defects > 0 || score.made_angle <= std::max(most, score.replaced_angle + kBetterDeg)) return;
@@ -110,6 +111,9 @@ std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, s
   for (unsigned i = 0; i < 3; ++i) {
     if (const auto flip = flipOf(view, patch, v[i], v[next3(i)])) offer(*flip);
     if (std::ranges::count(movable, v[i]) > 0) forEachMove(view, v[i], offer);
+    for (const auto& [gone, kept] : {std::pair(v[i], v[next3(i)]), std::pair(v[next3(i)], v[i])})
+      for (const double share : {0.0, 0.5})
+        if (const auto edit = collapseOf(view, gone, kept, share)) offer(*edit);
   }
   return best;
 }

@@ -26,8 +26,8 @@ std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const s
 std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
                                          std::span<const std::uint32_t> movable, const Patch& patch);
 
-// For a triangle with a small angle: the move or the flip that leaves the largest smallest angle in what it changes,
-// and no defect more. REQUIRES: as above.
+// For a triangle with a small angle: the move, flip or collapse that leaves the largest smallest angle in what it
+// changes, and no defect more. REQUIRES: as above.
 std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,
                                       const Patch& patch);
 

@@ -169,6 +169,9 @@ void relax(RepairState& state) {
     for (const std::uint32_t t : small)
       if (relaxTriangle(state, t)) any = true;
     if (!any) return;
+    if (std::ranges::count(state.dead, true) == 0) continue;
+    compact(state);
+    rebuildBoundaries(state);
   }
 }
 
