@@ -97,7 +97,8 @@ std::string boundarySection(const FinishOptions& options, const FinishReport& re
     section[std::string(toString(role))] = std::ranges::count_if(grid.boundaries, isOfRole);
   }
   if (options.boundaries.any()) {
-    section["edges_told"] = report.boundaries.edges_told;
+    section["edges_by_file"] = report.boundaries.edges_by_file;
+    section["edges_told"] = report.boundaries.edges_by_file;  // the former name, for one more version
     section["edges_by_depth"] = report.boundaries.edges_by_depth;
     section["merged"] = report.boundaries.merged;
   }

@@ -409,7 +409,7 @@ BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options) {
   };
   applyFiles(options.inputs, false);
   applyFiles(options.files, true);
-  report.edges_told = static_cast<std::size_t>(std::ranges::count(said, true));
+  report.edges_by_file = static_cast<std::size_t>(std::ranges::count(said, true));
   if (options.open_deeper_m < 1e300) {
     if (grid.z.empty()) throw InputError("to open boundaries by their depth takes depths; give --bathymetry");
     for (std::size_t e = 0; e < boundary.edges.size(); ++e) {

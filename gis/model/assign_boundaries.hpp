@@ -27,7 +27,7 @@ struct BoundaryOptions {
 };
 
 struct BoundaryReport {
-  std::size_t edges_told = 0;      // of the boundary, by a file
+  std::size_t edges_by_file = 0;   // of the boundary, by a file
   std::size_t edges_by_depth = 0;  // opened by their depth
   std::size_t merged = 0;          // boundaries that were too short
 };

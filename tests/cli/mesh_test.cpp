@@ -233,6 +233,9 @@ TEST_F(MeshRun, FormerNamesOfOptionsAndKeysAreTakenWithAWarning) {
     EXPECT_EQ(json["time_s"]["shrink"], json["time_s"]["coarsen"]);
     EXPECT_EQ(json["time_s"]["fit"], json["time_s"]["optimise"]);
   }
+  const Json boundaries = report({"--min-boundary", "1"})["boundaries"];
+  EXPECT_EQ(boundaries["edges_by_file"], 0);
+  EXPECT_EQ(boundaries["edges_told"], 0);
 }
 
 TEST_F(MeshRun, PolyIsMeshedInThePlane) {

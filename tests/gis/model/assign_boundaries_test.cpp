@@ -75,7 +75,7 @@ TEST_F(AssignBoundaries, PolygonsTellWhatLiesInThem) {
   EXPECT_LE(edgesOfRole(grid, BoundaryRole::Open), 6u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::River), 2u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);
-  EXPECT_EQ(report.edges_told, edgesOfRole(grid, BoundaryRole::Open) + 2);
+  EXPECT_EQ(report.edges_by_file, edgesOfRole(grid, BoundaryRole::Open) + 2);
   expectWholeBoundary(grid);
 }
 
