@@ -52,9 +52,10 @@ def sides_of(corners, geographic):
     return [math.hypot(degrees_east(a[0], b[0]) if geographic else b[0] - a[0], b[1] - a[1]) for a, b in pairs]
 
 
-def is_flat(corners, turned, geographic, chosen, projected):
-    """Turned over no further than rounding to the file's coordinates does it or, where the user chose the plane to work in,
-    sides that are straight there and not on the ground: these turn from great circles by about their length."""
+def is_flat(corners, turned, geographic, chosen, projected, extent):
+    """Turned over no further than rounding to the file's coordinates does it, or sides that are straight in the plane that
+    the program worked in and not on the ground: in one that the user chose these turn from great circles by about their
+    length, in one fitted to the mesh by that times the mesh's extent, all in radians."""
     sides = sides_of(corners, geographic)
     if min(sides) == 0:
         return False  # two nodes in one place
@@ -62,7 +63,7 @@ def is_flat(corners, turned, geographic, chosen, projected):
     if not geographic:
         # In a projected CRS sides are straight in the plane that the program worked in: some centimetres on ten kilometres.
         return -turned <= grain * max(sides) + (max(sides) ** 3 / 1e8 if projected else 0)
-    return -turned < 4 * grain / min(sides) + (math.radians(max(sides)) if chosen else 0)
+    return -turned < 4 * grain / min(sides) + math.radians(max(sides)) * (1 if chosen else extent)
 
 
 def on_sphere(p):
@@ -86,6 +87,7 @@ def check_mesh(nodes, triangles, geographic, reported=None, chosen=False, projec
     may be flat instead."""
     turn = turn_on_globe if geographic else turn_in_plane
     told = reported["count"] if reported else 0
+    extent = math.radians(max(math.dist(on_sphere(nodes[0]), on_sphere(p)) for p in nodes)) if geographic else 0
     edges, used = set(), set()
     for number, t in enumerate(triangles):
         require(len(set(t)) == 3 and all(0 <= n < len(nodes) for n in t), f"triangle {number}: corners {t}")
@@ -95,7 +97,7 @@ def check_mesh(nodes, triangles, geographic, reported=None, chosen=False, projec
         if turned <= 0:
             told -= 1
             require(told >= 0 and is_named(corners, reported, geographic) and
-                    is_flat(corners, turned, geographic, chosen, projected),
+                    is_flat(corners, turned, geographic, chosen, projected, extent),
                     f"triangle {number} is not counter-clockwise ({turned:.2g}): {corners}")
         used.update(t)
         for edge in zip(t, t[1:] + t[:1]):
