@@ -134,10 +134,10 @@ class OrderedMerge {
     waiting_[group] = std::make_unique<GroupResult>(std::move(part));
     const double before = threadSeconds();
     for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
-      GroupResult& group = *waiting_[next_];
-      if (group.plane)
-        planes_.push_back({std::move(*group.plane), static_cast<std::uint32_t>(result_.grid.features.size())});
-      addGroup(input_, next_, std::move(group), result_, small_groups_);
+      GroupResult& next = *waiting_[next_];
+      if (next.plane)
+        planes_.push_back({std::move(*next.plane), static_cast<std::uint32_t>(result_.grid.features.size())});
+      addGroup(input_, next_, std::move(next), result_, small_groups_);
       waiting_[next_].reset();
     }
     merging_s_ += threadSeconds() - before;

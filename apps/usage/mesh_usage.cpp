@@ -1,6 +1,7 @@
 #include "apps/usage/mesh_usage.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "apps/report/mesh_report.hpp"
@@ -14,9 +15,7 @@ namespace {
 // The value of an enumeration by its name, which is one of them.
 template <typename Enum, std::size_t kCount>
 Enum named(const char* const (&names)[kCount], const std::string& name) {
-  std::size_t index = 0;
-  while (name != names[index]) ++index;
-  return static_cast<Enum>(index);
+  return static_cast<Enum>(std::ranges::find(names, name) - std::begin(names));
 }
 
 }  // namespace

@@ -173,10 +173,11 @@ TEST(ChannelLines, StopWhereTheyAskForMoreThanIsAllowed) {
   ASSERT_TRUE(all.complete);
   const double vertices = 200.0 / (0.5 * 0.5 * std::sqrt(3.0) / 2.0);
   EXPECT_NEAR(all.vertices / vertices, 1.0, 0.15);
-  for (const ChannelRoom& room : {ChannelRoom{0.1 * vertices, 1e9}, ChannelRoom{1e9, 0.1 * all.lines.size()}}) {
+  const auto lines = static_cast<double>(all.lines.size());
+  for (const ChannelRoom& room : {ChannelRoom{0.1 * vertices, 1e9}, ChannelRoom{1e9, 0.1 * lines}}) {
     const ChannelLines some = channelLines(channel, 4.0, 0.2, 0.01, 100.0, one, room);
     EXPECT_FALSE(some.complete);
-    EXPECT_LE(some.lines.size(), 0.15 * all.lines.size());
+    EXPECT_LE(static_cast<double>(some.lines.size()), 0.15 * lines);
     EXPECT_NEAR(some.vertices / vertices, 1.0, 0.3);
   }
 }
