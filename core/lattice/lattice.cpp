@@ -25,6 +25,7 @@ constexpr double kProbes = 16384.0;
 constexpr double kMostLooks = 2.0;
 // A lattice of fewer places is not worth its boundary to the rest.
 constexpr double kFewestPlaces = 100.0;
+// Rows and columns: domains that are longer are slivers with next to no place inside.
 constexpr double kMostRows = 1e7;
 
 // The spacing under a longest edge, as a share of it. Where that is 1, no vertex of a lattice can move: beside the
@@ -52,6 +53,10 @@ Box boxOf(const TriMesh& mesh) {
     }
   }
   return box;
+}
+
+bool isTooLong(const Box& box, double spacing) {
+  return !(std::max(box.most.x - box.least.x, box.most.y - box.least.y) < kMostRows * kRowHeight * spacing);
 }
 
 double areaOf(const TriMesh& mesh) {
@@ -226,8 +231,9 @@ struct Length {
 std::vector<Length> wantedLengths(const TriMesh& mesh, const Box& box, double area, const SizeFunction& size,
                                   const ItemLoop& loop) {
   if (size.least() == size.most()) return {{size.most(), size.least(), size.most()}};
-  const Grid grid(box, std::sqrt(area / (kRowHeight * kProbes)));
-  if (static_cast<double>(grid.rows) > kMostRows) return {};
+  const double apart = std::sqrt(area / (kRowHeight * kProbes));
+  if (isTooLong(box, apart)) return {};
+  const Grid grid(box, apart);
   const LatticeRows probes = insideOf(mesh, grid, loop);
   std::vector<double> lengths;
   for (std::int64_t b = 0; b < grid.rows; ++b)
@@ -291,8 +297,8 @@ std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes&
     const double spacing = std::min(length.spacing, most);
     const double count = area / (kRowHeight * spacing * spacing);
     if (count < kFewestPlaces || count > static_cast<double>(wishes.most_places - places)) continue;
+    if (isTooLong(box, spacing)) continue;
     const Grid grid(box, spacing);
-    if (static_cast<double>(grid.rows) > kMostRows) continue;
     const LatticeRows inside = insideOf(mesh, grid, loop);
     LatticeRows kept = without(inside, nearInput(mesh, grid, loop), loop);
     if (length.least < length.most) {

@@ -167,6 +167,20 @@ TEST(LayLattices, LaysNoneWithoutLengthsOrRoom) {
   EXPECT_TRUE(layLattices(mesh, {.size_max = 0.5, .most_places = 1000}).empty());
 }
 
+// Its sides are so long that places could not be counted.
+TEST(LayLattices, PassesSliversOver) {
+  for (const double length : {1e9, 1e30, 1e60}) {
+    Pslg sliver = squarePslg();
+    for (Point& p : sliver.points) p = {p.x * length, p.y * 1000.0 / length};
+    const TriMesh mesh = constrainedDelaunay(sliver);
+    const ConstantSize size(1.0);
+    const TwoLengths two;
+    EXPECT_TRUE(layLattices(mesh, {.size = &size, .most_places = 1000000}).empty());
+    EXPECT_TRUE(layLattices(mesh, {.size = &two, .most_places = 1000000000}).empty());
+    EXPECT_TRUE(layLattices(mesh, {.size_max = 1.0, .most_places = 1000000}).empty());
+  }
+}
+
 TEST(LayLattices, LeavesRoomUnderALongestEdge) {
   const TriMesh mesh = constrainedDelaunay(squarePslg());
   for (const double angle : {20.0, 30.0, 33.0, 37.0, 42.0}) {
