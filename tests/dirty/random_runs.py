@@ -3,7 +3,8 @@
 
 usage: tests/dirty/random_runs.py PROGRAM [--runs N] [--seed S] [--only NUMBER] [--keep DIR]
 
-Run k of seed S is case S + k, always the same. Each ends with exit code 0, 1 or 3, the last two with a reason; each format
+Run k of seed S is case S + k, always the same. Each ends with exit code 0, 1 or 3, the last two with a reason, or with 2
+where an option's number is larger than coordinates can be; each format
 holds the same mesh, whose triangles run counter-clockwise on the ground, share their edges in pairs, and cover the area of
 the input where no option changes it; the same bytes come out again, with 1, 2, 3 and 8 threads. What fails is printed and
 kept, with its command, in DIR/NUMBER (default: random_failures).
@@ -14,6 +15,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
@@ -29,6 +31,7 @@ LAYERS = ["m.gpkg", "m.geojson", "m.shp"]
 # What one format cannot say, and refuses.
 PINCHED = "which TELEMAC's files cannot say"
 SECONDS, BYTES = 120, 6 << 30
+LARGEST_COORDINATE = 1e70
 
 
 def limit():
@@ -47,6 +50,11 @@ def run(program, arguments, folder):
 def arguments_of(case, folder, threads, outputs):
     outs = [word for name in outputs for word in ("-o", f"{folder}/{name}")]
     return ["mesh", case.input, *case.options, *outs, "--report", f"{folder}/report.json", "--threads", str(threads)]
+
+
+def asks_beyond_range(options):
+    numbers = [float(n) for option in options for n in re.findall(r"\d+(?:\.\d*)?(?:e[-+]?\d+)?", option)]
+    return any(number > LARGEST_COORDINATE for number in numbers)
 
 
 def digests(folder):
@@ -108,13 +116,14 @@ def check_case(program, case, folder):
             outputs = [name for name in outputs if name != "m.slf"]
             ran = run(program, arguments_of(case, out.name, threads, outputs), folder)
         said = ran.stdout + ran.stderr
-        require(ran.returncode in (0, 1, 3), f"exit code {ran.returncode}: {ran.stderr.strip()}")
+        allowed = (0, 1, 2, 3) if asks_beyond_range(case.options) else (0, 1, 3)
+        require(ran.returncode in allowed, f"exit code {ran.returncode}: {ran.stderr.strip()}")
         found = (ran.returncode, digests(out))
         require(seen in (None, found), f"other bytes with {threads} threads than with 1: " +
                 ", ".join(n for n in found[1] if seen and seen[1].get(n) != found[1][n]))
         if seen is None:
             # 1 with an error: sizes ask for far more than --max-vertices.
-            if ran.returncode == 3 or "coastmesh: error: " in ran.stderr:
+            if ran.returncode in (2, 3) or "coastmesh: error: " in ran.stderr:
                 judge_refusal(ran, out)
             else:
                 require(ran.returncode == 0 or said.strip(), "exit code 1 without a reason")
@@ -135,7 +144,7 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("random_failures"))
     given = parser.parse_args()
     numbers = [given.only] if given.only is not None else range(given.seed, given.seed + given.runs)
-    codes, failed = {0: 0, 1: 0, 3: 0}, 0
+    codes, failed = {0: 0, 1: 0, 2: 0, 3: 0}, 0
     for number in numbers:
         case = Case(number)
         with tempfile.TemporaryDirectory() as scratch:
@@ -147,7 +156,7 @@ def main():
                 (given.keep / str(number) / "failure").write_text(f"{failure}\n")
                 print(f"case {number} ({case.world.kind}; {' '.join(case.options)}): {failure}", flush=True)
     print(f"{len(numbers)} runs from {numbers[0]} on: {codes[0]} done, {codes[1]} short of what was asked, "
-          f"{codes[3]} refused, {failed} failed")
+          f"{codes[2] + codes[3]} refused, {failed} failed")
     # A harness whose inputs are all refused finds nothing.
     sys.exit(failed > 0 or (len(numbers) >= 40 and codes[0] + codes[1] < len(numbers) / 2))
 
