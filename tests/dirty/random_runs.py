@@ -4,7 +4,7 @@
 usage: tests/dirty/random_runs.py PROGRAM [--runs N] [--seed S] [--only NUMBER] [--keep DIR]
 
 Run k of seed S is case S + k, always the same. Each ends with exit code 0, 1 or 3, the last two with a reason, or with 2
-where an option's number is larger than coordinates can be; each format
+where an option's number is larger or smaller than coordinates and distances can be; each format
 holds the same mesh, whose triangles run counter-clockwise on the ground, share their edges in pairs, and cover the area of
 the input where no option changes it; the same bytes come out again, with 1, 2, 3 and 8 threads. What fails is printed and
 kept, with its command, in DIR/NUMBER (default: random_failures).
@@ -31,7 +31,7 @@ LAYERS = ["m.gpkg", "m.geojson", "m.shp"]
 # What one format cannot say, and refuses.
 PINCHED = "which TELEMAC's files cannot say"
 SECONDS, BYTES = 120, 6 << 30
-LARGEST_COORDINATE = 1e70
+LARGEST_COORDINATE, LEAST_DISTANCE = 1e70, 1e-70
 
 
 def limit():
@@ -54,7 +54,7 @@ def arguments_of(case, folder, threads, outputs):
 
 def asks_beyond_range(options):
     numbers = [float(n) for option in options for n in re.findall(r"\d+(?:\.\d*)?(?:e[-+]?\d+)?", option)]
-    return any(number > LARGEST_COORDINATE for number in numbers)
+    return any(n > LARGEST_COORDINATE or 0.0 < n < LEAST_DISTANCE for n in numbers)
 
 
 def digests(folder):
