@@ -39,7 +39,8 @@ int optimiseSweeps(const MeshOptions& options) {
 // Where lengths rule, most vertices are known beforehand. Algorithms for comparison stay as they were published.
 std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
   if (options.algorithm != Algorithm::Relocate) return {};
-  const std::uint64_t most = std::min<std::uint64_t>(options.max_vertices, kNone / 4);
+  // Twice as many triangles, and four names for the edges of each.
+  const std::uint64_t most = std::min({options.max_vertices, options.most_in_memory, std::uint64_t{kNone / 16}});
   const std::uint64_t left = most - std::min<std::uint64_t>(most, mesh.points.size());
   return layLattices(mesh, {options.size_max, options.size, options.min_angle_deg, options.max_angle_deg, left}, loop);
 }
@@ -119,6 +120,7 @@ void mendBesideCores(TriMesh& mesh, std::vector<TriId> bad, const Pslg& pslg, co
     for (const TriId t : trianglesInViolation(solved, options, notes.corners.get()))
       bad.push_back(t < known ? patch.triangles[t] : static_cast<TriId>(next + t - known));
     putBack(mesh, patch, solved);
+    // Of fewer triangles the numbers in `bad` are not kept; what is left then is listed at the end all the same.
     if (is_full || solved.triangles.size() < known) break;
   }
 }

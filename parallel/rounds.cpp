@@ -217,21 +217,25 @@ void markBad(Rounds& run, const TriangleBound& bound) {
   });
 }
 
+// What the whole may still hold is shared out to its pieces by the work expected.
+RefineOptions optionsOfPiece(const RefineOptions& options, std::uint64_t vertices, const MeshState& state,
+                             double share) {
+  RefineOptions own = options;
+  const double room = static_cast<double>(options.max_vertices - std::min(options.max_vertices, vertices)) * share;
+  if (room < 4e9) own.max_vertices = state.mesh.points.size() + static_cast<std::uint64_t>(room);
+  return own;
+}
+
 void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, const TriangleBound& bound, bool uncut,
                  bool mends) {
   MeshState& whole = run.whole();
   const std::uint64_t vertices = whole.mesh.points.size();
   if (vertices > options.most_in_memory) throw OutOfRoom(whole.mesh.points.back());
-  const std::uint64_t room = options.max_vertices - std::min(options.max_vertices, vertices);
   const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? expectedOf(whole.mesh, t, bound) : kOfACopy; };
   run.stats().budget_reached = false;
   run.round("refine", weigh, uncut, [&](MeshState& state, double share, const RunControl& inner) {
     if (!anyOf(state.due_triangles)) return RefineStats{};
-    // What the whole may still hold is shared out by the work expected.
-    RefineOptions own = options;
-    const double most = static_cast<double>(room) * share;
-    if (most < 4e9) own.max_vertices = state.mesh.points.size() + static_cast<std::uint64_t>(most);
-    return refineSubmesh(state, pslg, own, mends, inner);
+    return refineSubmesh(state, pslg, optionsOfPiece(options, vertices, state, share), mends, inner);
   });
 }
 
@@ -295,9 +299,12 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
       if (!anyOf(whole.due_triangles)) break;
       control.checkpoint(static_cast<double>(round) / kRepairRounds);
       const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? kOfARepair : kOfACopy; };
-      run.round("refine", weigh, round + 1 == kRepairRounds, [&](MeshState& state, double, const RunControl& inner) {
-        return anyOf(state.due_triangles) ? repairSubmesh(state, pslg, options, inner) : RefineStats{};
-      });
+      const std::uint64_t vertices = whole.mesh.points.size();
+      const auto work = [&](MeshState& state, double share, const RunControl& inner) {
+        if (!anyOf(state.due_triangles)) return RefineStats{};
+        return repairSubmesh(state, pslg, optionsOfPiece(options, vertices, state, share), inner);
+      };
+      run.round("refine", weigh, round + 1 == kRepairRounds, work);
     }
   } else {
     refineStep(run, pslg, options, false, true, [&](double share) { control.checkpoint(share); });

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/metric.hpp"
 
@@ -236,9 +239,7 @@ std::vector<Length> wantedLengths(const TriMesh& mesh, const Box& box, double ar
   const Grid grid(box, apart);
   const LatticeRows probes = insideOf(mesh, grid, loop);
   std::vector<double> lengths;
-  for (std::int64_t b = 0; b < grid.rows; ++b)
-    for (const Interval& i : probes.row(b))
-      for (std::int64_t a = i.first; a < i.last; ++a) lengths.push_back(size.at(grid.lattice.at(a, b)));
+  for (const LatticePlace& p : placesIn(probes)) lengths.push_back(size.at(grid.lattice.at(p.a, p.b)));
   std::ranges::sort(lengths, std::greater());
   const double cell = kRowHeight * grid.lattice.spacing * grid.lattice.spacing;
   double vertices = 0.0;  // that there will be

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <functional>
-#include <tuple>
 #include <utility>
 
 #include "core/delaunay.hpp"
@@ -27,7 +26,7 @@ LatticeCore coreOf(const LatticePlaces& places, const ItemLoop& loop) {
   LatticeRows inner = places.places;
   for (int i = 0; i < kRowsKept; ++i) inner = eroded(inner, loop);
   LatticeCore core{places.lattice, {}, {}, {}, {}};
-  // One row more than there are places: row b of triangles lies between rows b and b + 1 of places.
+  // Row b of triangles lies between rows b and b + 1 of places.
   core.up = eachRow(inner, loop, [&](std::int64_t b) {
     const auto here = inner.row(b);
     return intersectionOf(intersectionOf(here, shifted(here, -1)), inner.row(b + 1));
@@ -51,22 +50,9 @@ LatticeCore coreOf(const LatticePlaces& places, const ItemLoop& loop) {
   return core;
 }
 
-struct Place {
-  std::int64_t a = 0, b = 0;
-};
-
-std::vector<Place> placesIn(const LatticeRows& set) {
-  std::vector<Place> places;
-  places.reserve(static_cast<std::size_t>(set.count()));
-  for (std::size_t r = 0; r < set.rows.size(); ++r)
-    for (const Interval& i : set.rows[r])
-      for (std::int64_t a = i.first; a < i.last; ++a) places.push_back({a, set.first + static_cast<std::int64_t>(r)});
-  return places;
-}
-
 // The triangle of the core to the upper right, above, to the upper left ... of a place, between its neighbours k and
 // k + 1.
-bool hasTriangle(const LatticeCore& core, const Place& p, unsigned k) {
+bool hasTriangle(const LatticeCore& core, const LatticePlace& p, unsigned k) {
   switch (k) {
     case 0:
       return holds(core.up, p.a, p.b);
@@ -84,7 +70,7 @@ bool hasTriangle(const LatticeCore& core, const Place& p, unsigned k) {
 }
 
 // An edge of the boundary of a core, which lies to its left.
-bool isCoreEdge(const LatticeCore& core, const Place& from, const Place& to) {
+bool isCoreEdge(const LatticeCore& core, const LatticePlace& from, const LatticePlace& to) {
   constexpr std::array<std::array<int, 2>, 6> kNeighbours{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
   for (unsigned k = 0; k < 6; ++k)
     if (to.a - from.a == kNeighbours[k][0] && to.b - from.b == kNeighbours[k][1])
@@ -97,7 +83,7 @@ class CoreCarver {
  public:
   CoreCarver(const TriMesh& mesh, VertexId first, const std::vector<LatticeCore>& cores) : mesh_(mesh), first_(first) {
     for (const LatticeCore& core : cores) {
-      for (const Place& place : placesIn(core.edge)) {
+      for (const LatticePlace& place : placesIn(core.edge)) {
         places_.push_back(place);
         core_of_.push_back(&core);
       }
@@ -153,7 +139,7 @@ class CoreCarver {
 
   const TriMesh& mesh_;
   VertexId first_;  // of the vertices on boundaries of cores
-  std::vector<Place> places_;
+  std::vector<LatticePlace> places_;
   std::vector<const LatticeCore*> core_of_;
 };
 
@@ -238,18 +224,11 @@ class CoreWriter {
  private:
   template <typename Work>
   void eachOf(const ItemLoop& loop, const Work& work) {
-    forEachByRows(loop, core_.edge.rows.size(),
-                  [&](std::size_t r) { work(core_.edge.first + static_cast<std::int64_t>(r)); });
-  }
-  template <typename Work>
-  static void forEachByRows(const ItemLoop& loop, std::size_t count, const Work& work) {
     constexpr std::size_t kRowsAtOnce = 8;
-    forStretches(
-        loop, count,
-        [&](std::size_t first, std::size_t last) {
-          for (std::size_t r = first; r < last; ++r) work(r);
-        },
-        kRowsAtOnce);
+    const auto workOn = [&](std::size_t first, std::size_t last) {
+      for (std::size_t r = first; r < last; ++r) work(core_.edge.first + static_cast<std::int64_t>(r));
+    };
+    forStretches(loop, core_.edge.rows.size(), workOn, kRowsAtOnce);
   }
 
   struct Vertices {
@@ -351,7 +330,7 @@ LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattice
   made.pslg_vertices = static_cast<VertexId>(pslg.points.size());
   Pslg all = pslg;
   const auto add = [&](const Lattice& lattice, const LatticeRows& rows) {
-    for (const Place& p : placesIn(rows)) all.points.push_back(lattice.at(p.a, p.b));
+    for (const LatticePlace& p : placesIn(rows)) all.points.push_back(lattice.at(p.a, p.b));
   };
   for (LatticePlaces& some : lattices) {
     if (!with_cores) break;

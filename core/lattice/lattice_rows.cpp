@@ -69,6 +69,15 @@ std::int64_t LatticeRows::count() const {
   return count;
 }
 
+std::vector<LatticePlace> placesIn(const LatticeRows& set) {
+  std::vector<LatticePlace> places;
+  places.reserve(static_cast<std::size_t>(set.count()));
+  for (std::size_t r = 0; r < set.rows.size(); ++r)
+    for (const Interval& i : set.rows[r])
+      for (std::int64_t a = i.first; a < i.last; ++a) places.push_back({a, set.first + static_cast<std::int64_t>(r)});
+  return places;
+}
+
 LatticeRows eroded(const LatticeRows& set, const ItemLoop& loop) {
   return eachRow(set, loop, [&](std::int64_t b) {
     const auto here = set.row(b), above = set.row(b + 1), below = set.row(b - 1);

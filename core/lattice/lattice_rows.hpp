@@ -37,6 +37,15 @@ struct LatticeRows {
   std::int64_t count() const;
 };
 
+// Place a of row b.
+struct LatticePlace {
+  std::int64_t a = 0;
+  std::int64_t b = 0;
+};
+
+// Row by row, ascending.
+std::vector<LatticePlace> placesIn(const LatticeRows& set);
+
 // `make(b)` for every row that `like` has.
 template <typename Make>
 LatticeRows eachRow(const LatticeRows& like, const ItemLoop& loop, const Make& make) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "core/links.hpp"
@@ -49,8 +50,12 @@ VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId
   return some;
 }
 
-Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings) {
-  const std::vector<TriId> triangles = trianglesAround(parent, centre, rings);
+namespace {
+
+// For few triangles of a large mesh: numbers are looked up in maps.
+template <typename Mesh>
+Submesh extractByMaps(const Mesh& parent, VertexId parent_inputs, const VertexNotes& notes,
+                      std::span<const TriId> triangles) {
   std::unordered_map<TriId, TriId> slots;
   for (TriId i = 0; i < triangles.size(); ++i) slots.emplace(triangles[i], i);
   const auto slotOf = [&](TriId t) {
@@ -59,7 +64,13 @@ Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::spa
   };
   std::unordered_map<VertexId, VertexId> numbers;
   const auto numberOf = [&](VertexId v) -> VertexId& { return numbers.try_emplace(v, kNone).first->second; };
-  return extractSubmesh(parent, parent.inputVertices(), notes, triangles, slotOf, numberOf);
+  return extractSubmesh(parent, parent_inputs, notes, triangles, slotOf, numberOf);
+}
+
+}  // namespace
+
+Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings) {
+  return extractByMaps(parent, parent.inputVertices(), notes, trianglesAround(parent, centre, rings));
 }
 
 void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std::vector<VertexId>& added,
@@ -104,9 +115,9 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
 
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges) {
   std::vector<TriId> triangles;
-  std::unordered_map<TriId, TriId> slots;
+  std::unordered_set<TriId> taken;
   const auto take = [&](TriId t) {
-    if (slots.emplace(t, static_cast<TriId>(triangles.size())).second) triangles.push_back(t);
+    if (taken.insert(t).second) triangles.push_back(t);
   };
   for (const TriId t : centre) take(t);
   std::size_t done = 0;
@@ -115,15 +126,9 @@ Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<c
       for (const EdgeRef twin : parent.triangle(triangles[done]).adj)
         if (twin != kNone) take(triOf(twin));
   }
-  const auto slotOf = [&](TriId t) {
-    const auto slot = slots.find(t);
-    return slot == slots.end() ? kNone : slot->second;
-  };
-  std::unordered_map<VertexId, VertexId> numbers;
-  const auto numberOf = [&](VertexId v) -> VertexId& { return numbers.try_emplace(v, kNone).first->second; };
   VertexNotes without_spacing = notes;
   without_spacing.spacing.clear();
-  Submesh sub = extractSubmesh(parent, parent.input_vertices, without_spacing, triangles, slotOf, numberOf);
+  Submesh sub = extractByMaps(parent, parent.input_vertices, without_spacing, triangles);
   noteSpacingOfNeighbours(sub.mesh, sub.notes);
   for (VertexId v = 0; v < sub.mesh.input_vertices; ++v)
     if (sub.parent[v] < parent.input_vertices) sub.notes.spacing[v] = notes.spacing[sub.parent[v]];

@@ -22,10 +22,7 @@ namespace {
 
 std::vector<Point> pointsOf(const LatticePlaces& some) {
   std::vector<Point> points;
-  for (std::size_t r = 0; r < some.places.rows.size(); ++r)
-    for (const Interval& i : some.places.rows[r])
-      for (std::int64_t a = i.first; a < i.last; ++a)
-        points.push_back(some.lattice.at(a, some.places.first + static_cast<std::int64_t>(r)));
+  for (const LatticePlace& p : placesIn(some.places)) points.push_back(some.lattice.at(p.a, p.b));
   return points;
 }
 
@@ -126,6 +123,15 @@ TEST_P(LatticeOn, CoresAreTheirPartOfTheTriangulation) {
 
 INSTANTIATE_TEST_SUITE_P(All, LatticeOn, ::testing::ValuesIn(assortedPslgs()),
                          [](const auto& param_info) { return nameOf(param_info.param); });
+
+TEST(LatticeCores, LieInAllButNarrowDomains) {
+  const TriMesh mesh = constrainedDelaunay(squarePslg());
+  const LatticeMesh cored =
+      triangulateWith(squarePslg(), layLattices(mesh, {.size_max = 0.02, .most_places = 100000}), true);
+  ASSERT_EQ(cored.cores.size(), 1u);
+  // Five rows are left on each side.
+  EXPECT_NEAR(static_cast<double>(cored.coreVertices()), 0.8 * 0.8 / (0.8660254 * 0.02 * 0.02), 150.0);
+}
 
 // Two lengths, each over half of a square, and a band between them where neither is wanted.
 class TwoLengths final : public SizeFunction {
