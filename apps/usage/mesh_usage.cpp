@@ -39,7 +39,8 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
       .choice(
           "--quality", usage.quality, {std::begin(kGoalNames), std::end(kGoalNames)},
           "what the optimiser holds above equilateral triangles: centred asks for no angle above 90 degrees, so that "
-          "circumcentres lie within (C-grids), links for neighbours' circumcentres apart (D-Flow FM)")
+          "circumcentres lie within (C-grids), links for neighbours' circumcentres twice as far apart as D-Flow FM "
+          "asks, which shape keeps too")
       .needs(
           [&usage] {
             const MeshOptions& mesh = usage.job.mesh;

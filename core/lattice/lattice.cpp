@@ -15,9 +15,10 @@ namespace coastmesh {
 namespace {
 
 constexpr double kRowHeight = 0.86602540378443865;  // of an equilateral triangle with edges of length 1
-// Places keep this share of the spacing from segments and points of the input. Between 0.5 and 1.2 little changes:
-// larger shares make better shapes beside the shore, and a half percent more triangles under a longest edge.
-constexpr double kClearance = 1.0;
+// Places keep this share of the spacing from segments and points of the input: what refinement makes there has better
+// shapes than what fits between the input and a lattice. Under a longest edge it has more triangles too, hence the
+// second.
+constexpr double kClearanceOfLengths = 2.0, kClearanceUnderABound = 1.0;
 // A longest edge is a bound, which rounding must not break.
 constexpr double kBelowTheBound = 1.0 - 1e-6;
 // Lengths down to this share of the longest of them share a lattice.
@@ -169,8 +170,8 @@ std::optional<std::array<double, 2>> nearAlong(double y, const Point& p, const P
 }
 
 // The places nearer to a segment, or to a point that is on none, than the clearance.
-LatticeRows nearInput(const TriMesh& mesh, const Grid& grid, const ItemLoop& loop) {
-  const double r = kClearance * grid.lattice.spacing;
+LatticeRows nearInput(const TriMesh& mesh, const Grid& grid, double clearance, const ItemLoop& loop) {
+  const double r = clearance * grid.lattice.spacing;
   const auto isConstrained = [&](EdgeRef e) { return mesh.segment(e) != kNone || mesh.twin(e) == kNone; };
   std::vector<std::uint8_t> alone = usedVertices(mesh, loop);
   for (TriId t = 0; t < mesh.triangles.size(); ++t)
@@ -292,6 +293,7 @@ std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes&
   const double area = areaOf(mesh);
   const std::vector<Length> lengths = wishes.size == nullptr ? std::vector<Length>{{most, most, most}}
                                                              : wantedLengths(mesh, box, area, *wishes.size, loop);
+  const double clearance = wishes.size == nullptr ? kClearanceUnderABound : kClearanceOfLengths;
   std::vector<LatticePlaces> lattices;
   std::uint64_t places = 0;
   for (const Length& length : lengths) {
@@ -301,7 +303,7 @@ std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes&
     if (isTooLong(box, spacing)) continue;
     const Grid grid(box, spacing);
     const LatticeRows inside = insideOf(mesh, grid, loop);
-    LatticeRows kept = without(inside, nearInput(mesh, grid, loop), loop);
+    LatticeRows kept = without(inside, nearInput(mesh, grid, clearance, loop), loop);
     if (length.least < length.most) {
       const auto isOther = [&](const Point& p) {
         const double h = wishes.size->at(p);

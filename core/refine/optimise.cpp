@@ -217,18 +217,18 @@ double Optimiser::leastShape(const Point& place, std::size_t& at) const {
 // REQUIRES: every triangle of the star is counter-clockwise there.
 double Optimiser::goalAt(VertexId v, const Point& place) const {
   constexpr double kEnoughCentred = 0.035;  // the cotangent of 88 degrees
-  constexpr double kEnoughLink = 0.12;
+  const double enough_link = goal_ == QualityGoal::Links ? 0.22 : 0.12;
   double least = 1.0;
-  for (std::size_t i = 0; i < ring_.corners.size() && goal_ != QualityGoal::Shape; ++i) {
+  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
     const Point &a = corner(i), &b = corner(i + 1), &c = corner(i + 2);
     if (goal_ == QualityGoal::Centred) {
       least = std::min(least, centrednessOf(place, a, b) / kEnoughCentred);
       continue;
     }
-    least = std::min(least, linkShareOf(place, b, c, a) / kEnoughLink);
+    least = std::min(least, linkShareOf(place, b, c, a) / enough_link);
     const EdgeRef beyond = mesh_.twin(edgeRef(ring_.triangles[i], mesh_.cornerOf(ring_.triangles[i], v)));
     if (beyond == kNone) continue;
-    least = std::min(least, linkShareOf(a, b, place, mesh_.point(mesh_.apex(beyond))) / kEnoughLink);
+    least = std::min(least, linkShareOf(a, b, place, mesh_.point(mesh_.apex(beyond))) / enough_link);
   }
   return least;
 }

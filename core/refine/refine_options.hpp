@@ -22,9 +22,9 @@ enum class Algorithm {
 
 // What the optimiser holds above the mean of the shapes.
 enum class QualityGoal {
-  Shape,    // nothing: triangles as near to equilateral as they get
+  Shape,    // neighbours' circumcentres no nearer than D-Flow FM's small flow links are
   Centred,  // no obtuse angles: circumcentres lie within. `max_angle_deg` 90 besides makes refinement hold that
-  Links,    // circumcentres of neighbours are not near to one another
+  Links,    // twice as far apart
 };
 
 // Ranges hold in every function that takes these options; what lies beyond them throws std::invalid_argument.

@@ -7,6 +7,8 @@ namespace coastmesh {
 
 namespace {
 
+constexpr double kInverseRootOfThree = 0.57735026918962576;
+
 // Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where
 // the triangle is bad for its size, the disk in which an equilateral triangle of that size fits. Never more than the
 // triangle's own circumcircle, which no vertex lies in. Where lengths are wanted, the equilateral triangle's of that
@@ -15,11 +17,10 @@ double petalRadius(double length, double circumradius, double wanted, const Tria
                    bool bad_angle) {
   double radius = circumradius;
   if (bound.min_angle > 0.0) radius = std::min(radius, 0.5 * length / sin_place);
-  constexpr double kInverseRoot3 = 0.57735026918962576;
   if (bound.size != nullptr) {
-    radius = std::min(radius, kInverseRoot3 * wanted);
+    radius = std::min(radius, kInverseRootOfThree * wanted);
   } else if (!bad_angle) {
-    radius = std::min(radius, kInverseRoot3 * std::sqrt(bound.squared_size));
+    radius = std::min(radius, kInverseRootOfThree * std::sqrt(bound.squared_size));
   }
   return std::max(radius, 0.5 * length);
 }
@@ -42,7 +43,10 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   const double length = std::sqrt(squaredLength(q));
   const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cot_min);
   const Point normal{-q.y / length, q.x / length};
-  const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(p + 0.5 * q);
+  // As at the centroid of the equilateral triangle on pq: at pq itself edges come out too short where lengths grow away
+  // from it, as they do away from every shore.
+  const Point centre = 0.5 * q + 0.5 * kInverseRootOfThree * Point{-q.y, q.x};
+  const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(p + centre);
   const double radius = petalRadius(length, std::sqrt(own_clearance), wanted, bound_, sin_place_, bad_angle);
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
   // Type I where the circumcentre lies outside the petal; both are on the bisector of pq.
@@ -54,7 +58,7 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   if (algorithm_ != Algorithm::Offcenter) {
     // The Voronoi edges inside the petal, from the bad triangle's circumcentre on. No vertex lies in the petal, so they
     // make a tree: a cycle would hold a whole Voronoi cell with its vertex.
-    const Point centre = 0.5 * q + height * normal;
+    const Point middle = 0.5 * q + height * normal;  // of the petal
     const double squared_radius = radius * radius;
     const auto offer = [&](const Point& place, SteinerType type, TriId near, double squared_clearance) {
       if (squared_clearance > best.squared_clearance) best = {place, type, near, squared_clearance};
@@ -71,13 +75,13 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
       const Point u = mesh.point(mesh.origin(edge)) - p, w = mesh.point(mesh.target(edge)) - p;
       const Point apex_point = mesh.point(mesh.apex(beyond)) - p;
       const Point to = u + circumcenterOffset(u, apex_point, w);
-      if (squaredDistance(to, centre) <= squared_radius) {
+      if (squaredDistance(to, middle) <= squared_radius) {
         offer(to, SteinerType::OtherCircumcenter, triOf(beyond), squaredDistance(to, u));
         steps_.push_back({edgeRef(triOf(beyond), prev3(indexOf(beyond))), to});
         steps_.push_back({edgeRef(triOf(beyond), next3(indexOf(beyond))), to});
       } else {
         // Where the Voronoi edge leaves the petal.
-        const Point offset = from - centre, along = to - from;
+        const Point offset = from - middle, along = to - from;
         const double a = squaredLength(along), b = dot(along, offset), c = squaredLength(offset) - squared_radius;
         const Point exit = from + ((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a) * along;
         if (!std::isfinite(exit.x) || !std::isfinite(exit.y)) continue;

@@ -49,14 +49,14 @@ double distanceToInput(const Pslg& pslg, const TriMesh& mesh, const Point& p) {
 
 class LatticeOn : public ::testing::TestWithParam<NamedPslg> {};
 
-// All places of the domain that keep clear of the input, and no others, judged point by point.
+// All places of the domain two spacings clear of the input, and no others, judged point by point.
 TEST_P(LatticeOn, TakesWhatIsInsideAndClear) {
   const Pslg& pslg = GetParam().pslg;
   const TriMesh mesh = constrainedDelaunay(pslg);
   double area = 0.0;
   for (const Triangle& t : mesh.triangles)
     area += 0.5 * cross(mesh.point(t.v[1]) - mesh.point(t.v[0]), mesh.point(t.v[2]) - mesh.point(t.v[0]));
-  const double spacing = std::sqrt(area / 600.0);
+  const double spacing = std::sqrt(area / 2000.0);
   const ConstantSize size(spacing);
   const std::vector<LatticePlaces> found = layLattices(mesh, {.size = &size, .most_places = 100000});
   if (found.empty()) return;
@@ -72,8 +72,8 @@ TEST_P(LatticeOn, TakesWhatIsInsideAndClear) {
       const double clear = distanceToInput(pslg, mesh, p);
       const bool is_taken = taken.contains({p.x, p.y});
       // At the very distance rounding decides.
-      if (std::abs(clear - spacing) >= 1e-9 * spacing) {
-        EXPECT_EQ(is_taken, clear > spacing && isInside(mesh, p)) << p.x << " " << p.y;
+      if (std::abs(clear - 2.0 * spacing) >= 1e-9 * spacing) {
+        EXPECT_EQ(is_taken, clear > 2.0 * spacing && isInside(mesh, p)) << p.x << " " << p.y;
       }
       expected += is_taken;
     }

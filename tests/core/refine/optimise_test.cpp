@@ -127,10 +127,10 @@ TEST(Optimise, HoldsEveryBound) {
   }
 }
 
-// Inner triangles with an obtuse angle, and inner edges whose triangles have circumcentres nearer than a tenth of half
-// the sum of the square roots of their areas.
+// Inner triangles with an obtuse angle, and inner edges whose triangles have circumcentres nearer than a tenth, or a
+// fifth, of half the sum of the square roots of their areas.
 struct Flaws {
-  std::size_t obtuse = 0, small_links = 0;
+  std::size_t obtuse = 0, small_links = 0, short_links = 0;
 };
 
 Flaws flawsOf(const TriMesh& mesh) {
@@ -157,7 +157,9 @@ Flaws flawsOf(const TriMesh& mesh) {
       inner = inner && mesh.segment(e) == kNone;
       if (mesh.twin(e) == kNone || mesh.twin(e) < e) continue;
       const Point a = centreOf(t), b = centreOf(triOf(mesh.twin(e)));
-      flaws.small_links += std::hypot(b.x - a.x, b.y - a.y) < 0.05 * (rootOf(t) + rootOf(triOf(mesh.twin(e))));
+      const double link = std::hypot(b.x - a.x, b.y - a.y), roots = rootOf(t) + rootOf(triOf(mesh.twin(e)));
+      flaws.small_links += link < 0.05 * roots;
+      flaws.short_links += link < 0.1 * roots;
     }
     flaws.obtuse += inner && *std::ranges::max_element(angles) > 90.0;
   }
@@ -175,10 +177,11 @@ TEST(Optimise, GoalsAreReached) {
     expectValidMesh(mesh, pslg, {.min_angle_deg = 33.0});
     return flawsOf(mesh);
   };
+  ASSERT_GT(flawsOf(refined(pslg, {.size = &size})).small_links, 10u);
   const Flaws usual = flawsWith(QualityGoal::Shape);
-  ASSERT_GT(usual.small_links, 0u);
+  EXPECT_LE(usual.small_links, 1u);
   ASSERT_GT(usual.obtuse, 0u);
-  EXPECT_LT(flawsWith(QualityGoal::Links).small_links, usual.small_links);
+  EXPECT_LT(2 * flawsWith(QualityGoal::Links).short_links, usual.short_links);
   EXPECT_EQ(flawsWith(QualityGoal::Centred).obtuse, 0u);
 }
 
