@@ -9,6 +9,7 @@
 #include "core/hilbert.hpp"
 #include "core/predicates.hpp"
 #include "gis/error.hpp"
+#include "gis/geometry/crossing.hpp"
 #include "gis/geometry/edge_runs.hpp"
 #include "gis/geometry/point_grid.hpp"
 
@@ -46,17 +47,6 @@ bool liesOnEdge(const Point& a, const Point& b, const Point& v, double tolerance
     if (along > 0 && along < square && across * across <= tolerance * tolerance * square) return true;
   }
   return Box::of(a, b).meets({v.x, v.y, v.x, v.y}) && orient2d(a, b, v) == 0;
-}
-
-// Where ab and cd cross, rounded. REQUIRES: they cross properly.
-Point crossingPoint(const Point& a, const Point& b, const Point& c, const Point& d) {
-  using Real = long double;
-  const Real ux = Real(b.x) - a.x, uy = Real(b.y) - a.y, vx = Real(d.x) - c.x, vy = Real(d.y) - c.y;
-  const Real wx = Real(c.x) - a.x, wy = Real(c.y) - a.y;
-  const Real determinant = ux * vy - uy * vx;
-  if (determinant == 0) return b;  // parallel to the last bit
-  const Real t = std::clamp((wx * vy - wy * vx) / determinant, Real(0), Real(1));
-  return {static_cast<double>(a.x + t * ux), static_cast<double>(a.y + t * uy)};
 }
 
 class Noder {
