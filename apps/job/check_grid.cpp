@@ -1,7 +1,6 @@
 #include "apps/job/check_grid.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -9,21 +8,16 @@
 #include <utility>
 
 #include "apps/job/grid_pieces.hpp"
+#include "core/point_hash.hpp"
 #include "core/quality.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-struct PointHash {
-  std::size_t operator()(const Point& p) const {
-    const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value == 0.0 ? 0.0 : value); };
-    return std::rotl((bits(p.x) * 0x9E3779B97F4A7C15ull) ^ bits(p.y), 32) * 0xC90FDAA22168C235ull;
-  }
-};
 
 struct InputVertex {
   std::size_t group = 0;

@@ -25,10 +25,6 @@ struct GridCheckOptions {
   bool pinches = false;
 };
 
-// What coordinates that went through a file, and a plane that was fitted anew, may cost: an angle counts as short, and
-// an edge as not Delaunay, only by more than this.
-inline constexpr double kAngleSlackDeg = 0.01;
-
 struct GridCheck {
   std::vector<GridDefect> defects;
   // Triangles that break the bounds on angles, those too that are no defects: input angles excuse them.

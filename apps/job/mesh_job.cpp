@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "apps/job/available_memory.hpp"
-#include "apps/job/check_grid.hpp"
 #include "apps/job/grid_pieces.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "gis/grid/frame_box.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/grid/local_plane.hpp"
 #include "parallel/recorder.hpp"
 
 namespace coastmesh {

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "apps/job/check_grid.hpp"
 #include "apps/job/grid_pieces.hpp"
 #include "apps/plot/plot_canvas.hpp"
 #include "core/quality.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_names.hpp"
+#include "gis/grid/local_plane.hpp"
 #include "gis/model/time_step.hpp"
 
 namespace coastmesh {

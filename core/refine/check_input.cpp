@@ -11,6 +11,7 @@
 #include "core/delaunay.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
+#include "core/point_hash.hpp"
 #include "core/quality.hpp"
 
 namespace coastmesh {
@@ -177,13 +178,6 @@ void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& lo
 }
 
 namespace {
-
-struct PointHash {
-  std::size_t operator()(const Point& p) const {
-    const std::uint64_t x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
-    return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15ull) ^ std::rotl(y * 0xC90FDAA22168C235ull, 31));
-  }
-};
 
 // Marks the edges on the way from one vertex straight to another. Returns false where the edges leave the straight way.
 bool markChain(TriMesh& mesh, const std::vector<std::vector<EdgeRef>>& around, VertexId from, VertexId to,

@@ -38,6 +38,32 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
+using Link = std::vector<LinkEdge>;
+
+// Appends what is round a vertex, less the edges that end at `other`.
+void appendLink(const EditMesh& mesh, const Ring& ring, VertexId other, Link& link) {
+  const std::size_t count = ring.corners.size();
+  VertexId from = ring.corners[count - 1];
+  Point x = mesh.point(from);
+  for (const VertexId to : ring.corners) {
+    const Point y = mesh.point(to);
+    if (from != other && to != other) link.push_back({x, y});
+    from = to;
+    x = y;
+  }
+}
+
+bool fits(const Link& link, const Point& place, const TriangleBound& bound) {
+  return std::ranges::all_of(
+      link, [&](const LinkEdge& e) { return orient2d(e.x, e.y, place) > 0 && !isBad(e.x, e.y, place, bound); });
+}
+
+Point meanOf(const Link& link) {
+  Point sum;
+  for (const LinkEdge& e : link) sum = sum + e.x;
+  return (1.0 / static_cast<double>(link.size())) * sum;
+}
+
 }  // namespace
 
 VertexOps::VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound)
@@ -58,9 +84,10 @@ void VertexOps::Star::clear() {
 // Appends what is round v, less what it shares with `other`; its spokes start at `stays`. Returns false where there are
 // too many triangles.
 bool VertexOps::appendStar(VertexId v, VertexId other, VertexId stays, Star& star) {
-  const StarKind kind = mesh_.star(v, opposite_, most_triangles_ + kMergedAway);
+  std::vector<EdgeRef>& opposite = memory_.opposite;
+  const StarKind kind = mesh_.star(v, opposite, most_triangles_ + kMergedAway);
   if (kind == StarKind::TooMany) return false;
-  for (const EdgeRef e : opposite_) {
+  for (const EdgeRef e : opposite) {
     const VertexId a = mesh_.origin(e), b = mesh_.target(e);
     const bool shared = a == other || b == other;
     if (!shared || v == stays) star.patch.triangles.push_back(triOf(e));
@@ -72,7 +99,7 @@ bool VertexOps::appendStar(VertexId v, VertexId other, VertexId stays, Star& sta
     if (mesh_.twin(spoke) == kNone) star.sides.push_back(star.spokes.back());
   }
   if (kind == StarKind::Closed) return true;
-  const EdgeRef last = spokeAfter(opposite_.back());
+  const EdgeRef last = spokeAfter(opposite.back());
   if (mesh_.origin(last) == other) return true;
   star.spokes.push_back({stays, mesh_.origin(last), kNone, mesh_.segment(last)});
   star.sides.push_back({mesh_.origin(last), stays, kNone, mesh_.segment(last)});
@@ -99,25 +126,27 @@ bool VertexOps::gatherBoth(VertexId goes, VertexId stays, Star& star) {
   return common <= 1;
 }
 
-// Where v may go; fills link_.
+// Where v may go so that all triangles of its star are good.
 std::optional<Point> VertexOps::findPlace(VertexId v, const Star& star) {
-  link_.clear();
-  for (const BoundaryEdge& r : star.patch.boundary) link_.push_back({mesh_.point(r.a), mesh_.point(r.b)});
-  if (mesh_.kind(v) == VertexKind::Free) return region_.findPoint(link_);
+  Link& link = memory_.link;
+  link.clear();
+  for (const BoundaryEdge& r : star.patch.boundary) link.push_back({mesh_.point(r.a), mesh_.point(r.b)});
+  const std::optional<Point> place = findFeasible(v, star, link);
+  if (!place || !fits(link, *place, bound_)) return std::nullopt;
+  return place;
+}
+
+std::optional<Point> VertexOps::findFeasible(VertexId v, const Star& star, std::span<const LinkEdge> link) {
+  if (mesh_.kind(v) == VertexKind::Free) return region_.findPoint(link);
   if (star.spokes.size() != 2 || star.spokes[0].seg != star.spokes[1].seg ||
       star.spokes[0].seg >= pslg_.segments.size())
     return std::nullopt;
   const std::optional<Point> place = region_.findPointBetween(mesh_.point(otherEnd(star.spokes[0], v)),
-                                                              mesh_.point(otherEnd(star.spokes[1], v)), link_);
+                                                              mesh_.point(otherEnd(star.spokes[1], v)), link);
   if (!place) return std::nullopt;
   // On the input segment itself, lest rounding adds up.
   const Segment& seg = pslg_.segments[star.spokes[0].seg];
   return projectedOnLine(*place, pslg_.points[seg.a], pslg_.points[seg.b]);
-}
-
-bool VertexOps::fits(const Point& place) const {
-  return std::ranges::all_of(
-      link_, [&](const LinkEdge& e) { return orient2d(e.x, e.y, place) > 0 && !isBad(e.x, e.y, place, bound_); });
 }
 
 // Whether a fan round `place` over the boundary would be flipped into triangles that no one has tested.
@@ -136,8 +165,8 @@ bool VertexOps::fanFlips(const Star& star, const Point& place) const {
 }
 
 // The same for the triangles that are to fill a hole: they are Delaunay among themselves.
-bool VertexOps::holeFlips(const Star& star) const {
-  for (const Corners& c : all_fresh_) {
+bool VertexOps::holeFlips(const Star& star, std::span<const Corners> fresh) const {
+  for (const Corners& c : fresh) {
     for (const BoundaryEdge& r : star.patch.boundary) {
       if (r.seg != kNone || r.beyond == kNone) continue;
       const bool on = (c[0] == r.a && c[1] == r.b) || (c[1] == r.a && c[2] == r.b) || (c[2] == r.a && c[0] == r.b);
@@ -168,53 +197,38 @@ bool VertexOps::mayNotFlip(const Star& star) const {
                              }));
 }
 
-// Appends to link_ what is round a vertex, less the edges that end at `other`.
-void VertexOps::appendLink(const Ring& ring, VertexId other) {
-  const std::size_t count = ring.corners.size();
-  VertexId from = ring.corners[count - 1];
-  Point x = mesh_.point(from);
-  for (const VertexId to : ring.corners) {
-    const Point y = mesh_.point(to);
-    if (from != other && to != other) link_.push_back({x, y});
-    from = to;
-    x = y;
-  }
-}
-
-// A quick test of two free vertices, v with its ring_ and w beside it, that rules most merges out.
-bool VertexOps::cannotMerge(VertexId v, VertexId w, TriId beside) {
-  if (mesh_.ring(w, beside, most_triangles_ + kMergedAway, other_ring_) != StarKind::Closed) return true;
-  const std::size_t edges = ring_.corners.size() + other_ring_.corners.size() - 4;
+// A quick test of two free vertices, v with its ring and w beside it, that rules most merges out.
+bool VertexOps::cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside) {
+  Ring& other = memory_.other_ring;
+  if (mesh_.ring(w, beside, most_triangles_ + kMergedAway, other) != StarKind::Closed) return true;
+  const std::size_t edges = ring.corners.size() + other.corners.size() - 4;
   if (edges < 3 || hasTooManyToMerge(edges, bound_)) return true;
-  link_.clear();
-  appendLink(ring_, w);
-  appendLink(other_ring_, v);
-  return region_.isEmpty(link_);
-}
-
-Point VertexOps::meanOfLink() const {
-  Point sum;
-  for (const LinkEdge& e : link_) sum = sum + e.x;
-  return (1.0 / static_cast<double>(link_.size())) * sum;
+  Link& link = memory_.link;
+  link.clear();
+  appendLink(mesh_, ring, w, link);
+  appendLink(mesh_, other, v, link);
+  return region_.isEmpty(link);
 }
 
 bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
-  if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, ring_) != StarKind::Closed) return false;
-  link_.clear();
-  appendLink(ring_, kNone);
+  Ring& ring = memory_.ring;
+  if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, ring) != StarKind::Closed) return false;
+  Link& link = memory_.link;
+  link.clear();
+  appendLink(mesh_, ring, kNone, link);
   const Point& here = mesh_.point(v);
-  const bool good = std::ranges::none_of(link_, [&](const LinkEdge& e) { return isBad(e.x, e.y, here, bound_); });
-  if (!good && region_.isEmpty(link_)) return false;
+  const bool good = std::ranges::none_of(link, [&](const LinkEdge& e) { return isBad(e.x, e.y, here, bound_); });
+  if (!good && region_.isEmpty(link)) return false;
   std::optional<Point> place;
-  if (good && bound_.min_angle < kMeanServesBelow) place = meanOfLink();
-  if (!place || !fits(*place)) place = region_.findPoint(link_);
-  if (!place || !fits(*place)) return false;
+  if (good && bound_.min_angle < kMeanServesBelow) place = meanOf(link);
+  if (!place || !fits(link, *place, bound_)) place = region_.findPoint(link);
+  if (!place || !fits(link, *place, bound_)) return false;
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
-  if (clear_of_frozen_ && std::ranges::any_of(ring_.triangles, isFrozen)) return false;
+  if (clear_of_frozen_ && std::ranges::any_of(ring.triangles, isFrozen)) return false;
   const auto isBesideBad = [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
-  if (bad_stays_ && std::ranges::any_of(ring_.triangles, isBesideBad)) return relocateWatchingFlips(v, touched);
+  if (bad_stays_ && std::ranges::any_of(ring.triangles, isBesideBad)) return relocateWatchingFlips(v, touched);
   mesh_.setPoint(v, *place);
-  touched.insert(touched.end(), ring_.triangles.begin(), ring_.triangles.end());
+  touched.insert(touched.end(), ring.triangles.begin(), ring.triangles.end());
   mesh_.restoreDelaunayRound(v, touched);
   return true;
 }
@@ -225,11 +239,12 @@ bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
 }
 
 bool VertexOps::relocateWatchingFlips(VertexId v, std::vector<TriId>& touched) {
-  if (!gather(v, star_) || isBarred(star_)) return false;
-  const std::optional<Point> place = findPlace(v, star_);
-  if (!place || !fits(*place) || (mayNotFlip(star_) && fanFlips(star_, *place))) return false;
+  Star& star = memory_.star;
+  if (!gather(v, star) || isBarred(star)) return false;
+  const std::optional<Point> place = findPlace(v, star);
+  if (!place || (mayNotFlip(star) && fanFlips(star, *place))) return false;
   mesh_.setPoint(v, *place);
-  touched.insert(touched.end(), star_.patch.triangles.begin(), star_.patch.triangles.end());
+  touched.insert(touched.end(), star.patch.triangles.begin(), star.patch.triangles.end());
   mesh_.restoreDelaunay(touched);
   return true;
 }
@@ -238,14 +253,47 @@ bool VertexOps::isGood(const Corners& c) const {
   return !isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_);
 }
 
-// Triangulates the polygon of some boundary edges, closed by a straight edge where they are not closed themselves, into
-// fresh_. Returns false at the first triangle that `accept` refuses.
+// Triangulates the polygon of some boundary edges, closed by a straight edge where they are not closed themselves.
+// Returns false at the first triangle that `accept` refuses.
 template <typename Accept>
-bool VertexOps::fillHole(std::span<const BoundaryEdge> side, const Accept& accept) {
-  polygon_.clear();
-  for (const BoundaryEdge& r : side) polygon_.push_back(r.a);
-  if (side.back().b != polygon_.front()) polygon_.push_back(side.back().b);
-  return polygon_.size() <= most_triangles_ && triangulatePolygon(mesh_, polygon_, fresh_, accept);
+bool VertexOps::fillHole(std::span<const BoundaryEdge> side, const Accept& accept, std::vector<Corners>& fresh) {
+  std::vector<VertexId>& polygon = memory_.polygon;
+  polygon.clear();
+  for (const BoundaryEdge& r : side) polygon.push_back(r.a);
+  if (side.back().b != polygon.front()) polygon.push_back(side.back().b);
+  return polygon.size() <= most_triangles_ && triangulatePolygon(mesh_, polygon, fresh, accept);
+}
+
+// Fills the hole that a vertex on a segment leaves, whose two subsegments become one: `star` has the boundary of its
+// triangles and gets what the one subsegment is. Returns false where that cannot be.
+template <typename Accept>
+bool VertexOps::fillBesideSegment(std::span<const EdgeRef> opposite, StarKind kind, const Accept& accept, Star& star,
+                                  std::vector<Corners>& fresh) {
+  std::vector<BoundaryEdge>& boundary = star.patch.boundary;
+  if (kind == StarKind::Open) {
+    // On the boundary: the two subsegments become the last side of the hole.
+    const SegmentId seg = mesh_.segment(spokeBefore(opposite.front()));
+    if (seg == kNone || mesh_.segment(spokeAfter(opposite.back())) != seg || boundary.size() < 2) return false;
+    if (!fillHole(boundary, accept, fresh)) return false;
+    boundary.push_back({boundary.back().b, boundary.front().a, kNone, seg});
+    return true;
+  }
+  // Inside the mesh: one hole on either side of the segment.
+  const auto isOnSegment = [&](EdgeRef e) { return mesh_.segment(spokeBefore(e)) != kNone; };
+  const auto one = std::ranges::find_if(opposite, isOnSegment);
+  if (one == opposite.end()) return false;
+  const auto other = std::find_if(one + 1, opposite.end(), isOnSegment);
+  if (other == opposite.end()) return false;
+  const auto first = static_cast<std::size_t>(one - opposite.begin());
+  const auto beside = static_cast<std::size_t>(other - one);
+  if (beside < 2 || boundary.size() - beside < 2) return false;
+  std::ranges::rotate(boundary, boundary.begin() + static_cast<std::ptrdiff_t>(first));
+  star.spokes.push_back({boundary[0].a, boundary[beside].a, kNone, mesh_.segment(spokeBefore(*one))});
+  std::vector<Corners>& beyond = memory_.fresh_beyond;
+  if (!fillHole(std::span(boundary).first(beside), accept, fresh)) return false;
+  if (!fillHole(std::span(boundary).subspan(beside), accept, beyond)) return false;
+  fresh.insert(fresh.end(), beyond.begin(), beyond.end());
+  return true;
 }
 
 bool VertexOps::remove(VertexId v, std::vector<TriId>& touched) {
@@ -265,76 +313,57 @@ bool VertexOps::removeAnyway(VertexId v, std::vector<TriId>& touched) {
 
 template <typename Accept>
 bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched) {
+  std::vector<Corners>& fresh = memory_.fresh;
   if (mesh_.kind(v) == VertexKind::Free) {
     // Most fail: before anything else is looked at.
-    if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, ring_) != StarKind::Closed) return false;
-    if (!triangulatePolygon(mesh_, ring_.corners, fresh_, accept)) return false;
+    if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, memory_.ring) != StarKind::Closed) return false;
+    if (!triangulatePolygon(mesh_, memory_.ring.corners, fresh, accept)) return false;
   }
-  const StarKind kind = mesh_.star(v, opposite_, most_triangles_);
+  std::vector<EdgeRef>& opposite = memory_.opposite;
+  const StarKind kind = mesh_.star(v, opposite, most_triangles_);
   if (kind == StarKind::TooMany) return false;
-  star_.clear();
-  std::vector<BoundaryEdge>& boundary = star_.patch.boundary;
-  for (const EdgeRef e : opposite_) {
-    star_.patch.triangles.push_back(triOf(e));
+  Star& star = memory_.star;
+  star.clear();
+  std::vector<BoundaryEdge>& boundary = star.patch.boundary;
+  for (const EdgeRef e : opposite) {
+    star.patch.triangles.push_back(triOf(e));
     boundary.push_back({mesh_.origin(e), mesh_.target(e), mesh_.twin(e), mesh_.segment(e)});
   }
-  if (isBarred(star_)) return false;
-  if (mesh_.kind(v) == VertexKind::Free) {
-    all_fresh_ = fresh_;
-  } else if (kind == StarKind::Open) {
-    // On the boundary: the two subsegments become the last side of the hole.
-    const SegmentId seg = mesh_.segment(spokeBefore(opposite_.front()));
-    if (seg == kNone || mesh_.segment(spokeAfter(opposite_.back())) != seg || boundary.size() < 2) return false;
-    if (!fillHole(boundary, accept)) return false;
-    all_fresh_ = fresh_;
-    boundary.push_back({boundary.back().b, boundary.front().a, kNone, seg});
-  } else {
-    // Inside the mesh: one hole on either side of the segment.
-    const auto isOnSegment = [&](EdgeRef e) { return mesh_.segment(spokeBefore(e)) != kNone; };
-    const auto one = std::ranges::find_if(opposite_, isOnSegment);
-    if (one == opposite_.end()) return false;
-    const auto other = std::find_if(one + 1, opposite_.end(), isOnSegment);
-    if (other == opposite_.end()) return false;
-    const auto first = static_cast<std::size_t>(one - opposite_.begin());
-    const auto beside = static_cast<std::size_t>(other - one);
-    if (beside < 2 || boundary.size() - beside < 2) return false;
-    std::ranges::rotate(boundary, boundary.begin() + static_cast<std::ptrdiff_t>(first));
-    star_.spokes.push_back({boundary[0].a, boundary[beside].a, kNone, mesh_.segment(spokeBefore(*one))});
-    if (!fillHole(std::span(boundary).first(beside), accept)) return false;
-    all_fresh_ = fresh_;
-    if (!fillHole(std::span(boundary).subspan(beside), accept)) return false;
-    all_fresh_.insert(all_fresh_.end(), fresh_.begin(), fresh_.end());
-  }
-  if (flips == Flips::Watched && mayNotFlip(star_) && holeFlips(star_)) return false;
-  mesh_.replace(star_.patch, all_fresh_, {&v, 1}, touched, star_.spokes);
+  if (isBarred(star)) return false;
+  if (mesh_.kind(v) != VertexKind::Free && !fillBesideSegment(opposite, kind, accept, star, fresh)) return false;
+  if (flips == Flips::Watched && mayNotFlip(star) && holeFlips(star, fresh)) return false;
+  mesh_.replace(star.patch, fresh, {&v, 1}, touched, star.spokes);
   mesh_.restoreDelaunay(touched);
   return true;
 }
 
 bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free) {
-    if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring_) != StarKind::Closed) return false;
+    Ring& ring = memory_.ring;
+    if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring) != StarKind::Closed) return false;
     const Point here = mesh_.point(v);
     double longest = 0.0;
-    for (const VertexId w : ring_.corners) longest += squaredDistance(here, mesh_.point(w));
-    longest *= kLongestToMerge / static_cast<double>(ring_.corners.size());
-    for (std::size_t k = 0; k < ring_.corners.size(); ++k) {
-      const VertexId w = ring_.corners[k];
+    for (const VertexId w : ring.corners) longest += squaredDistance(here, mesh_.point(w));
+    longest *= kLongestToMerge / static_cast<double>(ring.corners.size());
+    for (std::size_t k = 0; k < ring.corners.size(); ++k) {
+      const VertexId w = ring.corners[k];
       const VertexKind kind = mesh_.kind(w);
       if (kind == VertexKind::Input) continue;
       if (kind == VertexKind::Free) {
         if (each_gets_its_turn && w < v) continue;
-        if (squaredDistance(here, mesh_.point(w)) > longest || cannotMerge(v, w, ring_.triangles[k])) continue;
+        if (squaredDistance(here, mesh_.point(w)) > longest || cannotMerge(v, ring, w, ring.triangles[k])) continue;
       }
       if (merge(v, w, touched)) return true;
     }
     return false;
   }
-  if (mesh_.star(v, opposite_, most_triangles_ + kMergedAway) == StarKind::TooMany) return false;
-  neighbours_.clear();
-  for (const EdgeRef e : opposite_) neighbours_.push_back(mesh_.origin(e));
-  if (const VertexId last = mesh_.target(opposite_.back()); last != neighbours_.front()) neighbours_.push_back(last);
-  for (const VertexId w : neighbours_) {
+  std::vector<EdgeRef>& opposite = memory_.opposite;
+  if (mesh_.star(v, opposite, most_triangles_ + kMergedAway) == StarKind::TooMany) return false;
+  std::vector<VertexId>& neighbours = memory_.neighbours;
+  neighbours.clear();
+  for (const EdgeRef e : opposite) neighbours.push_back(mesh_.origin(e));
+  if (const VertexId last = mesh_.target(opposite.back()); last != neighbours.front()) neighbours.push_back(last);
+  for (const VertexId w : neighbours) {
     if (mesh_.kind(w) == VertexKind::Input || (each_gets_its_turn && w < v && mesh_.kind(w) == mesh_.kind(v))) continue;
     // The vertex that stays is the one on the segment.
     if (mesh_.kind(w) == VertexKind::Free ? merge(w, v, touched) : merge(v, w, touched)) return true;
@@ -343,14 +372,16 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
 }
 
 bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched) {
-  if (!gatherBoth(goes, stays, star_)) return false;
-  const std::optional<Point> place = findPlace(stays, star_);
-  if (!place || !fits(*place) || (mayNotFlip(star_) && fanFlips(star_, *place))) return false;
-  all_fresh_.clear();
-  for (const BoundaryEdge& r : star_.patch.boundary) all_fresh_.push_back({stays, r.a, r.b});
+  Star& star = memory_.star;
+  if (!gatherBoth(goes, stays, star)) return false;
+  const std::optional<Point> place = findPlace(stays, star);
+  if (!place || (mayNotFlip(star) && fanFlips(star, *place))) return false;
+  std::vector<Corners>& fresh = memory_.fresh;
+  fresh.clear();
+  for (const BoundaryEdge& r : star.patch.boundary) fresh.push_back({stays, r.a, r.b});
   mesh_.setPoint(stays, *place);
-  star_.patch.boundary.insert(star_.patch.boundary.end(), star_.sides.begin(), star_.sides.end());
-  mesh_.replace(star_.patch, all_fresh_, {&goes, 1}, touched, star_.spokes);
+  star.patch.boundary.insert(star.patch.boundary.end(), star.sides.begin(), star.sides.end());
+  mesh_.replace(star.patch, fresh, {&goes, 1}, touched, star.spokes);
   mesh_.restoreDelaunay(touched);
   return true;
 }

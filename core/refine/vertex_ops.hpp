@@ -68,20 +68,21 @@ class VertexOps {
   bool gather(VertexId v, Star& star);
   bool gatherBoth(VertexId goes, VertexId stays, Star& star);
   bool appendStar(VertexId v, VertexId other, VertexId stays, Star& star);
-  void appendLink(const Ring& ring, VertexId other);
-  Point meanOfLink() const;
   bool relocateFree(VertexId v, std::vector<TriId>& touched);
   bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
-  bool cannotMerge(VertexId v, VertexId w, TriId beside);
+  bool cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside);
   template <typename Accept>
   bool removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
   template <typename Accept>
-  bool fillHole(std::span<const BoundaryEdge> side, const Accept& accept);
+  bool fillHole(std::span<const BoundaryEdge> side, const Accept& accept, std::vector<Corners>& fresh);
+  template <typename Accept>
+  bool fillBesideSegment(std::span<const EdgeRef> opposite, StarKind kind, const Accept& accept, Star& star,
+                         std::vector<Corners>& fresh);
   std::optional<Point> findPlace(VertexId v, const Star& star);
-  bool fits(const Point& place) const;
+  std::optional<Point> findFeasible(VertexId v, const Star& star, std::span<const LinkEdge> link);
   bool isGood(const Corners& c) const;
   bool fanFlips(const Star& star, const Point& place) const;
-  bool holeFlips(const Star& star) const;
+  bool holeFlips(const Star& star, std::span<const Corners> fresh) const;
   bool isBarred(const Star& star) const;
   bool mayNotFlip(const Star& star) const;
   EdgeRef spokeBefore(EdgeRef opposite) const { return edgeRef(triOf(opposite), prev3(indexOf(opposite))); }
@@ -95,16 +96,18 @@ class VertexOps {
   std::size_t most_triangles_;  // no vertex can have more round it without a bad one among them
   bool flips_may_harm_;         // they keep the smallest angle, but not the largest, nor the longest edge
 
-  // Scratch.
   FeasibleRegion region_;
-  Ring ring_;        // of the vertex whose turn it is
-  Ring other_ring_;  // of its neighbour
-  Star star_;
-  std::vector<EdgeRef> opposite_;
-  std::vector<VertexId> neighbours_;
-  std::vector<VertexId> polygon_;
-  std::vector<Corners> fresh_, all_fresh_;
-  std::vector<LinkEdge> link_;
+
+  // Memory that is used again and again. Whoever takes one of these fills it first, and hands it on as an argument:
+  // nothing is left in them for another to read.
+  struct Memory {
+    Ring ring, other_ring;
+    Star star;
+    std::vector<EdgeRef> opposite;
+    std::vector<VertexId> neighbours, polygon;
+    std::vector<Corners> fresh, fresh_beyond;
+    std::vector<LinkEdge> link;
+  } memory_;
 };
 
 }  // namespace coastmesh

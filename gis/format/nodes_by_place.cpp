@@ -1,20 +1,12 @@
 #include "gis/format/nodes_by_place.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <map>
 #include <utility>
 
 #include "core/ids.hpp"
 
 namespace coastmesh {
-
-std::size_t NodesByPlace::Hash::operator()(const Point& p) const {
-  // 0.0 and -0.0 are equal and so need the same hash.
-  const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
-  const std::uint64_t mixed = (x ^ std::rotl(y, 32)) * 0x9E3779B97F4A7C15ull;
-  return static_cast<std::size_t>(mixed ^ mixed >> 29);
-}
 
 void NodesByPlace::add(const Point& place, std::uint32_t node) {
   const auto [at, added] = first_.emplace(place, node);

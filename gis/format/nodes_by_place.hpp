@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/point.hpp"
+#include "core/point_hash.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid.hpp"
 
@@ -22,10 +23,7 @@ class NodesByPlace {
   bool severalSomewhere() const { return several_; }
 
  private:
-  struct Hash {
-    std::size_t operator()(const Point& p) const;
-  };
-  std::unordered_map<Point, std::uint32_t, Hash> first_;
+  std::unordered_map<Point, std::uint32_t, PointHash> first_;
   std::vector<std::uint32_t> next_;  // one a node: another at its place
   bool several_ = false;
 };

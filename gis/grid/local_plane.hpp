@@ -8,6 +8,10 @@
 
 namespace coastmesh {
 
+// What coordinates that went through a file, and a plane other than the mesh's own, may cost: an angle counts as short,
+// and an edge as not Delaunay, only by more than this.
+inline constexpr double kAngleSlackDeg = 0.01;
+
 // Nodes that lie near one another in a plane of their own: metres in the tangent plane of the sphere at their middle
 // for longitudes and latitudes, so that poles and the turn of longitudes do not matter; the coordinates as they are
 // otherwise. Angles and lengths are right to the square of their extent over the Earth's radius.

@@ -17,9 +17,7 @@ namespace coastmesh {
 namespace {
 
 constexpr int kMostRounds = 40;
-
 constexpr int kRelaxRounds = 12;
-constexpr double kAngleSlackDeg = 0.01;  // planes of the grid's own place angles so near to those of the mesh's
 
 std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
   std::vector<FoundDefect> found;
