@@ -225,10 +225,42 @@ Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, c
   return followed;
 }
 
-// The sizes of a domain, which is made as coarse as they are where that is asked for.
-std::unique_ptr<SizeFunction> sizeGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes,
-                                        const GroupRoom& room, const RunControl& control, Domain& domain,
-                                        GroupResult& result) {
+// A group, and what it is meshed with.
+struct GroupTask {
+  const MeshJob& job;
+  const JobInput& input;
+  const SizeInputs& sizes;
+  std::size_t group;
+  const GroupRoom& room;
+  const RunControl& control;
+
+  const Feature& firstFeature() const { return input.coastline().features[input.members(group).front()]; }
+};
+
+Domain cleanStage(const GroupTask& task, GroupResult& result) {
+  const Stopwatch stopwatch;
+  Recorder recorder;
+  CleanReport clean;
+  // Small regions go without the clock, which would cost them more than the work.
+  constexpr std::size_t kWorthThreads = 10000;
+  const bool many_points = task.input.pointsOf(task.group) >= kWorthThreads;
+  const ItemLoop loop = many_points ? recorder.loop("clean", task.control) : ItemLoop(inOrder);
+  Domain domain = task.input.domain(task.group, clean, loop);
+  result.edits = clean.counts;
+  result.notes = std::move(clean.notes);
+  result.projection = domain.projection.description();
+  result.projection_reason = domain.projection.reason();
+  std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain);
+  result.input_area_m2 = task.input.area(task.group, domain, loop);
+  result.clean_s = stopwatch.seconds();
+  result.log.append(recorder.finish("clean"));
+  return domain;
+}
+
+// The sizes of a domain, which is made as coarse as they are where that is asked for; null where none are.
+std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, GroupResult& result) {
+  const auto& [job, input, sizes, group, room, control] = task;
+  if (!job.sizes.any()) return nullptr;
   Recorder recorder;
   const Stopwatch sizing;
   const ItemLoop loop = recorder.loop("size", control);
@@ -261,38 +293,13 @@ std::unique_ptr<SizeFunction> sizeGroup(const MeshJob& job, const JobInput& inpu
   return std::move(sized.function);
 }
 
-void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
-               const GroupRoom& room, const RunControl& control, GroupResult& result) {
-  const Stopwatch cleaning;
-  Recorder clean_recorder;
-  CleanReport clean;
-  // Small regions go without the clock, which would cost them more than the work.
-  constexpr std::size_t kWorthThreads = 10000;
-  const bool many_points = input.pointsOf(group) >= kWorthThreads;
-  const ItemLoop clean_loop = many_points ? clean_recorder.loop("clean", control) : ItemLoop(inOrder);
-  Domain domain = input.domain(group, clean, clean_loop);
-  result.edits = clean.counts;
-  result.notes = std::move(clean.notes);
-  clean = {};
-  result.projection = domain.projection.description();
-  result.projection_reason = domain.projection.reason();
-  std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain);
-  result.input_area_m2 = input.area(group, domain, clean_loop);
-  result.clean_s = cleaning.seconds();
-  result.log.append(clean_recorder.finish("clean"));
-
-  requireMemory(job, domain, room, result.input_area_m2);
-  MeshOptions options = optionsFor(job, domain, room);
-  std::unique_ptr<SizeFunction> size;
-  if (job.sizes.any()) size = sizeGroup(job, input, sizes, room, control, domain, result);
-  options.refine.size = size.get();
+MeshedRegion meshStage(const GroupTask& task, const Domain& domain, const MeshOptions& options, GroupResult& result) {
   MeshedRegion region;
   try {
-    region = meshRegion(domain.pslg, options, control);
+    region = meshRegion(domain.pslg, options, task.control);
   } catch (const OutOfRoom& error) {
     result.refusal_place = domain.projection.inverse(error.place);
-    throw InputError(featureText(input.coastline().features[input.members(group).front()]) +
-                     ": the bounds on angles and lengths take more than " +
+    throw InputError(featureText(task.firstFeature()) + ": the bounds on angles and lengths take more than " +
                      amount("%.2g", static_cast<double>(options.refine.most_in_memory)) +
                      " vertices, which is all that there is memory for, the last of them near " +
                      pointText(*result.refusal_place) +
@@ -302,29 +309,61 @@ void fillGroup(const MeshJob& job, const JobInput& input, const SizeInputs& size
   result.mesh_s = region.seconds;
   result.refine = std::move(region.stats);
   result.refine.unresolved = {};
-
   result.pieces = region.pieces;
   result.log.append(std::move(region.log));
+  return region;
+}
 
-  Recorder recorder;
-  const bool large = region.pieces > 1;
-  const auto loop = [&](std::string_view stage) { return large ? recorder.loop(stage, control) : ItemLoop(inOrder); };
+// The loop of a stage after meshing; regions that were not cut are too small for threads.
+class LoopsAfterMeshing {
+ public:
+  LoopsAfterMeshing(const MeshedRegion& region, const RunControl& control)
+      : large_(region.pieces > 1), control_(control) {}
+
+  ItemLoop of(std::string_view stage) { return large_ ? recorder_.loop(stage, control_) : ItemLoop(inOrder); }
+  WorkLog finish() { return recorder_.finish(); }
+
+ private:
+  bool large_;
+  const RunControl& control_;
+  Recorder recorder_;
+};
+
+void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions& options, const TriMesh& mesh,
+                const ItemLoop& loop, GroupResult& result) {
   const Stopwatch checking;
-  requireSound(region.mesh, domain, input.coastline().features[input.members(group).front()], loop("check"));
-  result.plane = {domain.projection, options.refine.size_max};
-  MeshJudgement judgement = judgeMesh(region.mesh, *result.plane, options.refine, 0.0, loop("check"));
+  requireSound(mesh, domain, task.firstFeature(), loop);
+  result.plane = {domain.projection, options.size_max};
+  MeshJudgement judgement = judgeMesh(mesh, *result.plane, options, 0.0, loop);
   result.quality = judgement.quality;
   result.short_of = std::move(judgement.short_of);
-  result.digest = digestOf(region.mesh, 0, loop("check"));
+  result.digest = digestOf(mesh, 0, loop);
   result.check_s = checking.seconds();
+}
+
+// Takes what is left of the region.
+void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* size, MeshedRegion& region,
+               const ItemLoop& loop, GroupResult& result) {
   std::vector<double> size_m;
-  if (size) {
+  if (size != nullptr) {
     const auto scale = [&](const Point& x) { return domain.projection.scaleAt(x); };
-    size_m = nodeSizes(region.mesh, *size, job.sizes.gradation, scale);
+    size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, scale);
   }
-  result.grid = groupGrid(input, group, domain, region.mesh, size ? &size_m : nullptr, loop("grid"));
+  result.grid = groupGrid(task.input, task.group, domain, region.mesh, size != nullptr ? &size_m : nullptr, loop);
   result.grid.piece_of = std::move(region.piece_of);
-  result.log.append(recorder.finish());
+}
+
+void fillGroup(const GroupTask& task, GroupResult& result) {
+  Domain domain = cleanStage(task, result);
+  requireMemory(task.job, domain, task.room, result.input_area_m2);
+  MeshOptions options = optionsFor(task.job, domain, task.room);
+  const std::unique_ptr<SizeFunction> size = sizeStage(task, domain, result);
+  options.refine.size = size.get();
+  MeshedRegion region = meshStage(task, domain, options, result);
+  LoopsAfterMeshing loops(region, task.control);
+  checkStage(task, domain, options.refine, region.mesh, loops.of("check"), result);
+  gridStage(task, domain, size.get(), region, loops.of("grid"), result);
+  result.log.append(loops.finish());
 }
 
 // Of a plane graph, whose segments the user knows by their order.
@@ -335,39 +374,39 @@ std::string segmentsOf(const PslgDefect& defect) {
   return " (segments " + first + " and " + std::to_string(std::uint64_t{defect.other} + 1) + ", counted from 1)";
 }
 
-void refuse(const BadPslg& error, const JobInput& input, std::size_t group, GroupResult& result) {
-  const Feature& first = input.coastline().features[input.members(group).front()];
+void refuse(const BadPslg& error, const GroupTask& task, GroupResult& result) {
   CleanReport ignored;
-  const Projection projection = input.domain(group, ignored).projection;
+  const Projection projection = task.input.domain(task.group, ignored).projection;
   result.refusal_place = projection.inverse(error.defect.place);
-  result.refusal = featureText(first) + ": " + error.what() + " at " + pointText(*result.refusal_place);
-  if (input.isPoly()) result.refusal += segmentsOf(error.defect);
+  result.refusal = featureText(task.firstFeature()) + ": " + error.what() + " at " + pointText(*result.refusal_place);
+  if (task.input.isPoly()) result.refusal += segmentsOf(error.defect);
 }
 
-void refuse(const TooManyVertices& error, const GroupRoom& room, std::uint64_t whole_budget, const Feature& first,
-            GroupResult& result) {
+void refuse(const TooManyVertices& error, const GroupTask& task, GroupResult& result) {
+  const GroupRoom& room = task.room;
   result.estimated_vertices = std::min(error.demand.vertices, kMostReported);
   result.over_budget = kClearlyMore * static_cast<double>(room.vertices) <= room.memory / kBytesPerVertex;
   result.refusal_place = error.demand.place;
-  result.refusal =
-      featureText(first) + ": " + demandText(error, room, result.over_budget, room.vertices < whole_budget);
+  const bool shared = room.vertices < task.job.mesh.refine.max_vertices;
+  result.refusal = featureText(task.firstFeature()) + ": " + demandText(error, room, result.over_budget, shared);
 }
 
 }  // namespace
 
 GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
                       const GroupRoom& room, const RunControl& control) {
+  const GroupTask task{job, input, sizes, group, room, control};
   GroupResult result;
   try {
-    fillGroup(job, input, sizes, group, room, control, result);
+    fillGroup(task, result);
   } catch (const TooManyVertices& error) {
-    refuse(error, room, job.mesh.refine.max_vertices, input.coastline().features[input.members(group).front()], result);
+    refuse(error, task, result);
   } catch (const NothingWanted& nothing) {
     result.unwanted = nothing.what();
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const BadPslg& error) {
-    refuse(error, input, group, result);
+    refuse(error, task, result);
   }
   return result;
 }

@@ -44,6 +44,44 @@ void readTile(const RasterBand& band, int x, int y, RasterTile& tile) {
   }
 }
 
+// The pixels that a box of the working plane lies in, from places all over it, with some around; empty where the raster
+// does not reach.
+Box pixelsIn(const Box& box, const PlaneTable& to_pixel) {
+  constexpr int kProbes = 64;
+  Box pixels;
+  for (int j = 0; j <= kProbes; ++j) {
+    for (int i = 0; i <= kProbes; ++i) {
+      const Point p =
+          to_pixel.at({box.xmin + (box.xmax - box.xmin) * i / kProbes, box.ymin + (box.ymax - box.ymin) * j / kProbes});
+      if (std::isfinite(p.x) && std::isfinite(p.y)) pixels.add(p);
+    }
+  }
+  if (pixels.empty()) return pixels;
+  return pixels.grownBy(2.0 + std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) / kProbes);
+}
+
+// The tiles that hold these pixels: first column and row, and the ends; all 0 where none do.
+std::array<int, 4> tilesOf(const Box& pixels, const RasterGeometry& raster) {
+  if (pixels.empty() || pixels.xmax < 0.0 || pixels.ymax < 0.0) return {};
+  const auto tileOf = [](double pixel, int most) {
+    return static_cast<int>(std::floor(std::clamp(pixel, 0.0, static_cast<double>(most)) / kTile));
+  };
+  const std::array<int, 4> window = {tileOf(pixels.xmin, raster.columns), tileOf(pixels.ymin, raster.rows),
+                                     tileOf(pixels.xmax, raster.columns - 1) + 1,
+                                     tileOf(pixels.ymax, raster.rows - 1) + 1};
+  return window[0] < window[2] && window[1] < window[3] ? window : std::array<int, 4>{};
+}
+
+// As many pixels round a tile as the rule looks at, and one. Throws InputError.
+int marginOf(const RasterTile& tile, const TileRule& rule) {
+  if (!(rule.margin_m > 0.0)) return 1;
+  const double margin = std::ceil(rule.margin_m / std::min(tile.pixel_m[0], tile.pixel_m[1]));
+  if (margin > kMostMargin)
+    throw InputError(tile.file +
+                     ": its pixels are too fine for a filter that long: give a coarser raster, or filter over less");
+  return 1 + static_cast<int>(margin);
+}
+
 }  // namespace
 
 RasterField::RasterField(const RasterGeometry& raster, const Crs& input, const Projection& projection, const Box& box,
@@ -59,76 +97,50 @@ RasterField::RasterField(const RasterGeometry& raster, const Crs& input, const P
   };
   constexpr double kPixelTolerance = 0.1;
   to_pixel_ = std::make_unique<PlaneTable>(pixelOf, box, kPixelTolerance);
-
-  // The pixels that the box lies in, from places all over it.
-  constexpr int kProbes = 64;
-  Box pixels;
-  for (int j = 0; j <= kProbes; ++j) {
-    for (int i = 0; i <= kProbes; ++i) {
-      const Point p = to_pixel_->at(
-          {box.xmin + (box.xmax - box.xmin) * i / kProbes, box.ymin + (box.ymax - box.ymin) * j / kProbes});
-      if (std::isfinite(p.x) && std::isfinite(p.y)) pixels.add(p);
-    }
-  }
-  if (pixels.empty()) return;
-  const double beyond = 2.0 + std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) / kProbes;
-  pixels = pixels.grownBy(beyond);
-  const auto tileOf = [](double pixel, int most) {
-    return static_cast<int>(std::floor(std::clamp(pixel, 0.0, static_cast<double>(most)) / kTile));
-  };
-  window_ = {tileOf(pixels.xmin, raster.columns), tileOf(pixels.ymin, raster.rows),
-             tileOf(pixels.xmax, raster.columns - 1) + 1, tileOf(pixels.ymax, raster.rows - 1) + 1};
-  if (pixels.xmax < 0.0 || pixels.ymax < 0.0 || window_[0] >= window_[2] || window_[1] >= window_[3]) {
-    window_ = {0, 0, 0, 0};
-    return;
-  }
-  const int columns = window_[2] - window_[0], rows = window_[3] - window_[1];
-  tiles_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-
+  window_ = tilesOf(pixelsIn(box, *to_pixel_), raster);
   const auto planeOf = [&](const Point& pixel) {
     const Point ground = raster_.placeOf(pixel);
     return projection.forward(map ? map->inverse(ground) : ground);
   };
-  forStretches(
-      loop, tiles_.size(),
-      [&](std::size_t first, std::size_t last) {
-        const RasterBand band(raster_.path);
-        RasterTile tile;
-        tile.file = raster_.path;
-        std::vector<float> sizes;
-        for (std::size_t t = first; t < last; ++t) {
-          const int x = (window_[0] + static_cast<int>(t % static_cast<std::size_t>(columns))) * kTile;
-          const int y = (window_[1] + static_cast<int>(t / static_cast<std::size_t>(columns))) * kTile;
-          tile.width = std::min(kTile, raster_.columns - x);
-          tile.height = std::min(kTile, raster_.rows - y);
-          const Point middle{x + 0.5 * tile.width, y + 0.5 * tile.height};
-          const Point at = planeOf(middle);
-          const double scale = projection.scaleAt(at);
-          tile.pixel_m[0] = distance(at, planeOf(middle + Point{1.0, 0.0})) / scale;
-          tile.pixel_m[1] = distance(at, planeOf(middle + Point{0.0, 1.0})) / scale;
-          // Where the working plane does not reach, the domain does not either.
-          if (!(tile.pixel_m[0] > 0.0) || !(tile.pixel_m[1] > 0.0) ||
-              !std::isfinite(tile.pixel_m[0] + tile.pixel_m[1])) {
-            tiles_[t] = {{kNothing, kNothing, kNothing, 0}};
-            continue;
-          }
-          tile.margin = 1;
-          if (rule.margin_m > 0.0) {
-            const double margin = std::ceil(rule.margin_m / std::min(tile.pixel_m[0], tile.pixel_m[1]));
-            if (margin > kMostMargin) {
-              throw InputError(
-                  raster_.path +
-                  ": its pixels are too fine for a filter that long: give a coarser raster, or filter over less");
-            }
-            tile.margin = 1 + static_cast<int>(margin);
-          }
-          readTile(band, x, y, tile);
-          sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);
-          rule.sizes(tile, sizes);
-          tiles_[t] = compress(tile, sizes);
-        }
-      },
-      4);
+  const auto pixelSize = [&](const Point& middle, const Point& step) {
+    const Point at = planeOf(middle);
+    return distance(at, planeOf(middle + step)) / projection.scaleAt(at);
+  };
+  readTiles(pixelSize, rule, loop);
+}
+
+template <typename PixelSize>
+void RasterField::readTiles(const PixelSize& pixelSize, const TileRule& rule, const ItemLoop& loop) {
+  const auto columns = static_cast<std::size_t>(window_[2] - window_[0]);
+  tiles_.resize(columns * static_cast<std::size_t>(window_[3] - window_[1]));
+  if (tiles_.empty()) return;
+  constexpr std::size_t kWorthAStretch = 4;
+  const auto read = [&](std::size_t first, std::size_t last) {
+    const RasterBand band(raster_.path);
+    RasterTile tile;
+    tile.file = raster_.path;
+    std::vector<float> sizes;
+    for (std::size_t t = first; t < last; ++t) {
+      const int x = (window_[0] + static_cast<int>(t % columns)) * kTile;
+      const int y = (window_[1] + static_cast<int>(t / columns)) * kTile;
+      tile.width = std::min(kTile, raster_.columns - x);
+      tile.height = std::min(kTile, raster_.rows - y);
+      const Point middle{x + 0.5 * tile.width, y + 0.5 * tile.height};
+      tile.pixel_m[0] = pixelSize(middle, {1.0, 0.0});
+      tile.pixel_m[1] = pixelSize(middle, {0.0, 1.0});
+      // Where the working plane does not reach, the domain does not either.
+      if (!(tile.pixel_m[0] > 0.0) || !(tile.pixel_m[1] > 0.0) || !std::isfinite(tile.pixel_m[0] + tile.pixel_m[1])) {
+        tiles_[t] = {{kNothing, kNothing, kNothing, 0}};
+        continue;
+      }
+      tile.margin = marginOf(tile, rule);
+      readTile(band, x, y, tile);
+      sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);
+      rule.sizes(tile, sizes);
+      tiles_[t] = compress(tile, sizes);
+    }
+  };
+  forStretches(loop, tiles_.size(), read, kWorthAStretch);
   for (const Tile& tile : tiles_) least_ = std::min(least_, static_cast<double>(tile.front().low));
 }
 

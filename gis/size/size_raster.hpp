@@ -61,6 +61,9 @@ class RasterField final : public SizeField {
   };
   using Tile = std::vector<Node>;
 
+  // `pixelSize` is the ground size, metres, of a step from one pixel to another.
+  template <typename PixelSize>
+  void readTiles(const PixelSize& pixelSize, const TileRule& rule, const ItemLoop& loop);
   Tile compress(const RasterTile& tile, std::span<const float> sizes) const;
   float pixel(std::int64_t x, std::int64_t y) const;
   SizeRange boundBetween(const Box& pixels) const;
