@@ -208,18 +208,21 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
   return grid;
 }
 
-// Sizes of shores that are dropped or closed would stay behind: they are made again from what is left, and where they
-// are other ones at the shore then, it follows them anew. `sized` is replaced.
+// Sizes of shores that are dropped or closed would stay behind: they are made again from what is left. Where they are
+// larger at shores then, the coast follows them anew; where at open boundaries alone, these become coarser. `sized` is
+// replaced.
 template <typename MakeSizes>
 Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
                    const ShoreGuides& guides, const Coastline& coastline, CleanReport& report) {
-  constexpr double kSame = 1.05;
+  constexpr double kSame = 1.05, kSameAtShores = 1.15;  // between the places that they are known at sizes are off
   Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides);
   DomainSizes again = makeSizes(followed);
-  const auto same = [&](const Point& p) { return again.function->at(p) <= kSame * sized.function->at(p); };
-  if (!std::ranges::all_of(followed.pslg.points, same)) {
+  const SizeGrowth growth = growthOf(followed.pslg, *sized.function, *again.function);
+  if (growth.shore > kSameAtShores) {
     report = {};
     followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides);
+  } else if (growth.elsewhere > kSame) {
+    followed = coarsenFurther(std::move(followed), *again.function, coastline, report);
   }
   sized = std::move(again);
   return followed;

@@ -9,6 +9,7 @@
 
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
+#include "gis/coast/segment_tags.hpp"
 #include "gis/follow/follow_notes.hpp"
 #include "gis/follow/shore_chains.hpp"
 #include "gis/follow/shore_coarsen.hpp"
@@ -17,6 +18,7 @@
 #include "gis/follow/shore_joins.hpp"
 #include "gis/follow/shore_mend.hpp"
 #include "gis/follow/shore_shift.hpp"
+#include "gis/follow/shore_thin.hpp"
 
 namespace coastmesh {
 
@@ -24,25 +26,94 @@ namespace {
 
 constexpr double kNoted = 0.005;  // of the area of the water: so near shores need not be moved for
 
+// `before` is what the graph was made of, without its own.
+Domain domainOf(ShoreGraph&& graph, Domain&& before) {
+  Domain made;
+  made.projection = before.projection;
+  made.resolution = before.resolution;
+  made.lines = std::move(before.lines);
+  for (VertexId v = 0; v < graph.source.size(); ++v) {
+    const VertexId source = graph.source[v];
+    made.input_points.push_back(source != kNone ? before.input_points[source]
+                                                : before.projection.inverse(graph.pslg.points[v]));
+  }
+  made.pslg = std::move(graph.pslg);
+  return made;
+}
+
+// Gives the report what was changed.
+struct EditLog {
+  const Domain& domain;
+  const Coastline& coastline;
+  CleanReport& report;
+
+  void add(EditKind kind, const Point& place, RegionId water) const {
+    addInput(kind, domain.projection.inverse(place), water);
+  }
+  // Of a vertex; of those that following had made there is no word.
+  void add(EditKind kind, const ShoreChains& chains, VertexId v) const {
+    if (chains.source[v] != kNone) addInput(kind, domain.input_points[chains.source[v]], chains.leaving[v].left);
+  }
+  void addInput(EditKind kind, const Point& input, RegionId water) const {
+    report.add(kind, input, coastline.features[static_cast<std::size_t>(water)].fid);
+  }
+};
+
+ShoreGraph takeGraph(Domain& domain) {
+  ShoreGraph graph{std::move(domain.pslg), std::vector<VertexId>(domain.input_points.size())};
+  std::iota(graph.source.begin(), graph.source.end(), VertexId{0});
+  return graph;
+}
+
+// What the water gains where v goes to x, or straight on where x is none, is added.
+void addGain(const ShoreChains& chains, VertexId v, const Point* x, const ScaleTable& scales, WaterAreas& gained) {
+  const Point &a = chains.at[chains.prev[v]], &b = chains.at[chains.next[v]], &from = chains.at[v];
+  const double scale = scales.at(from);
+  const double twice = (x != nullptr ? cross(*x - a, b - a) : 0.0) - cross(from - a, b - a);
+  gained[chains.leaving[v].left] += 0.5 * twice / scale / scale;
+}
+
+// `thinShores`, and then `sampleShores`.
+void evenOut(ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, const FollowOptions& options,
+             const EditLog& log, WaterAreas& gained) {
+  const BoxTree lines = guides.tree();
+  ShoreChains chains = chainsOf(std::move(graph), sizes.wanted);
+  const auto dropped = [&](VertexId v, double area) {
+    const double scale = sizes.scale.at(chains.at[v]);
+    log.add(EditKind::SmallIsland, chains, v);
+    gained[chains.leaving[v].left] += area / scale / scale;
+  };
+  thinShores(chains, {lines, options.channel_min < 1.0, dropped}, [&](VertexId v) {
+    log.add(EditKind::SimplifiedPoint, chains, v);
+    addGain(chains, v, nullptr, sizes.scale, gained);
+  });
+  graph = graphOf(std::move(chains));
+  sampleShores(graph, sizes.wanted, lines);
+}
+
 }  // namespace
 
 Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
                    CleanReport& report, const ShoreGuides& guides) {
   labelSegments(domain.pslg);
-  const Projection& projection = domain.projection;
-  const std::vector<Point> points = domain.pslg.points;
-  ShoreGraph graph{std::move(domain.pslg), std::vector<VertexId>(points.size())};
-  std::iota(graph.source.begin(), graph.source.end(), VertexId{0});
-  const ShoreSizes sizes{size, projection};
-  const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
-    report.add(kind, projection.inverse(place), coastline.features[static_cast<std::size_t>(water)].fid);
-  };
-  sampleShores(graph, size, guides.tree());
+  Box box;
+  for (const Point& p : domain.pslg.points) box.add(p);
+  const ScaleTable scales(domain.projection, box);
+  const ShoreSizes sizes{size, scales};
+  const EditLog log{domain, coastline, report};
+  const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) { log.add(kind, place, water); };
+  ShoreStart start{takeGraph(domain), {}, {}, {}};
+  evenOut(start.graph, sizes, guides, options, log, start.gained);
+  start.triangles = triangulateShores(start.graph, size);
   FollowNotes noted;
-  WaterAreas by_the_user;
-  graph = widenPassages(graph, sizes, guides.passages, edit, by_the_user, noted.widened, noted.dry);
-  graph = closeBarriers(graph, sizes, guides, edit);
-  JoinedShores joined = openJoined(std::move(graph), sizes, guides, options, edit);
+  if (!guides.passages.empty() || !guides.barriers.empty()) {
+    WaterAreas by_the_user;
+    start.graph = widenPassages(start.graph, start.triangles, sizes, guides.passages, edit, by_the_user, noted.widened,
+                                noted.dry);
+    start.graph = closeBarriers(start.graph, sizes, guides, edit);
+    start.triangles = triangulateShores(start.graph, size);
+  }
+  JoinedShores joined = openJoined(std::move(start), sizes, guides, options);
   OpenedShores& opened = joined.opened;
   for (const auto& [kind, place, water] : opened.edits) edit(kind, place, water);
   noted.straits = std::move(opened.straits);
@@ -51,28 +122,16 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOption
     noted.area += opened.waters[i].area;
     if (!opened.waters[i].kept) noted.cut_off.push_back({std::move(opened.waters[i]), std::move(joined.ways[i])});
   }
-  noteFollowing(std::move(noted), guides, options, projection, report);
+  noteFollowing(std::move(noted), guides, options, domain.projection, report);
 
   ShoreChains chains = chainsOf(std::move(opened.graph), size);
-  const auto reportAs = [&](EditKind kind, VertexId v) {
-    if (chains.source[v] != kNone)
-      report.add(kind, projection.inverse(points[chains.source[v]]),
-                 coastline.features[static_cast<std::size_t>(chains.leaving[v].left)].fid);
-  };
-  // What the water gains where v goes to x, or straight on where x is none.
-  const auto gain = [&](VertexId v, const Point* x) {
-    const Point &a = chains.at[chains.prev[v]], &b = chains.at[chains.next[v]], &from = chains.at[v];
-    const double scale = projection.scaleAt(from);
-    const double twice = (x != nullptr ? cross(*x - a, b - a) : 0.0) - cross(from - a, b - a);
-    opened.gained[chains.leaving[v].left] += 0.5 * twice / scale / scale;
-  };
   const ShoreLoss gone = [&](VertexId v) {
-    reportAs(EditKind::SimplifiedPoint, v);
-    gain(v, nullptr);
+    log.add(EditKind::SimplifiedPoint, chains, v);
+    addGain(chains, v, nullptr, scales, opened.gained);
   };
   const ShoreMove moved = [&](VertexId v, const Point& x) {
-    reportAs(EditKind::MovedPoint, v);
-    gain(v, &x);
+    log.add(EditKind::MovedPoint, chains, v);
+    addGain(chains, v, &x, scales, opened.gained);
   };
   mendEnds(chains, gone);
   coarsenShores(chains, gone);
@@ -80,20 +139,31 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOption
   WaterAreas missing;
   for (const auto& [water, gained] : opened.gained)
     if (std::abs(gained) > kNoted * opened.areas[water]) missing[water] = -gained;
-  if (!missing.empty()) shiftShores(chains, missing, projection, moved);
-  graph = graphOf(std::move(chains));
+  if (!missing.empty()) shiftShores(chains, missing, scales, moved);
+  return domainOf(graphOf(std::move(chains)), std::move(domain));
+}
 
-  Domain followed;
-  followed.projection = projection;
-  followed.resolution = domain.resolution;
-  followed.lines = std::move(domain.lines);
-  for (VertexId v = 0; v < graph.source.size(); ++v) {
-    const VertexId source = graph.source[v];
-    followed.input_points.push_back(source != kNone ? domain.input_points[source]
-                                                    : projection.inverse(graph.pslg.points[v]));
+SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunction& after) {
+  std::vector<bool> on_shore(pslg.points.size(), false);
+  for (const Segment& s : pslg.segments)
+    if (isBoundary(s) && s.tag != kOpenTag) on_shore[s.a] = on_shore[s.b] = true;
+  SizeGrowth growth;
+  for (VertexId v = 0; v < pslg.points.size(); ++v) {
+    double& most = on_shore[v] ? growth.shore : growth.elsewhere;
+    most = std::max(most, after.at(pslg.points[v]) / before.at(pslg.points[v]));
   }
-  followed.pslg = std::move(graph.pslg);
-  return followed;
+  return growth;
+}
+
+Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
+  ShoreChains chains = chainsOf(takeGraph(domain), size);
+  const EditLog log{domain, coastline, report};
+  const ShoreLoss gone = [&](VertexId v) { log.add(EditKind::SimplifiedPoint, chains, v); };
+  const ShoreMove moved = [&](VertexId v, const Point&) { log.add(EditKind::MovedPoint, chains, v); };
+  mendEnds(chains, gone);
+  coarsenShores(chains, gone);
+  mendShores(chains, gone, moved);
+  return domainOf(graphOf(std::move(chains)), std::move(domain));
 }
 
 }  // namespace coastmesh

@@ -19,4 +19,14 @@ namespace coastmesh {
 Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
                    CleanReport& report, const ShoreGuides& guides = {});
 
+// By what sizes have become larger, at most: at vertices of shores, and at all others.
+struct SizeGrowth {
+  double shore = 0.0, elsewhere = 0.0;
+};
+SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunction& after);
+
+// Makes the boundaries of a domain that follows sizes as coarse as ones that are larger in places. Nothing is opened or
+// closed: for what is not much narrower than these.
+Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report);
+
 }  // namespace coastmesh

@@ -16,22 +16,31 @@ constexpr int kHalvings = 3;
 
 }  // namespace
 
-OpenedShores openShores(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
+OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const ShoreGuides& guides,
                         const FollowOptions& options, double first) {
   OpenedShores opened;
   opened.first = first;
+  opened.gained = start.gained;
+  opened.edits = start.edits;
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
     opened.edits.emplace_back(kind, place, water);
   };
-  ShoreGraph land = openLand(graph, sizes, guides, first * options.land_min, edit, opened.gained);
+  opened.land = openLand(start.graph, ShoreTriangles(start.triangles), sizes, guides, first * options.land_min, edit,
+                         opened.gained);
+  opened.land_gained = opened.gained;
+  opened.land_edits = opened.edits.size();
+  const auto close = [&](const ShoreGraph& graph, KeepWater keep) {
+    return openWater(graph, sizes, guides, options.channel_min, keep, edit, opened.gained);
+  };
+  OpenedWater water = close(opened.land, first < 1.0 ? KeepWater::All : options.keep);
+  opened.before = std::move(water.before);
   if (first < 1.0) {
-    OpenedWater water = openWater(land, sizes, guides, options.channel_min, KeepWater::All, edit, opened.gained);
-    opened.before = std::move(water.before);
     opened.straits = std::move(water.straits);
-    land = openLand(water.graph, sizes, guides, options.land_min, edit, opened.gained);
+    ShoreTriangles triangles = triangulateShores(water.graph, sizes.wanted);
+    const ShoreGraph land =
+        openLand(water.graph, std::move(triangles), sizes, guides, options.land_min, edit, opened.gained);
+    water = close(land, options.keep);
   }
-  OpenedWater water = openWater(land, sizes, guides, options.channel_min, options.keep, edit, opened.gained);
-  if (first >= 1.0) opened.before = std::move(water.before);
   opened.graph = std::move(water.graph);
   opened.waters = std::move(water.waters);
   opened.areas = std::move(water.areas);
@@ -43,12 +52,12 @@ OpenedShores openShores(const ShoreGraph& graph, const ShoreSizes& sizes, const 
   return opened;
 }
 
-OpenedShores balanceShores(OpenedShores&& opened, const ShoreGraph& graph, const ShoreSizes& sizes,
+OpenedShores balanceShores(OpenedShores&& opened, const ShoreStart& start, const ShoreSizes& sizes,
                            const ShoreGuides& guides, const FollowOptions& options) {
   double high = 1.0, low = 1.0;
   OpenedShores best = std::move(opened);
   const auto attempt = [&](double first) {
-    OpenedShores other = openShores(graph, sizes, guides, options, first);
+    OpenedShores other = openShores(start, sizes, guides, options, first);
     double& bound = other.error > 0.0 ? high : low;
     bound = first;
     if (std::abs(other.error) < std::abs(best.error)) best = std::move(other);

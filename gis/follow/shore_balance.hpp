@@ -9,26 +9,39 @@
 
 namespace coastmesh {
 
+using ShoreEdits = std::vector<std::tuple<EditKind, Point, RegionId>>;
+
+// A graph that shores are opened in, its triangles, and what had become of the water before.
+struct ShoreStart {
+  ShoreGraph graph;
+  ShoreTriangles triangles;
+  WaterAreas gained;
+  ShoreEdits edits;
+};
+
 struct OpenedShores {
-  ShoreTriangles before;  // the water as it was first closed, when land that goes first had gone
+  ShoreGraph land;  // as it was when land that goes first had gone, and what had been gained and edited by then
+  WaterAreas land_gained;
+  std::size_t land_edits = 0;
+  ShoreTriangles before;  // its triangles
   ShoreGraph graph;
   std::vector<WaterPart> waters;
   std::vector<ClosedStrait> straits;
   WaterAreas areas, gained;
-  std::vector<std::tuple<EditKind, Point, RegionId>> edits;
+  ShoreEdits edits;
   double first = 1.0;  // how narrow land went before water, as a share of the narrowest that stays
   double error = std::numeric_limits<double>::infinity();  // share of the water that there is too much
 };
 
 // Opens land and water (`openLand`, `openWater`): land narrower than `first` times the narrowest that stays goes, then
 // narrow water, then the rest of the land, and again water.
-OpenedShores openShores(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
+OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const ShoreGuides& guides,
                         const FollowOptions& options, double first);
 
 // Where both are narrow, what goes first leaves room for the other: the less land goes before water is closed, the less
 // water there is in the end. As much goes first as brings the water's area near to what it was. `opened` was made with
 // all of the land first.
-OpenedShores balanceShores(OpenedShores&& opened, const ShoreGraph& graph, const ShoreSizes& sizes,
+OpenedShores balanceShores(OpenedShores&& opened, const ShoreStart& start, const ShoreSizes& sizes,
                            const ShoreGuides& guides, const FollowOptions& options);
 
 }  // namespace coastmesh

@@ -105,12 +105,16 @@ bool canTakeOut(const ShoreChains& chains, VertexId v) {
          !std::ranges::binary_search(chains.line_ends, std::pair<VertexId, VertexId>(std::minmax(p, q)));
 }
 
+void drop(ShoreChains& chains, VertexId v) {
+  chains.next[v] = chains.prev[v] = kNone;
+  chains.alive[v] = 0;
+}
+
 void takeOut(ShoreChains& chains, VertexId v) {
   const VertexId p = chains.prev[v], q = chains.next[v];
   chains.next[p] = q;
   chains.prev[q] = p;
-  chains.next[v] = chains.prev[v] = kNone;
-  chains.alive[v] = 0;
+  drop(chains, v);
 }
 
 }  // namespace coastmesh

@@ -37,6 +37,9 @@ double waterAngle(const Point& a, const Point& b, const Point& c);
 // Whether v may go and its neighbours be joined: a boundary or a line that joins them already would run twice.
 bool canTakeOut(const ShoreChains& chains, VertexId v);
 
+// REQUIRES: its neighbours are dropped too, or joined.
+void drop(ShoreChains& chains, VertexId v);
+
 // Joins the neighbours of v. REQUIRES: they are not joined.
 void takeOut(ShoreChains& chains, VertexId v);
 

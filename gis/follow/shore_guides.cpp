@@ -49,10 +49,16 @@ bool isIn(const Point& x, const Point& a, const Point& b, const Point& c) {
   return orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 && orient2d(c, a, x) >= 0;
 }
 
-// What of the water the samples lie in.
-void locate(std::vector<Sample>& samples, const ShoreTriangles& t, double elements) {
+// What of the water the samples of all lines lie in.
+void locate(std::vector<std::vector<Sample>>& lines, const std::vector<ShoreLine>& passages, const ShoreTriangles& t) {
   std::vector<Box> boxes;
-  for (const Sample& sample : samples) boxes.push_back(Box::of(sample.at, sample.at));
+  std::vector<std::pair<Sample*, double>> samples;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    for (Sample& sample : lines[line]) {
+      samples.emplace_back(&sample, passages[line].elements);
+      boxes.push_back(Box::of(sample.at, sample.at));
+    }
+  }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
   for (TriId i = 0; i < t.mesh.triangles.size(); ++i) {
     if (t.mesh.regions[i] == t.land) continue;
@@ -61,9 +67,10 @@ void locate(std::vector<Sample>& samples, const ShoreTriangles& t, double elemen
     Box box = Box::of(a, b);
     box.add(c);
     tree.visit(box, [&](std::uint32_t s) {
-      if (!isIn(samples[s].at, a, b, c)) return;
-      samples[s].water = t.mesh.regions[i];
-      samples[s].wanting = t.width[i] < elements;
+      auto& [sample, elements] = samples[s];
+      if (!isIn(sample->at, a, b, c)) return;
+      sample->water = t.mesh.regions[i];
+      sample->wanting = t.width[i] < elements;
     });
   }
 }
@@ -180,11 +187,9 @@ bool LineZone::holds(const Point& a, const Point& b, const Point& c, double reac
   return found;
 }
 
-ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
-                         const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
-                         std::vector<std::size_t>& dry) {
-  if (passages.empty()) return graph;
-  const ShoreTriangles before = triangulateShores(graph, sizes.wanted);
+ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreTriangles& before, const ShoreSizes& sizes,
+                         const std::vector<ShoreLine>& passages, const ShoreEdit& edit, WaterAreas& gained,
+                         std::vector<WidenedPassage>& widened, std::vector<std::size_t>& dry) {
   ShoreGraph helped = graph;
   Helpers helpers(helped);
   struct Piece {
@@ -194,10 +199,12 @@ ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const
   };
   std::vector<Piece> pieces;
   std::vector<Box> boxes;
+  std::vector<std::vector<Sample>> sampled;
+  for (const ShoreLine& line : passages) sampled.push_back(samplesOf(line, sizes.wanted));
+  locate(sampled, passages, before);
   for (std::size_t line = 0; line < passages.size(); ++line) {
     const double elements = passages[line].elements;
-    std::vector<Sample> samples = samplesOf(passages[line], sizes.wanted);
-    locate(samples, before, elements);
+    const std::vector<Sample>& samples = sampled[line];
     const auto isWet = [](const Sample& sample) { return sample.water != kUnlabelled; };
     const auto first = std::ranges::find_if(samples, isWet);
     const auto last = std::find_if(samples.rbegin(), samples.rend(), isWet).base();
@@ -214,7 +221,7 @@ ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const
       pieces.push_back({wet[i].at, wet[i + 1].at, elements, water});
       boxes.push_back(Box::of(wet[i].at, wet[i + 1].at).grownBy(elements * wet[i].size));
       helpers.addAround({wet[i], wet[i + 1]}, 0.5 * elements);
-      const double scale = sizes.projection.scaleAt(wet[i].at);
+      const double scale = sizes.scale.at(wet[i].at);
       passage.length_m += (wet[i + 1].way - wet[i].way) / scale;
       passage.width_m = std::max(passage.width_m, elements * wet[i].size / scale);
       passage.place = wet[i].at;
@@ -238,7 +245,7 @@ ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const
       after.mesh.regions[t] = pieces[i].water;
     });
     if (after.mesh.regions[t] == after.land) continue;
-    const double scale = sizes.projection.scaleAt(centre);
+    const double scale = sizes.scale.at(centre);
     gained[after.mesh.regions[t]] += 0.5 * cross(b - a, c - a) / scale / scale;
   }
   for (const WidenedPassage& passage : widened) edit(EditKind::WidenedPassage, passage.place, pieces.front().water);

@@ -52,10 +52,10 @@ struct WidenedPassage {
 
 // Where a passage runs over land, or through water narrower than it has to be, land beside it becomes water: from the
 // first water on the line to the last. `dry` is given the passages that meet no water. What waters gain is added to
-// `gained`.
-ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
-                         const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
-                         std::vector<std::size_t>& dry);
+// `gained`. `before` are the graph's triangles.
+ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreTriangles& before, const ShoreSizes& sizes,
+                         const std::vector<ShoreLine>& passages, const ShoreEdit& edit, WaterAreas& gained,
+                         std::vector<WidenedPassage>& widened, std::vector<std::size_t>& dry);
 
 // Closes the water that barriers run through, half an element wide.
 ShoreGraph closeBarriers(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,

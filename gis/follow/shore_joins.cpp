@@ -7,64 +7,60 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kMostWidened = 0.25;  // of the area of the water that is joined so
-constexpr int kRounds = 3;             // waters behind one another are joined one after another
+constexpr int kRounds = 3;  // what is widened may close something else
 
 class Joiner {
  public:
-  Joiner(ShoreGraph graph, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options,
-         const ShoreEdit& edit)
-      : graph_(std::move(graph)), sizes_(sizes), guides_(std::move(guides)), options_(options), edit_(edit) {}
+  Joiner(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options)
+      : start_(std::move(start)), sizes_(sizes), guides_(std::move(guides)), options_(options) {}
 
   JoinedShores run() {
-    // Which water is cut off hangs on the order of opening land and water, and so on the areas.
-    open(1.0);
-    join();
-    opened_ = balanceShores(std::move(opened_), graph_, sizes_, guides_, options_);
-    if (opened_.first != 1.0) join();
-    for (const auto& [water, area] : widened_m2_) opened_.gained[water] += area;
-    std::vector<WaterWay> ways = waysToWaters(opened_, sizes_, options_, 0.0);
+    // Which water is cut off hangs on the order of opening land and water.
+    opened_ = openShores(start_, sizes_, guides_, options_, 1.0);
+    opened_ = balanceShores(std::move(opened_), start_, sizes_, guides_, options_);
+    for (int round = 0; round < kRounds && join(); ++round) {
+    }
+    std::vector<WaterWay> ways = waysToWaters(opened_, sizes_, options_);
     return {std::move(opened_), std::move(ways), std::move(joined_)};
   }
 
  private:
-  void open(double first) { opened_ = openShores(graph_, sizes_, guides_, options_, first); }
-
-  void join() {
-    if (options_.strait_min >= options_.channel_min) return;
-    for (int round = 0; round < kRounds; ++round) {
-      std::vector<WaterWay> ways = waysToWaters(opened_, sizes_, options_, options_.strait_min);
-      std::vector<ShoreLine> lines;
-      for (std::size_t i = 0; i < ways.size(); ++i) {
-        const double area = opened_.waters[i].area;
-        if (ways[i].narrow.empty() || ways[i].widening_m2 > kMostWidened * area) continue;
-        lines.insert(lines.end(), ways[i].narrow.begin(), ways[i].narrow.end());
-        joined_.push_back({std::move(ways[i]), area});
-      }
-      if (lines.empty()) return;
-      std::vector<WidenedPassage> widened;
-      std::vector<std::size_t> dry;
-      graph_ = widenPassages(graph_, sizes_, lines, edit_, widened_m2_, widened, dry);
-      guides_.passages.insert(guides_.passages.end(), lines.begin(), lines.end());
-      open(opened_.first);
+  bool join() {
+    if (options_.strait_min >= options_.channel_min) return false;
+    std::vector<JoinedWater> joins = waysToJoin(opened_, sizes_, options_);
+    std::vector<ShoreLine> lines;
+    for (JoinedWater& water : joins) {
+      lines.insert(lines.end(), water.way.narrow.begin(), water.way.narrow.end());
+      joined_.push_back(std::move(water));
     }
+    if (lines.empty()) return false;
+    // On from where land that goes first had gone: what went will not come back.
+    start_ = {{}, {}, std::move(opened_.land_gained), std::move(opened_.edits)};
+    start_.edits.resize(opened_.land_edits);
+    const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
+      start_.edits.emplace_back(kind, place, water);
+    };
+    std::vector<WidenedPassage> widened;
+    std::vector<std::size_t> dry;
+    start_.graph = widenPassages(opened_.land, opened_.before, sizes_, lines, edit, start_.gained, widened, dry);
+    start_.triangles = triangulateShores(start_.graph, sizes_.wanted);
+    guides_.passages.insert(guides_.passages.end(), lines.begin(), lines.end());
+    opened_ = openShores(start_, sizes_, guides_, options_, opened_.first);
+    return true;
   }
 
-  ShoreGraph graph_;
+  ShoreStart start_;
   const ShoreSizes& sizes_;
   ShoreGuides guides_;
   const FollowOptions& options_;
-  const ShoreEdit& edit_;
   OpenedShores opened_;
-  WaterAreas widened_m2_;
   std::vector<JoinedWater> joined_;
 };
 
 }  // namespace
 
-JoinedShores openJoined(ShoreGraph graph, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options,
-                        const ShoreEdit& edit) {
-  return Joiner(std::move(graph), sizes, std::move(guides), options, edit).run();
+JoinedShores openJoined(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options) {
+  return Joiner(std::move(start), sizes, std::move(guides), options).run();
 }
 
 }  // namespace coastmesh

@@ -25,10 +25,10 @@ const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
 class Opening {
  public:
-  Opening(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
+  Opening(ShoreTriangles&& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
           WaterAreas& gained)
-      : t_(triangulateShores(graph, sizes.wanted)),
-        projection_(sizes.projection),
+      : t_(std::move(triangles)),
+        scale_(sizes.scale),
         passages_(guides.passages),
         barriers_(guides.barriers),
         edit_(edit),
@@ -164,7 +164,7 @@ class Opening {
     return centroid(mesh().point(v[0]), mesh().point(v[1]), mesh().point(v[2]));
   }
   double groundAreaOf(TriId t) const {
-    const double scale = projection_.scaleAt(centreOf(t));
+    const double scale = scale_.at(centreOf(t));
     return areaOf(t) / scale / scale;
   }
   WaterPart partOf(const std::vector<TriId>& patch) const {
@@ -290,7 +290,7 @@ class Opening {
   }
 
   ShoreTriangles t_;
-  const Projection& projection_;
+  const ScaleTable& scale_;
   const LineZone passages_, barriers_;
   const ShoreEdit& edit_;
   WaterAreas& gained_;
@@ -300,21 +300,21 @@ class Opening {
 
 }  // namespace
 
-ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-                    const ShoreEdit& edit, WaterAreas& gained) {
-  Opening opening(graph, sizes, guides, edit, gained);
+ShoreGraph openLand(const ShoreGraph& graph, ShoreTriangles&& triangles, const ShoreSizes& sizes,
+                    const ShoreGuides& guides, double narrowest, const ShoreEdit& edit, WaterAreas& gained) {
+  Opening opening(std::move(triangles), sizes, guides, edit, gained);
   opening.openLand(narrowest);
   return graphOf(graph, opening.triangles());
 }
 
 OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ShoreEdit& edit, WaterAreas& gained) {
-  Opening opening(graph, sizes, guides, edit, gained);
   OpenedWater opened;
-  opened.before = opening.triangles();
+  opened.before = triangulateShores(graph, sizes.wanted);
+  Opening opening(ShoreTriangles(opened.before), sizes, guides, edit, gained);
   opening.openWater(narrowest);
   opening.keepWater(keep, opened.waters);
-  opened.straits = closedStraits(opening.triangles(), sizes.projection);
+  opened.straits = closedStraits(opening.triangles(), sizes.scale);
   opened.areas = opening.areas();
   opened.graph = graphOf(graph, opening.triangles());
   return opened;

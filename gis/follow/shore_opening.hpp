@@ -14,9 +14,9 @@ namespace coastmesh {
 // A morphological opening of the land, with disks of `narrowest` times the size wanted for diameters: what no disk fits
 // into and ends in water goes (spits, capes); so do islands smaller than a triangle of that size. What joins two lands
 // stays, and so does an island longer than three elements, however thin. 0 leaves all of it. What regions of water gain
-// is added to `gained`, as below.
-ShoreGraph openLand(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-                    const ShoreEdit& edit, WaterAreas& gained);
+// is added to `gained`, as below. `triangles` are the graph's.
+ShoreGraph openLand(const ShoreGraph& graph, ShoreTriangles&& triangles, const ShoreSizes& sizes,
+                    const ShoreGuides& guides, double narrowest, const ShoreEdit& edit, WaterAreas& gained);
 
 // A part of a region of water that nothing joins to the others, mostly since what did was closed.
 struct WaterPart {

@@ -17,9 +17,9 @@ constexpr int kRounds = 3;
 
 class Shifter {
  public:
-  Shifter(ShoreChains& chains, const std::map<RegionId, double>& wanted_m2, const Projection& projection,
+  Shifter(ShoreChains& chains, const std::map<RegionId, double>& wanted_m2, const ScaleTable& scales,
           const ShoreMove& moved)
-      : c_(chains), left_(wanted_m2), projection_(projection), moved_(moved), from_(chains.at), near_(chains) {}
+      : c_(chains), left_(wanted_m2), scale_(scales), moved_(moved), from_(chains.at), near_(chains) {}
 
   void run() {
     for (int round = 0; round < kRounds; ++round) {
@@ -44,7 +44,7 @@ class Shifter {
     std::map<RegionId, double> reach;
     for (VertexId v = 0; v < c_.at.size(); ++v) {
       if (!canShift(v)) continue;
-      const double scale = projection_.scaleAt(c_.at[v]);
+      const double scale = scale_.at(c_.at[v]);
       reach[c_.leaving[v].left] +=
           0.5 * distance(c_.at[c_.prev[v]], c_.at[c_.next[v]]) * kMost * c_.size[v] / scale / scale;
     }
@@ -63,7 +63,7 @@ class Shifter {
     if (!near_.canMove(v, x)) return;
     if (near_.qualityOf(v, x) < near_.qualityOf(v, c_.at[v])) return;
     if (near_.apart(v, x) < std::min(kApart * size, near_.apart(v, c_.at[v]))) return;
-    const double scale = projection_.scaleAt(x);
+    const double scale = scale_.at(x);
     left_[c_.leaving[v].left] -= 0.5 * across * share * size / scale / scale;
     moved_(v, x);
     c_.at[v] = x;
@@ -72,7 +72,7 @@ class Shifter {
 
   ShoreChains& c_;
   std::map<RegionId, double> left_;
-  const Projection& projection_;
+  const ScaleTable& scale_;
   const ShoreMove& moved_;
   std::vector<Point> from_;
   ShorePieces near_;
@@ -80,9 +80,9 @@ class Shifter {
 
 }  // namespace
 
-void shiftShores(ShoreChains& chains, const std::map<RegionId, double>& wanted_m2, const Projection& projection,
+void shiftShores(ShoreChains& chains, const std::map<RegionId, double>& wanted_m2, const ScaleTable& scales,
                  const ShoreMove& moved) {
-  Shifter(chains, wanted_m2, projection, moved).run();
+  Shifter(chains, wanted_m2, scales, moved).run();
 }
 
 }  // namespace coastmesh

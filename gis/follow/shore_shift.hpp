@@ -3,7 +3,7 @@
 #include <map>
 
 #include "gis/follow/shore_chains.hpp"
-#include "gis/projection/projection.hpp"
+#include "gis/projection/scale_table.hpp"
 
 namespace coastmesh {
 
@@ -11,7 +11,7 @@ namespace coastmesh {
 // most, until the water has so many square metres more (or less, where that is negative). A vertex stays where moving
 // it would make an angle, a width or a length worse than wanted, or bring shores nearer to one another than half the
 // size. `moved` is called before each move.
-void shiftShores(ShoreChains& chains, const std::map<RegionId, double>& wanted_m2, const Projection& projection,
+void shiftShores(ShoreChains& chains, const std::map<RegionId, double>& wanted_m2, const ScaleTable& scales,
                  const ShoreMove& moved);
 
 }  // namespace coastmesh

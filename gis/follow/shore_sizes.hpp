@@ -5,7 +5,7 @@
 
 #include "core/size_function.hpp"
 #include "gis/clean/clean.hpp"
-#include "gis/projection/projection.hpp"
+#include "gis/projection/scale_table.hpp"
 
 namespace coastmesh {
 
@@ -17,7 +17,7 @@ using WaterAreas = std::map<RegionId, double>;
 
 struct ShoreSizes {
   const SizeFunction& wanted;
-  const Projection& projection;
+  const ScaleTable& scale;  // plane length over length on the ground
 };
 
 }  // namespace coastmesh

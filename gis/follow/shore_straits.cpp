@@ -19,8 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class StraitFinder {
  public:
-  StraitFinder(const ShoreTriangles& triangles, const Projection& projection)
-      : t_(triangles), projection_(projection) {}
+  StraitFinder(const ShoreTriangles& triangles, const ScaleTable& scales) : t_(triangles), scale_(scales) {}
 
   std::vector<ClosedStrait> run() {
     const Patches closed =
@@ -98,22 +97,22 @@ class StraitFinder {
       if (way_[t] >= 0.5 * way_[end]) strait.place = middles.back();
     }
     if (length < kLeast * t_.size[end]) return strait;
-    const double scale = projection_.scaleAt(strait.place);
+    const double scale = scale_.at(strait.place);
     strait.length_m = length / scale;
     strait.width_m = narrowest / scale;
     return strait;
   }
 
   const ShoreTriangles& t_;
-  const Projection& projection_;
+  const ScaleTable& scale_;
   std::vector<double> way_;
   std::vector<EdgeRef> from_;  // the edge that was crossed
 };
 
 }  // namespace
 
-std::vector<ClosedStrait> closedStraits(const ShoreTriangles& triangles, const Projection& projection) {
-  return StraitFinder(triangles, projection).run();
+std::vector<ClosedStrait> closedStraits(const ShoreTriangles& triangles, const ScaleTable& scales) {
+  return StraitFinder(triangles, scales).run();
 }
 
 }  // namespace coastmesh

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "gis/follow/shore_graph.hpp"
-#include "gis/projection/projection.hpp"
+#include "gis/projection/scale_table.hpp"
 
 namespace coastmesh {
 
@@ -16,6 +16,6 @@ struct ClosedStrait {
 
 // Of what was water and is land by now: of each patch the longest way through it between places of the same water,
 // where it is longer than an element or two.
-std::vector<ClosedStrait> closedStraits(const ShoreTriangles& triangles, const Projection& projection);
+std::vector<ClosedStrait> closedStraits(const ShoreTriangles& triangles, const ScaleTable& scales);
 
 }  // namespace coastmesh

@@ -17,32 +17,38 @@ namespace coastmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kWide = 1e-3;  // what a way through wide water costs, for its length in elements
+constexpr double kMostWidened = 0.25;  // of the area of the water that is joined so
+constexpr int kRounds = 3;             // waters behind one another are joined one after another
+constexpr double kWide = 1e-3;         // what a way through wide water costs, for its length in elements
 
 class WayFinder {
  public:
-  WayFinder(const ShoreTriangles& triangles, const Projection& projection, double narrowest, double least)
-      : t_(triangles),
-        projection_(projection),
+  // No way is narrower than `least` times the size wanted.
+  WayFinder(const OpenedShores& opened, const ShoreSizes& sizes, double narrowest, double least)
+      : t_(opened.before),
+        scale_(sizes.scale),
         narrowest_(narrowest),
         least_(least),
+        places_(locate(opened.waters)),
         cost_(mesh().triangles.size(), kInfinity),
         from_(mesh().triangles.size(), kNone) {}
 
-  std::vector<WaterWay> run(const std::vector<WaterPart>& waters) {
-    const std::vector<std::vector<TriId>> places = locate(waters);
-    for (std::size_t i = 0; i < waters.size(); ++i) {
-      for (const TriId t : places[i]) {
-        if (!waters[i].kept) continue;
+  // Of waters that nothing joins yet.
+  std::vector<WaterWay> run(const std::vector<bool>& is_joined) {
+    std::ranges::fill(cost_, kInfinity);
+    std::ranges::fill(from_, kNone);
+    for (std::size_t i = 0; i < is_joined.size(); ++i) {
+      if (!is_joined[i]) continue;
+      for (const TriId t : places_[i]) {
         cost_[t] = 0.0;
         queue_.emplace(0.0, t);
       }
     }
     spread();
-    std::vector<WaterWay> ways(waters.size());
-    for (std::size_t i = 0; i < waters.size(); ++i) {
-      if (waters[i].kept || places[i].empty()) continue;
-      const TriId end = *std::ranges::min_element(places[i], {}, [&](TriId t) { return cost_[t]; });
+    std::vector<WaterWay> ways(is_joined.size());
+    for (std::size_t i = 0; i < is_joined.size(); ++i) {
+      if (is_joined[i] || places_[i].empty()) continue;
+      const TriId end = *std::ranges::min_element(places_[i], {}, [&](TriId t) { return cost_[t]; });
       if (cost_[end] < kInfinity) ways[i] = wayFrom(end);
     }
     return ways;
@@ -120,11 +126,11 @@ class WayFinder {
       if (shareOf(e) < way.least) {
         way.least = shareOf(e);
         way.place = x;
-        way.width_m = lengthOf(e) / projection_.scaleAt(x);
+        way.width_m = lengthOf(e) / scale_.at(x);
       }
       if (t_.width[t] < narrowest_) {
         if (!narrow_before) line.assign(1, line.back());
-        const double scale = projection_.scaleAt(x), length = distance(line.back(), x) / scale;
+        const double scale = scale_.at(x), length = distance(line.back(), x) / scale;
         way.length_m += length;
         way.widening_m2 += length * std::max(0.0, narrowest_ * sizeAt(e) - lengthOf(e)) / scale;
         narrow_before = true;
@@ -139,19 +145,45 @@ class WayFinder {
   }
 
   const ShoreTriangles& t_;
-  const Projection& projection_;
+  const ScaleTable& scale_;
   const double narrowest_, least_;
+  const std::vector<std::vector<TriId>> places_;  // in each of the waters
   std::vector<double> cost_;
   std::vector<EdgeRef> from_;  // the edge that was crossed
   std::priority_queue<std::pair<double, TriId>, std::vector<std::pair<double, TriId>>, std::greater<>> queue_;
 };
 
+std::vector<bool> areKept(const OpenedShores& opened) {
+  std::vector<bool> kept;
+  for (const WaterPart& water : opened.waters) kept.push_back(water.kept);
+  return kept;
+}
+
 }  // namespace
 
-std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options,
-                                   double least) {
-  if (std::ranges::all_of(opened.waters, &WaterPart::kept)) return std::vector<WaterWay>(opened.waters.size());
-  return WayFinder(opened.before, sizes.projection, options.channel_min, least).run(opened.waters);
+std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options) {
+  const std::vector<bool> kept = areKept(opened);
+  if (std::ranges::find(kept, false) == kept.end()) return std::vector<WaterWay>(kept.size());
+  return WayFinder(opened, sizes, options.channel_min, 0.0).run(kept);
+}
+
+std::vector<JoinedWater> waysToJoin(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options) {
+  std::vector<bool> joined = areKept(opened);
+  std::vector<JoinedWater> found;
+  if (std::ranges::find(joined, false) == joined.end()) return found;
+  WayFinder finder(opened, sizes, options.channel_min, options.strait_min);
+  for (int round = 0; round < kRounds; ++round) {
+    const std::size_t before = found.size();
+    std::vector<WaterWay> ways = finder.run(joined);
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const double area = opened.waters[i].area;
+      if (ways[i].narrow.empty() || ways[i].widening_m2 > kMostWidened * area) continue;
+      found.push_back({std::move(ways[i]), area});
+      joined[i] = true;
+    }
+    if (found.size() == before) break;
+  }
+  return found;
 }
 
 }  // namespace coastmesh

@@ -17,9 +17,17 @@ struct WaterWay {
   double widening_m2 = 0.0;       // of land that goes where that is made wide enough
 };
 
-// One for each of the waters that opening has made; those that are kept have none, nor have those whose ways are all
-// narrower than `least` times the size wanted somewhere.
-std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options,
-                                   double least);
+// One for each of the waters that opening has made; those that are kept have none.
+std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options);
+
+// A water that closing cuts off, and the way that is to be made wide instead.
+struct JoinedWater {
+  WaterWay way;
+  double area = 0.0;  // square metres
+};
+
+// Those whose ways are nowhere narrower than `options.strait_min` times the size wanted, and take little to be widened
+// beside the water's area: to waters that are kept, or to others that are joined so.
+std::vector<JoinedWater> waysToJoin(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options);
 
 }  // namespace coastmesh

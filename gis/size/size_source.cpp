@@ -8,7 +8,7 @@
 
 #include "core/metric.hpp"
 #include "gis/error.hpp"
-#include "gis/projection/plane_table.hpp"
+#include "gis/projection/scale_table.hpp"
 #include "gis/size/guide_lines.hpp"
 #include "gis/size/size_channel.hpp"
 #include "gis/size/size_distance.hpp"
@@ -260,13 +260,8 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   const Point middle{0.5 * (box.xmin + box.xmax), 0.5 * (box.ymin + box.ymax)};
   const Box square = Box::of(middle, middle).grownBy(0.51 * extent);
   const Projection& projection = domain.projection;
-  constexpr double kScaleTolerance = 1e-5;
-  const auto table = std::make_shared<PlaneTable>(
-      [projection](const Point& x) {
-        return Point{projection.scaleAt(x), 0.0};
-      },
-      square, kScaleTolerance);
-  const auto scale = [table](const Point& x) { return table->at(x).x; };
+  const auto table = std::make_shared<ScaleTable>(projection, square);
+  const auto scale = [table](const Point& x) { return table->at(x); };
 
   const SizeBox root{middle, 0.505 * extent};
   const DomainMask mask(domain.pslg, root);

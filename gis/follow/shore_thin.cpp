@@ -1,0 +1,312 @@
+#include "gis/follow/shore_thin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/metric.hpp"
+#include "gis/coast/segment_tags.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Shares of the size wanted.
+constexpr double kMoved = 0.04;
+constexpr double kLongest = 1.0 / 3.0;
+constexpr double kNearAlong = 1.6;  // along the shore: what is nearer is the same piece of it
+constexpr double kMovedOfWidth = 0.1;
+constexpr double kLongestIsland = 3.0;
+const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
+constexpr double kGrain = 1e-12;                 // of coordinates: what lies so near to a line may lie on it
+
+class Thinner {
+ public:
+  Thinner(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone)
+      : c_(chains), thinning_(thinning), gone_(gone) {}
+
+  void run() {
+    layOut();
+    std::vector<Run> runs;
+    for (std::uint32_t s = 0; s < stretches_.size(); ++s) cutIntoRuns(s, runs);
+    indexRuns(runs);
+    for (std::uint32_t s = 0; s < stretches_.size(); ++s)
+      if (isSmallIsland(stretches_[s])) stretches_[s].is_gone = true;
+    for (const Stretch& stretch : stretches_) {
+      if (!stretch.is_gone) continue;
+      thinning_.dropped(order_[stretch.first], islandArea(stretch));
+      for (std::uint32_t i = stretch.first; i < stretch.last; ++i) drop(c_, order_[i]);
+    }
+    std::vector<Run> waiting;
+    for (const Run& run : runs) {
+      if (stretches_[run.stretch].is_gone) continue;
+      waiting.assign(1, run);
+      while (!waiting.empty()) {
+        const Run here = waiting.back();
+        waiting.pop_back();
+        if (here.last - here.first < 2) continue;
+        const std::uint32_t farthest = measure(here);
+        if (isFree(here)) {
+          leaving_.push_back(here);
+        } else {
+          waiting.push_back({here.first, farthest, here.stretch});
+          waiting.push_back({farthest, here.last, here.stretch});
+        }
+      }
+    }
+    for (const Run& run : leaving_) {
+      for (std::uint32_t i = run.first + 1; i < run.last; ++i) {
+        gone_(order_[i]);
+        takeOut(c_, order_[i]);
+      }
+    }
+  }
+
+ private:
+  // A row of vertices between two that stay, or a ring, whose first vertex is its last one too.
+  struct Stretch {
+    std::uint32_t first, last;  // places in `order_`
+    bool is_ring;
+    bool is_gone = false;
+  };
+  struct Run {
+    std::uint32_t first, last;
+    std::uint32_t stretch;
+  };
+
+  const Point& at(std::uint32_t place) const { return c_.at[order_[place]]; }
+  double sizeAt(std::uint32_t place) const { return c_.size[order_[place]]; }
+  bool isShore(VertexId v) const { return c_.next[v] != kNone && c_.leaving[v].tag != kOpenTag; }
+  bool isInner(VertexId v) const {  // between two segments of the same shore
+    return !c_.stays[v] && c_.prev[v] != kNone && isShore(v) && c_.leaving[c_.prev[v]].tag != kOpenTag;
+  }
+
+  void layOut() {
+    std::vector<bool> seen(c_.at.size(), false);
+    const auto walk = [&](VertexId start) {
+      const auto first = static_cast<std::uint32_t>(order_.size());
+      double way = 0.0;
+      VertexId v = start;
+      do {
+        order_.push_back(v);
+        way_.push_back(way);
+        seen[v] = true;
+        way += distance(c_.at[v], c_.at[c_.next[v]]);
+        v = c_.next[v];
+      } while (v != start && isInner(v));
+      order_.push_back(v);
+      way_.push_back(way);
+      seen[v] = true;
+      stretches_.push_back({first, static_cast<std::uint32_t>(order_.size() - 1), v == start && isInner(v)});
+    };
+    for (VertexId v = 0; v < seen.size(); ++v)
+      if (isShore(v) && !isInner(v)) walk(v);
+    for (VertexId v = 0; v < seen.size(); ++v)
+      if (isShore(v) && !seen[v]) walk(v);
+    for (VertexId v = 0; v < seen.size(); ++v)
+      if (c_.alive[v] && !seen[v]) others_.push_back(v);
+  }
+
+  // A run goes on while all of it lies near enough to the line from its first vertex to its last: within the angles
+  // that this leaves open.
+  void cutIntoRuns(std::uint32_t s, std::vector<Run>& runs) const {
+    const Stretch& stretch = stretches_[s];
+    // A ring keeps three vertices, and what joins two vertices stays apart from whatever else joins them.
+    const std::uint32_t most = std::max(1u, (stretch.last - stretch.first) / 3);
+    for (std::uint32_t i = stretch.first; i < stretch.last;) {
+      const Point& a = at(i);
+      const double size = sizeAt(i), off = kMoved * size, longest = kLongest * size;
+      std::uint32_t end = i + 1;
+      double farthest = 0.0;
+      bool is_open = true;  // any direction will do
+      Point low, high;      // what else will do lies to the left of one and to the right of the other
+      for (std::uint32_t j = i + 1; j <= std::min(stretch.last, i + most); ++j) {
+        const Point d = at(j) - a;
+        const double far = std::sqrt(squaredLength(d));
+        if (far > longest) break;
+        if (is_open || (cross(low, d) >= 0.0 && cross(d, high) >= 0.0)) {
+          if (far >= farthest - off) end = j;
+        } else {
+          break;
+        }
+        farthest = std::max(farthest, far);
+        if (far <= off) continue;
+        const double sine = off / far, cosine = std::sqrt(1.0 - sine * sine);
+        const Point right{d.x * cosine + d.y * sine, d.y * cosine - d.x * sine};
+        const Point left{d.x * cosine - d.y * sine, d.y * cosine + d.x * sine};
+        if (is_open || cross(low, right) > 0.0) low = right;
+        if (is_open || cross(left, high) > 0.0) high = left;
+        is_open = false;
+      }
+      runs.push_back({i, end, s});
+      i = end;
+    }
+  }
+
+  void indexRuns(const std::vector<Run>& runs) {
+    std::vector<Box> boxes;
+    for (const Run& run : runs) {
+      Box& box = boxes.emplace_back();
+      for (std::uint32_t i = run.first; i <= run.last; ++i) box.add(at(i));
+    }
+    for (const VertexId v : others_) boxes.push_back(Box::of(c_.at[v], c_.at[v]));
+    runs_ = runs;
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  }
+
+  // Plane area.
+  double islandArea(const Stretch& stretch) const {
+    double twice = 0.0;
+    for (std::uint32_t i = stretch.first; i < stretch.last; ++i)
+      twice += cross(at(i) - at(stretch.first), at(i + 1) - at(stretch.first));
+    return -0.5 * twice;  // the water lies to the left
+  }
+
+  // A ring of land with nothing in it.
+  bool isSmallIsland(const Stretch& stretch) const {
+    if (!stretch.is_ring) return false;
+    Box box;
+    double size = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = stretch.first; i < stretch.last; ++i) {
+      box.add(at(i));
+      size = std::min(size, sizeAt(i));
+    }
+    const double area = islandArea(stretch);
+    if (!(area > 0.0 && area < kTriangle * size * size)) return false;
+    if (std::max(box.xmax - box.xmin, box.ymax - box.ymin) > kLongestIsland * size) return false;
+    const Run whole{stretch.first, stretch.last, 0};
+    bool is_empty = true;
+    thinning_.lines.visit(box, [&](std::uint32_t) { is_empty = false; });
+    tree_.visit(box, [&](std::uint32_t item) {
+      if (!is_empty) return;
+      const auto holds = [&](const Point& p) { return box.meets(Box::of(p, p)) && isBetween(p, whole); };
+      if (item >= runs_.size()) {
+        is_empty = !holds(c_.at[others_[item - runs_.size()]]);
+        return;
+      }
+      const Run& run = runs_[item];
+      if (run.first >= stretch.first && run.last <= stretch.last) return;
+      for (std::uint32_t i = run.first; i <= run.last && is_empty; ++i) is_empty = !holds(at(i));
+    });
+    return is_empty;
+  }
+
+  // How far the run lies off its segment, and where it does so most.
+  std::uint32_t measure(const Run& run) {
+    const Point &a = at(run.first), &b = at(run.last);
+    std::uint32_t farthest = run.first + 1;
+    off_ = 0.0;
+    for (std::uint32_t i = run.first + 1; i < run.last; ++i) {
+      const double off = squaredDistanceToSegment(at(i), a, b);
+      if (off <= off_) continue;
+      off_ = off;
+      farthest = i;
+    }
+    off_ = std::sqrt(off_);
+    return farthest;
+  }
+
+  // After `measure`: whether the run may become its segment.
+  bool isFree(const Run& run) const {
+    const Point &a = at(run.first), &b = at(run.last);
+    if (off_ > kMoved * sizeAt(run.first)) return false;
+    const double reach = off_ * (1.0 + 1.0 / kMovedOfWidth);
+    const Box box = Box::of(a, b).grownBy(reach);
+    bool is_free = true;
+    thinning_.lines.visit(box, [&](std::uint32_t) { is_free = false; });
+    if (!is_free) return false;
+    tree_.visit(box, [&](std::uint32_t item) {
+      if (!is_free) return;
+      if (item >= runs_.size())
+        is_free = squaredDistanceToSegment(c_.at[others_[item - runs_.size()]], a, b) > reach * reach;
+      else
+        is_free = isFreeOf(run, runs_[item], box, reach);
+    });
+    return is_free;
+  }
+
+  bool isFreeOf(const Run& run, const Run& other, const Box& box, double reach) const {
+    if (stretches_[other.stretch].is_gone) return true;
+    for (std::uint32_t i = other.first; i < other.last; ++i) {
+      if (other.stretch == run.stretch && i >= run.first && i < run.last) continue;
+      if (!box.meets(Box::of(at(i), at(i + 1)))) continue;
+      for (const std::uint32_t end : {i, i + 1})
+        if (order_[end] != order_[run.first] && order_[end] != order_[run.last] && isBetween(at(end), run))
+          return false;
+      if (isAcrossLand(run, i) && isWithin(reach, at(run.first), at(run.last), at(i), at(i + 1)) &&
+          !isNearAlong(run, other.stretch, i))
+        return false;
+    }
+    return true;
+  }
+
+  bool isNearAlong(const Run& run, std::uint32_t stretch, std::uint32_t i) const {
+    if (stretch != run.stretch) return false;
+    const double near = kNearAlong * sizeAt(run.first);
+    const double way = i >= run.last ? way_[i] - way_[run.last] : way_[run.first] - way_[i + 1];
+    if (way <= near) return true;
+    const Stretch& whole = stretches_[stretch];
+    const double round = way_[whole.last] - way_[run.last] + way_[run.first] + way_[i] - way_[i + 1];
+    return whole.is_ring && round - way <= near;
+  }
+
+  // Whether what lies between is land: water to the left of both.
+  bool isAcrossLand(const Run& run, std::uint32_t i) const {
+    if (thinning_.keeps_narrow_water) return true;
+    const Point &a = at(run.first), &b = at(run.last), &c = at(i), &d = at(i + 1);
+    return std::min(cross(b - a, c - a), cross(b - a, d - a)) < 0.0;
+  }
+
+  static bool isWithin(double reach, const Point& a, const Point& b, const Point& c, const Point& d) {
+    return std::min({squaredDistanceToSegment(a, c, d), squaredDistanceToSegment(b, c, d),
+                     squaredDistanceToSegment(c, a, b), squaredDistanceToSegment(d, a, b)}) <= reach * reach;
+  }
+
+  // Whether x may lie between the run and its segment: across the segment these lie on both sides of it.
+  bool isBetween(const Point& x, const Run& run) const {
+    const Point &a = at(run.first), &b = at(run.last);
+    const Point along = order_[run.first] != order_[run.last] ? b - a : Point{1.0, 0.0};
+    const double length = std::sqrt(squaredLength(along));
+    const double hair = kGrain * (std::abs(x.x) + std::abs(x.y) + length);
+    const auto toPlane = [&](const Point& p) {
+      return Point{dot(along, p - x) / length, cross(along, p - x) / length};
+    };
+    bool above = false, below = false;
+    const auto pass = [&](const Point& p, const Point& q) {
+      if (std::min(p.x, q.x) > hair || std::max(p.x, q.x) < -hair) return;
+      const bool steep = std::abs(q.x - p.x) <= 4.0 * hair;
+      const double y = steep ? 0.0 : p.y + (q.y - p.y) * std::clamp(-p.x / (q.x - p.x), 0.0, 1.0);
+      above = above || (steep ? std::max(p.y, q.y) : y) >= -hair;
+      below = below || (steep ? std::min(p.y, q.y) : y) <= hair;
+    };
+    const Point start = toPlane(a);
+    Point before = start;
+    for (std::uint32_t i = run.first + 1; i <= run.last; ++i) {
+      const Point here = toPlane(at(i));
+      pass(before, here);
+      before = here;
+    }
+    pass(before, start);
+    return above && below;
+  }
+
+  ShoreChains& c_;
+  const ShoreThinning& thinning_;
+  const ShoreLoss& gone_;
+  std::vector<VertexId> order_;  // stretch after stretch
+  std::vector<double> way_;      // along the stretch
+  std::vector<Stretch> stretches_;
+  std::vector<VertexId> others_;  // vertices on no shore
+  std::vector<Run> runs_, leaving_;
+  BoxTree tree_;  // of `runs_`, then of `others_`
+  double off_ = 0.0;
+};
+
+}  // namespace
+
+void thinShores(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone) {
+  Thinner(chains, thinning, gone).run();
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+
+#include "gis/follow/shore_chains.hpp"
+#include "gis/geometry/box_tree.hpp"
+
+namespace coastmesh {
+
+struct ShoreThinning {
+  const BoxTree& lines;             // of boxes: shores stay there
+  bool keeps_narrow_water = false;  // else water narrower than an element will be closed
+  // A vertex of an island that is dropped, before it is, and its area in the plane.
+  std::function<void(VertexId, double)> dropped;
+};
+
+// Takes out of shores what is much finer than the sizes wanted, so that all that follows costs by the elements and not
+// by the data. Islands smaller than a triangle of that size go. Runs of vertices become single segments, no longer than
+// a third of the size and no further off than a twenty-fifth of it, nor than a tenth of the distance to the shore on
+// the other side of the land, and of the water where narrow water is kept: these come no nearer than eight tenths of
+// what they were, and no nearer by more than a twelfth of the size. Between a run and its segment lies nothing else, so
+// that nothing crosses or changes sides. Open boundaries stay.
+void thinShores(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone);
+
+}  // namespace coastmesh
