@@ -47,11 +47,12 @@ void forEachByStretches(const ItemLoop& loop, std::size_t count, const Work& wor
 }
 
 // Makes room for `count` items, its memory touched by all threads: a page costs much more when it is first written than
-// later, and `resize` alone would do all of that in one thread.
+// later, and `resize` alone would do all of that in one thread. And room for `spare` more, whose memory is not touched:
+// it is none as long as nobody needs it.
 template <typename Item>
-void reserveOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count) {
+void reserveOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count, std::size_t spare = 0) {
   if (count <= items.capacity()) return;
-  items.reserve(count);
+  items.reserve(count + spare);
   constexpr std::size_t kPage = 4096;
   volatile char* const memory = static_cast<char*>(static_cast<void*>(items.data()));
   const std::size_t used = items.size() * sizeof(Item), bytes = count * sizeof(Item);

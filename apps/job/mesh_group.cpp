@@ -197,10 +197,10 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
       name.source = feature.source;
       name.attributes = feature.attributes;
     }
-    for (RegionId& region : mesh.regions) {
-      region =
-          static_cast<RegionId>(std::ranges::lower_bound(members, static_cast<std::size_t>(region)) - members.begin());
-    }
+    forEachByStretches(loop, mesh.regions.size(), [&](std::size_t t) {
+      const auto at = std::ranges::lower_bound(members, static_cast<std::size_t>(mesh.regions[t]));
+      mesh.regions[t] = static_cast<RegionId>(at - members.begin());
+    });
     markRegions(input.coastline(), members, domain.projection, mesh, names);
   }
   Grid grid = makeGrid({{&domain, &mesh, size_m}}, names, loop);

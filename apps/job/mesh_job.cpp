@@ -193,8 +193,8 @@ void measureAgain(const MeshJob& job, const std::vector<GroupPlane>& planes, Mes
 }
 
 // In the coordinates that are written: what is right in the working plane need not be so there.
-void findTurned(MeshJobResult& result) {
-  for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2)) {
+void findTurned(MeshJobResult& result, const ItemLoop& loop) {
+  for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2, loop)) {
     ++result.turned;
     if (result.turned_places.size() < kBoundViolationPlaces) result.turned_places.push_back(middleOf(result.grid, t));
   }
@@ -229,8 +229,11 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   });
   merge.finish();
   result.grid.crs = result.crs;
-  if (!input.isPoly()) keepInFrame(result.grid, input.coastline());
+  Recorder recorder;
+  const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});
+  if (!input.isPoly()) keepInFrame(result.grid, input.coastline(), loop);
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+  result.log.append(recorder.finish("grid"));
   FinishOptions finish = job.finish;
   if (result.read.boundary_types) finish.boundaries.inputs = job.input.files;
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
@@ -243,9 +246,11 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     if (!result.finish.repairs.repairs.empty()) measureAgain(job, merge.planes(), result);
     result.seconds.finish = finishing.seconds();
     result.log.addAlone("finish", result.seconds.finish);
+    recorder.finish();
   }
-  findTurned(result);
-  result.step = measureOutcome(result.grid, job.sizes);
+  findTurned(result, loop);
+  result.step = measureOutcome(result.grid, job.sizes, loop);
+  result.log.append(recorder.finish("grid"));
   result.seconds.total = whole.seconds();
   return result;
 }

@@ -72,9 +72,9 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
 
 }  // namespace
 
-StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes) {
+StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop) {
   StepOutcome outcome;
-  outcome.step = measureStep(grid);
+  outcome.step = measureStep(grid, loop);
   if (sizes.time_step_s > 0.0) outcome.below_step = stepsBelow(grid, sizes.time_step_s, sizes.courant);
   if (sizes.least_m > 0.0 && sizes.any()) outcome.below_least = edgesBelow(grid, sizes.least_m);
   outcome.least_missed = sizes.coast == CoastDetail::Follow && !outcome.below_least.empty() &&

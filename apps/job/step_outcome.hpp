@@ -24,7 +24,7 @@ struct StepOutcome {
   bool held() const { return below_step.empty() && !least_missed; }
 };
 
-StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes);
+StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop);
 
 // A line for people: the shortest edge and the time step, with their places.
 std::string stepText(const StepReport& step, bool plane);

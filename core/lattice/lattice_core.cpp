@@ -360,8 +360,10 @@ void insertCores(TriMesh& mesh, VertexId pslg_vertices, const std::vector<Lattic
   }
   auto vertex = static_cast<VertexId>(mesh.points.size());
   auto triangle = static_cast<TriId>(mesh.triangles.size());
-  reserveOn(loop, mesh.points, vertices);
-  reserveOn(loop, mesh.triangles, triangles);
+  // With some to spare for repairs: to move the whole of a large mesh takes more memory and time than they do.
+  constexpr std::size_t kSpareShare = 64;
+  reserveOn(loop, mesh.points, vertices, vertices / kSpareShare);
+  reserveOn(loop, mesh.triangles, triangles, triangles / kSpareShare);
   mesh.points.resize(vertices);
   mesh.triangles.resize(triangles);
   for (const LatticeCore& core : cores) {

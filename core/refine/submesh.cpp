@@ -1,11 +1,10 @@
 #include "core/refine/submesh.hpp"
 
 #include <algorithm>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "core/links.hpp"
+#include "core/refine/sparse_numbers.hpp"
 
 namespace coastmesh {
 
@@ -56,14 +55,10 @@ namespace {
 template <typename Mesh>
 Submesh extractByMaps(const Mesh& parent, VertexId parent_inputs, const VertexNotes& notes,
                       std::span<const TriId> triangles) {
-  std::unordered_map<TriId, TriId> slots;
-  for (TriId i = 0; i < triangles.size(); ++i) slots.emplace(triangles[i], i);
-  const auto slotOf = [&](TriId t) {
-    const auto slot = slots.find(t);
-    return slot == slots.end() ? kNone : slot->second;
-  };
-  std::unordered_map<VertexId, VertexId> numbers;
-  const auto numberOf = [&](VertexId v) -> VertexId& { return numbers.try_emplace(v, kNone).first->second; };
+  SparseNumbers slots(triangles.size()), numbers(triangles.size());
+  for (TriId i = 0; i < triangles.size(); ++i) slots[triangles[i]] = i;
+  const auto slotOf = [&](TriId t) { return slots.at(t); };
+  const auto numberOf = [&](VertexId v) -> VertexId& { return numbers[v]; };
   return extractSubmesh(parent, parent_inputs, notes, triangles, slotOf, numberOf);
 }
 
@@ -115,9 +110,12 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
 
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges) {
   std::vector<TriId> triangles;
-  std::unordered_set<TriId> taken;
+  SparseNumbers taken;
   const auto take = [&](TriId t) {
-    if (taken.insert(t).second) triangles.push_back(t);
+    if (std::uint32_t& number = taken[t]; number == kNone) {
+      number = static_cast<std::uint32_t>(triangles.size());
+      triangles.push_back(t);
+    }
   };
   for (const TriId t : centre) take(t);
   std::size_t done = 0;

@@ -20,9 +20,12 @@ namespace {
 
 // Places on an ellipsoid.
 struct Geodetic {
+  std::span<const Point> points;  // the places themselves where `places` is empty
   std::vector<LonLat> places;
   double a = 0.0;  // semi-major axis, metres
   double f = 0.0;  // flattening
+
+  LonLat at(std::size_t i) const { return places.empty() ? asLonLat(points[i]) : places[i]; }
 };
 
 [[noreturn]] void refuseNode(std::span<const Point> nodes, std::size_t node, const Crs& crs, const std::string& path) {
@@ -32,15 +35,10 @@ struct Geodetic {
 }
 
 // `path` is for errors; it may be empty.
-Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoop& loop = inOrder,
-                    const std::string& path = {}) {
+Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const std::string& path = {}) {
   const OgrErrors errors;
   const OGRSpatialReference srs = toOgr(crs);
-  Geodetic out;
-  reserveOn(loop, out.places, points.size());
-  for (const Point& p : points) out.places.push_back(asLonLat(p));
-  out.a = crs.semi_major_m;
-  out.f = crs.flattening;
+  Geodetic out{points, {}, crs.semi_major_m, crs.flattening};
   if (!srs.IsGeographic()) {
     const OGRSpatialReference base = geographicBase(crs);
     const std::unique_ptr<OGRCoordinateTransformation> to_base(OGRCreateCoordinateTransformation(&srs, &base));
@@ -53,6 +51,7 @@ Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const ItemLoo
     }
     std::vector<int> ok(points.size());
     to_base->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, nullptr, ok.data());
+    out.places.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!ok[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) refuseNode(points, i, crs, path);
       out.places[i] = {x[i], y[i]};
@@ -73,6 +72,16 @@ Vector toEarthCentred(const LonLat& place, double a, double e2) {
   const double lon = place.lon * std::numbers::pi / 180.0, lat = place.lat * std::numbers::pi / 180.0;
   const double n = a / std::sqrt(1.0 - e2 * std::sin(lat) * std::sin(lat));
   return {n * std::cos(lat) * std::cos(lon), n * std::cos(lat) * std::sin(lon), n * (1.0 - e2) * std::sin(lat)};
+}
+
+std::vector<Vector> toEarthCentred(const Geodetic& geodetic, const ItemLoop& loop) {
+  const double e2 = geodetic.f * (2.0 - geodetic.f);
+  std::vector<Vector> places;
+  reserveOn(loop, places, geodetic.points.size());
+  places.resize(geodetic.points.size());
+  forEachByStretches(loop, places.size(),
+                     [&](std::size_t i) { places[i] = toEarthCentred(geodetic.at(i), geodetic.a, e2); });
+  return places;
 }
 
 constexpr double kSmallEdge = 20000.0;  // metres
@@ -100,7 +109,7 @@ bool isOnEarth(const LonLat& place) { return std::abs(place.lon) <= 540.0 && std
 void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::string& path) {
   if (crs.isPlane()) return;
   if (!crs.geographic) {
-    toGeodetic(nodes, crs, inOrder, path);
+    toGeodetic(nodes, crs, path);
     return;
   }
   const auto odd = std::ranges::find_if_not(nodes, isOnEarth, asLonLat);
@@ -119,13 +128,9 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
     });
     return areas;
   }
-  const Geodetic geodetic = toGeodetic(nodes, crs, loop);
+  const Geodetic geodetic = toGeodetic(nodes, crs);
   const double e2 = geodetic.f * (2.0 - geodetic.f);
-  std::vector<Vector> places;
-  reserveOn(loop, places, nodes.size());
-  places.resize(nodes.size());
-  forEachByStretches(loop, nodes.size(),
-                     [&](std::size_t i) { places[i] = toEarthCentred(geodetic.places[i], geodetic.a, e2); });
+  const std::vector<Vector> places = toEarthCentred(geodetic, loop);
   const GeographicLib::Geodesic geodesic(geodetic.a, geodetic.f);
   forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
     const Vector &u = places[triangles[t][0]], &v = places[triangles[t][1]], &w = places[triangles[t][2]];
@@ -135,36 +140,33 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
       return;
     }
     GeographicLib::PolygonArea polygon(geodesic);
-    for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.places[n].lat, geodetic.places[n].lon);
+    for (std::uint32_t n : triangles[t]) polygon.AddPoint(geodetic.at(n).lat, geodetic.at(n).lon);
     double perimeter = 0.0;
     polygon.Compute(false, true, perimeter, areas[t]);
   });
   return areas;
 }
 
+EdgeMeter::EdgeMeter(std::span<const Point> nodes, const Crs& crs, const ItemLoop& loop) : nodes_(nodes) {
+  if (crs.isPlane()) return;
+  const Geodetic geodetic = toGeodetic(nodes, crs);
+  diameter_ = 2.0 * geodetic.a;
+  places_ = toEarthCentred(geodetic, loop);
+}
+
+double EdgeMeter::between(std::uint32_t a, std::uint32_t b) const {
+  if (places_.empty()) return std::hypot(nodes_[b].x - nodes_[a].x, nodes_[b].y - nodes_[a].y);
+  const Vector along = places_[b] - places_[a];
+  // The arc over the chord, on a sphere about as large.
+  return diameter_ * std::asin(std::min(1.0, std::sqrt(dot(along, along)) / diameter_));
+}
+
 std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
                                                std::span<const std::array<std::uint32_t, 3>> triangles,
                                                const Crs& crs) {
+  const EdgeMeter meter(nodes, crs);
   std::vector<std::array<double, 3>> lengths(triangles.size());
-  const auto measure = [&](const auto& lengthBetween) {
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) lengths[t][i] = lengthBetween(triangles[t][i], triangles[t][(i + 1) % 3]);
-  };
-  if (crs.isPlane()) {
-    measure(
-        [&](std::uint32_t a, std::uint32_t b) { return std::hypot(nodes[b].x - nodes[a].x, nodes[b].y - nodes[a].y); });
-    return lengths;
-  }
-  const Geodetic geodetic = toGeodetic(nodes, crs);
-  const double e2 = geodetic.f * (2.0 - geodetic.f);
-  std::vector<Vector> places;
-  for (const LonLat& p : geodetic.places) places.push_back(toEarthCentred(p, geodetic.a, e2));
-  measure([&](std::uint32_t a, std::uint32_t b) {
-    const Vector along = places[b] - places[a];
-    const double chord = std::sqrt(dot(along, along));
-    // The arc over the chord, on a sphere about as large.
-    return 2.0 * geodetic.a * std::asin(std::min(1.0, chord / (2.0 * geodetic.a)));
-  });
+  std::ranges::transform(triangles, lengths.begin(), [&](const auto& corners) { return meter.of(corners); });
   return lengths;
 }
 
@@ -183,7 +185,7 @@ std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, 
   std::size_t at = 0;
   for (std::size_t c = 0; c < chains.size(); ++c) {
     for (std::size_t i = 1; i < chains[c].size(); ++i) {
-      const LonLat &p = geodetic.places[at + i - 1], &q = geodetic.places[at + i];
+      const LonLat p = geodetic.at(at + i - 1), q = geodetic.at(at + i);
       double piece = 0.0;
       geodesic.Inverse(p.lat, p.lon, q.lat, q.lon, piece);
       lengths[c] += piece;

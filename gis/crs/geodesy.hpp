@@ -27,9 +27,25 @@ void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::stri
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const Crs& crs, const ItemLoop& loop = inOrder);
 
-// Lengths of the triangles' edges in metres on the ellipsoid of `crs`, to 1e-6 of them up to 1000 km: from the first
-// corner to the second, from there to the third, and back. In a plane: in its units. Throws InputError as
-// `triangleAreas` does.
+// Measures edges between nodes, which must live as long as it: in metres on the ellipsoid of `crs`, to 1e-6 of them up to
+// 1000 km; in a plane: in its units. Throws InputError as `triangleAreas` does.
+class EdgeMeter {
+ public:
+  EdgeMeter(std::span<const Point> nodes, const Crs& crs, const ItemLoop& loop = inOrder);
+
+  double between(std::uint32_t a, std::uint32_t b) const;
+  // From the first corner of a triangle to the second, from there to the third, and back.
+  std::array<double, 3> of(const std::array<std::uint32_t, 3>& corners) const {
+    return {between(corners[0], corners[1]), between(corners[1], corners[2]), between(corners[2], corners[0])};
+  }
+
+ private:
+  std::span<const Point> nodes_;
+  double diameter_ = 0.0;                      // of the ellipsoid
+  std::vector<std::array<double, 3>> places_;  // of the nodes, centred on the Earth; empty in a plane
+};
+
+// So measured, the edges of all triangles.
 std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
                                                std::span<const std::array<std::uint32_t, 3>> triangles, const Crs& crs);
 

@@ -13,7 +13,7 @@
 
 namespace coastmesh {
 
-void keepInFrame(Grid& grid, const Coastline& coastline) {
+void keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& loop) {
   if (!coastline.framed_by_box) return;
   Box box;
   bool in_parts = false;
@@ -25,14 +25,28 @@ void keepInFrame(Grid& grid, const Coastline& coastline) {
   const auto inBox = [&](const Point& p) {
     return Point{in_parts ? p.x : std::clamp(p.x, box.xmin, box.xmax), std::clamp(p.y, box.ymin, box.ymax)};
   };
-  std::vector<bool> outside(grid.nodes.size(), false);
-  for (std::size_t n = 0; n < grid.nodes.size(); ++n) outside[n] = !(inBox(grid.nodes[n]) == grid.nodes[n]);
-  std::vector<std::size_t> changed;  // triangles
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
-    if (std::ranges::any_of(grid.triangles[t], [&](std::uint32_t n) { return outside[n]; })) changed.push_back(t);
-  const std::vector<Point> before = grid.nodes;
-  for (std::size_t n = 0; n < grid.nodes.size(); ++n)
-    if (outside[n]) grid.nodes[n] = inBox(grid.nodes[n]);
+  const std::vector<std::uint32_t> outside =
+      joined(overStretches(loop, grid.nodes.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> some;
+        for (std::size_t n = first; n < last; ++n)
+          if (!(inBox(grid.nodes[n]) == grid.nodes[n])) some.push_back(static_cast<std::uint32_t>(n));
+        return some;
+      }));
+  if (outside.empty()) return;
+  std::vector<std::uint8_t> moves(grid.nodes.size(), 0);
+  std::vector<Point> before;
+  for (const std::uint32_t n : outside) {
+    moves[n] = 1;
+    before.push_back(grid.nodes[n]);
+    grid.nodes[n] = inBox(grid.nodes[n]);
+  }
+  const std::vector<std::size_t> changed =  // triangles
+      joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<std::size_t> some;
+        for (std::size_t t = first; t < last; ++t)
+          if (std::ranges::any_of(grid.triangles[t], [&](std::uint32_t n) { return moves[n] != 0; })) some.push_back(t);
+        return some;
+      }));
   const auto isTurned = [&](std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
     return orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) <= 0;
@@ -43,8 +57,11 @@ void keepInFrame(Grid& grid, const Coastline& coastline) {
     for (const std::size_t t : changed) {
       if (!isTurned(t)) continue;
       for (const std::uint32_t n : grid.triangles[t]) {
-        again = again || !(grid.nodes[n] == before[n]);
-        grid.nodes[n] = before[n];
+        if (moves[n] == 0) continue;
+        const auto at = std::ranges::lower_bound(outside, n);
+        grid.nodes[n] = before[static_cast<std::size_t>(at - outside.begin())];
+        moves[n] = 0;
+        again = true;
       }
     }
   }

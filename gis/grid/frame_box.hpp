@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/item_loop.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/grid/grid.hpp"
 
@@ -9,6 +10,6 @@ namespace coastmesh {
 // which bulge towards the pole where elements are large. Areas and angles of their triangles are measured again. Does
 // nothing where the frame is no box; across the end of the longitudes' turn only latitudes are looked at. A node whose
 // move would turn a triangle over stays.
-void keepInFrame(Grid& grid, const Coastline& coastline);
+void keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -45,18 +45,20 @@ int orientationOnGround(const Point& a, const Point& b, const Point& c, const Cr
   return determinant > 0 ? 1 : -1;
 }
 
-std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2) {
+std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2, const ItemLoop& loop) {
   // Square metres: more than areas between geodesics round half the globe may be wrong by.
   constexpr double kSureArea = 1.0;
-  std::vector<std::uint32_t> turned;
-  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
-    const auto& [a, b, c] = grid.triangles[t];
-    const bool sure = grid.crs.geographic && std::abs(area_m2[t]) > kSureArea;
-    const bool right =
-        sure ? area_m2[t] > 0 : orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) > 0;
-    if (!right) turned.push_back(t);
-  }
-  return turned;
+  return joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> turned;
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& [a, b, c] = grid.triangles[t];
+      const bool sure = grid.crs.geographic && std::abs(area_m2[t]) > kSureArea;
+      const bool right =
+          sure ? area_m2[t] > 0 : orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) > 0;
+      if (!right) turned.push_back(static_cast<std::uint32_t>(t));
+    }
+    return turned;
+  }));
 }
 
 Point middleOf(const Grid& grid, std::uint32_t triangle) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/crs/crs.hpp"
 #include "gis/grid/grid.hpp"
 
@@ -19,7 +20,8 @@ int orientationOnGround(const Point& a, const Point& b, const Point& c, const Cr
 // plane, which is what programs that read the grid compute in. A mesh that is right in its working plane has
 // such triangles where they are far longer than high (sides that are straight there and on the ground differ by a
 // hundredth of their length for some 1000 km) or where rounding to the CRS's coordinates flattened them.
-std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2);
+std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2,
+                                           const ItemLoop& loop = inOrder);
 
 // The `meanPlace` of a triangle's corners.
 Point middleOf(const Grid& grid, std::uint32_t triangle);

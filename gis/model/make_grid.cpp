@@ -41,10 +41,10 @@ std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic
   const bool shifts = geographic && !domain.projection.isIdentity();
   const LongitudeRange range = shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
-  std::vector<std::uint32_t> index_of(mesh.points.size(), kNone);
+  std::vector<std::uint32_t> index_of;
+  reserveOn(loop, index_of, mesh.points.size());
   auto count = static_cast<std::uint32_t>(nodes.size());
-  for (std::size_t v = 0; v < index_of.size(); ++v)
-    if (used[v]) index_of[v] = count++;
+  for (const std::uint8_t is_used : used) index_of.push_back(is_used ? count++ : kNone);
   nodes.resize(count);
   forEachByStretches(loop, mesh.points.size(), [&](std::size_t v) {
     if (index_of[v] == kNone) return;
@@ -76,11 +76,18 @@ void appendTriangles(const TriMesh& mesh, const std::vector<std::uint32_t>& inde
 // The features that triangles belong to, in the coastline's order; the result is the new index of each of the
 // coastline's, and empty where it has none (a .poly).
 std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
-                                          std::vector<GridFeature>& features) {
+                                          const ItemLoop& loop, std::vector<GridFeature>& features) {
   std::vector<std::uint32_t> index_of(coastline.features.size(), kNone);
   if (index_of.empty()) return index_of;
   for (const MeshedDomain& part : parts) {
-    for (RegionId region : part.mesh->regions) {
+    const std::vector<RegionId>& regions = part.mesh->regions;
+    // Triangles beside one another mostly lie in the same region.
+    for (const RegionId region : joined(overStretches(loop, regions.size(), [&](std::size_t first, std::size_t last) {
+           std::vector<RegionId> some;
+           for (std::size_t t = first; t < last; ++t)
+             if (some.empty() || some.back() != regions[t]) some.push_back(regions[t]);
+           return some;
+         }))) {
       assert(region >= 0 && static_cast<std::size_t>(region) < index_of.size());
       index_of[static_cast<std::size_t>(region)] = 0;
     }
@@ -125,15 +132,19 @@ void appendLines(const Domain& domain, const TriMesh& mesh, const std::vector<st
 }
 
 // Edges of the boundary that lie on the frame's, with the mesh to the left, sorted.
-std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh) {
-  std::vector<NodePair> open;
-  for (const Triangle& triangle : mesh.triangles) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const SegmentId segment = triangle.seg[i];
-      if (triangle.adj[i] != kNone || segment >= domain.pslg.segments.size()) continue;
-      if (domain.pslg.segments[segment].tag == kOpenTag) open.push_back({triangle.v[next3(i)], triangle.v[prev3(i)]});
+std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh, const ItemLoop& loop) {
+  auto open = joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<NodePair> some;
+    for (std::size_t t = first; t < last; ++t) {
+      const Triangle& triangle = mesh.triangles[t];
+      for (unsigned i = 0; i < 3; ++i) {
+        const SegmentId segment = triangle.seg[i];
+        if (triangle.adj[i] != kNone || segment >= domain.pslg.segments.size()) continue;
+        if (domain.pslg.segments[segment].tag == kOpenTag) some.push_back({triangle.v[next3(i)], triangle.v[prev3(i)]});
+      }
     }
-  }
+    return some;
+  }));
   std::ranges::sort(open);
   return open;
 }
@@ -178,7 +189,7 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
   reserveOn(loop, grid.nodes, point_count);
   reserveOn(loop, grid.triangles, triangle_count);
   reserveOn(loop, grid.min_angle_deg, triangle_count);
-  const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, grid.features);
+  const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, loop, grid.features);
   if (!feature_index.empty()) reserveOn(loop, grid.feature_of, triangle_count);
   for (const MeshedDomain& part : parts) {
     const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, loop, grid.nodes);
@@ -189,7 +200,7 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
     }
     appendTriangles(*part.mesh, index_of, feature_index, loop, grid);
     appendLines(*part.domain, *part.mesh, index_of, grid.lines);
-    const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh);
+    const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh, loop);
     for (Boundary& whole : findBoundaries(*part.mesh, loop)) {
       for (Boundary& boundary : splitLoop(std::move(whole), open)) {
         for (std::uint32_t& node : boundary.nodes) node = index_of[node];

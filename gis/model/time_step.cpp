@@ -81,25 +81,52 @@ std::vector<double> timeSteps(const Grid& grid) {
   return steps;
 }
 
-StepReport measureStep(const Grid& grid) {
+StepReport measureStep(const Grid& grid, const ItemLoop& loop) {
   StepReport report;
   if (grid.triangles.empty()) return report;
-  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
-  report.shortest_edge_m = kInfinity;
-  for (std::uint32_t t = 0; t < lengths.size(); ++t) {
-    const auto shortest = std::ranges::min_element(lengths[t]);
-    if (*shortest < report.shortest_edge_m) {
-      const auto i = static_cast<std::size_t>(shortest - lengths[t].begin());
-      report.shortest_edge_m = *shortest;
-      report.shortest_edge =
-          placeBetween(grid.crs, grid.nodes[grid.triangles[t][i]], grid.nodes[grid.triangles[t][(i + 1) % 3]], 0.5);
+  // The first of the shortest, whatever stretches are looked at first.
+  struct Shortest {
+    double length = kInfinity, step = kInfinity;
+    std::size_t of_length = 0, of_step = 0;  // triangles
+    bool has_depths = false;
+  };
+  const EdgeMeter meter(grid.nodes, grid.crs, loop);
+  Shortest all;
+  for (const Shortest& one : overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+         Shortest some;
+         for (std::size_t t = first; t < last; ++t) {
+           const double length = std::ranges::min(meter.of(grid.triangles[t]));
+           if (length < some.length) {
+             some.length = length;
+             some.of_length = t;
+           }
+           const double depth = deepestOf(grid, static_cast<std::uint32_t>(t)), step = stepOf(length, depth);
+           some.has_depths = some.has_depths || !std::isnan(depth);
+           if (!(step < some.step)) continue;
+           some.step = step;
+           some.of_step = t;
+         }
+         return some;
+       })) {
+    if (one.length < all.length) {
+      all.length = one.length;
+      all.of_length = one.of_length;
     }
-    const double depth = deepestOf(grid, t), step = stepOf(*shortest, depth);
-    report.has_depths = report.has_depths || !std::isnan(depth);
-    if (!(step < report.step_s)) continue;
-    report.step_s = step;
-    report.step_place = middleOf(grid, t);
+    all.has_depths = all.has_depths || one.has_depths;
+    if (!(one.step < all.step)) continue;
+    all.step = one.step;
+    all.of_step = one.of_step;
   }
+  report.shortest_edge_m = all.length;
+  if (all.length < kInfinity) {
+    const auto& corners = grid.triangles[all.of_length];
+    const std::array<double, 3> lengths = meter.of(corners);
+    const auto i = static_cast<std::size_t>(std::ranges::min_element(lengths) - lengths.begin());
+    report.shortest_edge = placeBetween(grid.crs, grid.nodes[corners[i]], grid.nodes[corners[(i + 1) % 3]], 0.5);
+  }
+  report.has_depths = all.has_depths;
+  report.step_s = all.step;
+  if (all.step < kInfinity) report.step_place = middleOf(grid, static_cast<std::uint32_t>(all.of_step));
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
 
 namespace coastmesh {
@@ -25,7 +26,7 @@ struct StepReport {
   Point step_place;                                         // the middle of that triangle
 };
 
-StepReport measureStep(const Grid& grid);  // of a grid without triangles: as above
+StepReport measureStep(const Grid& grid, const ItemLoop& loop = inOrder);  // of a grid without triangles: as above
 
 // What keeps edges short.
 enum class ShortCause {
