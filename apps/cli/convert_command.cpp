@@ -8,6 +8,8 @@
 #include "apps/job/finish_grid.hpp"
 #include "apps/usage/finish_usage.hpp"
 #include "apps/usage/grid_usage.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -37,10 +39,13 @@ int runConvert(const ConvertUsage& usage, Run& run) {
   for (const std::string& warning : report.warnings()) run.warn(warning);
   if (const std::string warning = outputs.depthWarning(grid); !warning.empty()) run.warn(warning);
   for (const std::string& warning : outputs.lossWarnings(grid, LossesOf::Grid)) run.warn(warning);
-  for (std::size_t i = 0; i < outputs.grids(); ++i) {
-    interrupt.check();
-    outputs.writeGrid(i, grid);
-  }
+  withThreads({}, [&] {
+    Recorder recorder;
+    for (std::size_t i = 0; i < outputs.grids(); ++i) {
+      interrupt.check();
+      outputs.writeGrid(i, grid, recorder.loop("write", control));
+    }
+  });
   outputs.commit();
   if (!usage.quiet) std::fputs(finishSummary(usage.finish, report).c_str(), stdout);
   return report.repairs.left.empty() ? kExitDone : kExitShort;

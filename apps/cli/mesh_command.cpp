@@ -18,6 +18,8 @@
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -34,14 +36,15 @@ std::string reasonOf(const std::vector<Refusal>& refusals) {
 }
 
 // Gives what files cannot hold of the mesh, or hold and the mesh has not, having warned of it.
-std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, ProgressDisplay& display, Run& run) {
+std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, ProgressDisplay& display, Run& run,
+                                    const ItemLoop& loop) {
   std::vector<std::string> warnings = outputs.lossWarnings(grid, LossesOf::Input);
   if (const std::string warning = outputs.depthWarning(grid); !warning.empty()) warnings.push_back(warning);
   if (!warnings.empty()) display.clear();
   for (const std::string& warning : warnings) run.warn(warning);
   for (std::size_t i = 0; i < outputs.grids(); ++i) {
     display.show("write", static_cast<double>(i) / static_cast<double>(outputs.grids()));
-    outputs.writeGrid(i, grid);
+    outputs.writeGrid(i, grid, loop);
     run.interrupt.check();
     if (display.abandoned()) throw Cancelled();
   }
@@ -111,9 +114,15 @@ int runMesh(const MeshCommandUsage& usage, Run& run) {
 
   const auto write_start = std::chrono::steady_clock::now();
   const bool any = result.regions > 0;
-  if (any) result.output_warnings = writeGrids(outputs, result.grid, display, run);
+  if (any) {
+    withThreads(job.parallel, [&] {
+      Recorder recorder;
+      result.output_warnings =
+          writeGrids(outputs, result.grid, display, run, recorder.loop("write", {control.cancelled, {}}));
+      result.log.append(recorder.finish("write"));
+    });
+  }
   result.seconds.write = secondsSince(write_start);
-  result.log.addAlone("write", result.seconds.write);
   result.seconds.total = secondsSince(start);
   outputs.writeReport(meshReport(job, result, threadsAsked(job.parallel), run.warnings));
   outputs.commit();

@@ -36,7 +36,7 @@ class RunOutputs {
   void addReport(const std::string& path);
 
   std::size_t grids() const { return grids_.size(); }
-  void writeGrid(std::size_t index, const Grid& grid) { grids_[index].write(grid); }
+  void writeGrid(std::size_t index, const Grid& grid, const ItemLoop& loop) { grids_[index].write(grid, loop); }
   void writeReport(const std::string& text);
   // Empty, or a warning: an output says depths, and the grid has none.
   std::string depthWarning(const Grid& grid) const;

@@ -11,6 +11,8 @@
 #include "gis/error.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
 
 namespace py = pybind11;
 
@@ -62,7 +64,7 @@ py::list boundariesOf(const Grid& grid) {
 void writeFile(const MeshResult& mesh, const std::string& path, const std::string& format, bool overwrite) {
   const py::gil_scoped_release release;
   StagedOutput output(path, gridFormatFor(path, format), overwrite);
-  output.write(mesh.grid);
+  withThreads({}, [&] { output.write(mesh.grid, Recorder().loop("write")); });
   output.commit();
 }
 

@@ -27,8 +27,8 @@ void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::stri
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const Crs& crs, const ItemLoop& loop = inOrder);
 
-// Measures edges between nodes, which must live as long as it: in metres on the ellipsoid of `crs`, to 1e-6 of them up to
-// 1000 km; in a plane: in its units. Throws InputError as `triangleAreas` does.
+// Measures edges between nodes, which must live as long as it: in metres on the ellipsoid of `crs`, to 1e-6 of them up
+// to 1000 km; in a plane: in its units. Throws InputError as `triangleAreas` does.
 class EdgeMeter {
  public:
   EdgeMeter(std::span<const Point> nodes, const Crs& crs, const ItemLoop& loop = inOrder);

@@ -62,10 +62,18 @@ void NetcdfWriter::put(int variable, const signed char* values) { check(nc_put_v
 
 void NetcdfWriter::put(int variable, const char* values) { check(nc_put_var_text(id_, variable, values)); }
 
-void NetcdfWriter::close() {
+void NetcdfWriter::close(const ItemLoop& loop) {
   const int id = id_;
   id_ = -1;
   check(nc_close(id));
+  if (later_.empty()) return;
+  const std::vector<std::uint64_t> begins = beginningsOfVariables(path_);
+  std::vector<FilePart> parts;
+  for (auto& [variable, part] : later_) {
+    part.begin = begins.at(static_cast<std::size_t>(variable));
+    parts.push_back(std::move(part));
+  }
+  writeParts(path_, std::move(parts), loop);
 }
 
 NetcdfReader::NetcdfReader(std::string path) : path_(std::move(path)) {

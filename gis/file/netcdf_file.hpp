@@ -1,9 +1,16 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <concepts>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "gis/file/file_parts.hpp"
 
 namespace coastmesh {
 
@@ -30,13 +37,58 @@ class NetcdfWriter {
   void put(int variable, const double* values);
   void put(int variable, const signed char* values);
   void put(int variable, const char* values);
-  void close();
+  // `count` values of a variable of NC_INT or NC_DOUBLE, which is what `valueOf(i)` returns. They are made when the
+  // file is closed, by the threads of `close`, and written past the library, which has but one.
+  template <typename ValueOf>
+  void putLater(int variable, std::size_t count, ValueOf valueOf) {
+    using Value = decltype(valueOf(count));
+    static_assert(std::same_as<Value, std::int32_t> || std::same_as<Value, double>);
+    const auto fill = [valueOf](std::uint64_t first, std::span<std::byte> bytes) {
+      fillWith<Value>(first, bytes, valueOf);
+    };
+    later_.push_back({variable, {0, count * sizeof(Value), fill}});
+  }
+  void close(const ItemLoop& loop = inOrder);
 
  private:
   void check(int status) const;
 
+  // Values in the order of bytes that the format has, from byte `first` of all of them on.
+  template <typename Value, typename ValueOf>
+  static void fillWith(std::uint64_t first, std::span<std::byte> bytes, const ValueOf& valueOf) {
+    using Bits = std::conditional_t<sizeof(Value) == 4, std::uint32_t, std::uint64_t>;
+    const auto bitsOf = [&](std::uint64_t i) {
+      const Bits bits = std::bit_cast<Bits>(valueOf(static_cast<std::size_t>(i)));
+      if constexpr (std::endian::native == std::endian::big) return bits;
+      if constexpr (sizeof(Value) == 4)
+        return Bits{__builtin_bswap32(bits)};
+      else
+        return Bits{__builtin_bswap64(bits)};
+    };
+    while (!bytes.empty()) {
+      const std::uint64_t i = first / sizeof(Value), into = first % sizeof(Value);
+      std::size_t done = 0;
+      if (into == 0) {
+        const std::size_t whole = bytes.size() / sizeof(Value);
+        for (std::size_t k = 0; k < whole; ++k) {
+          const Bits bits = bitsOf(i + k);
+          std::memcpy(bytes.data() + k * sizeof(Value), &bits, sizeof(Value));
+        }
+        done = whole * sizeof(Value);
+      }
+      if (done == 0) {  // a part of a value
+        const Bits bits = bitsOf(i);
+        done = std::min<std::size_t>(bytes.size(), sizeof(Value) - into);
+        std::memcpy(bytes.data(), reinterpret_cast<const std::byte*>(&bits) + into, done);
+      }
+      first += done;
+      bytes = bytes.subspan(done);
+    }
+  }
+
   std::string path_;
   int id_ = -1;
+  std::vector<std::pair<int, FilePart>> later_;  // by variables' numbers
 };
 
 class NetcdfReader {

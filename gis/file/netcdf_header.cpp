@@ -1,8 +1,9 @@
 #include "gis/file/netcdf_header.hpp"
 
 #include <array>
-#include <cstdint>
+#include <cassert>
 #include <fstream>
+#include <utility>
 
 namespace coastmesh {
 namespace {
@@ -34,10 +35,12 @@ class HeaderWalk {
       attributes();
       number(4);  // type
       count();    // size of a record
-      number(version_ == 1 ? 4 : 8);
+      begins_.push_back(number(version_ == 1 ? 4 : 8));
     });
     return sound_;
   }
+
+  std::vector<std::uint64_t>&& begins() { return std::move(begins_); }
 
  private:
   std::uint64_t countSize() const { return version_ == 5 ? 8 : 4; }
@@ -81,10 +84,18 @@ class HeaderWalk {
   std::uint64_t left_ = 0;
   int version_ = 0;
   bool sound_ = true;
+  std::vector<std::uint64_t> begins_;  // of the variables' values
 };
 
 }  // namespace
 
 bool headerFitsFile(const std::string& path) { return HeaderWalk(path).fits(); }
+
+std::vector<std::uint64_t> beginningsOfVariables(const std::string& path) {
+  HeaderWalk walk(path);
+  [[maybe_unused]] const bool sound = walk.fits();
+  assert(sound);
+  return walk.begins();
+}
 
 }  // namespace coastmesh

@@ -1,12 +1,50 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <concepts>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/item_loop.hpp"
+
 namespace coastmesh {
+
+// Text in memory, with numbers as TextWriter writes them.
+class TextBlock {
+ public:
+  TextBlock& operator<<(std::string_view text) {
+    need(text.size());
+    used_ = static_cast<std::size_t>(std::ranges::copy(text, bytes_.data() + used_).out - bytes_.data());
+    return *this;
+  }
+  TextBlock& operator<<(char c) { return *this << std::string_view(&c, 1); }
+  TextBlock& operator<<(double value) { return number(value); }
+  TextBlock& operator<<(std::integral auto value) requires(!std::same_as<decltype(value), char>) {
+    return number(value);
+  }
+
+  std::string_view text() const { return {bytes_.data(), used_}; }
+  void clear() { used_ = 0; }  // keeps its memory
+
+ private:
+  static constexpr std::size_t kLongestNumber = 32;
+
+  void need(std::size_t size) {
+    if (bytes_.size() - used_ < size) bytes_.resize(2 * bytes_.size() + size);
+  }
+  TextBlock& number(auto value) {
+    need(kLongestNumber);
+    char* const begin = bytes_.data() + used_;
+    used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin);
+    return *this;
+  }
+
+  std::vector<char> bytes_;
+  std::size_t used_ = 0;
+};
 
 // Writes a text file through a large buffer. Doubles take the fewest digits that read back as the same bits. Every
 // failure of the system throws OutputError with the path and the reason.
@@ -26,6 +64,32 @@ class TextWriter {
 
   // Bytes as they are, for binary parts of a file.
   void raw(const void* bytes, std::size_t size) { *this << std::string_view(static_cast<const char*>(bytes), size); }
+
+  // `row(block, i)` for every i below `count`, in this order in the file, made block by block by the threads of `loop`.
+  template <typename Row>
+  void rows(const ItemLoop& loop, std::size_t count, const Row& row) {
+    constexpr std::size_t kRowsABlock = 4096, kBlocksAtOnce = 64;
+    std::vector<TextBlock> made, next(std::min(kBlocksAtOnce, count / kRowsABlock + 1));
+    made.resize(next.size());
+    flush();
+    // While some are made one thread writes those made before.
+    for (std::size_t first = 0, written = 0; first < count || written > 0;) {
+      const std::size_t blocks = std::min(next.size(), (count - first + kRowsABlock - 1) / kRowsABlock);
+      loop(blocks + 1, [&](std::size_t b) {
+        if (b == 0) {
+          for (std::size_t k = 0; k < written; ++k) put(made[k].text().data(), made[k].text().size());
+          return;
+        }
+        TextBlock& block = next[b - 1];
+        block.clear();
+        const std::size_t from = first + (b - 1) * kRowsABlock;
+        for (std::size_t i = from; i < std::min(count, from + kRowsABlock); ++i) row(block, i);
+      });
+      first = std::min(count, first + blocks * kRowsABlock);
+      written = blocks;
+      std::swap(made, next);
+    }
+  }
 
   void close();
 

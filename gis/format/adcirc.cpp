@@ -8,10 +8,10 @@ namespace {
 
 // ADCIRC's fort.14, depth positive down, and the CRS in a .prj beside it. Throws OutputError, also where a depth is
 // unknown.
-void writeAdcirc(const Grid& grid, const std::string& path) {
+void writeAdcirc(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   TextWriter file(path);
-  writeFort14(file, grid, grid.nodes, Fort14Kind::Adcirc);
+  writeFort14(file, grid, grid.nodes, Fort14Kind::Adcirc, loop);
   file.close();
   writePrjBeside(path, grid.crs);
 }

@@ -90,16 +90,17 @@ std::string oneLine(std::string title) {
 
 }  // namespace
 
-void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& places, Fort14Kind kind) {
+void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& places, Fort14Kind kind,
+                 const ItemLoop& loop) {
   file << oneLine(grid.title) << '\n' << grid.triangles.size() << ' ' << grid.nodes.size() << '\n';
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  file.rows(loop, places.size(), [&](TextBlock& text, std::size_t i) {
     const double depth = grid.z.empty() ? 0.0 : 0.0 - grid.z[i];  // never -0
-    file << i + 1 << ' ' << places[i].x << ' ' << places[i].y << ' ' << depth << '\n';
-  }
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    text << i + 1 << ' ' << places[i].x << ' ' << places[i].y << ' ' << depth << '\n';
+  });
+  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
-    file << t + 1 << " 3 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
-  }
+    text << t + 1 << " 3 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  });
   writeSegments(file, grid, kind, true);
   writeSegments(file, grid, kind, false);
 }

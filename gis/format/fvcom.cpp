@@ -70,7 +70,7 @@ void writeCells(const Grid& grid, const std::vector<double>& depths, const std::
 // boundaries, type 1) and `lake_cor.dat` (latitudes; 0, which is no rotation, in a plane), with the CRS in a .prj.
 // `path` is the first of them; without "_grd.dat" at its end it gives the name of the set. Rivers are shore here: FVCOM
 // has them in its namelist. Throws OutputError, also where a depth is unknown.
-void writeFvcom(const Grid& grid, const std::string& path) {
+void writeFvcom(const Grid& grid, const std::string& path, const ItemLoop&) {
   requireZ(grid, path);
   std::vector<double> depths(grid.nodes.size(), 0.0);
   std::ranges::transform(grid.z, depths.begin(), [](double z) { return 0.0 - z; });

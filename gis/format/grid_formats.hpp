@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/file/output_files.hpp"
 #include "gis/format/grid_format.hpp"
 #include "gis/grid/grid.hpp"
@@ -11,7 +12,8 @@ namespace coastmesh {
 
 // How a format is written and read.
 struct FormatFunctions {
-  void (*write)(const Grid&, const std::string& path) = nullptr;
+  // By the threads of `loop`; the same bytes for any number of them.
+  void (*write)(const Grid&, const std::string& path, const ItemLoop& loop) = nullptr;
   // `unsaid` is the CRS where nothing says one.
   Grid (*read)(const std::string& path, const Crs& unsaid) = nullptr;
   OutputFiles (*files)(const std::string& path) = nullptr;  // null: `path` and nothing else

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_format.hpp"
 #include "gis/grid/grid.hpp"
@@ -27,7 +28,7 @@ class StagedOutput {
   // Files that the run reads; a .prj that belongs to one of them is never replaced.
   void protect(const std::vector<std::string>& inputs) { inputs_ = inputs; }
   // Throws OutputError, also for a grid without triangles.
-  void write(const Grid& grid);
+  void write(const Grid& grid, const ItemLoop& loop = inOrder);
   void commit() { files_.commit(); }
 
   const std::string& path() const { return files_.path(); }

@@ -20,14 +20,14 @@ std::vector<Point> longitudesAndLatitudes(const Grid& grid) {
 
 // SCHISM's hgrid.gr3 in the grid's CRS, hgrid.ll beside it in longitudes and latitudes (not for a plane), and the CRS
 // in a .prj; depth positive down. `path` may name either file. Throws OutputError, also where a depth is unknown.
-void writeSchism(const Grid& grid, const std::string& path) {
+void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   TextWriter gr3(withEnding(path, ".gr3"));
-  writeFort14(gr3, grid, grid.nodes, Fort14Kind::Schism);
+  writeFort14(gr3, grid, grid.nodes, Fort14Kind::Schism, loop);
   gr3.close();
   if (grid.crs.isPlane()) return;
   TextWriter ll(withEnding(path, ".ll"));
-  writeFort14(ll, grid, longitudesAndLatitudes(grid), Fort14Kind::Schism);
+  writeFort14(ll, grid, longitudesAndLatitudes(grid), Fort14Kind::Schism, loop);
   ll.close();
   writePrjBeside(path, grid.crs);
 }

@@ -205,19 +205,19 @@ void writeMaterialNames(TextWriter& file, const Grid& grid) {
 // SMS .2dm with a .prj beside it. z is elevation, positive up, 0 where the grid has none; the material is the number of
 // the feature; boundaries are node strings that repeat the first node where they close, numbered as `boundaryMarker`
 // says. Throws OutputError.
-void write2dm(const Grid& grid, const std::string& path) {
+void write2dm(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   TextWriter file(path);
   file << "MESH2D\n";
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
     const std::uint32_t material = grid.feature_of.empty() ? 1 : grid.feature_of[t] + 1;
-    file << "E3T " << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << ' ' << material << '\n';
-  }
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
-    file << "ND " << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' '
+    text << "E3T " << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << ' ' << material << '\n';
+  });
+  file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
+    text << "ND " << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' '
          << (grid.z.empty() ? 0.0 : grid.z[i]) << '\n';
-  }
+  });
   for (std::size_t b = 0; b < grid.boundaries.size(); ++b) {
     const Boundary& boundary = grid.boundaries[b];
     writeNodeString(file, boundary.nodes, boundary.closed, boundaryMarker(b, boundary.role));

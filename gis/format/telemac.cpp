@@ -218,7 +218,7 @@ void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
 // boundaries levels (5 4 4), rivers discharges (4 5 5). The file has codes for nodes only: the shore of a single edge
 // between two openings becomes open with them. Throws OutputError, also where a z is unknown or the mesh touches
 // itself in a node.
-void writeTelemac(const Grid& grid, const std::string& path) {
+void writeTelemac(const Grid& grid, const std::string& path, const ItemLoop&) {
   requireZ(grid, path);
   const BoundaryNodes boundary = boundaryNodesOf(grid, path);
   writeGeometry(grid, boundary, path);

@@ -144,7 +144,7 @@ std::int64_t markerOfLine(const Grid& grid, std::size_t line) {
   return lineMarker(grid.boundaries.size() + line, grid.lines[line].kind);
 }
 
-void writeNodes(const Grid& grid, const std::string& path) {
+void writeNodes(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   std::vector<std::int64_t> markers(grid.nodes.size(), 0);
   for (std::size_t i = grid.lines.size(); i-- > 0;)
     for (std::uint32_t node : grid.lines[i].nodes) markers[node] = markerOfLine(grid, i);
@@ -152,23 +152,23 @@ void writeNodes(const Grid& grid, const std::string& path) {
     for (std::uint32_t node : grid.boundaries[b].nodes) markers[node] = boundaryMarker(b, grid.boundaries[b].role);
   TextWriter file(path);
   file << grid.nodes.size() << " 2 " << (grid.z.empty() ? 0 : 1) << " 1\n";
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
-    file << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y;
-    if (!grid.z.empty()) file << ' ' << grid.z[i];
-    file << ' ' << markers[i] << '\n';
-  }
+  file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
+    text << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y;
+    if (!grid.z.empty()) text << ' ' << grid.z[i];
+    text << ' ' << markers[i] << '\n';
+  });
   file.close();
 }
 
-void writeElements(const Grid& grid, const std::string& path) {
+void writeElements(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   TextWriter file(path);
   file << grid.triangles.size() << " 3 " << (grid.feature_of.empty() ? 0 : 1) << '\n';
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
-    file << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1;
-    if (!grid.feature_of.empty()) file << ' ' << grid.features[grid.feature_of[t]].fid;
-    file << '\n';
-  }
+    text << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1;
+    if (!grid.feature_of.empty()) text << ' ' << grid.features[grid.feature_of[t]].fid;
+    text << '\n';
+  });
   file.close();
 }
 
@@ -216,10 +216,10 @@ void writeSegments(const Grid& grid, const std::string& path) {
 // Triangle's .node and .ele, numbered from 1, with the boundaries as segments in a .poly and the CRS in a .prj; `path`
 // is any of them. z is the attribute of a node, the feature's fid that of a triangle. Segments are marked with
 // `boundaryMarker`, nodes with that of the first boundary they lie on. Islands have a hole point. Throws OutputError.
-void writeTriangle(const Grid& grid, const std::string& path) {
+void writeTriangle(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
-  writeNodes(grid, withEnding(path, ".node"));
-  writeElements(grid, withEnding(path, ".ele"));
+  writeNodes(grid, withEnding(path, ".node"), loop);
+  writeElements(grid, withEnding(path, ".ele"), loop);
   writeSegments(grid, withEnding(path, ".poly"));
   writePrjBeside(path, grid.crs);
 }

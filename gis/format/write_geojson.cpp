@@ -29,7 +29,7 @@ std::string crsMember(const Crs& crs, const std::string& path) {
   return R"("crs": {"type": "name", "properties": {"name": )" + jsonText(urn) + "}},\n";
 }
 
-void writeValue(TextWriter& file, const LayerColumn& column, std::size_t row) {
+void writeValue(TextBlock& file, const LayerColumn& column, std::size_t row) {
   if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
     file << ((*flag)(row) ? "true" : "false");
   } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
@@ -50,7 +50,7 @@ void writeValue(TextWriter& file, const LayerColumn& column, std::size_t row) {
   }
 }
 
-void writeShape(TextWriter& file, const Grid& grid, GridLayer::Shape shape, const std::vector<std::uint32_t>& nodes) {
+void writeShape(TextBlock& file, const Grid& grid, GridLayer::Shape shape, const std::vector<std::uint32_t>& nodes) {
   const auto writePlace = [&](std::uint32_t node) {
     file << '[' << grid.nodes[node].x << ',' << grid.nodes[node].y;
     if (shape == GridLayer::Shape::Point && !grid.z.empty() && std::isfinite(grid.z[node])) file << ',' << grid.z[node];
@@ -81,25 +81,26 @@ void writeShape(TextWriter& file, const Grid& grid, GridLayer::Shape shape, cons
   file << '}';
 }
 
-void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs_member, const std::string& path) {
+void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs_member, const std::string& path,
+                const ItemLoop& loop) {
   TextWriter file(path);
   file << "{\n\"type\": \"FeatureCollection\",\n\"name\": " << jsonText(layer.name) << ",\n"
        << crs_member << "\"features\": [\n";
   std::vector<std::string> keys;
   keys.reserve(layer.columns.size());
   for (const LayerColumn& column : layer.columns) keys.push_back(jsonText(column.name));
-  std::vector<std::uint32_t> nodes;
-  for (std::size_t row = 0; row < layer.rows; ++row) {
-    file << R"({"type":"Feature","properties":{)";
+  file.rows(loop, layer.rows, [&](TextBlock& text, std::size_t row) {
+    text << R"({"type":"Feature","properties":{)";
     for (std::size_t c = 0; c < layer.columns.size(); ++c) {
-      file << (c == 0 ? "" : ",") << keys[c] << ':';
-      writeValue(file, layer.columns[c], row);
+      text << (c == 0 ? "" : ",") << keys[c] << ':';
+      writeValue(text, layer.columns[c], row);
     }
-    file << R"(},"geometry":)";
+    text << R"(},"geometry":)";
+    std::vector<std::uint32_t> nodes;
     layer.shapeOf(row, nodes);
-    writeShape(file, grid, layer.shape, nodes);
-    file << (row + 1 < layer.rows ? "},\n" : "}\n");
-  }
+    writeShape(text, grid, layer.shape, nodes);
+    text << (row + 1 < layer.rows ? "},\n" : "}\n");
+  });
   file << "]\n}\n";
   file.close();
 }
@@ -108,9 +109,10 @@ void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs
 // rather than by OGR, whose numbers do not all come back bit for bit and which takes what it cannot name for WGS 84.
 // WGS 84 as RFC 7946 has it; other CRS in their own coordinates with the `crs` member of GeoJSON 2008, null for a
 // plane. Throws OutputError, also for a CRS without a code, since GeoJSON can only name codes.
-void writeGeoJson(const Grid& grid, const std::string& path) {
+void writeGeoJson(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const std::string crs_member = crsMember(grid.crs, path);
-  for (const GridLayer& layer : layersOf(grid)) writeLayer(grid, layer, crs_member, pathOfLayer(path, layer.name));
+  for (const GridLayer& layer : layersOf(grid))
+    writeLayer(grid, layer, crs_member, pathOfLayer(path, layer.name), loop);
 }
 
 }  // namespace

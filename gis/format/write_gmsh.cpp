@@ -169,7 +169,7 @@ void writeEntities(TextWriter& file, const Grid& grid, const Layout& layout) {
 }
 
 // Every node in the block of the first entity that it lies on, curves before surfaces.
-void writeNodes(TextWriter& file, const Grid& grid, const Layout& layout) {
+void writeNodes(TextWriter& file, const Grid& grid, const Layout& layout, const ItemLoop& loop) {
   std::vector<std::vector<std::uint32_t>> blocks(layout.curves.size() + layout.surfaces());
   std::vector<bool> placed(grid.nodes.size(), false);
   const auto place = [&](std::size_t block, std::uint32_t node) {
@@ -188,13 +188,16 @@ void writeNodes(TextWriter& file, const Grid& grid, const Layout& layout) {
     if (blocks[b].empty()) continue;
     std::ranges::sort(blocks[b]);
     file << (b < layout.curves.size() ? 1 : 2) << ' ' << b + 1 << " 0 " << blocks[b].size() << '\n';
-    for (std::uint32_t node : blocks[b]) file << node + 1 << '\n';
-    for (std::uint32_t node : blocks[b]) file << grid.nodes[node].x << ' ' << grid.nodes[node].y << " 0\n";
+    const std::vector<std::uint32_t>& nodes = blocks[b];
+    file.rows(loop, nodes.size(), [&](TextBlock& text, std::size_t i) { text << nodes[i] + 1 << '\n'; });
+    file.rows(loop, nodes.size(), [&](TextBlock& text, std::size_t i) {
+      text << grid.nodes[nodes[i]].x << ' ' << grid.nodes[nodes[i]].y << " 0\n";
+    });
   }
   file << "$EndNodes\n";
 }
 
-void writeElements(TextWriter& file, const Grid& grid, const Layout& layout) {
+void writeElements(TextWriter& file, const Grid& grid, const Layout& layout, const ItemLoop& loop) {
   const auto blocks = std::ranges::count_if(layout.curves, [](const auto& curve) { return !curve.edges.empty(); }) +
                       std::ranges::count_if(layout.triangles, [](const auto& group) { return !group.empty(); });
   const std::size_t count = layout.line_count + grid.triangles.size();
@@ -209,10 +212,11 @@ void writeElements(TextWriter& file, const Grid& grid, const Layout& layout) {
   for (std::size_t s = 0; s < layout.surfaces(); ++s) {
     if (layout.triangles[s].empty()) continue;
     file << "2 " << layout.surfaceTag(s) << ' ' << kTriangle << ' ' << layout.triangles[s].size() << '\n';
-    for (std::uint32_t t : layout.triangles[s]) {
+    file.rows(loop, layout.triangles[s].size(), [&](TextBlock& text, std::size_t i) {
+      const std::uint32_t t = layout.triangles[s][i];
       const auto& [a, b, c] = grid.triangles[t];
-      file << layout.line_count + t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
-    }
+      text << layout.line_count + t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+    });
   }
   file << "$EndElements\n";
 }
@@ -221,27 +225,28 @@ void writeElements(TextWriter& file, const Grid& grid, const Layout& layout) {
 // "island 2", "open 3") of line elements, each feature a surface with its own ("feature 17"; "domain" where there is
 // none). Tags of nodes and triangles follow the grid's order. The mesh lies in the plane: z is node data, since solvers
 // take a third coordinate for a curved surface. Throws OutputError.
-void writeGmsh(const Grid& grid, const std::string& path) {
+void writeGmsh(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const Layout layout = layoutOf(grid);
   TextWriter file(path);
   file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   writePhysicalNames(file, grid, layout);
   writeEntities(file, grid, layout);
-  writeNodes(file, grid, layout);
-  writeElements(file, grid, layout);
+  writeNodes(file, grid, layout, loop);
+  writeElements(file, grid, layout, loop);
   writeNodeData(file, grid);
   file.close();
   writePrjBeside(path, grid.crs);
 }
 
-void writeGmsh22(const Grid& grid, const std::string& path) {
+void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const Layout layout = layoutOf(grid);
   TextWriter file(path);
   file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   writePhysicalNames(file, grid, layout);
   file << "$Nodes\n" << grid.nodes.size() << '\n';
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
-    file << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << " 0\n";
+  file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
+    text << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << " 0\n";
+  });
   file << "$EndNodes\n$Elements\n" << layout.line_count + grid.triangles.size() << '\n';
   std::size_t tag = 0;
   for (std::size_t c = 0; c < layout.curves.size(); ++c)

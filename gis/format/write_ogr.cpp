@@ -263,7 +263,7 @@ std::uint64_t tableBytes(const GridLayer& layer) {
 
 }  // namespace
 
-void writeGeoPackage(const Grid& grid, const std::string& path) {
+void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop&) {
   const OgrErrors errors;
   const OgrOption date("OGR_CURRENT_DATE", kGeoPackageDate);
   // The file only gets its name once it is whole, so nothing is gained by a journal or by waiting for the disk.
@@ -291,7 +291,7 @@ void writeGeoPackage(const Grid& grid, const std::string& path) {
   close(std::move(dataset), path, errors);
 }
 
-void writeShapefile(const Grid& grid, const std::string& path) {
+void writeShapefile(const Grid& grid, const std::string& path, const ItemLoop&) {
   requireZ(grid, path);
   const std::vector<GridLayer> layers = layersOf(grid);
   constexpr std::uint64_t kTriangleShape = 8 + 44 + 4 + 4 * 16;  // header, type, box and counts, part, four corners
@@ -300,7 +300,7 @@ void writeShapefile(const Grid& grid, const std::string& path) {
   writeLayerFiles({"ESRI Shapefile", {"ENCODING=UTF-8", "2GB_LIMIT=YES", date.c_str()}, true}, grid, layers, path);
 }
 
-void writeFlatGeobuf(const Grid& grid, const std::string& path) {
+void writeFlatGeobuf(const Grid& grid, const std::string& path, const ItemLoop&) {
   writeLayerFiles({"FlatGeobuf", {}, false, nullptr, true}, grid, layersOf(grid), path);
 }
 

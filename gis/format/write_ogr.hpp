@@ -10,9 +10,9 @@ namespace coastmesh {
 // The grid's layers `triangles`, `nodes` (with z in the geometry too), `boundaries` and `lines`: in one GeoPackage, or
 // a Shapefile or FlatGeobuf each (`pathOfLayer`). Real columns of a shapefile keep 15 decimals, its coordinates all
 // bits. Throws OutputError.
-void writeGeoPackage(const Grid& grid, const std::string& path);
-void writeShapefile(const Grid& grid, const std::string& path);
-void writeFlatGeobuf(const Grid& grid, const std::string& path);
+void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& loop = inOrder);
+void writeShapefile(const Grid& grid, const std::string& path, const ItemLoop& loop = inOrder);
+void writeFlatGeobuf(const Grid& grid, const std::string& path, const ItemLoop& loop = inOrder);
 
 // Throws OutputError where a shapefile of `rows` records of `shape_bytes` and `table_bytes` each would pass the 2 GB
 // that its offsets can hold.

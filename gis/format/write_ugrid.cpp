@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "gis/crs/ogr_support.hpp"
 #include "gis/file/cf_grid_mapping.hpp"
@@ -68,7 +68,7 @@ class UgridFile {
   NetcdfWriter& file() { return file_; }
   int dimension(const std::string& name, std::size_t length) { return file_.dimension(name, length); }
 
-  // `values` is called when its turn comes, so that one array at a time is made.
+  // What is small, or text: `values` is called when its turn comes.
   template <typename Values>
   void put(int variable, Values&& values) {
     puts_.push_back([this, variable, values = std::forward<Values>(values)] {
@@ -76,11 +76,31 @@ class UgridFile {
       file_.put(variable, made.data());
     });
   }
+  // What is as long as the mesh is large: one by one, never as an array of their own.
+  template <typename ValueOf>
+  void putEach(int variable, std::size_t count, ValueOf&& valueOf) {
+    file_.putLater(variable, count, std::forward<ValueOf>(valueOf));
+  }
 
   // A variable of the mesh.
   template <typename Values>
   int data(const std::string& name, int type, int dimension, const std::string& location, const std::string& long_name,
            const std::string& units, Values&& values) {
+    const int variable = define(name, type, dimension, location, long_name, units);
+    put(variable, std::forward<Values>(values));
+    return variable;
+  }
+  template <typename ValueOf>
+  int dataOfEach(const std::string& name, int dimension, const std::string& location, const std::string& long_name,
+                 const std::string& units, std::size_t count, ValueOf&& valueOf) {
+    const int type = std::is_same_v<decltype(valueOf(count)), double> ? NC_DOUBLE : NC_INT;
+    const int variable = define(name, type, dimension, location, long_name, units);
+    putEach(variable, count, std::forward<ValueOf>(valueOf));
+    return variable;
+  }
+
+  int define(const std::string& name, int type, int dimension, const std::string& location,
+             const std::string& long_name, const std::string& units) {
     const int variable = file_.variable("mesh2d_" + name, type, {dimension});
     file_.attribute(variable, "mesh", "mesh2d");
     file_.attribute(variable, "location", location);
@@ -88,7 +108,6 @@ class UgridFile {
     if (!units.empty()) file_.attribute(variable, "units", units);
     if (!crs_name_.empty() && (location == "node" || location == "face" || location == "edge"))
       file_.attribute(variable, "grid_mapping", crs_name_);
-    put(variable, std::forward<Values>(values));
     return variable;
   }
 
@@ -99,11 +118,10 @@ class UgridFile {
     file_.attribute(variable, "long_name", "nodes of each " + of);
     file_.attribute(variable, "start_index", kStartIndex);
     file_.attribute(variable, "_FillValue", kFillNode);
-    put(variable, [&rows] {
-      std::vector<int> numbers;
-      for (const auto& row : rows)
-        for (const std::uint32_t node : row) numbers.push_back(static_cast<int>(node) + kStartIndex);
-      return numbers;
+    if (rows.empty()) return;
+    const std::size_t width = rows.front().size();
+    putEach(variable, rows.size() * width, [&rows, width](std::size_t i) {
+      return static_cast<std::int32_t>(rows[i / width][i % width]) + kStartIndex;
     });
   }
 
@@ -137,10 +155,10 @@ class UgridFile {
     file_.attribute(variable, "flag_meanings", words);
   }
 
-  void close() {
+  void close(const ItemLoop& loop) {
     file_.endDefinitions();
     for (const auto& put : puts_) put();
-    file_.close();
+    file_.close(loop);
   }
 
  private:
@@ -167,30 +185,23 @@ void defineCoordinate(UgridFile& ugrid, const Grid& grid, int nodes, bool is_x) 
   attribute("mesh", "mesh2d");
   attribute("location", "node");
   if (!crs.isPlane()) attribute("grid_mapping", crsVariableName(crs));
-  ugrid.put(variable, [&grid, is_x] {
-    std::vector<double> values(grid.nodes.size());
-    std::ranges::transform(grid.nodes, values.begin(), is_x ? &Point::x : &Point::y);
-    return values;
-  });
+  ugrid.putEach(variable, grid.nodes.size(),
+                [&grid, part = is_x ? &Point::x : &Point::y](std::size_t n) { return grid.nodes[n].*part; });
 }
 
 void defineNodes(UgridFile& ugrid, const Grid& grid, int nodes) {
   defineCoordinate(ugrid, grid, nodes, true);
   defineCoordinate(ugrid, grid, nodes, false);
   if (!grid.z.empty()) {
-    const int z = ugrid.data("node_z", NC_DOUBLE, nodes, "node", "elevation of the nodes", "m", [&grid] {
-      std::vector<double> values = grid.z;
-      std::ranges::replace_if(
-          values, [](double value) { return std::isnan(value); }, kFillZ);
-      return values;
-    });
+    const auto zOf = [&grid](std::size_t n) { return std::isnan(grid.z[n]) ? kFillZ : grid.z[n]; };
+    const int z = ugrid.dataOfEach("node_z", nodes, "node", "elevation of the nodes", "m", grid.z.size(), zOf);
     ugrid.file().attribute(z, "standard_name", "altitude");
     ugrid.file().attribute(z, "positive", "up");
     ugrid.file().attribute(z, "_FillValue", kFillZ);
   }
   if (!grid.size_m.empty())
-    ugrid.data("node_size", NC_DOUBLE, nodes, "node", "length that edges were to have", "m",
-               [&grid] { return std::span(grid.size_m); });
+    ugrid.dataOfEach("node_size", nodes, "node", "length that edges were to have", "m", grid.size_m.size(),
+                     [&grid](std::size_t n) { return grid.size_m[n]; });
 }
 
 // One a boundary's edge, of what `value` says of the boundary.
@@ -220,14 +231,7 @@ void defineBoundaries(UgridFile& ugrid, const Grid& grid, int two, const std::ve
   ugrid.file().attribute(type, "_FillValue", kNoIbtype);
 }
 
-// One a triangle. As int where all fit, for programs that read no wider whole numbers, else as double.
-std::vector<double> fidsOf(const Grid& grid) {
-  std::vector<double> fids;
-  fids.reserve(grid.feature_of.size());
-  for (std::uint32_t feature : grid.feature_of) fids.push_back(static_cast<double>(grid.features[feature].fid));
-  return fids;
-}
-
+// Then as int, for programs that read no wider whole numbers, else as double.
 bool fidsFitInt(const Grid& grid) {
   return std::ranges::all_of(grid.features, [](const GridFeature& feature) {
     return feature.fid > std::numeric_limits<int>::min() && feature.fid <= std::numeric_limits<int>::max();
@@ -238,32 +242,35 @@ void defineRegions(UgridFile& ugrid, const Grid& grid, int faces) {
   const std::vector<std::string> names = regionNames(grid);
   if (names.empty() || grid.feature_of.empty()) return;
   const int region =
-      ugrid.data("region", NC_INT, faces, "face", "region that the face lies in, 0 in none", {}, [&grid, names] {
-        const std::vector<int> numbers = regionNumbers(grid, names);
-        std::vector<int> values;
-        for (const std::uint32_t feature : grid.feature_of) values.push_back(numbers[feature]);
-        return values;
-      });
+      ugrid.dataOfEach("region", faces, "face", "region that the face lies in, 0 in none", {}, grid.feature_of.size(),
+                       [&grid, numbers = regionNumbers(grid, names)](std::size_t t) {
+                         return std::int32_t{numbers[grid.feature_of[t]]};
+                       });
   ugrid.flags(region, names);
   ugrid.names("region_name", ugrid.dimension("mesh2d_nRegions", names.size()), "names of the regions", names);
 }
 
 void defineFaces(UgridFile& ugrid, const Grid& grid, int faces) {
+  const auto data = [&](const std::string& name, const std::string& long_name, const std::string& units,
+                        const auto& valueOf) {
+    ugrid.dataOfEach(name, faces, "face", long_name, units, grid.triangles.size(), valueOf);
+  };
   if (!grid.min_angle_deg.empty())
-    ugrid.data("min_angle", NC_DOUBLE, faces, "face", "smallest angle", "degree",
-               [&grid] { return std::span(grid.min_angle_deg); });
-  if (!grid.area_m2.empty())
-    ugrid.data("area", NC_DOUBLE, faces, "face", "area", "m2", [&grid] { return std::span(grid.area_m2); });
-  if (!grid.feature_of.empty())
-    ugrid.data("feature", fidsFitInt(grid) ? NC_INT : NC_DOUBLE, faces, "face", "fid of the source feature", {},
-               [&grid] { return fidsOf(grid); });
+    data("min_angle", "smallest angle", "degree", [&grid](std::size_t t) { return grid.min_angle_deg[t]; });
+  if (!grid.area_m2.empty()) data("area", "area", "m2", [&grid](std::size_t t) { return grid.area_m2[t]; });
+  if (!grid.feature_of.empty()) {
+    const auto fidOf = [&grid](std::size_t t) { return grid.features[grid.feature_of[t]].fid; };
+    const std::string what = "fid of the source feature";
+    if (fidsFitInt(grid)) {
+      data("feature", what, {}, [fidOf](std::size_t t) { return static_cast<std::int32_t>(fidOf(t)); });
+    } else {
+      data("feature", what, {}, [fidOf](std::size_t t) { return static_cast<double>(fidOf(t)); });
+    }
+  }
   defineRegions(ugrid, grid, faces);
   if (!grid.piece_of.empty())
-    ugrid.data("piece", NC_INT, faces, "face", "piece that the face was refined in, from 1", {}, [&grid] {
-      std::vector<int> pieces(grid.piece_of.size());
-      std::ranges::transform(grid.piece_of, pieces.begin(), [](std::uint32_t p) { return static_cast<int>(p) + 1; });
-      return pieces;
-    });
+    data("piece", "piece that the face was refined in, from 1", {},
+         [&grid](std::size_t t) { return static_cast<std::int32_t>(grid.piece_of[t]) + 1; });
 }
 
 void defineLines(UgridFile& ugrid, const Grid& grid, int edge_dimension, const std::vector<NodePair>& edges) {
@@ -319,8 +326,8 @@ void defineTopology(UgridFile& ugrid, bool with_boundaries) {
 // `mesh2d` with face_nodes, edge_nodes and the boundary's edges, the CRS in `projected_coordinate_system` or `wgs84`,
 // elevation, smallest angle, area and source fid as data. A node without z holds the fill value -999. Throws
 // OutputError.
-void writeUgrid(const Grid& grid, const std::string& path) {
-  const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles);
+void writeUgrid(const Grid& grid, const std::string& path, const ItemLoop& loop) {
+  const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles, loop);
   std::vector<NodePair> boundary_edges;
   for (const Boundary& boundary : grid.boundaries)
     for (const NodePair& edge : edgesOf(boundary)) boundary_edges.push_back(edge);
@@ -348,7 +355,7 @@ void writeUgrid(const Grid& grid, const std::string& path) {
   defineBoundaries(ugrid, grid, two_dim, boundary_edges);
   defineFaces(ugrid, grid, face_dim);
   defineLines(ugrid, grid, edge_dim, edges);
-  ugrid.close();
+  ugrid.close(loop);
 }
 
 }  // namespace

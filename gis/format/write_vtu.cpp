@@ -118,7 +118,7 @@ struct FieldArrays {
 
 // VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z as node data, smallest
 // angle, area and source fid as cell data. VTK has no word for a CRS. Throws OutputError.
-void writeVtu(const Grid& grid, const std::string& path) {
+void writeVtu(const Grid& grid, const std::string& path, const ItemLoop&) {
   const std::uint64_t nodes = grid.nodes.size(), cells = grid.triangles.size();
   TextWriter file(path);
   Appendix appendix(file);

@@ -29,21 +29,23 @@ void needLine(TextReader& file, std::string_view wanted) {
 // Gmsh 2 ASCII as WAVEWATCH III has it: z is the depth, positive down; nodes of open boundaries come first as elements
 // of type 15, then the triangles with three tags. The CRS goes into a .prj. Throws OutputError, also where a depth is
 // unknown.
-void writeWw3(const Grid& grid, const std::string& path) {
+void writeWw3(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   TextWriter file(path);
   file << "$MeshFormat\n2 0 8\n$EndMeshFormat\n$Nodes\n" << grid.nodes.size() << '\n';
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
-    file << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << (grid.z.empty() ? 0.0 : 0.0 - grid.z[i])
+  file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
+    text << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << (grid.z.empty() ? 0.0 : 0.0 - grid.z[i])
          << '\n';
+  });
   const std::vector<std::uint32_t> open = openNodes(grid);
   file << "$EndNodes\n$Elements\n" << open.size() + grid.triangles.size() << '\n';
   std::size_t id = 0;
   for (const std::uint32_t node : open) file << ++id << ' ' << kPoint << " 2 0 0 " << node + 1 << '\n';
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
-    file << ++id << ' ' << kTriangle << " 3 0 " << t + 1 << " 0 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
-  }
+    text << id + t + 1 << ' ' << kTriangle << " 3 0 " << t + 1 << " 0 " << a + 1 << ' ' << b + 1 << ' ' << c + 1
+         << '\n';
+  });
   file << "$EndElements\n";
   file.close();
   writePrjBeside(path, grid.crs);

@@ -9,6 +9,7 @@
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
 namespace {
@@ -226,6 +227,27 @@ TEST_P(RoundTrip, IsDeterministic) {
   ASSERT_EQ(first.names(), second.names());
   for (const std::string& name : first.names()) {
     EXPECT_TRUE(bytesOf(first / name) == bytesOf(second / name)) << name;
+  }
+}
+
+// Enough rows that threads would share them out, and those of a large UGRID file, in the order of its bytes or not.
+TEST(GridFormats, HoldTheSameBytesInWhateverOrderTheyAreMade) {
+  const Grid grid = sampleGrid(parseCrs("EPSG:4326"), {-87.5, 43.1}, 0.001, 70);
+  for (const GridFormat& format : gridFormats()) {
+    if (!format.writable) continue;
+    const TemporaryFolder first, second;
+    for (const auto& [folder, loop] :
+         {std::pair<const TemporaryFolder*, ItemLoop>{&first, inOrder}, {&second, testing::backwards}}) {
+      StagedOutput output(*folder / ("lakes" + endingOf(format)), format, false);
+      output.write(grid, loop);
+      output.commit();
+    }
+    ASSERT_EQ(first.names(), second.names());
+    for (const std::string& name : first.names()) EXPECT_TRUE(bytesOf(first / name) == bytesOf(second / name)) << name;
+    if (!format.readable) continue;
+    const Grid got = readGrid(second / ("lakes" + endingOf(format)));
+    EXPECT_EQ(got.triangles, grid.triangles) << format.name;
+    EXPECT_EQ(got.nodes.size(), grid.nodes.size()) << format.name;
   }
 }
 
