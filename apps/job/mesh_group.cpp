@@ -216,7 +216,7 @@ Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, c
                    const ShoreGuides& guides, const Coastline& coastline, CleanReport& report) {
   constexpr double kSame = 1.05, kSameAtShores = 1.15;  // between the places that they are known at sizes are off
   Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides);
-  DomainSizes again = makeSizes(followed);
+  DomainSizes again = makeSizes(followed, SizeAccuracy::Fine);
   const SizeGrowth growth = growthOf(followed.pslg, *sized.function, *again.function);
   if (growth.shore > kSameAtShores) {
     report = {};
@@ -271,11 +271,12 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   if (job.sizes.choose)
     result.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(wanted) +
                            "; give --size-shore or any other size to choose them yourself");
-  const auto makeSizes = [&](const Domain& of) {
-    return makeSizeFunction(wanted, sizes, of, mostVertices(room), loop);
+  const auto makeSizes = [&](const Domain& of, SizeAccuracy accuracy) {
+    return makeSizeFunction(wanted, sizes, of, mostVertices(room), loop, accuracy);
   };
-  DomainSizes sized = makeSizes(domain);
-  if (job.sizes.coast == CoastDetail::Follow) {
+  const bool follows = job.sizes.coast == CoastDetail::Follow;
+  DomainSizes sized = makeSizes(domain, follows ? SizeAccuracy::Rough : SizeAccuracy::Fine);
+  if (follows) {
     FollowOptions follow = job.sizes.follow;
     if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Modelled;
     const ShoreGuides guides{projected(sizes.passages, domain.projection),

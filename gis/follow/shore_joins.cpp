@@ -15,19 +15,24 @@ class Joiner {
       : start_(std::move(start)), sizes_(sizes), guides_(std::move(guides)), options_(options) {}
 
   JoinedShores run() {
-    // Which water is cut off hangs on the order of opening land and water.
+    // Which water is cut off hangs on the order of opening land and water. Straits are as wide as they can be where all
+    // of the land goes first: what is joined then stays so.
     opened_ = openShores(start_, sizes_, guides_, options_, 1.0);
+    std::vector<JoinedWater> joins = findJoins();
     opened_ = balanceShores(std::move(opened_), start_, sizes_, guides_, options_);
-    for (int round = 0; round < kRounds && join(); ++round) {
-    }
+    if (joins.empty() && opened_.first != 1.0) joins = findJoins();
+    for (int round = 0; round < kRounds && join(std::move(joins)); ++round) joins = findJoins();
     std::vector<WaterWay> ways = waysToWaters(opened_, sizes_, options_);
     return {std::move(opened_), std::move(ways), std::move(joined_)};
   }
 
  private:
-  bool join() {
-    if (options_.strait_min >= options_.channel_min) return false;
-    std::vector<JoinedWater> joins = waysToJoin(opened_, sizes_, options_);
+  std::vector<JoinedWater> findJoins() const {
+    if (options_.strait_min >= options_.channel_min) return {};
+    return waysToJoin(opened_, sizes_, options_);
+  }
+
+  bool join(std::vector<JoinedWater>&& joins) {
     std::vector<ShoreLine> lines;
     for (JoinedWater& water : joins) {
       lines.insert(lines.end(), water.way.narrow.begin(), water.way.narrow.end());

@@ -23,7 +23,7 @@ constexpr double kSteps[] = {0.1, 0.25, 0.45};
 class Mender {
  public:
   Mender(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved)
-      : c_(chains), gone_(gone), moved_(moved), from_(chains.at), near_(chains) {}
+      : c_(chains), gone_(gone), moved_(moved), from_(chains.at), near_(chains), is_new_(chains.at.size(), 1) {}
 
   void run() {
     for (int round = 0; round < kRounds && mendOnce(); ++round) {
@@ -42,19 +42,23 @@ class Mender {
     locked_.assign(c_.at.size(), 0);
     std::vector<std::pair<double, VertexId>> bad;
     for (VertexId v = 0; v < c_.at.size(); ++v) {
-      if (c_.next[v] == kNone || c_.prev[v] == kNone) continue;
+      if (!is_new_[v] || c_.next[v] == kNone || c_.prev[v] == kNone) continue;
       near_.gather(v, kSteps[2]);
       const double quality = near_.qualityOf(v, c_.at[v]);
       if (quality < 1.0) bad.emplace_back(quality, v);
     }
     std::ranges::sort(bad);
+    is_new_.assign(c_.at.size(), 0);
     bool any = false;
     for (const auto& [quality, v] : bad) {
       if (c_.stays[v] || c_.open[v] || c_.next[v] == kNone) continue;
       near_.gather(v, kSteps[2]);
-      if (std::ranges::any_of(near_.points(), [&](VertexId w) { return locked_[w] != 0; })) continue;
+      if (std::ranges::any_of(near_.points(), [&](VertexId w) { return locked_[w] != 0; })) {
+        is_new_[v] = 1;
+        continue;
+      }
       if (!mend(v, quality)) continue;
-      for (const VertexId w : near_.points()) locked_[w] = 1;
+      for (const VertexId w : near_.points()) locked_[w] = is_new_[w] = 1;
       any = true;
     }
     return any;
@@ -102,6 +106,7 @@ class Mender {
   std::vector<Point> from_;
   ShorePieces near_;
   std::vector<char> locked_;
+  std::vector<char> is_new_;  // something near it has changed since it was looked at
 };
 
 }  // namespace

@@ -232,13 +232,20 @@ class Thinner {
       if (other.stretch == run.stretch && i >= run.first && i < run.last) continue;
       if (!box.meets(Box::of(at(i), at(i + 1)))) continue;
       for (const std::uint32_t end : {i, i + 1})
-        if (order_[end] != order_[run.first] && order_[end] != order_[run.last] && isBetween(at(end), run))
+        if (order_[end] != order_[run.first] && order_[end] != order_[run.last] && isNear(at(end), run) &&
+            isBetween(at(end), run))
           return false;
       if (isAcrossLand(run, i) && isWithin(reach, at(run.first), at(run.last), at(i), at(i + 1)) &&
           !isNearAlong(run, other.stretch, i))
         return false;
     }
     return true;
+  }
+
+  // All between a run and its segment is no further off than the run.
+  bool isNear(const Point& x, const Run& run) const {
+    const double off = off_ + kGrain * (std::abs(x.x) + std::abs(x.y));
+    return squaredDistanceToSegment(x, at(run.first), at(run.last)) <= off * off;
   }
 
   bool isNearAlong(const Run& run, std::uint32_t stretch, std::uint32_t i) const {

@@ -252,7 +252,7 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
 }
 
 DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
-                             double most_vertices, const ItemLoop& loop) {
+                             double most_vertices, const ItemLoop& loop, SizeAccuracy accuracy) {
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
   const double extent = std::max(box.xmax - box.xmin, box.ymax - box.ymin);
@@ -312,6 +312,8 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     for_scale = 0.5 * options.gradation;
   }
   SizeTreeOptions tree;
+  constexpr double kRough = 0.1;
+  if (accuracy == SizeAccuracy::Rough) tree.tolerance = kRough;
   tree.gradation = options.gradation - for_scale;
   // A little less: what is only just too steep everywhere would have to be flattened everywhere.
   constexpr double kJustBelow = 0.99;

@@ -78,6 +78,10 @@ struct TooManyVertices : std::runtime_error {
   VertexDemand demand;
 };
 
+// How far sizes may be off between the places that they are measured at: a few hundredths, or a tenth, which takes half
+// the time and is enough for a coast that is to follow them.
+enum class SizeAccuracy { Fine, Rough };
+
 struct DomainSizes {
   std::unique_ptr<SizeFunction> function;  // in the domain's plane
   VertexDemand demand;
@@ -88,6 +92,6 @@ struct DomainSizes {
 // where they ask for more than `most_vertices`: then the demand is right in its order of magnitude, and little memory
 // was taken to find it.
 DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
-                             double most_vertices, const ItemLoop& loop);
+                             double most_vertices, const ItemLoop& loop, SizeAccuracy accuracy = SizeAccuracy::Fine);
 
 }  // namespace coastmesh

@@ -624,5 +624,37 @@ TEST(NodeSizes, NoTwoNeighboursDifferMore) {
   EXPECT_TRUE(lowered);
 }
 
+// A square sea of side 20 whose lower side is open, cut finely.
+Domain seaWithFineOpening() {
+  Domain sea;
+  std::vector<Point> ring;
+  for (int i = 0; i < 40; ++i) ring.push_back({0.5 * i, 0.0});
+  for (const Point& p : {Point{20, 0}, Point{20, 20}, Point{0, 20}}) ring.push_back(p);
+  addShore(sea, ring);
+  for (int i = 0; i < 40; ++i) sea.pslg.segments[static_cast<std::size_t>(i)].tag = kOpenTag;
+  return sea;
+}
+
+TEST(FollowSizes, LargerSizesAtOpenBoundariesMakeTheseCoarserAlone) {
+  const Domain sea = seaWithFineOpening();
+  const SizeOf before(0.5, 20.0, [](const Point& p) { return p.y < 1.0 ? 0.5 : 20.0; });
+  const SizeOf after(4.0, 20.0, [](const Point& p) { return p.y < 1.0 ? 4.0 : 20.0; });
+  // The corners are of both, and count as shore.
+  EXPECT_EQ(growthOf(sea.pslg, before, before).elsewhere, 1.0);
+  EXPECT_EQ(growthOf(sea.pslg, before, after).elsewhere, 8.0);
+  const SizeOf inland(0.5, 40.0, [](const Point& p) { return p.y < 10.0 ? 0.5 : 40.0; });
+  EXPECT_EQ(growthOf(sea.pslg, before, inland).elsewhere, 1.0);
+  EXPECT_EQ(growthOf(sea.pslg, before, inland).shore, 2.0);
+  CleanReport report;
+  const Domain coarse = coarsenFurther(Domain(sea), after, oneFeature(), report);
+  EXPECT_LE(coarse.pslg.points.size(), 12u);
+  EXPECT_EQ(countOf(report, EditKind::SimplifiedPoint), sea.pslg.points.size() - coarse.pslg.points.size());
+  EXPECT_DOUBLE_EQ(areaOf(coarse), 400.0);
+  double open = 0.0;
+  for (const Segment& s : coarse.pslg.segments)
+    if (s.tag == kOpenTag) open += distance(coarse.pslg.points[s.a], coarse.pslg.points[s.b]);
+  EXPECT_DOUBLE_EQ(open, 20.0);
+}
+
 }  // namespace
 }  // namespace coastmesh

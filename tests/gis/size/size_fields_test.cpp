@@ -209,6 +209,24 @@ TEST(ComposedSizes, ShoreDistanceInThePlane) {
   }
 }
 
+TEST(ComposedSizes, RoughOnesAreOffByATenthAndSmaller) {
+  SizeOptions options;
+  options.shore_m = 100.0;
+  options.shore_rate = 0.2;
+  const Domain domain = planeDomain(rectangle(10000.0, 6000.0));
+  const auto made = [&](SizeAccuracy accuracy) {
+    return makeSizeFunction(options, {}, domain, kInfinity, inOrder, accuracy).function;
+  };
+  const auto rough = made(SizeAccuracy::Rough), fine = made(SizeAccuracy::Fine);
+  EXPECT_LT(dynamic_cast<const SizeTree&>(*rough).cells(), dynamic_cast<const SizeTree&>(*fine).cells());
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Point x{uniform(random, 0.0, 10000.0), uniform(random, 0.0, 6000.0)};
+    const double wanted = 100.0 + 0.2 * std::min({x.x, 10000.0 - x.x, x.y, 6000.0 - x.y});
+    EXPECT_NEAR(rough->at(x) / wanted, 1.0, 0.15);
+  }
+}
+
 TEST(ComposedSizes, ChannelsHaveTheirElementsAcross) {
   SizeOptions options;
   options.size_m = 0.4;
