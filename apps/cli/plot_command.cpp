@@ -55,12 +55,19 @@ Command declarePlot(CLI::App& root) {
       "--bbox", "W,S,E,N", false,
       [&plot = usage->plot](const std::vector<double>& sides) { return storeBox(sides, plot); },
       "what to show, in the mesh's CRS; all of it by default");
-  table.choice("--color", usage->color, plotColorNames(), "what the triangles' colour shows");
+  table.choice(
+      "--color", usage->color, plotColorNames(),
+      "what the triangles' colour shows; quality is 4 sqrt(3) area / sum of squared edges, 1 for equilateral ones");
   table.flag("--edges,!--no-edges", usage->plot.edges, "draw the triangles' edges");
+  table.flag(
+      "--degrees", usage->plot.degrees,
+      "draw a dot on each node inside the mesh that has not six neighbours: green for 5, orange for 7, purple for "
+      "other numbers");
   table.number("--min-angle", usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
                "show triangles with a smaller angle in red");
   table.flag("--overwrite", usage->overwrite, "replace a file that exists");
   table.example("coastmesh plot lake.nc -o lake.png --color angle", "a picture coloured by the smallest angle");
+  table.example("coastmesh plot lake.nc -o shapes.png --color quality --degrees", "how regular it is");
   table.example("coastmesh plot lake.nc -o bay.svg --bbox=-90.5,46.5,-90,47", "a part of it, as a vector drawing");
   return {{root, std::move(table)}, [usage](Run& run) { return runPlot(*usage, run); }};
 }

@@ -168,6 +168,12 @@ void PlotCanvas::strokeLine(const Point& a, const Point& b, double width, const 
   strokeLines({{a, b}}, width, color);
 }
 
+void PlotCanvas::fillCircle(const Point& centre, double radius, const Color& color) {
+  setColor(color);
+  cairo_arc(context_.get(), centre.x, centre.y, radius, 0.0, 2.0 * std::numbers::pi);
+  cairo_fill(context_.get());
+}
+
 void PlotCanvas::strokeCircle(const Point& centre, double radius, double width, const Color& color) {
   setColor(color);
   cairo_set_line_width(context_.get(), width);

@@ -38,6 +38,7 @@ class PlotCanvas {
   // Even-odd over all loops together.
   void fillLoops(const std::vector<std::vector<Point>>& loops, const Color& color);
   void strokeLine(const Point& a, const Point& b, double width, const Color& color);
+  void fillCircle(const Point& centre, double radius, const Color& color);
   void strokeCircle(const Point& centre, double radius, double width, const Color& color);
   // Many lines of one width and colour.
   void strokeLines(const std::vector<std::array<Point, 2>>& lines, double width, const Color& color);

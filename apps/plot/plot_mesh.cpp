@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/job/grid_pieces.hpp"
+#include "apps/plot/mesh_shape.hpp"
 #include "apps/plot/plot_canvas.hpp"
 #include "core/quality.hpp"
 #include "gis/error.hpp"
@@ -34,6 +35,14 @@ constexpr Color kInk{0.15, 0.15, 0.15};
 constexpr Color kOpen{0.84, 0.15, 0.56};
 constexpr Color kIsland{0.65, 0.45, 0.04};
 constexpr Color kUnknown{0.80, 0.80, 0.80};
+
+// Of nodes by their neighbours: five, seven, others.
+constexpr Color kFive{0.05, 0.60, 0.20};
+constexpr Color kSeven{0.93, 0.45, 0.05};
+constexpr Color kOtherDegree{0.55, 0.05, 0.55};
+constexpr double kWidestDotPx = 3.5, kDotShare = 0.18;  // a dot's radius, over the length of the edges
+constexpr double kLeastDotPx = 0.8;
+constexpr double kLeastQuality = 0.6;  // at the bad end of the colours
 
 constexpr std::size_t kMostVectorTriangles = 100'000;  // in an .svg; more come as an image in it
 constexpr double kRolePx = 2.2;
@@ -165,6 +174,7 @@ class MeshPlot {
     if (many) canvas_.beginPixels();
     drawTriangles();
     if (options_.edges) drawEdges();
+    if (options_.degrees) drawDegrees();
     if (many) canvas_.endPixels();
     drawShore();
     drawRoles();
@@ -210,6 +220,11 @@ class MeshPlot {
     switch (options_.color) {
       case PlotColor::Angle:
         return rampColor(smallestAngle(t) / 60.0);
+      case PlotColor::Quality: {
+        const auto& v = mesh_.triangles[t].v;
+        const double quality = shapeQuality(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
+        return rampColor((quality - kLeastQuality) / (1.0 - kLeastQuality));
+      }
       case PlotColor::Feature:
       case PlotColor::Piece:  // in place of the features: see `plotMesh`
         return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
@@ -345,6 +360,20 @@ class MeshPlot {
     }
   }
 
+  static Color degreeColor(std::uint32_t degree) { return degree == 5 ? kFive : degree == 7 ? kSeven : kOtherDegree; }
+
+  void drawDegrees() {
+    const std::vector<std::uint32_t> degrees = degreesInside(mesh_);
+    std::vector<double> longest(degrees.size(), 0.0);
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t)
+      for (const VertexId v : mesh_.triangles[t].v) longest[v] = std::max(longest[v], longestEdgePx(t));
+    for (VertexId v = 0; v < degrees.size(); ++v) {
+      if (degrees[v] == 0 || degrees[v] == 6 || !canvas_.showsAny(&pixels_[v], 1)) continue;
+      canvas_.fillCircle(pixels_[v], std::clamp(kDotShare * longest[v], kLeastDotPx, kWidestDotPx),
+                         degreeColor(degrees[v]));
+    }
+  }
+
   void drawShore() {
     std::vector<std::array<Point, 2>> borders;
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
@@ -438,9 +467,21 @@ class MeshPlot {
     }
   }
 
+  void drawDegreeLegend() {
+    double x = 0.32 * canvas_.width();
+    const double y = canvas_.mapHeight() + 36.0;
+    for (const auto& [name, degree] : {std::pair{"5", 5u}, std::pair{"7", 7u}, std::pair{"other neighbours", 8u}}) {
+      canvas_.fillCircle({x + 9.0, y - 4.0}, kWidestDotPx, degreeColor(degree));
+      canvas_.text({x + 22.0, y}, name, 13.0, kInk);
+      x += 75.0;
+    }
+  }
+
   void drawLegend() {
     if (shows_roles_) drawRoleLegend();
-    constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep};
+    if (options_.degrees) drawDegreeLegend();
+    constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep,
+                                    PlotColor::Quality};
     if (std::ranges::count(kWithScale, options_.color) == 0) return;
     constexpr int kSteps = 60;
     constexpr double kStep = 3.0;
@@ -454,6 +495,12 @@ class MeshPlot {
     }
     std::string low = "0\u00b0";
     std::string high = "60\u00b0 smallest angle";
+    if (options_.color == PlotColor::Quality) {
+      char text[40];
+      std::snprintf(text, sizeof text, "%g", kLeastQuality);
+      low = text;
+      high = "1 quality";
+    }
     if (options_.color == PlotColor::Size) {
       const double scale = piece_.projection.scaleAt(centre_);
       const auto sideOf = [scale](double log_area) { return std::sqrt(std::exp(log_area) * 2.309) / scale; };
@@ -504,8 +551,8 @@ class MeshPlot {
 }  // namespace
 
 const std::vector<std::string>& plotColorNames() {
-  static const std::vector<std::string> kNames = {"none", "angle", "feature", "region",
-                                                  "size", "depth", "piece",   "timestep"};  // as in PlotColor
+  static const std::vector<std::string> kNames = {"none",  "angle", "feature",  "region", "size",
+                                                  "depth", "piece", "timestep", "quality"};  // as in PlotColor
   return kNames;
 }
 

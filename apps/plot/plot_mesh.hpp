@@ -11,7 +11,8 @@
 namespace coastmesh {
 
 // Region: parts that hang together and lie in one feature. Depth: z of the nodes. TimeStep: see time_step.hpp.
-enum class PlotColor { None, Angle, Feature, Region, Size, Depth, Piece, TimeStep };
+// Quality: 4 sqrt(3) area / sum of squared edges.
+enum class PlotColor { None, Angle, Feature, Region, Size, Depth, Piece, TimeStep, Quality };
 
 // The names that --color takes; throws OptionError for another.
 const std::vector<std::string>& plotColorNames();
@@ -24,6 +25,7 @@ struct PlotOptions {
   std::optional<std::array<double, 4>> bbox;  // west, south, east, north in the grid's CRS
   PlotColor color = PlotColor::None;
   bool edges = true;
+  bool degrees = false;        // dots on nodes inside the mesh that have not six neighbours
   double min_angle_deg = 0.0;  // degrees; triangles with a smaller angle are red
 };
 

@@ -110,12 +110,10 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
 
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges) {
   std::vector<TriId> triangles;
-  SparseNumbers taken;
+  std::vector<bool> taken(parent.triangles.size(), false);
   const auto take = [&](TriId t) {
-    if (std::uint32_t& number = taken[t]; number == kNone) {
-      number = static_cast<std::uint32_t>(triangles.size());
-      triangles.push_back(t);
-    }
+    if (!taken[t]) triangles.push_back(t);
+    taken[t] = true;
   };
   for (const TriId t : centre) take(t);
   std::size_t done = 0;

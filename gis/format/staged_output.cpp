@@ -68,7 +68,7 @@ bool StagedOutput::keepsPrj(const Grid& grid) const {
 
 void StagedOutput::write(const Grid& grid, const ItemLoop& loop) {
   if (grid.triangles.empty()) failToWrite(files_.path(), "the mesh has no triangles");
-  requireConsistent(grid);
+  requireConsistent(grid, loop);
   files_.make([&](const std::string& path) { functionsOf(*format_).write(grid, path, loop); });
   if (keepsPrj(grid)) files_.keep(filesOf(*format_, files_.path()).prj);
 }

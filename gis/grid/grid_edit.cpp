@@ -403,7 +403,7 @@ void cutLinesOffEdges(Grid& grid) {
   });
 }
 
-void requireConsistent(const Grid& grid) {
+void requireConsistent(const Grid& grid, const ItemLoop& loop) {
   const std::size_t nodes = grid.nodes.size(), triangles = grid.triangles.size();
   const auto requireLength = [](std::size_t length, std::size_t wanted, const char* of) {
     if (length != 0 && length != wanted)
@@ -412,8 +412,12 @@ void requireConsistent(const Grid& grid) {
   };
   forEachArray(nodeArrays(grid), [&](const auto& values) { requireLength(values.size(), nodes, "nodes"); });
   forEachArray(triangleArrays(grid), [&](const auto& values) { requireLength(values.size(), triangles, "triangles"); });
-  for (const GridCorners& corners : grid.triangles) requireIndices(corners, nodes, "a corner of a triangle is");
-  requireIndices(grid.feature_of, grid.features.size(), "the feature of a triangle is");
+  forEachByStretches(loop, triangles,
+                     [&](std::size_t t) { requireIndices(grid.triangles[t], nodes, "a corner of a triangle is"); });
+  forStretches(loop, grid.feature_of.size(), [&](std::size_t first, std::size_t last) {
+    requireIndices(std::span(grid.feature_of).subspan(first, last - first), grid.features.size(),
+                   "the feature of a triangle is");
+  });
   for (const Boundary& boundary : grid.boundaries) {
     requireIndices(boundary.nodes, nodes, "a node of a boundary is");
     requireIndices(boundary.back_nodes, nodes, "a back node of a weir is");

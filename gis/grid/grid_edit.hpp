@@ -68,6 +68,6 @@ void cutLinesOffEdges(Grid& grid);
 
 // Throws std::logic_error where an array has another length than it should, an index is out of range, or a line has
 // left the edges inside the mesh.
-void requireConsistent(const Grid& grid);
+void requireConsistent(const Grid& grid, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

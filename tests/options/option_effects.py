@@ -227,7 +227,7 @@ def cases():
     plot = {"--config": Case("angle.toml"), "--output": Case("other.svg"), "--size": Case("300"),
             "--bbox": Case("-87.49,41.60,-87.48,41.61"),
             "--color": Case("angle"), "--edges": Case(name="--no-edges"), "--min-angle": Case("50"),
-            "--overwrite": Case(exists=["out.svg"]), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
+            "--degrees": Case(), "--overwrite": Case(exists=["out.svg"]), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
     info = {"--config": Case("angle.toml"), "--json": Case(), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info}
 

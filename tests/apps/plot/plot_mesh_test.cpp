@@ -3,6 +3,9 @@
 #include <cairo.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -47,11 +50,12 @@ class PlotMesh : public testing::Test {
   }
 
   // The colours of all pixels of the map, each as 0xRRGGBB.
-  std::set<std::uint32_t> colors(const Grid& grid, PlotColor color, std::uint64_t size) {
+  std::set<std::uint32_t> colors(const Grid& grid, PlotColor color, std::uint64_t size, bool degrees = false) {
     PlotOptions options;
     options.color = color;
     options.size_px = size;
     options.edges = false;
+    options.degrees = degrees;
     plotMesh(grid, options, file("a.png"));
     const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> picture(
         cairo_image_surface_create_from_png(file("a.png").c_str()), cairo_surface_destroy);
@@ -65,6 +69,18 @@ class PlotMesh : public testing::Test {
       }
     }
     return found;
+  }
+
+  // Whether one of the colours is that, but for rounding.
+  static bool holds(const std::set<std::uint32_t>& colors, std::uint32_t wanted) {
+    const auto near = [wanted](std::uint32_t color) {
+      for (const unsigned shift : {0u, 8u, 16u}) {
+        const int a = static_cast<int>(color >> shift & 255), b = static_cast<int>(wanted >> shift & 255);
+        if (std::abs(a - b) > 2) return false;
+      }
+      return true;
+    };
+    return std::ranges::any_of(colors, near);
   }
 
   fs::path folder_;
@@ -96,6 +112,46 @@ TEST_F(PlotMesh, DepthColorsByHeightAndNeedsOne) {
   EXPECT_GE(colors(grid, PlotColor::Depth, 100).size(), 4u);
   grid.z.assign(grid.nodes.size(), std::numeric_limits<double>::quiet_NaN());
   EXPECT_THROW(colors(grid, PlotColor::Depth, 100), InputError);
+}
+
+// Blue is the end of the scale, for equilateral triangles alone; halves of squares have 0.87.
+TEST_F(PlotMesh, QualityIsThatOfTheShapeAlone) {
+  constexpr std::uint32_t kBest = 0x2e7da8;
+  const std::set<std::uint32_t> halves = colors(board(7), PlotColor::Quality, 200);
+  EXPECT_EQ(halves.size(), 1u);
+  EXPECT_FALSE(holds(halves, kBest));
+  Grid grid = board(1);
+  const double h = std::sqrt(3.0) / 2.0;
+  grid.nodes = {{0, 0}, {1, 0}, {0.5, h}, {1.5, h}};
+  grid.triangles = {{0, 1, 2}, {1, 3, 2}};
+  EXPECT_TRUE(holds(colors(grid, PlotColor::Quality, 200), kBest));
+}
+
+// A board's inner nodes have six neighbours; turning the diagonal of one square takes one from two of them and gives it
+// to the other two.
+TEST_F(PlotMesh, DegreesAreDotsWhereNeighboursAreNotSix) {
+  constexpr std::uint32_t kGreen = 0x0c9933, kOrange = 0xed730d, kPurple = 0x8c0d8c;
+  Grid grid = board(8);
+  const auto dots = [&](bool degrees) {
+    const std::set<std::uint32_t> all = colors(grid, PlotColor::None, 400, degrees);
+    return std::array{holds(all, kGreen), holds(all, kOrange), holds(all, kPurple)};
+  };
+  EXPECT_EQ(dots(true), (std::array{false, false, false}));
+  auto& lower = grid.triangles[2 * (8 * 4 + 4)];
+  auto& upper = grid.triangles[2 * (8 * 4 + 4) + 1];
+  const std::uint32_t a = lower[0], b = lower[1], c = lower[2], d = upper[2];
+  lower = {a, b, d};
+  upper = {b, c, d};
+  EXPECT_EQ(dots(true), (std::array{true, true, false}));
+  EXPECT_EQ(dots(false), (std::array{false, false, false}));
+  // A node amid a triangle has three.
+  grid.nodes.push_back({(grid.nodes[a].x + grid.nodes[b].x + grid.nodes[d].x) / 3,
+                        (grid.nodes[a].y + grid.nodes[b].y + grid.nodes[d].y) / 3});
+  const auto e = static_cast<std::uint32_t>(grid.nodes.size() - 1);
+  lower = {a, b, e};
+  grid.triangles.push_back({b, d, e});
+  grid.triangles.push_back({d, a, e});
+  EXPECT_TRUE(dots(true)[2]);
 }
 
 TEST_F(PlotMesh, OpenBoundariesShow) {
