@@ -6,6 +6,7 @@
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
+#include "core/size/size_queue.hpp"
 
 namespace coastmesh {
 
@@ -21,6 +22,8 @@ constexpr double kFlatFoot = 0.3;
 constexpr double kFlattened = 1.0 - 1e-5;
 // Visits of a cell, in the mean, before the sure way is taken.
 constexpr std::size_t kMostVisits = 64;
+// Round a vertex of cells that were split.
+constexpr std::array<std::uint32_t, 4> kNowhere = {kNone, kNone, kNone, kNone};
 
 // What is kept of sizes is rounded; only what is rounded before it is compared is sure to be no steeper afterwards.
 double roundedDown(double size) {
@@ -31,15 +34,18 @@ double roundedDown(double size) {
 }  // namespace
 
 SizeGrading::SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit,
-                         std::span<const LeafVertices> leaves, std::function<LeavesRound(std::uint32_t)> leaves_round,
-                         double gradation, const ItemLoop& loop)
-    : sizes_(sizes),
-      places_(places),
-      unit_(unit),
-      leaves_(leaves),
-      leaves_round_(std::move(leaves_round)),
-      gradation_(gradation),
-      loop_(loop) {}
+                         std::span<const LeafVertices> leaves, double gradation, const ItemLoop& loop)
+    : sizes_(sizes), places_(places), unit_(unit), leaves_(leaves), gradation_(gradation), loop_(loop) {
+  // The quadrants of each vertex that lie in its cell, as bits.
+  constexpr std::array<unsigned, 9> kQuadrants = {1, 3, 2, 5, 15, 10, 4, 12, 8};
+  round_.assign(places_.size(), kNowhere);
+  forEachByStretches(loop_, leaves_.size(), [&](std::size_t l) {
+    for (std::size_t i = 0; i < 9; ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        if (leaves_[l][i] != kNone && (kQuadrants[i] >> k & 1) != 0)
+          round_[leaves_[l][i]][k] = static_cast<std::uint32_t>(l);
+  });
+}
 
 // Of sizes on a triangle.
 Point SizeGrading::gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -99,9 +105,28 @@ void SizeGrading::spread() {
         }
         return lowest;
       }));
-  for (std::uint32_t v = 0; v < places_.size(); ++v)
-    if (sizes_.source[v] != kNone && std::isfinite(sizes_.own[v])) low.push_back(v);
+  const std::vector<std::uint32_t> others = besideNew();
+  low.insert(low.end(), others.begin(), others.end());
   grow(std::move(low), [](std::uint32_t) { return true; });
+  sizes_.is_spread.resize(places_.size(), 0);
+  forEachByStretches(loop_, places_.size(),
+                     [&](std::size_t v) { sizes_.is_spread[v] |= std::uint8_t{round_[v] != kNowhere}; });
+}
+
+// Where sizes grow that may have to go on, now that there are vertices beside them that were not there before.
+std::vector<std::uint32_t> SizeGrading::besideNew() const {
+  const auto isNew = [&](std::uint32_t v) {
+    return v != kNone && (v >= sizes_.is_spread.size() || sizes_.is_spread[v] == 0);
+  };
+  return joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> here;
+    for (const LeafVertices& leaf : leaves_.subspan(first, last - first)) {
+      if (std::ranges::none_of(leaf, isNew)) continue;
+      for (const std::uint32_t v : leaf)
+        if (v != kNone && sizes_.source[v] != kNone && std::isfinite(sizes_.own[v])) here.push_back(v);
+    }
+    return here;
+  }));
 }
 
 // The longest leg of the triangles round a vertex.
@@ -118,12 +143,12 @@ template <typename F>
 void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
   std::ranges::sort(from);
   from.erase(std::unique(from.begin(), from.end()), from.end());
-  Queue queue;
+  std::vector<SizeQueue::Entry> first;
   for (const std::uint32_t v : from)
-    if (std::isfinite(sizes_.size[v])) queue.push({sizes_.size[v], v});
-  while (!queue.empty()) {
-    const auto [size, v] = queue.top();
-    queue.pop();
+    if (std::isfinite(sizes_.size[v])) first.push_back({sizes_.size[v], v});
+  SizeQueue queue(first);
+  for (SizeQueue::Entry next{}; queue.pop(next);) {
+    const auto [size, v] = next;
     if (size != sizes_.size[v]) continue;
     const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
     const Point place = placeOf(origin);
@@ -145,15 +170,15 @@ void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
 void SizeGrading::flatten() {
   forEachByStretches(loop_, sizes_.size.size(), [&](std::size_t v) { sizes_.size[v] = roundedDown(sizes_.size[v]); });
   // From below: what is low decides on what is high.
-  Queue queue;
-  for (const std::uint32_t l : findSteep()) queue.push({lowestOf(l), l});
+  std::vector<SizeQueue::Entry> steep;
+  for (const std::uint32_t l : findSteep()) steep.push_back({lowestOf(l), l});
+  SizeQueue queue(steep);
   std::vector<std::uint32_t> lowered;
-  for (std::size_t visits = kMostVisits * leaves_.size(); !queue.empty(); --visits) {
+  std::size_t visits = kMostVisits * leaves_.size();
+  for (SizeQueue::Entry next{}; queue.pop(next); --visits) {
     if (visits == 0) return flattenLegs();
-    const std::uint32_t leaf = queue.top().number;
-    queue.pop();
     lowered.clear();
-    flattenLeaf(leaf, lowered);
+    flattenLeaf(next.number, lowered);
     for (const std::uint32_t v : lowered) {
       forLeavesRound(v, [&](std::uint32_t l) {
         if (isSteeper(l, gradation_)) queue.push({lowestOf(l), l});
@@ -200,17 +225,17 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lo
 // in, sizes are lengths of shortest paths.
 void SizeGrading::flattenLegs() {
   std::vector<bool> is_strict(leaves_.size(), false);
-  Queue queue;
-  const auto takeIn = [&](std::uint32_t l) {
+  const auto takeIn = [&](std::uint32_t l, const auto& push) {
     if (is_strict[l]) return;
     is_strict[l] = true;
     for (const std::uint32_t v : leaves_[l])
-      if (v != kNone) queue.push({sizes_.size[v], v});
+      if (v != kNone) push({sizes_.size[v], v});
   };
-  for (const std::uint32_t l : findSteep()) takeIn(l);
-  while (!queue.empty()) {
-    const auto [size, v] = queue.top();
-    queue.pop();
+  std::vector<SizeQueue::Entry> steep;
+  for (const std::uint32_t l : findSteep()) takeIn(l, [&](const SizeQueue::Entry& e) { steep.push_back(e); });
+  SizeQueue queue(steep);
+  for (SizeQueue::Entry next{}; queue.pop(next);) {
+    const auto [size, v] = next;
     if (size != sizes_.size[v]) continue;
     forLeavesRound(v, [&](std::uint32_t l) {
       if (!is_strict[l]) return;
@@ -222,7 +247,7 @@ void SizeGrading::flattenLegs() {
           if (!(allowed < sizes_.size[w])) continue;
           sizes_.size[w] = allowed;
           queue.push({allowed, w});
-          forLeavesRound(w, takeIn);
+          forLeavesRound(w, [&](std::uint32_t m) { takeIn(m, [&](const SizeQueue::Entry& e) { queue.push(e); }); });
         }
       });
     });

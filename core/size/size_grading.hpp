@@ -1,9 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <queue>
 #include <span>
 #include <vector>
 
@@ -22,17 +22,12 @@ using LeafVertices = std::array<std::uint32_t, 9>;
 // From where they are graded, sizes grow by this share of the gradation: between vertices a cone is steeper than it is.
 inline constexpr double kSizeGrowth = 0.94;
 
-// At vertices: the size wanted there (infinite: none), the size allowed, and the vertex from which that grows (kNone
-// where nothing smaller lies near).
+// At vertices: the size wanted there (infinite: none), the size allowed, the vertex from which that grows (kNone where
+// nothing smaller lies near), and whether it has spread to its neighbours.
 struct GradedSizes {
   std::vector<double> own, size;
   std::vector<std::uint32_t> source;
-};
-
-// The cells round a vertex, four at most.
-struct LeavesRound {
-  std::array<std::uint32_t, 4> leaves;
-  std::size_t count = 0;
+  std::vector<std::uint8_t> is_spread;  // of vertices that are new, missing
 };
 
 // Lowers sizes at the vertices of such cells until they grow no faster than `gradation` anywhere, in two steps. Places
@@ -40,23 +35,16 @@ struct LeavesRound {
 class SizeGrading {
  public:
   SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit, std::span<const LeafVertices> leaves,
-              std::function<LeavesRound(std::uint32_t)> leaves_round, double gradation, const ItemLoop& loop);
+              double gradation, const ItemLoop& loop);
 
-  // From the feet of triangles that are much too steep, and from what grew before, sizes grow with the straight
-  // distance; where none are wanted, they grow from those round it.
+  // From the feet of triangles that are much too steep, and from what grew before next to vertices that are new, sizes
+  // grow with the straight distance; where none are wanted, they grow from those round it.
   void spread();
   // Lowers what is steeper than `gradation` as little as each triangle needs, and rounds to single precision.
   // Afterwards no triangle is.
   void flatten();
 
  private:
-  struct Entry {
-    double size;
-    std::uint32_t number;
-    bool operator<(const Entry& other) const { return size != other.size ? size > other.size : number > other.number; }
-  };
-  using Queue = std::priority_queue<Entry>;
-
   Point placeOf(std::uint32_t v) const { return {unit_ * places_[v].x, unit_ * places_[v].y}; }
   Point gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   bool isSteeper(std::uint32_t leaf, double slope) const;
@@ -65,19 +53,22 @@ class SizeGrading {
   double legAt(std::uint32_t v) const;
   template <typename F>
   void grow(std::vector<std::uint32_t>&& from, const F& mayLower);
+  std::vector<std::uint32_t> besideNew() const;
   void flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lowered);
   void flattenLegs();
   template <typename F>
   void forLeavesRound(std::uint32_t v, F&& f) const {
-    const LeavesRound round = leaves_round_(v);
-    for (std::size_t k = 0; k < round.count; ++k) f(round.leaves[k]);
+    const std::array<std::uint32_t, 4>& round = round_[v];
+    for (std::size_t k = 0; k < 4; ++k)
+      if (round[k] != kNone && std::find(round.begin(), round.begin() + k, round[k]) == round.begin() + k) f(round[k]);
   }
 
   GradedSizes& sizes_;
   const SizePlaces& places_;
   double unit_;
   std::span<const LeafVertices> leaves_;
-  std::function<LeavesRound(std::uint32_t)> leaves_round_;
+  // The cells round a vertex, by quadrants from the upper right one; twice one that meets it with the middle of a side.
+  std::vector<std::array<std::uint32_t, 4>> round_;
   double gradation_;
   const ItemLoop& loop_;
 };

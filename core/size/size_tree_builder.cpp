@@ -363,24 +363,9 @@ class SizeTreeBuilder {
     sizes_.source.resize(vertices_.size(), kNone);
   }
 
-  LeavesRound leavesRound(std::uint32_t v) const {
-    LeavesRound round;
-    const auto [x, y] = vertices_[v];
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const std::uint32_t left = k % 2, below = k / 2;
-      if (x < left || y < below || x - left >= kUnits || y - below >= kUnits) continue;
-      const std::uint32_t leaf = tree_.cells_[find(x - left, y - below, kLevels)].below;
-      const auto end = round.leaves.begin() + static_cast<std::ptrdiff_t>(round.count);
-      if (std::find(round.leaves.begin(), end, leaf) == end) round.leaves[round.count++] = leaf;
-    }
-    return round;
-  }
-
   void limitGradation() {
     const auto grading = [&] {
-      return SizeGrading(
-          sizes_, vertices_, unit(), leaf_vertices_, [this](std::uint32_t v) { return leavesRound(v); },
-          kSafely * options_.gradation, loop_);
+      return SizeGrading(sizes_, vertices_, unit(), leaf_vertices_, kSafely * options_.gradation, loop_);
     };
     for (int round = 0; round < kLevels; ++round) {
       grading().spread();

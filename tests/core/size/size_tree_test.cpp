@@ -249,12 +249,6 @@ TEST(SizeGrading, EndsWithNothingSteep) {
       leaves.push_back(leaf);
     }
   }
-  const auto leavesRound = [&](std::uint32_t v) {
-    LeavesRound round;
-    for (std::uint32_t l = 0; l < leaves.size(); ++l)
-      if (std::ranges::find(leaves[l], v) != leaves[l].end()) round.leaves[round.count++] = l;
-    return round;
-  };
   GradedSizes sizes;
   for (std::uint32_t v = 0; v < places.size(); ++v) sizes.own.push_back(1.0 + 0.2 * (places[v].x + 0.5 * places[v].y));
   sizes.own[places.find({21, 21})] = 0.5;
@@ -262,7 +256,7 @@ TEST(SizeGrading, EndsWithNothingSteep) {
   sizes.source.assign(places.size(), kNone);
   const double gradation = 0.201 * std::sqrt(1.25);
   const ItemLoop loop = inOrder;
-  SizeGrading(sizes, places, 1.0, leaves, leavesRound, gradation, loop).flatten();
+  SizeGrading(sizes, places, 1.0, leaves, gradation, loop).flatten();
   for (const LeafVertices& leaf : leaves) {
     forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       // Along and across: the slope from two edges at right angles.
