@@ -12,9 +12,9 @@ double SizeTree::at(const Point& x) const {
   constexpr double kBelowOne = 1.0 - 1e-12;
   double u = std::clamp((x.x - origin_.x) / side_, 0.0, kBelowOne);
   double v = std::clamp((x.y - origin_.y) / side_, 0.0, kBelowOne);
-  constexpr double kStarts = 1 << kStartLevels;
-  const auto i = static_cast<std::size_t>(u * kStarts), j = static_cast<std::size_t>(v * kStarts);
-  const std::size_t start = (j << kStartLevels) + i;
+  const double starts = static_cast<double>(1u << start_levels_);
+  const auto i = static_cast<std::size_t>(u * starts), j = static_cast<std::size_t>(v * starts);
+  const std::size_t start = (j << start_levels_) + i;
   const double scale = static_cast<double>(1u << start_level_[start]);
   u = u * scale - std::floor(u * scale);
   v = v * scale - std::floor(v * scale);

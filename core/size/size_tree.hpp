@@ -98,13 +98,12 @@ class SizeTree final : public SizeFunction {
   // it.
   using Leaf = std::array<float, 9>;
 
-  static constexpr int kStartLevels = 8;  // a table leads straight to this level
-
   Point origin_;
   double side_ = 1.0;  // of the root
   std::vector<Cell> cells_;
   std::vector<Leaf> leaves_;
-  std::vector<std::uint32_t> start_;       // the cell at kStartLevels, or the leaf above it
+  int start_levels_ = 0;                   // a table leads straight to this level
+  std::vector<std::uint32_t> start_;       // the cell there, or the leaf above it
   std::vector<std::uint8_t> start_level_;  // its level
   double least_ = 0.0, most_ = 0.0;
   bool complete_ = true;

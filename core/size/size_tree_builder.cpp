@@ -408,36 +408,67 @@ class SizeTreeBuilder {
     for (std::uint32_t k = 0; k < 4; ++k) splitBelow(tree_.cells_[c].below + k, sources);
   }
 
+  // Cells and leaves as the tree keeps them: depth first, so that what lies near in the plane lies near in memory.
   void fill() {
-    tree_.leaves_.resize(leaf_vertices_.size());
-    double least = kInfinity, most = 0.0;
-    for (std::size_t l = 0; l < leaf_vertices_.size(); ++l) {
-      for (unsigned i = 0; i < 9; ++i) {
-        const std::uint32_t v = leaf_vertices_[l][i];
-        tree_.leaves_[l][i] = v == kNone ? std::nanf("") : static_cast<float>(sizes_.size[v]);
-        if (v == kNone) continue;
-        least = std::min(least, sizes_.size[v]);
-        most = std::max(most, sizes_.size[v]);
+    std::vector<SizeTree::Cell> cells;
+    cells.reserve(tree_.cells_.size());
+    cells.push_back({});
+    std::vector<std::uint32_t> places(leaf_cells_.size());
+    std::uint32_t leaves = 0;
+    const auto lay = [&](const auto& self, std::uint32_t c, std::size_t to) -> void {
+      const std::uint32_t below = tree_.cells_[c].below;
+      if (tree_.cells_[c].is_leaf) {
+        cells[to] = {leaves, true};
+        places[below] = leaves++;
+        return;
       }
+      const std::size_t first = cells.size();
+      cells[to] = {static_cast<std::uint32_t>(first), false};
+      cells.resize(first + 4);
+      for (std::uint32_t k = 0; k < 4; ++k) self(self, below + k, first + k);
+    };
+    lay(lay, 0, 0);
+    tree_.cells_ = std::move(cells);
+    tree_.leaves_.resize(leaf_vertices_.size());
+    const std::vector<SizeRange> parts =
+        overStretches(loop_, leaf_vertices_.size(), [&](std::size_t first, std::size_t last) {
+          SizeRange range{kInfinity, 0.0};
+          for (std::size_t l = first; l < last; ++l) {
+            for (unsigned i = 0; i < 9; ++i) {
+              const std::uint32_t v = leaf_vertices_[l][i];
+              tree_.leaves_[places[l]][i] = v == kNone ? std::nanf("") : static_cast<float>(sizes_.size[v]);
+              if (v == kNone) continue;
+              range.low = std::min(range.low, sizes_.size[v]);
+              range.high = std::max(range.high, sizes_.size[v]);
+            }
+          }
+          return range;
+        });
+    tree_.least_ = kInfinity;
+    for (const SizeRange& part : parts) {
+      tree_.least_ = std::min(tree_.least_, part.low);
+      tree_.most_ = std::max(tree_.most_, part.high);
     }
-    tree_.least_ = least;
-    tree_.most_ = most;
   }
 
+  // A table as large as a share of the tree.
   void makeStart() {
-    constexpr std::uint32_t kStarts = 1u << SizeTree::kStartLevels;
-    tree_.start_.resize(std::size_t{kStarts} * kStarts);
+    constexpr int kMostLevels = 11;
+    int& levels = tree_.start_levels_;
+    while (levels < kMostLevels && (tree_.leaves_.size() >> (2 * levels)) >= 16) ++levels;
+    const std::uint32_t starts = 1u << levels;
+    tree_.start_.resize(std::size_t{starts} * starts);
     tree_.start_level_.resize(tree_.start_.size());
-    for (std::uint32_t j = 0; j < kStarts; ++j) {
-      for (std::uint32_t i = 0; i < kStarts; ++i) {
+    for (std::uint32_t j = 0; j < starts; ++j) {
+      for (std::uint32_t i = 0; i < starts; ++i) {
         std::uint32_t c = 0;
         std::uint8_t level = 0;
-        for (; level < SizeTree::kStartLevels && !tree_.cells_[c].is_leaf; ++level) {
-          const std::uint32_t half = kStarts >> (level + 1);
+        for (; level < levels && !tree_.cells_[c].is_leaf; ++level) {
+          const std::uint32_t half = starts >> (level + 1);
           c = tree_.cells_[c].below + ((i & half) != 0) + 2 * ((j & half) != 0);
         }
-        tree_.start_[(std::size_t{j} << SizeTree::kStartLevels) + i] = c;
-        tree_.start_level_[(std::size_t{j} << SizeTree::kStartLevels) + i] = level;
+        tree_.start_[(std::size_t{j} << levels) + i] = c;
+        tree_.start_level_[(std::size_t{j} << levels) + i] = level;
       }
     }
   }
