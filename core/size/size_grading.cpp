@@ -143,46 +143,66 @@ template <typename F>
 void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
   std::ranges::sort(from);
   from.erase(std::unique(from.begin(), from.end()), from.end());
-  std::vector<SizeQueue::Entry> first;
+  SizeQueue queue;
   for (const std::uint32_t v : from)
-    if (std::isfinite(sizes_.size[v])) first.push_back({sizes_.size[v], v});
-  SizeQueue queue(first);
-  for (SizeQueue::Entry next{}; queue.pop(next);) {
-    const auto [size, v] = next;
-    if (size != sizes_.size[v]) continue;
-    const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
-    const Point place = placeOf(origin);
-    const double flat = kFlatFoot * legAt(origin);
-    forLeavesRound(v, [&](std::uint32_t l) {
-      for (const std::uint32_t w : leaves_[l]) {
-        if (w == kNone || !mayLower(w)) continue;
-        const double way = std::max(distance(place, placeOf(w)) - flat, 0.0);
-        const double allowed = sizes_.own[origin] + kSizeGrowth * gradation_ * way;
-        if (!(allowed < sizes_.size[w] * (1.0 - 1e-9))) continue;
-        sizes_.size[w] = allowed;
-        sizes_.source[w] = origin;
-        queue.push({allowed, w});
+    if (std::isfinite(sizes_.size[v])) queue.push({sizes_.size[v], v});
+  // What a batch allows is found for all of it at once, and then taken over in its order.
+  std::vector<SizeQueue::Entry> batch;
+  while (queue.take(batch)) {
+    constexpr std::size_t kWorthThreads = 20'000;
+    const std::vector<std::vector<Growth>> found = overStretches(
+        batch.size() < kWorthThreads ? inOrder : loop_, batch.size(), [&](std::size_t first, std::size_t last) {
+          std::vector<Growth> some;
+          for (const SizeQueue::Entry& e : std::span(batch).subspan(first, last - first))
+            if (e.size == sizes_.size[e.number]) findGrowth(e.number, mayLower, some);
+          return some;
+        });
+    for (const std::vector<Growth>& some : found) {
+      for (const auto& [allowed, to, origin] : some) {
+        if (!(allowed < sizes_.size[to] * (1.0 - 1e-9))) continue;
+        sizes_.size[to] = allowed;
+        sizes_.source[to] = origin;
+        queue.push({allowed, to});
       }
-    });
+    }
   }
+}
+
+// What grows at a vertex lowers round it.
+template <typename F>
+void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const {
+  const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
+  const Point place = placeOf(origin);
+  const double flat = kFlatFoot * legAt(origin);
+  forLeavesRound(v, [&](std::uint32_t l) {
+    for (const std::uint32_t w : leaves_[l]) {
+      if (w == kNone || !mayLower(w)) continue;
+      const double way = std::max(distance(place, placeOf(w)) - flat, 0.0);
+      const double allowed = sizes_.own[origin] + kSizeGrowth * gradation_ * way;
+      if (allowed < sizes_.size[w] * (1.0 - 1e-9)) found.push_back({allowed, w, origin});
+    }
+  });
 }
 
 void SizeGrading::flatten() {
   forEachByStretches(loop_, sizes_.size.size(), [&](std::size_t v) { sizes_.size[v] = roundedDown(sizes_.size[v]); });
   // From below: what is low decides on what is high.
-  std::vector<SizeQueue::Entry> steep;
-  for (const std::uint32_t l : findSteep()) steep.push_back({lowestOf(l), l});
-  SizeQueue queue(steep);
+  SizeQueue queue;
+  for (const std::uint32_t l : findSteep()) queue.push({lowestOf(l), l});
+  std::vector<SizeQueue::Entry> batch;
   std::vector<std::uint32_t> lowered;
   std::size_t visits = kMostVisits * leaves_.size();
-  for (SizeQueue::Entry next{}; queue.pop(next); --visits) {
-    if (visits == 0) return flattenLegs();
-    lowered.clear();
-    flattenLeaf(next.number, lowered);
-    for (const std::uint32_t v : lowered) {
-      forLeavesRound(v, [&](std::uint32_t l) {
-        if (isSteeper(l, gradation_)) queue.push({lowestOf(l), l});
-      });
+  while (queue.take(batch)) {
+    std::ranges::sort(batch, {}, [](const SizeQueue::Entry& e) { return std::pair{e.size, e.number}; });
+    for (const SizeQueue::Entry& e : batch) {
+      if (visits-- == 0) return flattenLegs();
+      lowered.clear();
+      flattenLeaf(e.number, lowered);
+      for (const std::uint32_t v : lowered) {
+        forLeavesRound(v, [&](std::uint32_t l) {
+          if (isSteeper(l, gradation_)) queue.push({lowestOf(l), l});
+        });
+      }
     }
   }
 }
@@ -225,18 +245,15 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lo
 // in, sizes are lengths of shortest paths.
 void SizeGrading::flattenLegs() {
   std::vector<bool> is_strict(leaves_.size(), false);
-  const auto takeIn = [&](std::uint32_t l, const auto& push) {
+  SizeQueue queue;
+  const auto takeIn = [&](std::uint32_t l) {
     if (is_strict[l]) return;
     is_strict[l] = true;
     for (const std::uint32_t v : leaves_[l])
-      if (v != kNone) push({sizes_.size[v], v});
+      if (v != kNone) queue.push({sizes_.size[v], v});
   };
-  std::vector<SizeQueue::Entry> steep;
-  for (const std::uint32_t l : findSteep()) takeIn(l, [&](const SizeQueue::Entry& e) { steep.push_back(e); });
-  SizeQueue queue(steep);
-  for (SizeQueue::Entry next{}; queue.pop(next);) {
-    const auto [size, v] = next;
-    if (size != sizes_.size[v]) continue;
+  for (const std::uint32_t l : findSteep()) takeIn(l);
+  const auto growLegs = [&](double size, std::uint32_t v) {
     forLeavesRound(v, [&](std::uint32_t l) {
       if (!is_strict[l]) return;
       forEachTriangle(leaves_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -247,11 +264,15 @@ void SizeGrading::flattenLegs() {
           if (!(allowed < sizes_.size[w])) continue;
           sizes_.size[w] = allowed;
           queue.push({allowed, w});
-          forLeavesRound(w, [&](std::uint32_t m) { takeIn(m, [&](const SizeQueue::Entry& e) { queue.push(e); }); });
+          forLeavesRound(w, takeIn);
         }
       });
     });
-  }
+  };
+  std::vector<SizeQueue::Entry> batch;
+  while (queue.take(batch))
+    for (const SizeQueue::Entry& e : batch)
+      if (e.size == sizes_.size[e.number]) growLegs(e.size, e.number);
 }
 
 }  // namespace coastmesh

@@ -45,6 +45,11 @@ class SizeGrading {
   void flatten();
 
  private:
+  struct Growth {
+    double allowed;
+    std::uint32_t to, origin;
+  };
+
   Point placeOf(std::uint32_t v) const { return {unit_ * places_[v].x, unit_ * places_[v].y}; }
   Point gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   bool isSteeper(std::uint32_t leaf, double slope) const;
@@ -53,6 +58,8 @@ class SizeGrading {
   double legAt(std::uint32_t v) const;
   template <typename F>
   void grow(std::vector<std::uint32_t>&& from, const F& mayLower);
+  template <typename F>
+  void findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const;
   std::vector<std::uint32_t> besideNew() const;
   void flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lowered);
   void flattenLegs();

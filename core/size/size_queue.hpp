@@ -9,54 +9,44 @@
 
 namespace coastmesh {
 
-// Numbers by size, the least first; of equal sizes the least number. What is far from being next waits unsorted in
-// buckets of a 64th of an octave: pushing it costs no more than a write.
+// Numbers that wait by their sizes, in batches of a 64th of an octave, the least first; within a batch the older comes
+// first. An exact order would cost a heap, and would jump about in memory from one to the next.
 class SizeQueue {
  public:
   struct Entry {
     double size;  // above 0, finite
     std::uint32_t number;
-    bool operator<(const Entry& other) const { return size != other.size ? size > other.size : number > other.number; }
   };
 
-  explicit SizeQueue(const std::vector<Entry>& entries) {
-    if (entries.empty()) return;
-    lowest_ = bucketOf(std::max_element(entries.begin(), entries.end())->size);  // the one that comes first
-    for (const Entry& e : entries) push(e);
-  }
-
+  // What is less than the batch taken out last joins the next one.
   void push(const Entry& entry) {
-    const std::size_t bucket = bucketOf(entry.size);
-    if (bucket < lowest_ + opened_) {
-      heap_.push_back(entry);
-      std::push_heap(heap_.begin(), heap_.end());
-      return;
+    const std::size_t batch = std::max(batchOf(entry.size), next_);
+    if (waiting_.empty()) lowest_ = batch;
+    if (batch < lowest_) {
+      waiting_.insert(waiting_.begin(), lowest_ - batch, {});
+      lowest_ = batch;
     }
-    if (bucket - lowest_ >= waiting_.size()) waiting_.resize(bucket - lowest_ + 1);
-    waiting_[bucket - lowest_].push_back(entry);
+    if (batch - lowest_ >= waiting_.size()) waiting_.resize(batch - lowest_ + 1);
+    waiting_[batch - lowest_].push_back(entry);
   }
 
-  // Takes the next one out; false where there is none.
-  bool pop(Entry& next) {
-    while (heap_.empty()) {
-      if (opened_ >= waiting_.size()) return false;
-      heap_.swap(waiting_[opened_]);
-      waiting_[opened_++] = {};
-      std::make_heap(heap_.begin(), heap_.end());
-    }
-    std::pop_heap(heap_.begin(), heap_.end());
-    next = heap_.back();
-    heap_.pop_back();
+  // Takes out the next batch, into `batch`; false where there is none. Until another is taken, what is pushed for it
+  // is the next one.
+  bool take(std::vector<Entry>& batch) {
+    batch.clear();
+    next_ = std::max(next_, lowest_);
+    while (next_ - lowest_ < waiting_.size() && waiting_[next_ - lowest_].empty()) ++next_;
+    if (next_ - lowest_ >= waiting_.size()) return false;
+    batch.swap(waiting_[next_ - lowest_]);
     return true;
   }
 
  private:
-  static std::size_t bucketOf(double size) { return std::bit_cast<std::uint64_t>(size) >> 46; }
+  static std::size_t batchOf(double size) { return std::bit_cast<std::uint64_t>(size) >> 46; }
 
-  std::size_t lowest_ = 0;                   // the bucket that comes first
-  std::size_t opened_ = 0;                   // buckets whose entries went to the heap
-  std::vector<std::vector<Entry>> waiting_;  // from `lowest_` on
-  std::vector<Entry> heap_;                  // all that may be next
+  std::vector<std::vector<Entry>> waiting_;  // batches from `lowest_` on
+  std::size_t lowest_ = 0;
+  std::size_t next_ = 0;  // no batch before this one is filled
 };
 
 }  // namespace coastmesh
