@@ -12,7 +12,6 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/run_outputs.hpp"
-#include "apps/usage/config_file.hpp"
 #include "apps/usage/usage_pages.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
@@ -93,11 +92,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const auto command = std::ranges::find_if(commands, isNamed);
     if (command != commands.end()) {
-      std::set<std::string> names;
-      for (const Command& other : commands) names.insert(other.line.options().name());
-      arguments = command->line.withPresentNames(
-          expandConfig({arguments.begin() + 1, arguments.end()}, command->line.options().jsonUsage(), names),
-          former_names);
+      arguments = command->line.withPresentNames({arguments.begin() + 1, arguments.end()}, former_names);
       arguments.insert(arguments.begin(), argv[1]);
     }
     std::ranges::reverse(arguments);  // as CLI11 wants them
@@ -109,8 +104,11 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
   } catch (const CLI::ParseError& error) {
     throw OptionError(oneLine(error.what()) + "; coastmesh COMMAND --help shows what there is");
   }
+  std::set<std::string> names;
+  for (const Command& command : commands) names.insert(command.line.options().name());
   for (Command& command : commands) {
     if (!command.line.chosen()) continue;
+    command.line.complete(names, former_names);
     requireOutputsApart(command.line.options());
     Run run{interrupt, {}, {}};
     for (const auto& [option, path] : command.line.options().inputs()) run.inputs.push_back(path);

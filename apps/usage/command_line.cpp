@@ -4,20 +4,39 @@
 #include <algorithm>
 #include <map>
 #include <utility>
+#include <variant>
+
+#include "apps/usage/config_file.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-// CLI11 shows "--coarsen,--no-coarsen{false}"; which of the two is on is said in the description.
+constexpr const char* kConfig = "--config";
+
 class HelpFormatter : public CLI::Formatter {
  public:
+  explicit HelpFormatter(std::set<const CLI::Option*> required) : required_(std::move(required)) {}
+
+  // CLI11 shows "--coarsen,--no-coarsen{false}"; which of the two is on is said in the description.
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
     return CLI::detail::find_and_replace(CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
   }
+  // What must be given may also stand in a file, which CLI11 does not know: to it nothing is required.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    return CLI::Formatter::make_option_opts(option) + (required_.contains(option) ? " " + get_label("REQUIRED") : "");
+  }
+  std::string make_option_usage(const CLI::Option* option) const override {
+    const std::string usage = CLI::Formatter::make_option_usage(option);
+    return required_.contains(option) ? usage.substr(1, usage.size() - 2) : usage;  // without the brackets
+  }
+
+ private:
+  std::set<const CLI::Option*> required_;
 };
 
-void bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& entry) {
+// Null for a flag.
+CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& entry) {
   const auto set = [&table, &entry](const std::string& text) {
     try {
       table.setText(entry.name, text);
@@ -30,7 +49,7 @@ void bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& entry) {
     app.add_flag(entry.names, help)->each([set](const std::string& text) {
       set(CLI::detail::to_flag_value(text) > 0 ? "true" : "false");
     });
-    return;
+    return nullptr;
   }
   CLI::Option* option = nullptr;
   if (entry.multiple) {
@@ -41,16 +60,16 @@ void bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& entry) {
   } else {
     option = app.add_option_function<std::string>(entry.names, set, entry.shown_help);
   }
-  option->type_name(entry.shown_unit)->required(entry.required);
+  option->type_name(entry.shown_unit);
   if (!entry.shown_default.empty()) option->default_str(entry.shown_default);
+  return option;
 }
 
 }  // namespace
 
 OptionTable commandOptions(const std::string& name, const std::string& help) {
   OptionTable table(name, help);
-  // What it says stands among the arguments when they are parsed: see apps/usage/config_file.hpp.
-  table.file("--config",
+  table.file(kConfig,
              "take options from a TOML or JSON file, by their long names without dashes; those given here go before "
              "it");
   return table;
@@ -58,12 +77,16 @@ OptionTable commandOptions(const std::string& name, const std::string& help) {
 
 CommandLine::CommandLine(CLI::App& root, OptionTable table)
     : app_(root.add_subcommand(table.name(), table.help())), table_(std::make_unique<OptionTable>(std::move(table))) {
-  app_->formatter(std::make_shared<HelpFormatter>());
   const OptionTable* options = table_.get();
   app_->add_flag_callback(
           "--json-usage", [options] { throw UsageText{options->jsonUsage()}; }, "print this usage as JSON")
       ->trigger_on_parse();
-  for (const OptionTable::Entry* entry : table_->entries()) bind(*app_, *table_, *entry);
+  std::set<const CLI::Option*> required;
+  for (const OptionTable::Entry* entry : table_->entries()) {
+    const CLI::Option* option = bind(*app_, *table_, *entry);
+    if (entry->required) required.insert(option);
+  }
+  app_->formatter(std::make_shared<HelpFormatter>(std::move(required)));
   if (const std::string examples = table_->examplesText(); !examples.empty()) app_->footer(examples);
 }
 
@@ -71,6 +94,14 @@ CommandLine::~CommandLine() = default;
 CommandLine::CommandLine(CommandLine&&) noexcept = default;
 
 bool CommandLine::chosen() const { return app_->parsed(); }
+
+void CommandLine::complete(const std::set<std::string>& commands, std::vector<std::string>& warnings) {
+  const std::vector<OptionValue>& files = table_->given(kConfig);
+  if (!files.empty()) takeConfig(std::get<std::string>(files.front()), *table_, commands, warnings);
+  const std::vector<std::string> missing = table_->missing();
+  if (!missing.empty())
+    throw OptionError(missing.front() + " is required; coastmesh COMMAND --help shows what there is");
+}
 
 std::vector<std::string> CommandLine::withPresentNames(std::vector<std::string> arguments,
                                                        std::vector<std::string>& warnings) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct UsageText {
   std::string text;
 };
 
-// A table for a command of the program, which begins with --config.
+// A table for a command of the program, which begins with --config: `CommandLine::complete` reads what that names.
 OptionTable commandOptions(const std::string& name, const std::string& help);
 
 // A command of the program: its arguments fill a table of options.
@@ -34,6 +35,10 @@ class CommandLine {
   // sentence for each goes to `warnings`.
   std::vector<std::string> withPresentNames(std::vector<std::string> arguments,
                                             std::vector<std::string>& warnings) const;
+
+  // Once the arguments are parsed: takes what they leave open from the file that --config names (see takeConfig).
+  // Throws OptionError besides where something that must be given is in neither.
+  void complete(const std::set<std::string>& commands, std::vector<std::string>& warnings);
 
  private:
   CLI::App* app_;

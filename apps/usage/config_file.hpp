@@ -4,14 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "apps/usage/option_table.hpp"
+
 namespace coastmesh {
 
-// Adds to the arguments that follow a command's name what `--config FILE` among them says: options by their long names
-// without dashes, arguments by theirs in small letters, at the top or in a section named as the command; sections of
-// other `commands` are passed over. What the command line gives itself goes before the file. `usage` is the command's
-// declaration as JSON. Throws OptionError: see readConfigEntries; an option that the command does not have, or that is
-// given twice.
-std::vector<std::string> expandConfig(const std::vector<std::string>& arguments, const std::string& usage,
-                                      const std::set<std::string>& commands);
+// Gives a command's options what a file of options says of them: options by their long names without dashes, arguments
+// by theirs in small letters, at the top or in a section named as the command; sections of other `commands` are passed
+// over. What was given before goes before the file. A sentence for each option that goes by a former name goes to
+// `warnings`. Throws OptionError, which names the file and the option: see readConfigEntries; an option that the
+// command does not have, that is given twice, or whose value it does not take.
+void takeConfig(const std::string& file, OptionTable& table, const std::set<std::string>& commands,
+                std::vector<std::string>& warnings);
 
 }  // namespace coastmesh

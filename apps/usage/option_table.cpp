@@ -435,6 +435,17 @@ void OptionTable::setText(const std::string& name, const std::string& text) {
   set(name, valueOf(text, impl_->declared(name).entry.kind), text);
 }
 
+const std::vector<OptionValue>& OptionTable::given(const std::string& name) const {
+  return impl_->declared(name).given;
+}
+
+std::vector<std::string> OptionTable::missing() const {
+  std::vector<std::string> names;
+  for (const auto& option : impl_->all)
+    if (option->entry.required && option->given.empty()) names.push_back(option->entry.name);
+  return names;
+}
+
 std::vector<OptionTable::NamedFile> OptionTable::inputs() const {
   std::vector<NamedFile> named;
   for (const auto& option : impl_->all) {

@@ -141,6 +141,12 @@ class OptionTable {
   void set(const std::string& name, const OptionValue& value, const std::string& shown);
   void setText(const std::string& name, const std::string& text);
 
+  // All the values that an option, or an argument, was given, by `Entry::name`.
+  const std::vector<OptionValue>& given(const std::string& name) const;
+
+  // Once all is set: the options and arguments that must be given and were not.
+  std::vector<std::string> missing() const;
+
   // Once all is set: the files to read that arguments and options name, whichever they are, and those to write. Throws
   // OptionError for "-" where standard output is not allowed, and what `FilesOf` throws.
   struct NamedFile {

@@ -166,6 +166,14 @@ TEST_F(MeshRun, AFileCanHoldTheWholeJob) {
   const ProgramRun run = runProgram({"mesh", "--config", file("bad.toml")});
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.errors.find("'sise'"), std::string::npos);
+  const std::string turned = write("turned.toml", "size = -1\n");
+  const ProgramRun negative = runProgram({"mesh", lake(), "-o", file("c.2dm"), "--config", turned});
+  EXPECT_EQ(negative.code, 2);
+  EXPECT_NE(negative.errors.find(turned + ": 'size': '-1' is not a number"), std::string::npos) << negative.errors;
+  write("half.toml", "input = \"" + lake() + "\"\n");
+  const ProgramRun half = runProgram({"mesh", "--config", file("half.toml")});
+  EXPECT_EQ(half.code, 2);
+  EXPECT_NE(half.errors.find("--output is required"), std::string::npos) << half.errors;
 }
 
 TEST_F(MeshRun, SizesThatDoNotGoTogetherAreRefused) {
@@ -219,10 +227,13 @@ TEST_F(MeshRun, FormerNamesOfOptionsAndKeysAreTakenWithAWarning) {
   EXPECT_TRUE(present["warnings"].empty());
   ASSERT_NE(present["mesh"]["digest"], plain["mesh"]["digest"]);
   const std::string config = write("former.toml", "shrink = false\n");
-  for (const std::vector<std::string>& former : {std::vector<std::string>{"--no-shrink"}, {"--config", config}}) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> formers = {
+      {{"--no-shrink"}, warning("--no-shrink", "--no-coarsen")},
+      {{"--config", config}, config + ": " + warning("'shrink'", "'coarsen'")}};
+  for (const auto& [former, sentence] : formers) {
     const Json taken = report(former);
     EXPECT_EQ(taken["mesh"]["digest"], present["mesh"]["digest"]);
-    EXPECT_EQ(taken["warnings"], Json::array({warning("--no-shrink", "--no-coarsen")}));
+    EXPECT_EQ(taken["warnings"], Json::array({sentence}));
     EXPECT_EQ(taken["refine"]["coarsen"], false);
   }
   const Json on = report({"--shrink", "--algorithm", "circumcenter"});

@@ -44,6 +44,8 @@ class CommandLineTest : public testing::Test {
   void parse(std::vector<std::string> words) {
     std::reverse(words.begin(), words.end());
     app_.parse(words);
+    std::vector<std::string> warnings;
+    if (line_.chosen()) line_.complete({"knit"}, warnings);
   }
 
   CLI::App app_;
@@ -91,8 +93,15 @@ TEST_F(CommandLineTest, WhatIsOutOfRangeIsRefused) {
                                                                                       {"--name", "c"}}) {
     EXPECT_THROW(parse({"knit", "wool", "-o", "sock", option + "=" + value}), CLI::ParseError) << option << value;
   }
-  EXPECT_THROW(parse({"knit", "wool"}), CLI::ParseError);
-  EXPECT_THROW(parse({"knit", "-o", "sock"}), CLI::ParseError);
+}
+
+TEST_F(CommandLineTest, WhatMustBeGivenIsAskedFor) {
+  EXPECT_THROW(parse({"knit", "wool"}), OptionError);
+  EXPECT_THROW(parse({"knit", "-o", "sock"}), OptionError);
+  const std::string help = app_.get_subcommand("knit")->help();
+  EXPECT_NE(help.find("INPUT..."), std::string::npos);
+  EXPECT_EQ(help.find("[INPUT..."), std::string::npos);
+  EXPECT_NE(help.find("--output FILE ... REQUIRED"), std::string::npos) << help;
 }
 
 TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <utility>
 
 #include "gis/error.hpp"
 
@@ -12,17 +15,40 @@ namespace coastmesh {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
-const char* const kUsage =
-    R"({"command": "mesh", "arguments": [{"name": "INPUT", "type": "file", "multiple": true}], "options": [
-  {"name": "--output", "names": ["-o", "--output"], "type": "file", "multiple": true},
-  {"name": "--size-max", "names": ["--size-max"], "type": "number"},
-  {"name": "--bbox", "names": ["--bbox"], "type": "text", "unit": "W,S,E,N"},
-  {"name": "--depth-band", "names": ["--depth-band"], "type": "text", "unit": "FROM,TO,SIZE", "multiple": true},
-  {"name": "--water-level", "names": ["--water-level"], "type": "number"},
-  {"name": "--coarsen", "names": ["--coarsen", "--no-coarsen"], "type": "flag",
-   "former_names": {"--felt": "--coarsen", "--no-felt": "--no-coarsen"}},
-  {"name": "--quiet", "names": ["--quiet"], "type": "flag"}]})";
+// What a file of options gave, beside what was given before it.
+struct Job {
+  std::vector<std::string> inputs, outputs;
+  double size_max = 0.0, water_level = 0.0;
+  std::vector<double> bbox;
+  std::vector<std::vector<double>> bands;
+  bool coarsen = true, quiet = false;
+  OptionTable table{"mesh", "meshes"};
+  std::vector<std::string> warnings;
+
+  Job() {
+    const auto add = [](auto& to) {
+      return [&to](const std::vector<double>& numbers) {
+        to.push_back(numbers);
+        return std::string{};
+      };
+    };
+    const auto store = [this](const std::vector<double>& numbers) {
+      bbox = numbers;
+      return std::string{};
+    };
+    table.arguments("INPUT", inputs, "");
+    table.file("--config", "");
+    table.texts("-o,--output", outputs, "FILE", true, "");
+    table.number("--size-max", size_max, "M", {.low = 0.0}, "");
+    table.numbers("--bbox", "W,S,E,N", false, store, "");
+    table.numbers("--depth-band", "FROM,TO,SIZE", true, add(bands), "");
+    table.number("--water-level", water_level, "M", {}, "");
+    table.flag("--coarsen,!--no-coarsen", coarsen, "").formerly({"--felt", "--no-felt"});
+    table.flag("--quiet", quiet, "");
+  }
+};
 
 class ConfigFile : public ::testing::Test {
  protected:
@@ -37,9 +63,13 @@ class ConfigFile : public ::testing::Test {
     std::ofstream((folder_ / name).string()) << text;
     return (folder_ / name).string();
   }
-  std::vector<std::string> expanded(const std::string& file, std::vector<std::string> arguments = {}) {
-    arguments.insert(arguments.begin(), {"--config", file});
-    return expandConfig(arguments, kUsage, {"mesh", "plot"});
+  // Options given before the file go as names and texts.
+  std::unique_ptr<Job> taken(const std::string& file,
+                             const std::vector<std::pair<std::string, std::string>>& before = {}) {
+    auto job = std::make_unique<Job>();
+    for (const auto& [name, text] : before) job->table.setText(name, text);
+    takeConfig(file, job->table, {"mesh", "plot"}, job->warnings);
+    return job;
   }
 
  private:
@@ -61,61 +91,82 @@ quiet = true
   const std::string json = write("a.json", R"({"input": ["lake.gpkg", "river #2.gpkg"], "output": ["a.nc", "b.14"],
     "size-max": 500, "water_level": -0.5, "coarsen": false, "quiet": true})");
   for (const std::string& file : {toml, json}) {
-    EXPECT_THAT(expanded(file),
-                ElementsAre("--config=" + file, "--output=a.nc", "--output=b.14", "--size-max=500",
-                            "--water-level=-0.5", "--no-coarsen", "--quiet", "--", "lake.gpkg", "river #2.gpkg"))
-        << file;
+    const auto job = taken(file);
+    EXPECT_THAT(job->inputs, ElementsAre("lake.gpkg", "river #2.gpkg")) << file;
+    EXPECT_THAT(job->outputs, ElementsAre("a.nc", "b.14")) << file;
+    EXPECT_EQ(job->size_max, 500.0) << file;
+    EXPECT_EQ(job->water_level, -0.5) << file;
+    EXPECT_FALSE(job->coarsen) << file;
+    EXPECT_TRUE(job->quiet) << file;
+    EXPECT_THAT(job->table.missing(), IsEmpty()) << file;
   }
 }
 
-TEST_F(ConfigFile, TheCommandLineGoesBeforeIt) {
-  const std::string file = write("a.toml", "input = \"a.gpkg\"\noutput = \"a.nc\"\nsize-max = 500\ncoarsen = true\n");
-  const std::string config = "--config=" + file;
-  EXPECT_THAT(expanded(file, {"other.gpkg", "-o", "b.nc", "--no-coarsen"}),
-              ElementsAre("other.gpkg", "-o", "b.nc", "--no-coarsen", config, "--size-max=500"));
-  EXPECT_THAT(expanded(file, {"--size-max=3", "-ob.nc"}),
-              ElementsAre("--size-max=3", "-ob.nc", config, "--coarsen", "--", "a.gpkg"));
-  EXPECT_THAT(expanded(file, {"--size-max=3", "--", "-b.gpkg"}),
-              ElementsAre("--size-max=3", config, "--output=a.nc", "--coarsen", "--", "-b.gpkg"));
+TEST_F(ConfigFile, WhatWasGivenBeforeGoesBeforeIt) {
+  const std::string file =
+      write("a.toml", "input = \"a.gpkg\"\noutput = [\"a.nc\", \"b.nc\"]\nsize-max = 500\ncoarsen = true\n");
+  const auto job = taken(file, {{"INPUT", "other.gpkg"}, {"--output", "c.nc"}, {"--coarsen", "false"}});
+  EXPECT_THAT(job->inputs, ElementsAre("other.gpkg"));
+  EXPECT_THAT(job->outputs, ElementsAre("c.nc"));
+  EXPECT_FALSE(job->coarsen);
+  EXPECT_EQ(job->size_max, 500.0);
+  const auto sized = taken(file, {{"--size-max", "3"}});
+  EXPECT_EQ(sized->size_max, 3.0);
+  EXPECT_THAT(sized->inputs, ElementsAre("a.gpkg"));
+  EXPECT_THAT(sized->outputs, ElementsAre("a.nc", "b.nc"));
 }
 
 TEST_F(ConfigFile, SectionsAreCommands) {
-  const std::string file = write("a.toml", "quiet = true\n[mesh]\nsize-max = 7\n[plot]\nwidth = 100\n");
-  EXPECT_THAT(expanded(file), ElementsAre("--config=" + file, "--quiet", "--size-max=7"));
-  const std::string json = write("b.json", R"({"mesh": {"size-max": 7}, "plot": {"width": 100}})");
-  EXPECT_THAT(expanded(json), ElementsAre("--config=" + json, "--size-max=7"));
-  const std::string dotted = write("c.toml", "mesh.size-max = 7\nplot.width = 3\n");
-  EXPECT_THAT(expanded(dotted), ElementsAre("--config=" + dotted, "--size-max=7"));
+  for (const std::string& file :
+       {write("a.toml", "quiet = true\n[mesh]\nsize-max = 7\n[plot]\nwidth = 100\n"),
+        write("b.json", R"({"quiet": true, "mesh": {"size-max": 7}, "plot": {"width": 100}})"),
+        write("c.toml", "quiet = true\nmesh.size-max = 7\nplot.width = 3\n")}) {
+    const auto job = taken(file);
+    EXPECT_EQ(job->size_max, 7.0) << file;
+    EXPECT_TRUE(job->quiet) << file;
+    EXPECT_THAT(job->table.missing(), ElementsAre("INPUT", "--output")) << file;
+  }
 }
 
 TEST_F(ConfigFile, ListsOfNumbersAreOneValueWhereTheOptionHasCommas) {
   const std::string toml = write("a.toml",
                                  "\xEF\xBB\xBF"
                                  "bbox = [-87.5, 41, -87, 0x2A]\ndepth-band = [[0, 10, 50], [10, inf, 200]]\n");
-  EXPECT_THAT(expanded(toml), ElementsAre("--config=" + toml, "--bbox=-87.5,41,-87,42", "--depth-band=0,10,50",
-                                          "--depth-band=10,inf,200"));
-  const std::string json = write("b.json", R"({"bbox": "1,2,3,4", "depth-band": [0, 10, 50]})");
-  EXPECT_THAT(expanded(json), ElementsAre("--config=" + json, "--bbox=1,2,3,4", "--depth-band=0,10,50"));
+  const auto lists = taken(toml);
+  EXPECT_THAT(lists->bbox, ElementsAre(-87.5, 41.0, -87.0, 42.0));
+  EXPECT_THAT(lists->bands, ElementsAre(ElementsAre(0.0, 10.0, 50.0), ElementsAre(10.0, INFINITY, 200.0)));
+  const auto texts = taken(write("b.json", R"({"bbox": "1,2,3,4", "depth-band": [0, 10, 50]})"));
+  EXPECT_THAT(texts->bbox, ElementsAre(1.0, 2.0, 3.0, 4.0));
+  EXPECT_THAT(texts->bands, ElementsAre(ElementsAre(0.0, 10.0, 50.0)));
 }
 
 TEST_F(ConfigFile, SwitchesByTheirOtherName) {
-  const std::string file = write("a.toml", "no-coarsen = true\n");
-  EXPECT_THAT(expanded(file), ElementsAre("--config=" + file, "--no-coarsen"));
+  EXPECT_FALSE(taken(write("a.toml", "no-coarsen = true\n"))->coarsen);
+  EXPECT_TRUE(taken(write("a.toml", "no_coarsen = false\n"))->coarsen);
 }
 
-TEST_F(ConfigFile, FormerNamesAreTakenAndStayFormer) {
-  for (const char* text : {"felt = false\n", "no-felt = true\n"}) {
+// What is off anyway is not given, so that nothing is said of its having no effect.
+TEST_F(ConfigFile, ASwitchWithoutAnOppositeIsNotGivenWhereItIsOff) {
+  EXPECT_THAT(taken(write("a.toml", "quiet = false\n"))->table.given("--quiet"), IsEmpty());
+}
+
+TEST_F(ConfigFile, FormerNamesAreTakenWithAWarning) {
+  for (const auto& [text, sentence] :
+       {std::pair("felt = false\n", "'felt' is called 'coarsen' now; the next version will not take the former name"),
+        std::pair("no-felt = true\n",
+                  "'no-felt' is called 'no-coarsen' now; the next version will not take the former name")}) {
     const std::string file = write("a.toml", text);
-    EXPECT_THAT(expanded(file), ElementsAre("--config=" + file, "--no-felt"));
-    EXPECT_THAT(expanded(file, {"--coarsen"}), ElementsAre("--coarsen", "--config=" + file)) << "given there already";
-    EXPECT_THAT(expanded(file, {"--felt"}), ElementsAre("--felt", "--config=" + file)) << "given there already";
+    const auto job = taken(file);
+    EXPECT_FALSE(job->coarsen);
+    EXPECT_THAT(job->warnings, ElementsAre(file + ": " + sentence));
+    EXPECT_TRUE(taken(file, {{"--coarsen", "true"}})->coarsen) << "given before";
   }
 }
 
 TEST_F(ConfigFile, MistakesAreNamed) {
   const auto messageOf = [&](const std::string& file) -> std::string {
     try {
-      expanded(file);
+      taken(file);
     } catch (const OptionError& error) {
       return error.what();
     }
@@ -137,11 +188,11 @@ TEST_F(ConfigFile, MistakesAreNamed) {
   EXPECT_THAT(messageOf(write("l.toml", "bbox = [1, 2, 3]\n")), ::testing::HasSubstr("4 numbers"));
   EXPECT_THAT(messageOf(write("m.toml", "bbox = \"\"\n")), ::testing::HasSubstr("empty"));
   EXPECT_THAT(messageOf(write("n.json", "{\"size-max\": 1e999}")), ::testing::HasSubstr("too large"));
+  EXPECT_THAT(messageOf(write("p.toml", "config = \"q.toml\"\n")), ::testing::HasSubstr("'config' is no option"));
+  const std::string negative = write("q.toml", "size-max = -3\n");
+  EXPECT_EQ(messageOf(negative), negative + ": 'size-max': '-3' is not a number in the range 0 or more");
+  EXPECT_THAT(messageOf(write("r.toml", "quiet = [true]\n")), ::testing::HasSubstr("true or false"));
   EXPECT_THAT(messageOf(write("o.toml", "[mesh.size]\nmax = 4\n")), ::testing::HasSubstr("nested"));
-}
-
-TEST_F(ConfigFile, WithoutOneNothingChanges) {
-  EXPECT_THAT(expandConfig({"a.gpkg", "-o", "b.nc"}, kUsage, {"mesh"}), ElementsAre("a.gpkg", "-o", "b.nc"));
 }
 
 }  // namespace
