@@ -19,7 +19,29 @@ enum class DefectKind {
   UnusedVertex,     // a Steiner point without triangles
 };
 
-std::string_view toString(DefectKind kind);
+inline std::string_view toString(DefectKind kind) {
+  switch (kind) {
+    case DefectKind::BrokenTopology:
+      return "broken topology";
+    case DefectKind::NotCounterClockwise:
+      return "triangle not counter-clockwise";
+    case DefectKind::PinchedVertex:
+      return "pinched vertex";
+    case DefectKind::MissingVertex:
+      return "input vertex missing";
+    case DefectKind::MissingSegment:
+      return "input segment missing";
+    case DefectKind::NotDelaunay:
+      return "edge not Delaunay";
+    case DefectKind::AngleBelowBound:
+      return "angle beyond the bound";
+    case DefectKind::WrongArea:
+      return "wrong area";
+    case DefectKind::UnusedVertex:
+      return "vertex without triangle";
+  }
+  return "";
+}
 
 struct MeshDefect {
   DefectKind kind;

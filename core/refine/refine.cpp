@@ -8,7 +8,7 @@
 
 #include "core/label_regions.hpp"
 #include "core/refine/bound_violations.hpp"
-#include "core/refine/refiner.hpp"
+#include "core/refine/mend_triangles.hpp"
 #include "core/refine/repair.hpp"
 #include "core/refine/split_segments.hpp"
 
@@ -19,15 +19,15 @@ namespace {
 RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                        const RefineVariant& variant, const RunControl& control) {
   if (options.size != nullptr) splitSegments(mesh, pslg, notes, options);
-  Refiner refiner(std::move(mesh), pslg, options, std::move(notes), variant);
-  refiner.run(control);
+  RefineRun run(std::move(mesh), pslg, options, std::move(notes), variant);
+  refineAll(run, control);
   if (options.algorithm == Algorithm::Relocate) {
-    refiner.growFans(Refiner::Beyond::StaysGood, control);
-    repair(refiner, pslg, options, control);
+    growCornerTriangles(run, Beyond::StaysGood, control);
+    repair(run, control);
   }
-  mesh = refiner.release();
+  mesh = releaseMesh(run);
   labelRegions(mesh, pslg);
-  RefineStats stats = std::move(refiner.stats());
+  RefineStats stats = std::move(run.stats);
   stats.unresolved = findBoundViolations(mesh, options);
   return stats;
 }

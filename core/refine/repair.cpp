@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/refine/mend_triangles.hpp"
 #include "core/refine/submesh.hpp"
 
 namespace coastmesh {
@@ -57,10 +58,9 @@ std::uint64_t timesAsMuch(double min_angle_deg) { return min_angle_deg > 43.0 ? 
 // sooner.
 std::uint64_t hopeless(double min_angle_deg) { return min_angle_deg > 43.0 ? 4 : 24; }
 
-std::size_t countViolations(const Refiner& refiner) {
+std::size_t countViolations(const RefineRun& run) {
   std::size_t count = 0;
-  for (TriId t = 0; t < refiner.mesh().triangleSlots(); ++t)
-    count += refiner.mesh().isLive(t) && refiner.violatesBound(t);
+  for (TriId t = 0; t < run.mesh.triangleSlots(); ++t) count += run.mesh.isLive(t) && violatesBound(run, t);
   return count;
 }
 
@@ -74,27 +74,26 @@ struct Solution {
 };
 
 // Returns nothing where more than `most` triangles fall short, or no fewer than before.
-std::optional<Solution> solve(const Submesh& patch, const Attempt& attempt, std::size_t most, const Pslg& pslg,
-                              const RefineOptions& options, std::uint64_t& work) {
-  RefineOptions local = options;
+std::optional<Solution> solve(const Submesh& patch, const Attempt& attempt, std::size_t most, const RefineRun& whole,
+                              std::uint64_t& work) {
+  RefineOptions local = whole.options;
   local.max_vertices = patch.parent.size() * kGrowth + kGrowthRoom;
-  Refiner refiner(TriMesh(patch.mesh), pslg, local, VertexNotes(patch.notes), attempt.variant);
-  const std::size_t before = countViolations(refiner);
-  if (attempt.strip) refiner.stripFreeVertices();
-  refiner.run({});
-  refiner.growFans(Refiner::Beyond::GetsMended, {});
-  work += refiner.mesh().vertexSlots();
-  if (refiner.stats().budget_reached) return std::nullopt;
-  const std::size_t left = countViolations(refiner);
+  RefineRun run(TriMesh(patch.mesh), whole.pslg, local, VertexNotes(patch.notes), attempt.variant);
+  const std::size_t before = countViolations(run);
+  if (attempt.strip) stripFreeVertices(run);
+  refineAll(run, {});
+  growCornerTriangles(run, Beyond::GetsMended, {});
+  work += run.mesh.vertexSlots();
+  if (run.stats.budget_reached) return std::nullopt;
+  const std::size_t left = countViolations(run);
   if (left >= before || left > most) return std::nullopt;
-  return Solution{left, refiner.release()};
+  return Solution{left, releaseMesh(run)};
 }
 
-std::optional<Solution> solveBest(const Submesh& patch, std::size_t most, const Pslg& pslg,
-                                  const RefineOptions& options, std::uint64_t& work) {
+std::optional<Solution> solveBest(const Submesh& patch, std::size_t most, const RefineRun& whole, std::uint64_t& work) {
   std::optional<Solution> best;
   const auto attempt = [&](const Attempt& how) {
-    std::optional<Solution> solved = solve(patch, how, most, pslg, options, work);
+    std::optional<Solution> solved = solve(patch, how, most, whole, work);
     if (solved && (!best || solved->isBetterThan(*best))) best = std::move(solved);
   };
   for (const Attempt& how : kCompeting) attempt(how);
@@ -115,123 +114,130 @@ bool isAtFrozenBoundary(const EditMesh& mesh, const Submesh& patch) {
 }
 
 // Puts a solution in; what it pushes beyond its patch is handled at once where nothing in it falls short.
-void take(Refiner& refiner, const Submesh& patch, const Solution& solution, const RunControl& control) {
+void take(RefineRun& run, const Submesh& patch, const Solution& solution, const RunControl& control) {
   std::vector<VertexId> added;
   std::vector<TriId> touched;
-  putBack(refiner.mesh(), patch, solution.mesh, added, touched);
+  putBack(run.mesh, patch, solution.mesh, added, touched);
   for (const VertexId v : added) {
     double spacing = std::numeric_limits<double>::infinity();
     for (VertexId f = 0; f < patch.parent.size(); ++f)
-      spacing = std::min(spacing, patch.notes.spacing[f] + distance(patch.mesh.points[f], refiner.mesh().point(v)));
-    refiner.noteVertex(v, spacing);
+      spacing = std::min(spacing, patch.notes.spacing[f] + distance(patch.mesh.points[f], run.mesh.point(v)));
+    noteVertex(run, v, spacing);
   }
-  refiner.mesh().restoreDelaunay(touched);
+  run.mesh.restoreDelaunay(touched);
   if (solution.short_triangles > 0) return;
-  std::erase_if(touched, [&](TriId t) { return !refiner.mesh().isLive(t) || !refiner.violatesBound(t); });
-  refiner.resume(touched, control);
+  std::erase_if(touched, [&](TriId t) { return !run.mesh.isLive(t) || !violatesBound(run, t); });
+  resume(run, touched, control);
 }
 
 // Takes the first patch that can be mended wholly, or else the one in which the fewest triangles fall short.
-Outcome mendPlace(Refiner& refiner, std::span<const TriId> centre, const Pslg& pslg, const RefineOptions& options,
-                  const RunControl& control, std::uint64_t& work) {
+Outcome mendPlace(RefineRun& run, std::span<const TriId> centre, const RunControl& control, std::uint64_t& work) {
   std::optional<Solution> best;
   Submesh best_patch;
   for (const unsigned rings : kRings) {
-    Submesh patch = extractAround(refiner.mesh(), refiner.notes(), centre, rings);
-    if (refiner.isClearOfFrozen() && isAtFrozenBoundary(refiner.mesh(), patch)) {
+    Submesh patch = extractAround(run.mesh, run.notes, centre, rings);
+    if (run.variant.clear_of_frozen && isAtFrozenBoundary(run.mesh, patch)) {
       if (best) break;
-      refiner.defer(centre.back());
+      defer(run, centre.back());
       return Outcome::Deferred;
     }
     // In a piece another round may mend wholly what this one cannot; not so at an input angle.
-    const bool all_or_none =
-        refiner.isClearOfFrozen() && std::ranges::find(patch.notes.small_angle, true) == patch.notes.small_angle.end();
+    const bool all_or_none = run.variant.clear_of_frozen &&
+                             std::ranges::find(patch.notes.small_angle, true) == patch.notes.small_angle.end();
     const std::size_t most = all_or_none ? 0 : std::numeric_limits<std::size_t>::max();
-    std::optional<Solution> solved = solveBest(patch, most, pslg, options, work);
+    std::optional<Solution> solved = solveBest(patch, most, run, work);
     if (!solved || (best && solved->short_triangles >= best->short_triangles)) continue;
     best = std::move(solved);
     best_patch = std::move(patch);
     if (best->short_triangles == 0) break;
   }
   if (!best) return Outcome::Failed;
-  if (refiner.mesh().vertexCount() + best->mesh.points.size() - best_patch.parent.size() > options.max_vertices) {
-    refiner.stats().budget_reached = true;
+  if (run.mesh.vertexCount() + best->mesh.points.size() - best_patch.parent.size() > run.options.max_vertices) {
+    run.stats.budget_reached = true;
     return Outcome::Failed;
   }
-  take(refiner, best_patch, *best, control);
+  take(run, best_patch, *best, control);
   return Outcome::Mended;
 }
 
 // First the runs of bad triangles along a small input angle that has domain on both sides: each run is re-meshed as one
 // patch, because fixing one side spoils the other.
-void repairStrips(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-                  const auto& isGivenUp) {
+void repairStrips(RefineRun& run, const RunControl& control, const auto& isGivenUp) {
   constexpr std::size_t kLongestStrip = 500;
-  const std::uint64_t most_work = mostWork(options.min_angle_deg, refiner.mesh().vertexCount());
+  const std::uint64_t most_work = mostWork(run.options.min_angle_deg, run.mesh.vertexCount());
   std::uint64_t work = 0;
-  const TriId slots = refiner.mesh().triangleSlots();
-  for (TriId t = 0; t < slots && work <= most_work && !refiner.stats().budget_reached; ++t) {
-    const std::vector<TriId> strip = refiner.shortStrip(t);
+  const TriId slots = run.mesh.triangleSlots();
+  for (TriId t = 0; t < slots && work <= most_work && !run.stats.budget_reached; ++t) {
+    const std::vector<TriId> strip = shortCornerStrip(run, t);
     if (strip.empty() || strip.size() > kLongestStrip || isGivenUp(strip.back())) continue;
     control.checkpoint(1.0);
-    mendPlace(refiner, strip, pslg, options, control, work);
+    mendPlace(run, strip, control, work);
   }
 }
 
+// What lies round places where mending has failed: it waits for the next round.
+class Surroundings {
+ public:
+  explicit Surroundings(const EditMesh& mesh) : mesh_(mesh) {}
+
+  void clear() { near_.clear(); }
+  void add(TriId t) {
+    near_.resize(mesh_.vertexSlots(), false);
+    for (const TriId around : trianglesAround(mesh_, {&t, 1}, 1))
+      for (const VertexId v : mesh_.triangle(around).v) near_[v] = true;
+  }
+  bool hold(TriId t) const {
+    return std::ranges::all_of(mesh_.triangle(t).v, [&](VertexId v) { return v < near_.size() && near_[v]; });
+  }
+
+ private:
+  const EditMesh& mesh_;
+  std::vector<bool> near_;  // one a vertex
+};
+
 }  // namespace
 
-void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-            std::span<const BadTriangle> given_up) {
+void repair(RefineRun& run, const RunControl& control, std::span<const BadTriangle> given_up) {
   const auto isGivenUp = [&](TriId t) {
     const auto known = std::ranges::lower_bound(given_up, t, {}, &BadTriangle::triangle);
-    return known != given_up.end() && known->triangle == t && known->corners == refiner.mesh().triangle(t).v;
+    return known != given_up.end() && known->triangle == t && known->corners == run.mesh.triangle(t).v;
   };
-  repairStrips(refiner, pslg, options, control, isGivenUp);
-  const std::uint64_t most_work = mostWork(options.min_angle_deg, refiner.mesh().vertexCount());
+  repairStrips(run, control, isGivenUp);
+  const std::uint64_t most_work = mostWork(run.options.min_angle_deg, run.mesh.vertexCount());
   struct Tally {
     std::uint64_t places = 0;
     std::uint64_t work = 0;  // vertices handled
   };
   Tally successes, failures;
-  // Where mending has failed the triangles beside wait for the next round.
-  std::vector<bool> near_failure;  // one a vertex
-  const auto isNearFailure = [&](TriId t) {
-    return std::ranges::all_of(refiner.mesh().triangle(t).v,
-                               [&](VertexId v) { return v < near_failure.size() && near_failure[v]; });
-  };
-  const auto giveUp = [&](TriId t) {
-    near_failure.resize(refiner.mesh().vertexSlots(), false);
-    for (const TriId near : trianglesAround(refiner.mesh(), {&t, 1}, 1))
-      for (const VertexId v : refiner.mesh().triangle(near).v) near_failure[v] = true;
-  };
+  Surroundings failed(run.mesh);
   // What a repair pushes beyond its patch is met on the next round.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     bool again = false;
-    near_failure.clear();
-    const TriId slots = refiner.mesh().triangleSlots();
+    failed.clear();
+    const TriId slots = run.mesh.triangleSlots();
     for (TriId k = 0; k < slots; ++k) {
       // There and back: of a few beside one another another comes first, which makes another patch.
       const TriId t = round % 2 == 0 ? k : slots - 1 - k;
-      if (!refiner.mesh().isLive(t) || !refiner.violatesBound(t) || isGivenUp(t)) continue;
-      if (refiner.isDeferred(t)) continue;
-      if (isNearFailure(t)) {
+      if (!run.mesh.isLive(t) || !violatesBound(run, t) || isGivenUp(t)) continue;
+      if (isDeferred(run, t)) continue;
+      if (failed.hold(t)) {
         again = true;
         continue;
       }
-      if (failures.work > most_work || successes.work > timesAsMuch(options.min_angle_deg) * most_work ||
-          refiner.stats().budget_reached)
+      if (failures.work > most_work || successes.work > timesAsMuch(run.options.min_angle_deg) * most_work ||
+          run.stats.budget_reached)
         return;
       control.checkpoint(1.0);
       std::uint64_t work = 0;
-      const Outcome outcome = mendPlace(refiner, {&t, 1}, pslg, options, control, work);
+      const Outcome outcome = mendPlace(run, {&t, 1}, control, work);
       Tally& tally = outcome == Outcome::Mended ? successes : failures;
       tally.work += work;
       if (outcome == Outcome::Deferred) continue;
       ++tally.places;
-      if (outcome == Outcome::Failed) giveUp(t);
+      if (outcome == Outcome::Failed) failed.add(t);
       if (outcome == Outcome::Mended) again = true;
-      if (failures.places > hopeless(options.min_angle_deg) + 2 * successes.places) return;
+      if (failures.places > hopeless(run.options.min_angle_deg) + 2 * successes.places) return;
     }
     if (!again) return;
   }

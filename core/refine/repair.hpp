@@ -2,9 +2,7 @@
 
 #include <span>
 
-#include "core/pslg.hpp"
-#include "core/refine/refine_options.hpp"
-#include "core/refine/refiner.hpp"
+#include "core/refine/refine_run.hpp"
 #include "core/run_control.hpp"
 
 namespace coastmesh {
@@ -13,7 +11,6 @@ namespace coastmesh {
 // ways, keeps the smallest result without a bad triangle, and widens the patch where none succeeds. Places are few and
 // far apart, so it can be thorough; where they are not, the bound is out of reach, and the work is cut off in
 // proportion to that of the refinement. Triangles in `given_up`, in the order of their numbers, are left as they are.
-void repair(Refiner& refiner, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
-            std::span<const BadTriangle> given_up = {});
+void repair(RefineRun& run, const RunControl& control, std::span<const BadTriangle> given_up = {});
 
 }  // namespace coastmesh

@@ -3,22 +3,32 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/refine/refiner.hpp"
+#include "core/refine/mend_triangles.hpp"
 #include "core/refine/repair.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-Refiner takeSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options) {
+RefineRun takeSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options) {
   RefineVariant variant = usualVariant(options);
   variant.clear_of_frozen = true;
-  return Refiner(std::move(state.mesh), pslg, options, std::move(state.notes), variant);
+  return RefineRun(std::move(state.mesh), pslg, options, std::move(state.notes), variant);
 }
 
-RefineStats giveBack(Refiner& refiner, MeshState& state) {
-  state.mesh = refiner.release(state.notes, state.due_triangles);
-  RefineStats stats = std::move(refiner.stats());
+// Beside the mesh, what is known of its vertices, and which triangles were kept for later.
+RefineStats giveBack(RefineRun& run, MeshState& state) {
+  std::erase_if(run.deferred, [&](const auto& entry) { return !isDeferred(run, entry.first); });
+  Renumbering by;
+  state.mesh = run.mesh.release(by, false);
+  state.due_triangles.assign(state.mesh.triangles.size(), 0);
+  for (const auto& [t, corners] : run.deferred) state.due_triangles[by.triangle[t]] = 1;
+  std::vector<double> spacing(state.mesh.points.size());
+  for (VertexId v = 0; v < by.vertex.size(); ++v)
+    if (by.vertex[v] != kNone) spacing[by.vertex[v]] = run.notes.spacing[v];
+  state.notes = std::move(run.notes);
+  state.notes.spacing = std::move(spacing);
+  RefineStats stats = std::move(run.stats);
   stats.steiner_points = 0;
   return stats;
 }
@@ -28,29 +38,29 @@ RefineStats giveBack(Refiner& refiner, MeshState& state) {
 RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, bool mends,
                           const RunControl& control) {
   std::vector<std::uint8_t> due = std::move(state.due_triangles);
-  Refiner refiner = takeSubmesh(state, pslg, options);
+  RefineRun run = takeSubmesh(state, pslg, options);
 
   std::vector<TriId> first;
   std::vector<BadTriangle> given_up;
   for (TriId t = 0; t < due.size(); ++t) {
     if (due[t]) {
       first.push_back(t);
-    } else if (mends && refiner.violatesBound(t)) {
-      given_up.push_back({t, refiner.mesh().triangle(t).v});
+    } else if (mends && violatesBound(run, t)) {
+      given_up.push_back({t, run.mesh.triangle(t).v});
     }
   }
-  refiner.resume(first, control);
+  resume(run, first, control);
   if (mends && options.algorithm == Algorithm::Relocate) {
-    refiner.growFans(Refiner::Beyond::StaysGood, control);
-    repair(refiner, pslg, options, control, given_up);
+    growCornerTriangles(run, Beyond::StaysGood, control);
+    repair(run, control, given_up);
   }
-  return giveBack(refiner, state);
+  return giveBack(run, state);
 }
 
 RefineStats repairSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
-  Refiner refiner = takeSubmesh(state, pslg, options);
-  repair(refiner, pslg, options, control);
-  return giveBack(refiner, state);
+  RefineRun run = takeSubmesh(state, pslg, options);
+  repair(run, control);
+  return giveBack(run, state);
 }
 
 MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due) {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/delaunay.hpp"
+#include "core/refine/mend_triangles.hpp"
 #include "core/refine/refine.hpp"
-#include "core/refine/refiner.hpp"
 #include "core/refine/vertex_notes.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/pslgs.hpp"
@@ -165,11 +165,11 @@ TEST_P(InputCornersOf, TheRunJudgesByThem) {
   for (const BoundViolation& s : stats.unresolved) listed.emplace(s.place.x, s.place.y);
   VertexNotes own = notes;
   own.spacing.resize(mesh.points.size(), 1.0);
-  const Refiner refiner(TriMesh(mesh), pslg, options, std::move(own), usualVariant(options));
+  const RefineRun run(TriMesh(mesh), pslg, options, std::move(own), usualVariant(options));
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     const auto [a, b, c] = cornersOf(mesh, t);
     const Point centre = (1.0 / 3.0) * (a + b + c);
-    if (refiner.violatesBound(t)) violating.emplace(centre.x, centre.y);
+    if (violatesBound(run, t)) violating.emplace(centre.x, centre.y);
   }
   EXPECT_EQ(violating, listed);
 }

@@ -1,0 +1,170 @@
+#include "core/refine/mend_triangles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Relocations never bring a vertex more often than this: a bound on the run, not a setting.
+constexpr std::uint8_t kMostMoves = 32;
+// From this angle on taking vertices out during refinement pays: density spreads there.
+constexpr double kMergeFromDeg = 35.0;
+
+// Whether every place where a vertex would make a good triangle with the shortest edge is nearer to that edge than the
+// input's spacing lets any vertex come: between two segments that meet at a tiny angle.
+bool isOutOfReach(const RefineRun& run, TriId t, const TriangleShape& shape) {
+  const EditMesh& mesh = run.mesh;
+  const double longest = shape.squared[shape.longest];
+  if (isTooLong(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), longest, run.bound)) return false;
+  const auto& v = mesh.triangle(t).v;
+  const double spacing =
+      std::min(run.notes.spacing[v[next3(shape.shortest)]], run.notes.spacing[v[prev3(shape.shortest)]]);
+  // The petal's diameter is the edge over the sine.
+  const double nearest = kSegmentShare * spacing * run.bound.sin_min;
+  return shape.squared[shape.shortest] < nearest * nearest;
+}
+
+// Two vertices merged may come to be two again: merges are bounded by what was put in, and by the mesh's size, lest
+// both go on for ever.
+bool mayMerge(const RefineRun& run) {
+  const auto& types = run.stats.by_type;
+  const std::uint64_t put_in = types[0] + types[1] + types[2] + types[3] + run.stats.segment_splits;
+  return 10 * run.stats.merges < 3 * put_in && 2 * run.stats.merges < run.mesh.vertexCount();
+}
+
+// Algorithm 2: a vertex of the triangle that finds a place where its whole star is good moves there. We go on where the
+// paper does not: one that is not needed goes, and two that one place can serve become one.
+bool mendWithoutInsertion(RefineRun& run, TriId t) {
+  EditMesh& mesh = run.mesh;
+  const Corners corners = mesh.triangle(t).v;
+  for (const VertexId v : corners) {
+    if (mesh.kind(v) == VertexKind::Input || run.moves[v] >= kMostMoves || !run.ops.relocate(v, run.touched)) continue;
+    ++run.moves[v];
+    ++run.stats.relocations;
+    return true;
+  }
+  if (run.bound.min_angle < toRadians(kMergeFromDeg) || !mayMerge(run)) return false;
+  for (const VertexId v : corners) {
+    if (mesh.kind(v) == VertexKind::Input || !run.ops.mergeWithNeighbour(v, false, run.touched)) continue;
+    ++run.stats.merges;
+    return true;
+  }
+  return false;
+}
+
+// Whether x sees the subsegment under 180° - 2 alpha or more: the diametral lens of Chew (1993) and Shewchuk (1997) for
+// 30°, wider with alpha. A triangle with such an angle is bad, so a subsegment that a vertex encroaches upon always has
+// one.
+bool isEncroached(const TriangleBound& bound, const Point& x, const Point& a, const Point& b) {
+  const double d = dot(a - x, b - x);
+  if (d >= 0.0) return false;
+  const double cos_lens = -std::cos(2.0 * bound.min_angle);
+  if (cos_lens >= 0.0) return true;
+  return d * d >= cos_lens * cos_lens * squaredDistance(x, a) * squaredDistance(x, b);
+}
+
+// The subsegment of a cavity's boundary that x lies behind, or encroaches upon, with the widest angle; kNone where
+// there is none.
+EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavity) {
+  const EditMesh& mesh = run.mesh;
+  EdgeRef hit = kNone;
+  double widest = 0.0;
+  for (const BoundaryEdge& r : cavity.boundary) {
+    if (r.seg == kNone && r.beyond != kNone) continue;
+    const Point &a = mesh.point(r.a), &b = mesh.point(r.b);
+    const bool behind = orient2d(a, b, x) <= 0;
+    if (!behind && (r.seg == kFrozen || !isEncroached(run.bound, x, a, b))) continue;
+    const double angle = behind ? std::numbers::pi : angleAt(x, a, b);
+    if (angle <= widest) continue;
+    widest = angle;
+    // The edge as the cavity has it.
+    for (const TriId c : cavity.triangles)
+      for (unsigned i = 0; i < 3; ++i)
+        if (mesh.origin(edgeRef(c, i)) == r.a && mesh.target(edgeRef(c, i)) == r.b) hit = edgeRef(c, i);
+  }
+  return hit;
+}
+
+bool insertPoint(RefineRun& run, TriId t, unsigned apex) {
+  Patch& patch = run.memory.patch;
+  EditMesh& mesh = run.mesh;
+  const SteinerPoint candidate = run.search.find(mesh, t, apex);
+  if (!std::isfinite(candidate.place.x) || !std::isfinite(candidate.place.y)) return false;
+  const EditMesh::Place where = mesh.locate(candidate.place, candidate.near);
+  if (where.blocked != kNone) return splitFor(run, where.blocked, t, apex);
+  if (where.triangle == kNone) return false;
+  const bool inside = mesh.findCavity(candidate.place, where.triangle, patch);
+  if (isBarred(run, patch)) {
+    defer(run, t);
+    return false;
+  }
+  const EdgeRef hit = subsegmentBeside(run, candidate.place, patch);
+  if (hit != kNone) return splitFor(run, hit, t, apex);
+  const double spacing = spacingAt(run, candidate.place, patch);
+  if (!inside || std::min(candidate.squared_clearance, spacing * spacing) < run.squared_resolution) return false;
+  if (candidate.squared_clearance < run.variant.free_share * run.variant.free_share * spacing * spacing) return false;
+  const VertexId corner = filledCornerBehind(run, t, apex);
+  if (corner != kNone)
+    for (const TriId c : patch.triangles)
+      if (fillsCorner(run, c, corner)) return false;
+
+  const VertexId v = mesh.insertInCavity(candidate.place, patch, run.touched);
+  noteVertex(run, v, spacing);
+  ++run.stats.by_type[static_cast<unsigned>(candidate.type)];
+  enqueueTouched(run);
+  return true;
+}
+
+void mend(RefineRun& run, TriId t) {
+  EditMesh& mesh = run.mesh;
+  const TriangleShape shape(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  if (!isBad(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.bound)) return;
+  const auto isFrozen = [&](VertexId v) { return v < run.frozen.size() && run.frozen[v]; };
+  if (std::ranges::any_of(mesh.triangle(t).v, isFrozen)) return defer(run, t);
+  if (fillsCorner(run, t, mesh.triangle(t).v[shape.shortest])) return;
+  // No move brings edges to the length wanted where there are too few.
+  const bool is_only_long =
+      run.options.size != nullptr && !isBad(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.strict);
+  if (run.options.algorithm == Algorithm::Relocate && !is_only_long && mendWithoutInsertion(run, t)) {
+    enqueueTouched(run);
+    return;
+  }
+  if (!isOutOfReach(run, t, shape)) insertPoint(run, t, shape.shortest);
+}
+
+void drainQueue(RefineRun& run, const RunControl& control) {
+  EditMesh& mesh = run.mesh;
+  std::uint64_t steps = 0;
+  while (!run.queue.empty()) {
+    if (++steps % 1024 == 0)
+      control.checkpoint(static_cast<double>(steps) / static_cast<double>(steps + run.queue.size()));
+    if (mesh.vertexCount() >= run.options.max_vertices) {
+      run.stats.budget_reached = true;
+      return;
+    }
+    const BadTriangle bad = run.queue.pop();
+    if (mesh.vertexCount() > run.options.most_in_memory) throw OutOfRoom(mesh.point(bad.corners[0]));
+    if (mesh.triangle(bad.triangle).v == bad.corners) mend(run, bad.triangle);
+  }
+}
+
+}  // namespace
+
+void refineAll(RefineRun& run, const RunControl& control) {
+  for (TriId t = 0; t < run.mesh.triangleSlots(); ++t)
+    if (run.mesh.isLive(t)) enqueueIfBad(run, t);
+  drainQueue(run, control);
+}
+
+void resume(RefineRun& run, std::vector<TriId>& touched, const RunControl& control) {
+  run.touched.swap(touched);
+  enqueueTouched(run);
+  drainQueue(run, control);
+}
+
+}  // namespace coastmesh

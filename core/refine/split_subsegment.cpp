@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/refine/mend_triangles.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// As spacingAt, for a point that is to split a subsegment, where the other segments beside it count too.
+double spacingOnSegment(const RefineRun& run, const Point& x, EdgeRef edge, const Patch& cavity) {
+  const EditMesh& mesh = run.mesh;
+  double spacing = spacingAt(run, x, cavity);
+  for (const VertexId v : {mesh.origin(edge), mesh.target(edge)})
+    spacing = std::min(spacing, run.notes.spacing[v] + distance(x, mesh.point(v)));
+  const Segment& own = run.pslg.segments[mesh.segment(edge)];
+  for (const BoundaryEdge& r : cavity.boundary) {
+    if (r.seg >= run.pslg.segments.size()) continue;
+    // Near a common end two segments are arbitrarily close: there the spacing of that vertex counts.
+    const Segment& other = run.pslg.segments[r.seg];
+    if (own.a == other.a || own.a == other.b || own.b == other.a || own.b == other.b) continue;
+    spacing = std::min(spacing, std::sqrt(squaredDistanceToSegment(x, mesh.point(r.a), mesh.point(r.b))));
+  }
+  return spacing;
+}
+
+Point splitPlace(const RefineRun& run, VertexId a, VertexId b, SegmentId seg) {
+  const EditMesh& mesh = run.mesh;
+  const auto unit = [&](VertexId v) { return v < mesh.inputVertices() ? run.notes.shell_unit[v] : 0.0; };
+  const Point &pa = mesh.point(a), &pb = mesh.point(b);
+  double share = 0.5;
+  if ((unit(a) > 0.0) != (unit(b) > 0.0)) {
+    // On the shell round the small angle whose radius, the unit times a power of two, is nearest to the middle.
+    const double length = distance(pa, pb);
+    const double radius_unit = std::max(unit(a), unit(b));
+    const double radius = radius_unit * std::exp2(std::round(std::log2(0.5 * length / radius_unit)));
+    const double from = std::clamp(radius / length, 0.25, 0.75);
+    share = unit(a) > 0.0 ? from : 1.0 - from;
+  }
+  const Point &sa = run.pslg.points[run.pslg.segments[seg].a], &sb = run.pslg.points[run.pslg.segments[seg].b];
+  return projectedOnLine(pa + share * (pb - pa), sa, sb);
+}
+
+// Takes out the free vertices in the subsegment's diametral circle (Chew 1993). Returns the subsegment, which may have
+// come to lie in another triangle.
+EdgeRef clearDiametralCircle(RefineRun& run, EdgeRef edge) {
+  EditMesh& mesh = run.mesh;
+  const VertexId a = mesh.origin(edge), b = mesh.target(edge);
+  for (int side = 0; side < 2; ++side) {
+    // Every round takes a vertex out.
+    while (edge != kNone) {
+      const VertexId v = mesh.apex(edge);
+      if (mesh.kind(v) != VertexKind::Free || dot(mesh.point(a) - mesh.point(v), mesh.point(b) - mesh.point(v)) >= 0.0)
+        break;
+      const VertexId from = mesh.origin(edge);
+      if (!removeFreeVertex(run, v)) break;
+      ++run.stats.removals;
+      edge = kNone;
+      for (const TriId t : run.touched) {
+        if (!mesh.isLive(t)) continue;
+        for (unsigned i = 0; i < 3; ++i)
+          if (mesh.segment(edgeRef(t, i)) != kNone && mesh.origin(edgeRef(t, i)) == from &&
+              mesh.target(edgeRef(t, i)) == (from == a ? b : a))
+            edge = edgeRef(t, i);
+      }
+    }
+    if (side == 0 && edge != kNone && mesh.twin(edge) != kNone) edge = mesh.twin(edge);
+  }
+  return edge;
+}
+
+}  // namespace
+
+bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex) {
+  Patch& patch = run.memory.patch;
+  EditMesh& mesh = run.mesh;
+  const SegmentId seg = mesh.segment(edge);
+  if (seg == kNone || seg == kFrozen) {
+    if (seg == kFrozen && run.variant.clear_of_frozen) defer(run, t);
+    return false;
+  }
+  const VertexId a = mesh.origin(edge), b = mesh.target(edge);
+  const VertexId corner = filledCornerBehind(run, t, apex);
+  if (corner != kNone && (a == corner || b == corner)) return false;
+  const Point place = splitPlace(run, a, b, seg);
+  if (run.stuck.contains({a, b}) || !mesh.findSplitCavity(edge, place, patch)) return false;
+  if (isBarred(run, patch)) {
+    defer(run, t);
+    return false;
+  }
+  const double spacing = spacingOnSegment(run, place, edge, patch);
+  const double nearer = std::min(squaredDistance(place, mesh.point(a)), squaredDistance(place, mesh.point(b)));
+  // Where the input itself is finer than coordinates resolve, nothing can be mended.
+  if (std::min(nearer, spacing * spacing) < run.squared_resolution) return false;
+  if (nearer < kSegmentShare * kSegmentShare * spacing * spacing) return false;
+  const EdgeRef cleared = clearDiametralCircle(run, edge);
+  const VertexId v = cleared == kNone ? kNone : mesh.splitSegment(cleared, place, run.touched);
+  if (v != kNone) {
+    noteVertex(run, v, spacing);
+    ++run.stats.segment_splits;
+    // The triangle that asked for the split may still be there, and bad.
+    run.touched.push_back(t);
+  }
+  if (v == kNone) {
+    // Vertices may have gone for nothing, and would come back for as little.
+    run.stuck.insert({a, b});
+    run.stuck.insert({b, a});
+  }
+  std::ranges::sort(run.touched);
+  run.touched.erase(std::unique(run.touched.begin(), run.touched.end()), run.touched.end());
+  enqueueTouched(run);
+  return v != kNone;
+}
+
+}  // namespace coastmesh
