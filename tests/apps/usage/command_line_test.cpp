@@ -95,9 +95,12 @@ TEST_F(CommandLineTest, WhatIsOutOfRangeIsRefused) {
   }
 }
 
-TEST_F(CommandLineTest, WhatMustBeGivenIsAskedFor) {
-  EXPECT_THROW(parse({"knit", "wool"}), OptionError);
+TEST_F(CommandLineTest, ArgumentsThatMustBeGivenAreAskedFor) {
   EXPECT_THROW(parse({"knit", "-o", "sock"}), OptionError);
+}
+
+TEST_F(CommandLineTest, OptionsThatMustBeGivenAreAskedFor) {
+  EXPECT_THROW(parse({"knit", "wool"}), OptionError);
   const std::string help = app_.get_subcommand("knit")->help();
   EXPECT_NE(help.find("INPUT..."), std::string::npos);
   EXPECT_EQ(help.find("[INPUT..."), std::string::npos);
