@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/refine/refine_run.hpp"
@@ -35,5 +36,13 @@ void growCornerTriangles(RefineRun& run, Beyond beyond, const RunControl& contro
 inline constexpr double kSegmentShare = 0.02;
 // Splits a subsegment that keeps a point from mending t, whose shortest edge is opposite its corner `apex`.
 bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex);
+
+// What the queue leaves (repair.cpp) ---------------------------------------------------------------------------------
+
+// Mends what refinement left short of the bounds: takes the patch round such a triangle, refines it anew in several
+// ways, keeps the smallest result without a bad triangle, and widens the patch where none succeeds. Places are few and
+// far apart, so it can be thorough; where they are not, the bound is out of reach, and the work is cut off in
+// proportion to that of the refinement. Triangles in `given_up`, in the order of their numbers, are left as they are.
+void repair(RefineRun& run, const RunControl& control, std::span<const BadTriangle> given_up = {});
 
 }  // namespace coastmesh

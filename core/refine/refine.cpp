@@ -9,7 +9,6 @@
 #include "core/label_regions.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/mend_triangles.hpp"
-#include "core/refine/repair.hpp"
 #include "core/refine/split_segments.hpp"
 
 namespace coastmesh {

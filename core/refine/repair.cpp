@@ -1,5 +1,3 @@
-#include "core/refine/repair.hpp"
-
 #include <algorithm>
 #include <array>
 #include <limits>

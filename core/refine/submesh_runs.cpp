@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/refine/mend_triangles.hpp"
-#include "core/refine/repair.hpp"
 
 namespace coastmesh {
 
