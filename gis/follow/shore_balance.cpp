@@ -11,8 +11,9 @@ namespace {
 
 constexpr double kClose = 0.01;  // of the area of the water: so near the order need not be changed for
 // Of the narrowest land that stays.
-constexpr double kStep = 0.1, kLeastFirst = 0.45;
-constexpr int kHalvings = 3;
+constexpr double kTried[] = {0.75, 0.5};
+constexpr int kBetween = 3;      // further attempts
+constexpr double kInside = 0.1;  // they keep so far from both ends, as a share of what lies between
 
 }  // namespace
 
@@ -54,17 +55,22 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
 
 OpenedShores balanceShores(OpenedShores&& opened, const ShoreStart& start, const ShoreSizes& sizes,
                            const ShoreGuides& guides, const FollowOptions& options) {
-  double high = 1.0, low = 1.0;
+  if (options.land_min == 0.0 || opened.error < kClose) return std::move(opened);
+  // Too much water is left at `high`, too little at `low`.
+  double high = 1.0, low = 1.0, too_much = opened.error, too_little = opened.error;
   OpenedShores best = std::move(opened);
   const auto attempt = [&](double first) {
     OpenedShores other = openShores(start, sizes, guides, options, first);
-    double& bound = other.error > 0.0 ? high : low;
-    bound = first;
+    (other.error > 0.0 ? high : low) = first;
+    (other.error > 0.0 ? too_much : too_little) = other.error;
     if (std::abs(other.error) < std::abs(best.error)) best = std::move(other);
   };
-  if (options.land_min == 0.0 || best.error < kClose) return best;
-  while (low == 1.0 && high > kLeastFirst && std::abs(best.error) > kClose) attempt(high - kStep);
-  for (int i = 0; i < kHalvings && low < 1.0 && std::abs(best.error) > kClose; ++i) attempt(0.5 * (low + high));
+  for (const double first : kTried)
+    if (low == 1.0 && std::abs(best.error) > kClose) attempt(first);
+  for (int i = 0; i < kBetween && low < 1.0 && std::abs(best.error) > kClose; ++i) {
+    const double share = std::clamp(too_little / (too_little - too_much), kInside, 1.0 - kInside);
+    attempt(low + share * (high - low));
+  }
   return best;
 }
 
