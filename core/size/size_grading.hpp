@@ -17,6 +17,14 @@ namespace coastmesh {
 // The vertices of a square cell, in rows from below: corners, middles of sides, centre. The middle of a side is kNone
 // where sizes are linear along it. The cell's triangles lie between its centre and the edges of its boundary: all are
 // right-angled, with legs of the same length. Cells meet in whole edges.
+//
+//   6 --- 7 --- 8     6 ----------- 8
+//   | \   |   / |     |  \       /   |
+//   |   \ | /   |     |    \   /     |
+//   3 --- 4 --- 5     |      4 ---- 5    without 1, 3 and 7
+//   |   / | \   |     |    /   \     |
+//   | /   |   \ |     |  /       \   |
+//   0 --- 1 --- 2     0 ----------- 2
 using LeafVertices = std::array<std::uint32_t, 9>;
 
 // From where they are graded, sizes grow by this share of the gradation: between vertices a cone is steeper than it is.

@@ -64,7 +64,16 @@ struct Way {
   VertexId to = kNone;
 };
 
-// What takes a corner's place: from on its first edge to on its last, by `tip`.
+// What takes a corner's place: from on its first edge to on its last, by `tip`, which lies on the bisector, a gap away
+// from the pinched vertex v. A shoulder is how far along the edges it begins.
+//
+//            / last                    / last
+//   water   /                 water   o
+//          /                         /
+//         v    outside        v    tip   outside
+//          \ shore                   \ shore
+//   water   \                 water   o
+//            \ first                   \ first
 struct Notch {
   Point first, tip, last;
   bool whole_first, whole_last;  // a vertex that is there

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -13,12 +14,6 @@ namespace {
 
 // Lines that agree on the rule by less than this share of their length do not follow it.
 constexpr double kAgreement = 0.9;
-
-std::string placeInWords(const Point& p) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.10g, %.10g", p.x, p.y);
-  return text;
-}
 
 class WaterFinder {
  public:

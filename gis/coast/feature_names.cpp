@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 
 namespace coastmesh {
 namespace {
@@ -24,6 +25,12 @@ std::string_view nameOf(const std::vector<std::pair<std::string, std::string>>& 
 
 bool isNameAttribute(std::string_view attribute) {
   return lowerCase(std::string(attribute)).find("name") != std::string::npos;
+}
+
+std::string placeInWords(const Point& place) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.10g, %.10g", place.x, place.y);
+  return text;
 }
 
 std::string regionNameOf(const Feature& feature) {

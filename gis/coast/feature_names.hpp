@@ -15,6 +15,9 @@ std::string_view nameOf(const std::vector<std::pair<std::string, std::string>>& 
 // Whether an attribute may be meant: "name" is in its own.
 bool isNameAttribute(std::string_view attribute);
 
+// A place as notes and errors say it: "-87.5, 41.25".
+std::string placeInWords(const Point& place);
+
 // What a region is called: its attribute "tag", "region" or "name", else the number of its feature.
 std::string regionNameOf(const Feature& feature);
 

@@ -6,36 +6,19 @@
 #include <span>
 #include <tuple>
 
+#include "gis/geometry/neighbours.hpp"
 #include "gis/grid/mesh_edges.hpp"
 
 namespace coastmesh {
 namespace {
 
-// The neighbours of each node, ascending.
-class Neighbours {
- public:
-  explicit Neighbours(const Grid& grid) : first_(grid.nodes.size() + 1, 0) {
-    const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles);
-    for (const auto& [a, b] : edges) {
-      ++first_[a + 1];
-      ++first_[b + 1];
-    }
-    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-    nodes_.resize(2 * edges.size());
-    std::vector<std::uint32_t> fill(first_.begin(), first_.end() - 1);
-    for (const auto& [a, b] : edges) {
-      nodes_[fill[a]++] = b;
-      nodes_[fill[b]++] = a;
-    }
-  }
-
-  std::span<const std::uint32_t> of(std::uint32_t node) const {
-    return {nodes_.data() + first_[node], nodes_.data() + first_[node + 1]};
-  }
-
- private:
-  std::vector<std::uint32_t> first_, nodes_;
-};
+// Ascending.
+Neighbours neighboursIn(const Grid& grid) {
+  const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles);
+  return {grid.nodes.size(), [&](const auto& visit) {
+            for (const auto& [a, b] : edges) visit(a, b);
+          }};
+}
 
 // In metres or, in a plane, its units; near enough to tell which of two nodes is nearer.
 double distance(const Grid& grid, std::uint32_t a, std::uint32_t b) {
@@ -47,7 +30,7 @@ double distance(const Grid& grid, std::uint32_t a, std::uint32_t b) {
 }  // namespace
 
 std::size_t fillFromNeighbours(Grid& grid) {
-  const Neighbours neighbours(grid);
+  const Neighbours neighbours = neighboursIn(grid);
   std::vector<std::uint32_t> ring;
   const auto isUnknown = [&](std::uint32_t node) { return std::isnan(grid.z[node]); };
   const auto addUnknownNeighbours = [&](std::uint32_t node, std::vector<bool>& waiting) {
@@ -84,7 +67,7 @@ std::size_t fillFromNeighbours(Grid& grid) {
 }
 
 std::size_t fillFromNearest(Grid& grid) {
-  const Neighbours neighbours(grid);
+  const Neighbours neighbours = neighboursIn(grid);
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, node, where its value comes from
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<bool> done(grid.nodes.size(), false);

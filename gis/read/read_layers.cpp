@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
@@ -41,12 +42,6 @@ void forEachChain(GeometryParts& parts, Act&& act) {
   }
   for (auto& line : parts.lines) act(line);
   act(parts.points);
-}
-
-std::string placeInWords(const Point& p) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.10g, %.10g", p.x, p.y);
-  return text;
 }
 
 // One layer while it is read.

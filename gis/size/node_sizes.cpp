@@ -5,37 +5,22 @@
 #include <utility>
 
 #include "core/metric.hpp"
+#include "gis/geometry/neighbours.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-// The edges of a mesh by their ends.
-class Neighbours {
- public:
-  explicit Neighbours(const TriMesh& mesh) : first_(mesh.points.size() + 1, 0) {
-    const auto forEachEdge = [&](auto&& f) {
-      for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-        for (unsigned i = 0; i < 3; ++i) {
-          const EdgeRef e = edgeRef(t, i);
-          if (mesh.twin(e) == kNone || mesh.twin(e) > e) f(mesh.origin(e), mesh.target(e));
-        }
-      }
-    };
-    forEachEdge([&](VertexId a, VertexId b) { ++first_[a + 1], ++first_[b + 1]; });
-    for (std::size_t v = 0; v + 1 < first_.size(); ++v) first_[v + 1] += first_[v];
-    ends_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    forEachEdge([&](VertexId a, VertexId b) { ends_[next[a]++] = b, ends_[next[b]++] = a; });
-  }
-  std::span<const VertexId> of(VertexId v) const {
-    return std::span(ends_).subspan(first_[v], first_[v + 1] - first_[v]);
-  }
-
- private:
-  std::vector<std::uint32_t> first_;
-  std::vector<VertexId> ends_;
-};
+Neighbours neighboursIn(const TriMesh& mesh) {
+  return {mesh.points.size(), [&](const auto& visit) {
+            for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+              for (unsigned i = 0; i < 3; ++i) {
+                const EdgeRef e = edgeRef(t, i);
+                if (mesh.twin(e) == kNone || mesh.twin(e) > e) visit(mesh.origin(e), mesh.target(e));
+              }
+            }
+          }};
+}
 
 }  // namespace
 
@@ -61,7 +46,7 @@ std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, dou
         if (allowed(v[i], to) < sizes[to]) queue.push({sizes[v[i]], v[i]});
   }
   if (queue.empty()) return sizes;
-  const Neighbours neighbours(mesh);
+  const Neighbours neighbours = neighboursIn(mesh);
   while (!queue.empty()) {
     const auto [least, from] = queue.top();
     queue.pop();
