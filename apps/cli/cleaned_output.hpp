@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace coastmesh {
 // By domain and segment: what the boundary is there, as `kindOfText` takes it. Empty, or empty texts, where nothing is
 // known.
 using BoundaryTypes = std::vector<std::vector<std::string>>;
+
+// What was changed, now or when the file was cleaned before, as points: the same edit found again counts once.
+VectorLayer editLayer(std::span<const Edit> edits, const ReadReport& read);
 
 // Cleaned domains as layers that `readCleaned` makes the same domains of, with all that is known of their features: see
 // gis/read/cleaned_layers.hpp. Edges come in the order of their places.

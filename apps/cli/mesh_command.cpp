@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "apps/cli/cleaned_output.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/exit_codes.hpp"
 #include "apps/cli/progress.hpp"
@@ -58,6 +59,7 @@ struct MeshCommandUsage {
   std::vector<std::string> outputs;
   std::string format;
   std::string report;
+  std::string edits;
   std::string progress = "auto";
   bool overwrite = false;
   bool quiet = false;
@@ -79,6 +81,9 @@ OptionTable declareOptions(MeshCommandUsage& usage) {
           "without an output that is UGRID (.nc)");
   table.output("--report", usage.report, {.standard_output = true},
                "write a report as JSON; - prints it in place of the summary");
+  table.output("--edits", usage.edits, {},
+               "write what cleaning and --coast follow changed, as points with its kind and the feature: a .gpkg, "
+               ".geojson or .fgb");
   table.choice(
       "--progress", usage.progress, {"auto", "bar", "log", "json", "none"},
       "how to show progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, else lines); "
@@ -94,7 +99,8 @@ OptionTable declareOptions(MeshCommandUsage& usage) {
 }
 
 int runMesh(const MeshCommandUsage& usage, Run& run) {
-  const MeshJob& job = usage.mesh.job;
+  MeshJob job = usage.mesh.job;
+  job.keep_edits = !usage.edits.empty();
   const Interrupt& interrupt = run.interrupt;
   if (usage.report == "-" && usage.progress == "json")
     throw OptionError("--report - and --progress json both write to standard output: give the report a file");
@@ -104,6 +110,8 @@ int runMesh(const MeshCommandUsage& usage, Run& run) {
   };
   RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
   outputs.addGrids(usage.outputs, usage.format);
+  if (job.keep_edits) requireVectorFormat(usage.edits, 1);
+  StagedFiles* const edits = job.keep_edits ? &outputs.addFile(usage.edits) : nullptr;
   outputs.addReport(usage.report);
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
   const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
@@ -122,6 +130,10 @@ int runMesh(const MeshCommandUsage& usage, Run& run) {
       result.log.append(recorder.finish("write"));
     });
   }
+  if (edits != nullptr && any)
+    edits->make([&](const std::string& path) {
+      writeVectorLayers(path, result.crs, {editLayer(result.edit_places, result.read)});
+    });
   result.seconds.write = secondsSince(write_start);
   result.seconds.total = secondsSince(start);
   outputs.writeReport(meshReport(job, result, threadsAsked(job.parallel), run.warnings));
@@ -139,6 +151,7 @@ int runMesh(const MeshCommandUsage& usage, Run& run) {
     std::string text = meshSummary(job, result);
     for (const std::string& note : result.read.notes) text += note + "\n";
     for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
+    if (!usage.edits.empty()) text += "wrote " + usage.edits + "\n";
     if (!usage.report.empty()) text += "wrote " + usage.report + "\n";
     std::fputs(text.c_str(), stdout);
   }

@@ -53,6 +53,13 @@ std::string welcome(const std::vector<Command>& commands) {
   return text + "\ncoastmesh COMMAND --help shows the options of a command, with examples; man coastmesh has it all.\n";
 }
 
+// The library counts what an option of one value has got.
+std::string mistakeOf(const CLI::ParseError& error) {
+  const std::string text = oneLine(error.what());
+  const std::size_t counts = text.find(": At Most 1 required");
+  return counts == std::string::npos ? text : text.substr(0, counts) + " is given more than once";
+}
+
 }  // namespace
 
 void Run::warn(const std::string& text) {
@@ -102,7 +109,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     app.exit(asked, text, errors);
     throw UsageText{text.str()};
   } catch (const CLI::ParseError& error) {
-    throw OptionError(oneLine(error.what()) + "; coastmesh COMMAND --help shows what there is");
+    throw OptionError(mistakeOf(error) + "; coastmesh COMMAND --help shows what there is");
   }
   std::set<std::string> names;
   for (const Command& command : commands) names.insert(command.line.options().name());

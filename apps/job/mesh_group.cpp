@@ -250,6 +250,7 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   const ItemLoop loop = many_points ? recorder.loop("clean", task.control) : ItemLoop(inOrder);
   Domain domain = task.input.domain(task.group, clean, loop);
   result.edits = clean.counts;
+  if (task.job.keep_edits) result.edit_places = std::move(clean.edits);
   result.notes = std::move(clean.notes);
   result.projection = domain.projection.description();
   result.projection_reason = domain.projection.reason();
@@ -286,6 +287,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     std::ranges::move(coarser.notes, std::back_inserter(result.notes));
     std::ranges::move(coarser.warnings, std::back_inserter(result.warnings));
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
+    if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
   }
   VertexDemand& demand = sized.demand;
   demand.vertices +=

@@ -10,6 +10,7 @@ namespace coastmesh {
 struct GroupResult {
   Grid grid;  // its CRS is left out
   std::array<std::uint64_t, kEditKinds> edits{};
+  std::vector<Edit> edit_places;  // where the job keeps them
   std::string projection;
   std::string projection_reason;
   double least_scale = 1.0, greatest_scale = 1.0;  // plane length over true length, at the vertices

@@ -18,6 +18,7 @@ struct MeshJob {
   SizeOptions sizes;  // where nothing but `most_m` is asked for, no edge is longer than that
   ParallelOptions parallel;
   FinishOptions finish;
+  bool keep_edits = false;  // where what was changed lies, besides how often
 };
 
 // How a job talks to whoever started it. Either function may be empty; `progress` is called from one thread at a time,

@@ -98,12 +98,14 @@ Window windowOf(const GridPiece& piece, const PlotOptions& options) {
 // latitudes, the picture one of the plane, which reaches further at its corners.
 std::vector<std::uint32_t> trianglesIn(const Grid& grid, const PlotOptions& options) {
   constexpr double kReach = 0.3;  // of the box's sides
+  bool any = false;               // in the box itself
   std::vector<std::uint32_t> shown;
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
     Window extent;
     for (std::uint32_t node : grid.triangles[t]) extent.add(grid.nodes[node]);
     if (options.bbox) {
       const auto& [west, south, east, north] = *options.bbox;
+      any = any || (extent.high.x >= west && extent.low.x <= east && extent.high.y >= south && extent.low.y <= north);
       const double reach_x = kReach * (east - west);
       const double reach_y = kReach * (north - south);
       if (extent.high.x < west - reach_x || extent.low.x > east + reach_x) continue;
@@ -111,6 +113,7 @@ std::vector<std::uint32_t> trianglesIn(const Grid& grid, const PlotOptions& opti
     }
     shown.push_back(t);
   }
+  if (options.bbox && !any) shown.clear();
   return shown;
 }
 

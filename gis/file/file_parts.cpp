@@ -42,8 +42,8 @@ class OpenFile {
   void allocate(std::uint64_t size) const {
     while (::fallocate(cached_, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0) {
       if (errno == EINTR) continue;
-      if (errno == EOPNOTSUPP || errno == ENOSYS) return;
-      fail(path_, errno);
+      if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) fail(path_, errno);
+      return;  // not every file system can; writing says what else is wrong
     }
   }
 

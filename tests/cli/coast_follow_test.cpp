@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -94,6 +96,27 @@ TEST_F(CoastFollow, WaterThatNothingJoinsToAnOpenBoundaryIsADefect) {
     const ProgramRun check = runProgram({"check", file("fort.14"), "--target", "adcirc"});
     EXPECT_EQ(check.code, all ? 1 : 0) << check.output;
     EXPECT_EQ(check.output.find("water apart") != std::string::npos, all) << check.output;
+  }
+}
+
+// One island of two hectares is given up: the layer says so, and where it lay.
+TEST_F(CoastFollow, EditsAreALayer) {
+  const LonLatRing islet{{0.5, 0.6}, {0.502, 0.6}, {0.502, 0.602}, {0.5, 0.602}};
+  const nlohmann::json report =
+      sea({{kCoast}, {islet}}, {"--size-shore", "1000", "--grade", "0.2", "--edits", file("edits.geojson")});
+  std::map<std::string, std::uint64_t> counts;
+  const nlohmann::json layer = nlohmann::json::parse(readText(file("edits.geojson")));
+  for (const nlohmann::json& edit : layer["features"]) {
+    ++counts[edit["properties"]["kind"]];
+    if (edit["properties"]["kind"] != "small island") continue;
+    EXPECT_NEAR(edit["geometry"]["coordinates"][0].get<double>(), 0.501, 0.0011);
+    EXPECT_NEAR(edit["geometry"]["coordinates"][1].get<double>(), 0.601, 0.0011);
+  }
+  EXPECT_EQ(counts["small island"], 1u);
+  for (const auto& [kind, count] : counts) {
+    std::string key = kind;
+    std::ranges::replace(key, ' ', '_');
+    EXPECT_EQ(report["clean"][key].get<std::uint64_t>(), count) << kind;
   }
 }
 

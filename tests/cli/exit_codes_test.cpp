@@ -111,6 +111,13 @@ TEST_F(ExitCodes, WrongUsage) {
   EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
 }
 
+TEST_F(ExitCodes, OptionsGivenMoreThanOnce) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("out.2dm"), "--size", "9", "--size", "8"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(isOneErrorLine(run.errors));
+  EXPECT_NE(run.errors.find("--size is given more than once"), std::string::npos) << run.errors;
+}
+
 TEST_F(ExitCodes, VertexBudgetGivesAMeshAndExitOne) {
   const ProgramRun run =
       runProgram({"mesh", lake(), "-o", file("out.2dm"), "--size-max", "20", "--max-vertices", "200"});

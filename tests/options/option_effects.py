@@ -189,6 +189,7 @@ def cases():
         "--mark-pieces": Case(),
         "--threads": Case("1", report="threads"),
         "--report": Case("report2.json"),
+        "--edits": Case("edits.gpkg"),
         "--progress": Case("json"),
         "--quiet": Case(),
     }

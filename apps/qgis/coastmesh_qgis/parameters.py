@@ -111,7 +111,8 @@ def _file(option, name, title, optional):
 
 
 def _filter_of(option):
-    return "JSON (*.json)" if option["name"] == "--report" else "All files (*)"
+    filters = {"--report": "JSON (*.json)", "--edits": "GeoPackage (*.gpkg);;GeoJSON (*.geojson);;FlatGeobuf (*.fgb)"}
+    return filters.get(option["name"], "All files (*)")
 
 
 def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
