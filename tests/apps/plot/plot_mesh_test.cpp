@@ -61,10 +61,16 @@ class PlotMesh : public testing::Test {
         cairo_image_surface_create_from_png(file("a.png").c_str()), cairo_surface_destroy);
     const int stride = cairo_image_surface_get_stride(picture.get());
     std::set<std::uint32_t> found;
+    // The longer side of the map has so many pixels, its legend lies below.
+    const auto [west, east] = std::ranges::minmax(grid.nodes, {}, &Point::x);
+    const auto [south, north] = std::ranges::minmax(grid.nodes, {}, &Point::y);
+    const double scale = static_cast<double>(size) / std::max(east.x - west.x, north.y - south.y);
     const int margin = static_cast<int>(size / 10);
-    for (int y = margin; y < static_cast<int>(size) - margin; ++y) {
+    const int width = static_cast<int>(scale * (east.x - west.x)),
+              height = static_cast<int>(scale * (north.y - south.y));
+    for (int y = margin; y < height - margin; ++y) {
       const unsigned char* row = cairo_image_surface_get_data(picture.get()) + y * stride;
-      for (int x = margin; x < static_cast<int>(size) - margin; ++x) {
+      for (int x = margin; x < width - margin; ++x) {
         found.insert(reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffff);
       }
     }
