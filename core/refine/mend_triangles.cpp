@@ -60,10 +60,9 @@ bool mendWithoutInsertion(RefineRun& run, TriId t) {
 // Whether x sees the subsegment under 180° - 2 alpha or more: the diametral lens of Chew (1993) and Shewchuk (1997) for
 // 30°, wider with alpha. A triangle with such an angle is bad, so a subsegment that a vertex encroaches upon always has
 // one.
-bool isEncroached(const TriangleBound& bound, const Point& x, const Point& a, const Point& b) {
+bool isEncroached(double cos_lens, const Point& x, const Point& a, const Point& b) {
   const double d = dot(a - x, b - x);
   if (d >= 0.0) return false;
-  const double cos_lens = -std::cos(2.0 * bound.min_angle);
   if (cos_lens >= 0.0) return true;
   return d * d >= cos_lens * cos_lens * squaredDistance(x, a) * squaredDistance(x, b);
 }
@@ -78,7 +77,7 @@ EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavi
     if (r.seg == kNone && r.beyond != kNone) continue;
     const Point &a = mesh.point(r.a), &b = mesh.point(r.b);
     const bool behind = orient2d(a, b, x) <= 0;
-    if (!behind && (r.seg == kFrozen || !isEncroached(run.bound, x, a, b))) continue;
+    if (!behind && (r.seg == kFrozen || !isEncroached(run.cos_lens, x, a, b))) continue;
     const double angle = behind ? std::numbers::pi : angleAt(x, a, b);
     if (angle <= widest) continue;
     widest = angle;

@@ -65,6 +65,7 @@ RefineRun::RefineRun(TriMesh&& unrefined, const Pslg& input, const RefineOptions
       mesh(std::move(unrefined)),
       search(options.algorithm, bound, toRadians(variant.aim_deg), options.size_scale),
       ops(mesh, pslg, bound),
+      cos_lens(-std::cos(2.0 * bound.min_angle)),
       squared_resolution(squaredResolution(mesh, options)),
       notes(std::move(known)),
       moves(mesh.vertexSlots(), 0) {

@@ -45,6 +45,7 @@ struct RefineRun {
   RefineStats stats;
   SteinerSearch search;
   VertexOps ops;
+  double cos_lens;            // cosine of the angle under which a vertex that encroaches sees a subsegment
   double squared_resolution;  // no vertex is put nearer to another: there rounding decides what an angle is
 
   VertexNotes notes;
