@@ -25,6 +25,13 @@ constexpr std::size_t kMostVisits = 64;
 // Round a vertex of cells that were split.
 constexpr std::array<std::uint32_t, 4> kNowhere = {kNone, kNone, kNone, kNone};
 
+const ItemLoop kInOrder = inOrder;
+
+void sortOnce(std::vector<std::uint32_t>& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 // What is kept of sizes is rounded; only what is rounded before it is compared is sure to be no steeper afterwards.
 double roundedDown(double size) {
   const auto rounded = static_cast<float>(size);
@@ -49,8 +56,11 @@ SizeGrading::SizeGrading(GradedSizes& sizes, const SizePlaces& places, double un
 
 // Of sizes on a triangle.
 Point SizeGrading::gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  const Point ab = placeOf(b) - placeOf(a), ac = placeOf(c) - placeOf(a);
-  const double hb = sizes_.size[b] - sizes_.size[a], hc = sizes_.size[c] - sizes_.size[a];
+  return gradient(placeOf(b) - placeOf(a), placeOf(c) - placeOf(a), sizes_.size[b] - sizes_.size[a],
+                  sizes_.size[c] - sizes_.size[a]);
+}
+
+Point SizeGrading::gradient(const Point& ab, const Point& ac, double hb, double hc) {
   return (1.0 / cross(ab, ac)) * (hb * Point{ac.y, -ac.x} + hc * Point{-ab.y, ab.x});
 }
 
@@ -141,8 +151,7 @@ double SizeGrading::legAt(std::uint32_t v) const {
 // place that decides.
 template <typename F>
 void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
-  std::ranges::sort(from);
-  from.erase(std::unique(from.begin(), from.end()), from.end());
+  sortOnce(from);
   SizeQueue queue;
   for (const std::uint32_t v : from)
     if (std::isfinite(sizes_.size[v])) queue.push({sizes_.size[v], v});
@@ -190,36 +199,72 @@ void SizeGrading::flatten() {
   SizeQueue queue;
   for (const std::uint32_t l : findSteep()) queue.push({lowestOf(l), l});
   std::vector<SizeQueue::Entry> batch;
-  std::vector<std::uint32_t> lowered;
+  std::vector<std::uint32_t> leaves;
   std::size_t visits = kMostVisits * leaves_.size();
   while (queue.take(batch)) {
-    std::ranges::sort(batch, {}, [](const SizeQueue::Entry& e) { return std::pair{e.size, e.number}; });
-    for (const SizeQueue::Entry& e : batch) {
-      if (visits-- == 0) return flattenLegs();
-      lowered.clear();
-      flattenLeaf(e.number, lowered);
-      for (const std::uint32_t v : lowered) {
-        forLeavesRound(v, [&](std::uint32_t l) {
-          if (isSteeper(l, gradation_)) queue.push({lowestOf(l), l});
-        });
-      }
-    }
+    leaves.clear();
+    for (const SizeQueue::Entry& e : batch) leaves.push_back(e.number);
+    sortOnce(leaves);
+    if (visits < leaves.size()) return flattenLegs();
+    visits -= leaves.size();
+    flattenLeaves(leaves);
+    for (const std::uint32_t l : leaves) queue.push({lowestOf(l), l});
   }
+}
+
+// All at once: each from sizes as they are, and of what several lower the lowest counts. `leaves` becomes those that
+// are steep afterwards.
+void SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
+  constexpr std::size_t kWorthThreads = 2'000, kStretch = 256;
+  const ItemLoop& loop = leaves.size() < kWorthThreads ? kInOrder : loop_;
+  const std::vector<Lowered> lowered = joined(overStretches(
+      loop, leaves.size(),
+      [&](std::size_t first, std::size_t last) {
+        std::vector<Lowered> some;
+        for (const std::uint32_t l : std::span(leaves).subspan(first, last - first)) flattenLeaf(l, some);
+        return some;
+      },
+      kStretch));
+  leaves.clear();
+  for (const auto& [v, size] : lowered) {
+    if (!(size < sizes_.size[v])) continue;
+    sizes_.size[v] = size;
+    forLeavesRound(v, [&](std::uint32_t l) { leaves.push_back(l); });
+  }
+  sortOnce(leaves);
+  leaves = joined(overStretches(
+      loop, leaves.size(),
+      [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> steep;
+        for (const std::uint32_t l : std::span(leaves).subspan(first, last - first))
+          if (isSteeper(l, gradation_)) steep.push_back(l);
+        return steep;
+      },
+      kStretch));
 }
 
 // The nearest sizes, in the sense of least squares, that make a triangle as steep as allowed: those of its corners go
 // down that lie on the upper side. To tilt it about its lowest corner instead lowers more, and makes its neighbours
 // steep in turn, on and on.
-void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lowered) {
-  forEachTriangle(leaves_[leaf], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const std::array<std::uint32_t, 3> corners = {a, b, c};
-    const Point slope = gradient(a, b, c);
+void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered) const {
+  const LeafVertices& vertices = leaves_[leaf];
+  std::array<double, 9> size{};
+  for (std::size_t i = 0; i < size.size(); ++i)
+    if (vertices[i] != kNone) size[i] = sizes_.size[vertices[i]];
+  const auto slotOf = [&](std::uint32_t v) {
+    return static_cast<std::size_t>(std::ranges::find(vertices, v) - vertices.begin());
+  };
+  forEachTriangle(vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const std::array<std::size_t, 3> slots = {slotOf(a), slotOf(b), slotOf(c)};
+    const std::array<Point, 3> places = {placeOf(a), placeOf(b), placeOf(c)};
+    const Point slope = gradient(places[1] - places[0], places[2] - places[0], size[slots[1]] - size[slots[0]],
+                                 size[slots[2]] - size[slots[0]]);
     if (squaredLength(slope) <= gradation_ * gradation_) return;
     // How the gradient changes while each corner goes down as fast as the square of the slope falls with it.
     std::array<double, 3> down;
     Point change;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Point p = placeOf(corners[i]), q = placeOf(corners[(i + 1) % 3]), r = placeOf(corners[(i + 2) % 3]);
+      const Point p = places[i], q = places[(i + 1) % 3], r = places[(i + 2) % 3];
       const Point normal{q.y - r.y, r.x - q.x};
       const Point with = (1.0 / dot(normal, p - q)) * normal;  // the gradient of what is 1 here and 0 at the others
       down[i] = std::max(0.0, dot(with, slope));
@@ -230,14 +275,11 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lo
     const double aa = squaredLength(change), ab = dot(slope, change);
     const double inside = ab * ab - aa * (squaredLength(slope) - allowed * allowed);
     const double way = (ab - std::sqrt(std::max(inside, 0.0))) / aa;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (down[i] == 0.0) continue;
-      sizes_.size[corners[i]] = roundedDown(sizes_.size[corners[i]] - way * down[i]);
-      lowered.push_back(corners[i]);
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      if (down[i] > 0.0) size[slots[i]] = roundedDown(size[slots[i]] - way * down[i]);
   });
-  std::ranges::sort(lowered);
-  lowered.erase(std::unique(lowered.begin(), lowered.end()), lowered.end());
+  for (std::size_t i = 0; i < size.size(); ++i)
+    if (vertices[i] != kNone && size[i] < sizes_.size[vertices[i]]) lowered.push_back({vertices[i], size[i]});
 }
 
 // Where flattening takes too long: along both legs of a right angle sizes differ by at most the gradation over the

@@ -58,8 +58,14 @@ class SizeGrading {
     std::uint32_t to, origin;
   };
 
+  struct Lowered {
+    std::uint32_t vertex;
+    double size;
+  };
+
   Point placeOf(std::uint32_t v) const { return {unit_ * places_[v].x, unit_ * places_[v].y}; }
   Point gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  static Point gradient(const Point& ab, const Point& ac, double hb, double hc);
   bool isSteeper(std::uint32_t leaf, double slope) const;
   std::vector<std::uint32_t> findSteep() const;
   double lowestOf(std::uint32_t leaf) const;
@@ -69,7 +75,8 @@ class SizeGrading {
   template <typename F>
   void findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const;
   std::vector<std::uint32_t> besideNew() const;
-  void flattenLeaf(std::uint32_t leaf, std::vector<std::uint32_t>& lowered);
+  void flattenLeaves(std::vector<std::uint32_t>& leaves);
+  void flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered) const;
   void flattenLegs();
   template <typename F>
   void forLeavesRound(std::uint32_t v, F&& f) const {

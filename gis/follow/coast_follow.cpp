@@ -17,6 +17,7 @@
 #include "gis/follow/shore_graph.hpp"
 #include "gis/follow/shore_joins.hpp"
 #include "gis/follow/shore_mend.hpp"
+#include "gis/follow/shore_settle.hpp"
 #include "gis/follow/shore_shift.hpp"
 #include "gis/follow/shore_thin.hpp"
 
@@ -102,16 +103,15 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOption
   const ShoreSizes sizes{size, scales};
   const EditLog log{domain, coastline, report};
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) { log.add(kind, place, water); };
-  ShoreStart start{takeGraph(domain), {}, {}, {}};
-  evenOut(start.graph, sizes, guides, options, log, start.gained);
-  start.triangles = triangulateShores(start.graph, size);
+  ShoreGraph graph = takeGraph(domain);
+  ShoreStart start;
+  evenOut(graph, sizes, guides, options, log, start.gained);
+  start.triangles = triangulateShores(std::move(graph), size);
   FollowNotes noted;
   if (!guides.passages.empty() || !guides.barriers.empty()) {
     WaterAreas by_the_user;
-    start.graph = widenPassages(start.graph, start.triangles, sizes, guides.passages, edit, by_the_user, noted.widened,
-                                noted.dry);
-    start.graph = closeBarriers(start.graph, sizes, guides, edit);
-    start.triangles = triangulateShores(start.graph, size);
+    widenPassages(start.triangles, sizes, guides.passages, edit, by_the_user, noted.widened, noted.dry);
+    closeBarriers(start.triangles, sizes, guides, edit);
   }
   JoinedShores joined = openJoined(std::move(start), sizes, guides, options);
   OpenedShores& opened = joined.opened;
@@ -124,7 +124,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOption
   }
   noteFollowing(std::move(noted), guides, options, domain.projection, report);
 
-  ShoreChains chains = chainsOf(std::move(opened.graph), size);
+  ShoreChains chains = chainsOf(settledGraph(std::move(opened.after), size), size);
   const ShoreLoss gone = [&](VertexId v) {
     log.add(EditKind::SimplifiedPoint, chains, v);
     addGain(chains, v, nullptr, scales, opened.gained);

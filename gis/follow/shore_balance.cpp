@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "gis/follow/shore_settle.hpp"
+
 namespace coastmesh {
 
 namespace {
@@ -26,23 +28,22 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
     opened.edits.emplace_back(kind, place, water);
   };
-  opened.land = openLand(start.graph, ShoreTriangles(start.triangles), sizes, guides, first * options.land_min, edit,
-                         opened.gained);
-  opened.land_gained = opened.gained;
-  opened.land_edits = opened.edits.size();
-  const auto close = [&](const ShoreGraph& graph, KeepWater keep) {
-    return openWater(graph, sizes, guides, options.channel_min, keep, edit, opened.gained);
+  opened.after = start.triangles;
+  ShoreTriangles& triangles = opened.after;
+  openLand(triangles, sizes, guides, first * options.land_min, edit, opened.gained);
+  opened.gained_before = opened.gained;
+  opened.edits_before = opened.edits.size();
+  opened.before = triangles;
+  const auto close = [&](KeepWater keep) {
+    return openWater(triangles, sizes, guides, options.channel_min, keep, edit, opened.gained);
   };
-  OpenedWater water = close(opened.land, first < 1.0 ? KeepWater::All : options.keep);
-  opened.before = std::move(water.before);
+  OpenedWater water = close(first < 1.0 ? KeepWater::All : options.keep);
   if (first < 1.0) {
     opened.straits = std::move(water.straits);
-    ShoreTriangles triangles = triangulateShores(water.graph, sizes.wanted);
-    const ShoreGraph land =
-        openLand(water.graph, std::move(triangles), sizes, guides, options.land_min, edit, opened.gained);
-    water = close(land, options.keep);
+    settleShores(triangles, sizes.wanted);
+    openLand(triangles, sizes, guides, options.land_min, edit, opened.gained);
+    water = close(options.keep);
   }
-  opened.graph = std::move(water.graph);
   opened.waters = std::move(water.waters);
   opened.areas = std::move(water.areas);
   std::ranges::move(water.straits, std::back_inserter(opened.straits));

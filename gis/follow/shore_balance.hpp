@@ -11,20 +11,18 @@ namespace coastmesh {
 
 using ShoreEdits = std::vector<std::tuple<EditKind, Point, RegionId>>;
 
-// A graph that shores are opened in, its triangles, and what had become of the water before.
+// What shores are opened in, and what had become of the water before.
 struct ShoreStart {
-  ShoreGraph graph;
   ShoreTriangles triangles;
   WaterAreas gained;
   ShoreEdits edits;
 };
 
 struct OpenedShores {
-  ShoreGraph land;  // as it was when land that goes first had gone, and what had been gained and edited by then
-  WaterAreas land_gained;
-  std::size_t land_edits = 0;
-  ShoreTriangles before;  // its triangles
-  ShoreGraph graph;
+  ShoreTriangles before;  // as it was when land that goes first had gone, and what had been gained and edited by then
+  WaterAreas gained_before;
+  std::size_t edits_before = 0;
+  ShoreTriangles after;  // not settled
   std::vector<WaterPart> waters;
   std::vector<ClosedStrait> straits;
   WaterAreas areas, gained;

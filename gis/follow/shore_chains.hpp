@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/size_function.hpp"
 #include "gis/follow/shore_graph.hpp"
 
 namespace coastmesh {

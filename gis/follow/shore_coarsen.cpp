@@ -19,6 +19,7 @@ constexpr double kMovedShort = 0.45;  // where segments are shorter than kShort
 constexpr double kShort = 0.55;
 constexpr double kLong = 1.1;        // longer segments are made only where the shore is straight:
 constexpr double kStraight = 0.03;   // so much out of it
+constexpr double kNothing = 1e-9;    // what rounding takes a place off a straight line
 constexpr double kOpenMoved = 0.01;  // open boundaries
 constexpr double kApart = 0.5;       // shores keep so far from one another
 constexpr double kNearAlong = 1.6;   // along the shore: nearer vertices are the same piece of it
@@ -91,15 +92,17 @@ class Coarsener {
     const int turn = orient2d(a, x, b);
     Box box = Box::of(a, b);
     box.add(x);
-    findNear(v);
     bool found = false;
-    tree_.visit(box.grownBy(kApart * c_.size[v]), [&](std::uint32_t w) {
+    // On a straight shore nothing comes nearer.
+    const double reach = costOf(v) < kNothing ? 0.0 : kApart * c_.size[v];
+    if (reach > 0.0) findNear(v);
+    tree_.visit(box.grownBy(reach), [&](std::uint32_t w) {
       if (found || w == v || w == p || w == q || !c_.alive[w]) return;
       const Point& y = c_.at[w];
       found = turn == 0
                   ? orient2d(a, b, y) == 0 && Box::of(a, b).meets(Box::of(y, y))
                   : orient2d(a, x, y) * turn >= 0 && orient2d(x, b, y) * turn >= 0 && orient2d(b, a, y) * turn >= 0;
-      if (found || std::ranges::find(near_, w) != near_.end()) return;
+      if (found || reach == 0.0 || std::ranges::find(near_, w) != near_.end()) return;
       const double apart = squaredDistanceToSegment(y, a, b), least = kApart * c_.size[w];
       if (apart >= least * least) return;
       found = apart < std::min(squaredDistanceToSegment(y, a, x), squaredDistanceToSegment(y, x, b));
@@ -111,6 +114,8 @@ class Coarsener {
   bool makesSmallAngle(VertexId beyond, VertexId at, VertexId from, VertexId to) const {
     if (beyond == kNone) return false;
     const bool forwards = c_.next[at] == from;
+    const Point aside = c_.at[to] - c_.at[at], away = c_.at[beyond] - c_.at[at];
+    if (dot(aside, away) < (1.0 - kNothing) * std::abs(cross(aside, away))) return false;  // clearly larger
     const auto angle = [&](VertexId w) {
       return forwards ? waterAngle(c_.at[beyond], c_.at[at], c_.at[w]) : waterAngle(c_.at[w], c_.at[at], c_.at[beyond]);
     };

@@ -5,6 +5,7 @@
 
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "gis/follow/shore_settle.hpp"
 
 namespace coastmesh {
 
@@ -78,21 +79,11 @@ void locate(std::vector<std::vector<Sample>>& lines, const std::vector<ShoreLine
 // Points that are added for a while, so that triangles end where they should.
 class Helpers {
  public:
-  explicit Helpers(ShoreGraph& graph) : graph_(graph) {
-    std::vector<Box> boxes;
-    for (const Segment& s : graph.pslg.segments)
-      boxes.push_back(Box::of(graph.pslg.points[s.a], graph.pslg.points[s.b]));
-    segments_ = BoxTree(boxes, BoxTree::Order::Hilbert);
-  }
+  explicit Helpers(ShoreTriangles& triangles) : triangles_(triangles) {}
 
   void add(const Point& x, double size) {
     const double least = kTooNear * size;
-    bool free = true;
-    segments_.visit(Box::of(x, x).grownBy(least), [&](std::uint32_t i) {
-      const Segment& s = graph_.pslg.segments[i];
-      free = free && squaredDistanceToSegment(x, graph_.pslg.points[s.a], graph_.pslg.points[s.b]) > least * least;
-    });
-    if (free) wanted_.emplace_back(x, least);
+    if (isFree(x, least)) wanted_.emplace_back(x, least);
   }
 
   // Round all of the line, `reach` times the size away.
@@ -113,26 +104,47 @@ class Helpers {
   }
 
   // Those that are not too near to one another: the first of them.
-  void finish() {
+  void finish(const SizeFunction& size) {
     std::vector<Box> boxes;
     for (const auto& [x, least] : wanted_) boxes.push_back(Box::of(x, x));
     const BoxTree tree(boxes, BoxTree::Order::Hilbert);
     std::vector<bool> kept(wanted_.size(), false);
+    std::vector<Point> points;
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
       const auto& [x, least] = wanted_[i];
       kept[i] = true;
       tree.visit(Box::of(x, x).grownBy(least), [&](std::uint32_t other) {
         if (other < i && kept[other] && squaredDistance(x, wanted_[other].first) < least * least) kept[i] = false;
       });
-      if (!kept[i]) continue;
-      graph_.pslg.points.push_back(x);
-      graph_.source.push_back(kNone);
+      if (kept[i]) points.push_back(x);
     }
+    insertPoints(triangles_, points, size);
   }
 
  private:
-  ShoreGraph& graph_;
-  BoxTree segments_;
+  // Whether no segment comes so near. Looks at the triangles round x that do.
+  bool isFree(const Point& x, double least) {
+    const TriMesh& mesh = triangles_.mesh;
+    const TriId found = locateIn(triangles_, x, last_);
+    if (found == kNone) return false;
+    near_.assign(1, last_ = found);
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      for (unsigned k = 0; k < 3; ++k) {
+        const EdgeRef e = edgeRef(near_[i], k);
+        if (mesh.twin(e) == kNone ||
+            squaredDistanceToSegment(x, mesh.point(mesh.origin(e)), mesh.point(mesh.target(e))) > least * least)
+          continue;
+        if (mesh.segment(e) != kNone) return false;
+        const TriId beside = triOf(mesh.twin(e));
+        if (std::ranges::find(near_, beside) == near_.end()) near_.push_back(beside);
+      }
+    }
+    return true;
+  }
+
+  ShoreTriangles& triangles_;
+  TriId last_ = 0;
+  std::vector<TriId> near_;
   std::vector<std::pair<Point, double>> wanted_;
 };
 
@@ -187,11 +199,10 @@ bool LineZone::holds(const Point& a, const Point& b, const Point& c, double reac
   return found;
 }
 
-ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreTriangles& before, const ShoreSizes& sizes,
-                         const std::vector<ShoreLine>& passages, const ShoreEdit& edit, WaterAreas& gained,
-                         std::vector<WidenedPassage>& widened, std::vector<std::size_t>& dry) {
-  ShoreGraph helped = graph;
-  Helpers helpers(helped);
+void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
+                   const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
+                   std::vector<std::size_t>& dry) {
+  Helpers helpers(triangles);
   struct Piece {
     Point a, b;
     double elements;
@@ -201,7 +212,7 @@ ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreTriangles& before, 
   std::vector<Box> boxes;
   std::vector<std::vector<Sample>> sampled;
   for (const ShoreLine& line : passages) sampled.push_back(samplesOf(line, sizes.wanted));
-  locate(sampled, passages, before);
+  locate(sampled, passages, triangles);
   for (std::size_t line = 0; line < passages.size(); ++line) {
     const double elements = passages[line].elements;
     const std::vector<Sample>& samples = sampled[line];
@@ -228,57 +239,50 @@ ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreTriangles& before, 
     }
     if (passage.length_m > 0.0) widened.push_back(passage);
   }
-  if (pieces.empty()) return graph;
-  helpers.finish();
-  ShoreTriangles after = triangulateShores(helped, sizes.wanted);
+  if (pieces.empty()) return;
+  helpers.finish(sizes.wanted);
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-  for (TriId t = 0; t < after.mesh.triangles.size(); ++t) {
-    if (after.mesh.regions[t] != after.land || (usesOf(after, t) & (kAround | kOnOpen)) != 0) continue;
-    const auto& v = after.mesh.triangles[t].v;
-    const Point &a = after.mesh.point(v[0]), &b = after.mesh.point(v[1]), &c = after.mesh.point(v[2]);
+  for (TriId t = 0; t < triangles.mesh.triangles.size(); ++t) {
+    if (triangles.mesh.regions[t] != triangles.land || (usesOf(triangles, t) & (kAround | kOnOpen)) != 0) continue;
+    const auto& v = triangles.mesh.triangles[t].v;
+    const Point &a = triangles.mesh.point(v[0]), &b = triangles.mesh.point(v[1]), &c = triangles.mesh.point(v[2]);
     const Point centre = centroid(a, b, c);
-    double nearest = kLittleMore * 0.5 * after.size[t];  // for an element across
+    double nearest = kLittleMore * 0.5 * triangles.size[t];  // for an element across
     tree.visit(Box::of(centre, centre), [&](std::uint32_t i) {
       const double far = std::sqrt(squaredDistanceToSegment(centre, pieces[i].a, pieces[i].b)) / pieces[i].elements;
       if (far > nearest) return;
       nearest = far;
-      after.mesh.regions[t] = pieces[i].water;
+      triangles.mesh.regions[t] = pieces[i].water;
     });
-    if (after.mesh.regions[t] == after.land) continue;
+    if (triangles.mesh.regions[t] == triangles.land) continue;
     const double scale = sizes.scale.at(centre);
-    gained[after.mesh.regions[t]] += 0.5 * cross(b - a, c - a) / scale / scale;
+    gained[triangles.mesh.regions[t]] += 0.5 * cross(b - a, c - a) / scale / scale;
   }
   for (const WidenedPassage& passage : widened) edit(EditKind::WidenedPassage, passage.place, pieces.front().water);
-  ShoreGraph opened = graphOf(helped, after);
-  dropLoosePoints(opened);
-  return opened;
+  settleShores(triangles, sizes.wanted);
 }
 
-ShoreGraph closeBarriers(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
-                         const ShoreEdit& edit) {
-  if (guides.barriers.empty()) return graph;
-  ShoreGraph helped = graph;
-  Helpers helpers(helped);
+void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides,
+                   const ShoreEdit& edit) {
+  if (guides.barriers.empty()) return;
+  Helpers helpers(triangles);
   for (const ShoreLine& line : guides.barriers) helpers.addAround(samplesOf(line, sizes.wanted), kBarrier);
-  helpers.finish();
-  ShoreTriangles after = triangulateShores(helped, sizes.wanted);
+  helpers.finish(sizes.wanted);
   for (const ShoreLine& line : guides.barriers) {
     const LineZone zone({line});
     bool any = false;
-    for (TriId t = 0; t < after.mesh.triangles.size(); ++t) {
-      const RegionId water = after.mesh.regions[t];
-      const auto& v = after.mesh.triangles[t].v;
-      if (water == after.land ||
-          !zone.holds(after.mesh.point(v[0]), after.mesh.point(v[1]), after.mesh.point(v[2]), 0.0))
-        continue;
-      after.mesh.regions[t] = after.land;
-      if (!any) edit(EditKind::Barrier, after.mesh.point(v[0]), water);
+    for (TriId t = 0; t < triangles.mesh.triangles.size(); ++t) {
+      const RegionId water = triangles.mesh.regions[t];
+      if (water == triangles.land) continue;
+      const auto& v = triangles.mesh.triangles[t].v;
+      const Point &a = triangles.mesh.point(v[0]), &b = triangles.mesh.point(v[1]), &c = triangles.mesh.point(v[2]);
+      if (!zone.holds(a, b, c, 0.0)) continue;
+      triangles.mesh.regions[t] = triangles.land;
+      if (!any) edit(EditKind::Barrier, a, water);
       any = true;
     }
   }
-  ShoreGraph closed = graphOf(helped, after);
-  dropLoosePoints(closed);
-  return closed;
+  settleShores(triangles, sizes.wanted);
 }
 
 }  // namespace coastmesh

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "gis/follow/shore_graph.hpp"
 #include "gis/follow/shore_sizes.hpp"
+#include "gis/follow/shore_triangles.hpp"
 #include "gis/geometry/box_tree.hpp"
 
 namespace coastmesh {
@@ -52,13 +52,13 @@ struct WidenedPassage {
 
 // Where a passage runs over land, or through water narrower than it has to be, land beside it becomes water: from the
 // first water on the line to the last. `dry` is given the passages that meet no water. What waters gain is added to
-// `gained`. `before` are the graph's triangles.
-ShoreGraph widenPassages(const ShoreGraph& graph, const ShoreTriangles& before, const ShoreSizes& sizes,
-                         const std::vector<ShoreLine>& passages, const ShoreEdit& edit, WaterAreas& gained,
-                         std::vector<WidenedPassage>& widened, std::vector<std::size_t>& dry);
+// `gained`. The triangles are settled.
+void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
+                   const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
+                   std::vector<std::size_t>& dry);
 
-// Closes the water that barriers run through, half an element wide.
-ShoreGraph closeBarriers(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides,
-                         const ShoreEdit& edit);
+// Closes the water that barriers run through, half an element wide. The triangles are settled.
+void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides,
+                   const ShoreEdit& edit);
 
 }  // namespace coastmesh

@@ -40,15 +40,14 @@ class Joiner {
     }
     if (lines.empty()) return false;
     // On from where land that goes first had gone: what went will not come back.
-    start_ = {{}, {}, std::move(opened_.land_gained), std::move(opened_.edits)};
-    start_.edits.resize(opened_.land_edits);
+    start_ = {std::move(opened_.before), std::move(opened_.gained_before), std::move(opened_.edits)};
+    start_.edits.resize(opened_.edits_before);
     const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
       start_.edits.emplace_back(kind, place, water);
     };
     std::vector<WidenedPassage> widened;
     std::vector<std::size_t> dry;
-    start_.graph = widenPassages(opened_.land, opened_.before, sizes_, lines, edit, start_.gained, widened, dry);
-    start_.triangles = triangulateShores(start_.graph, sizes_.wanted);
+    widenPassages(start_.triangles, sizes_, lines, edit, start_.gained, widened, dry);
     guides_.passages.insert(guides_.passages.end(), lines.begin(), lines.end());
     opened_ = openShores(start_, sizes_, guides_, options_, opened_.first);
     return true;

@@ -66,7 +66,8 @@ class Mender {
 
   bool mend(VertexId v, double quality) {
     const double size = c_.size[v];
-    Change best{std::nullopt, quality + kBetter};
+    // What is nearly as wanted need not become much better.
+    Change best{std::nullopt, std::min(quality + kBetter, 1.0)};
     bool found = false;
     if (canTakeOut(c_, v) && canGo(v)) {
       const double after = near_.qualityOf(v, std::nullopt);
@@ -78,7 +79,8 @@ class Mender {
         const Point x = c_.at[v] + step * size * Point{std::cos(angle), std::sin(angle)};
         if (squaredDistance(x, from_[v]) > kMoved * kMoved * size * size) continue;
         const double after = near_.qualityOf(v, x);
-        if (after > best.quality + (found ? kBetter : 0.0) && near_.canMove(v, x)) best = {x, after}, found = true;
+        const bool is_better = found ? after > best.quality + kBetter : after >= best.quality;
+        if (is_better && near_.canMove(v, x)) best = {x, after}, found = true;
       }
     }
     if (!found) return false;

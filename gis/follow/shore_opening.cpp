@@ -8,6 +8,7 @@
 #include "core/metric.hpp"
 #include "gis/follow/shore_guides.hpp"
 #include "gis/follow/shore_patches.hpp"
+#include "gis/follow/shore_settle.hpp"
 #include "gis/geometry/box.hpp"
 
 namespace coastmesh {
@@ -25,16 +26,14 @@ const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
 class Opening {
  public:
-  Opening(ShoreTriangles&& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
+  Opening(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
           WaterAreas& gained)
-      : t_(std::move(triangles)),
+      : t_(triangles),
         scale_(sizes.scale),
         passages_(guides.passages),
         barriers_(guides.barriers),
         edit_(edit),
         gained_(gained) {}
-
-  ShoreTriangles& triangles() { return t_; }
 
   void dropIslands() {
     const Patches lands = patchesOf(mesh(), [&](TriId t) { return isLand(t); });
@@ -289,7 +288,7 @@ class Opening {
     }
   }
 
-  ShoreTriangles t_;
+  ShoreTriangles& t_;
   const ScaleTable& scale_;
   const LineZone passages_, barriers_;
   const ShoreEdit& edit_;
@@ -300,23 +299,20 @@ class Opening {
 
 }  // namespace
 
-ShoreGraph openLand(const ShoreGraph& graph, ShoreTriangles&& triangles, const ShoreSizes& sizes,
-                    const ShoreGuides& guides, double narrowest, const ShoreEdit& edit, WaterAreas& gained) {
-  Opening opening(std::move(triangles), sizes, guides, edit, gained);
-  opening.openLand(narrowest);
-  return graphOf(graph, opening.triangles());
+void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+              const ShoreEdit& edit, WaterAreas& gained) {
+  Opening(triangles, sizes, guides, edit, gained).openLand(narrowest);
+  settleShores(triangles, sizes.wanted);
 }
 
-OpenedWater openWater(const ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ShoreEdit& edit, WaterAreas& gained) {
   OpenedWater opened;
-  opened.before = triangulateShores(graph, sizes.wanted);
-  Opening opening(ShoreTriangles(opened.before), sizes, guides, edit, gained);
+  Opening opening(triangles, sizes, guides, edit, gained);
   opening.openWater(narrowest);
   opening.keepWater(keep, opened.waters);
-  opened.straits = closedStraits(opening.triangles(), sizes.scale);
+  opened.straits = closedStraits(triangles, sizes.scale);
   opened.areas = opening.areas();
-  opened.graph = graphOf(graph, opening.triangles());
   return opened;
 }
 

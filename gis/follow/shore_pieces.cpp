@@ -35,16 +35,26 @@ double apartInWater(const Point& y, const Point& a, const Point& b) {
 }  // namespace
 
 void ShorePieces::buildTrees() {
-  std::vector<Box> points(c_.at.size()), segments;
+  std::vector<Box> points, segments;
+  std::vector<char> is_loose(c_.at.size(), 0);
   ends_.clear();
   for (VertexId v = 0; v < c_.at.size(); ++v) {
     if (!c_.alive[v]) continue;
-    points[v].add(c_.at[v]);
+    is_loose[v] = c_.next[v] == kNone && c_.prev[v] == kNone;
     if (c_.next[v] != kNone) ends_.emplace_back(v, c_.next[v]);
   }
-  for (const Segment& s : c_.lines) ends_.emplace_back(s.a, s.b);
+  for (const Segment& s : c_.lines) {
+    ends_.emplace_back(s.a, s.b);
+    is_loose[s.a] = is_loose[s.b] = 0;
+  }
+  loose_.clear();
+  for (VertexId v = 0; v < is_loose.size(); ++v) {
+    if (is_loose[v] == 0) continue;
+    loose_.push_back(v);
+    points.push_back(Box::of(c_.at[v], c_.at[v]));
+  }
   for (const auto& [a, b] : ends_) segments.push_back(Box::of(c_.at[a], c_.at[b]));
-  point_tree_ = BoxTree(points, BoxTree::Order::Hilbert);
+  point_tree_ = points.empty() ? BoxTree() : BoxTree(points, BoxTree::Order::Hilbert);
   segment_tree_ = BoxTree(segments, BoxTree::Order::Hilbert);
 }
 
@@ -55,7 +65,7 @@ void ShorePieces::gather(VertexId v, double reach) {
   Box box = Box::of(c_.at[p], c_.at[q]);
   box.add(c_.at[v]);
   box = box.grownBy((kNarrow + reach) * c_.size[v]);
-  point_tree_.visit(box, [&](std::uint32_t w) { points_.push_back(w); });
+  point_tree_.visit(box, [&](std::uint32_t i) { points_.push_back(loose_[i]); });
   segment_tree_.visit(box, [&](std::uint32_t s) {
     segments_.push_back(ends_[s]);
     for (const VertexId w : {ends_[s].first, ends_[s].second}) points_.push_back(w);

@@ -44,6 +44,7 @@ class ShorePieces {
  private:
   const ShoreChains& c_;
   std::vector<std::pair<VertexId, VertexId>> ends_;
+  std::vector<VertexId> loose_;  // ends of nothing
   BoxTree point_tree_, segment_tree_;
   std::vector<VertexId> points_;
   std::vector<std::pair<VertexId, VertexId>> segments_;

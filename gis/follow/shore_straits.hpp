@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gis/follow/shore_graph.hpp"
+#include "gis/follow/shore_triangles.hpp"
 #include "gis/projection/scale_table.hpp"
 
 namespace coastmesh {

@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "core/metric.hpp"
-#include "core/predicates.hpp"
-#include "gis/geometry/box_tree.hpp"
+#include "gis/follow/shore_settle.hpp"
 
 namespace coastmesh {
 
@@ -33,18 +32,11 @@ class WayFinder {
         cost_(mesh().triangles.size(), kInfinity),
         from_(mesh().triangles.size(), kNone) {}
 
-  // Of waters that nothing joins yet.
+  // Of waters that nothing joins yet. What was joined before has to stay so.
   std::vector<WaterWay> run(const std::vector<bool>& is_joined) {
-    std::ranges::fill(cost_, kInfinity);
-    std::ranges::fill(from_, kNone);
-    for (std::size_t i = 0; i < is_joined.size(); ++i) {
-      if (!is_joined[i]) continue;
-      for (const TriId t : places_[i]) {
-        cost_[t] = 0.0;
-        queue_.emplace(0.0, t);
-      }
-    }
-    spread();
+    for (std::size_t i = 0; i < is_joined.size(); ++i)
+      if (is_joined[i]) start(places_[i]);
+    spread(is_joined);
     std::vector<WaterWay> ways(is_joined.size());
     for (std::size_t i = 0; i < is_joined.size(); ++i) {
       if (is_joined[i] || places_[i].empty()) continue;
@@ -66,47 +58,74 @@ class WayFinder {
 
   // The triangles of water that hold the places in each of the waters.
   std::vector<std::vector<TriId>> locate(const std::vector<WaterPart>& waters) const {
-    std::vector<Box> boxes;
-    std::vector<std::pair<std::size_t, Point>> places;
-    for (std::size_t i = 0; i < waters.size(); ++i)
-      for (const Point& x : waters[i].inside) {
-        boxes.push_back(Box::of(x, x));
-        places.emplace_back(i, x);
-      }
-    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
     std::vector<std::vector<TriId>> found(waters.size());
-    for (TriId t = 0; t < mesh().triangles.size(); ++t) {
-      if (mesh().regions[t] == t_.land) continue;
-      const Point &a = pointOf(t, 0), &b = pointOf(t, 1), &c = pointOf(t, 2);
-      Box box = Box::of(a, b);
-      box.add(c);
-      tree.visit(box, [&](std::uint32_t place) {
-        const auto& [water, x] = places[place];
-        if (mesh().regions[t] == waters[water].region && orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 &&
-            orient2d(c, a, x) >= 0)
-          found[water].push_back(t);
-      });
+    TriId last = 0;
+    for (std::size_t i = 0; i < waters.size(); ++i) {
+      for (const Point& x : waters[i].inside) {
+        const TriId t = locateIn(t_, x, last);
+        if (t == kNone) continue;
+        last = t;
+        if (mesh().regions[t] == waters[i].region) found[i].push_back(t);
+      }
     }
     return found;
   }
 
-  // To all of the water, at the least cost: a way's length, where it is narrow the more the narrower it is.
-  void spread() {
-    while (!queue_.empty()) {
+  // From these, and from all that hangs together with them by water as wide as is wanted: that costs nothing.
+  void start(const std::vector<TriId>& places) {
+    std::vector<TriId> reached;
+    const auto reach = [&](TriId t) {
+      if (cost_[t] == 0.0) return;
+      cost_[t] = 0.0;
+      from_[t] = kNone;
+      reached.push_back(t);
+    };
+    const auto isBeside = [&](TriId t, EdgeRef e) { return mesh().regions[triOf(e)] == mesh().regions[t]; };
+    for (const TriId t : places) reach(t);
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      for (const EdgeRef e : mesh().triangles[reached[i]].adj)
+        if (isBeside(reached[i], e) && t_.width[triOf(e)] >= narrowest_) reach(triOf(e));
+    for (const TriId t : reached) {
+      if (std::ranges::any_of(mesh().triangles[t].adj,
+                              [&](EdgeRef e) { return isBeside(t, e) && cost_[triOf(e)] > 0.0; }))
+        queue_.emplace(0.0, t);
+    }
+  }
+
+  // The cost of the way to each of these waters, of the one that it is most for.
+  double farthest(const std::vector<bool>& is_joined) const {
+    double most = 0.0;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      double least = kInfinity;
+      for (const TriId t : places_[i]) least = std::min(least, cost_[t]);
+      if (!is_joined[i] && !places_[i].empty()) most = std::max(most, least);
+    }
+    return most;
+  }
+
+  // On at the least cost, until all waters are reached: a way's length, where it is narrow the more the narrower it is.
+  void spread(const std::vector<bool>& is_joined) {
+    std::vector<char> is_place(mesh().triangles.size(), 0);
+    for (const std::vector<TriId>& places : places_)
+      for (const TriId t : places) is_place[t] = 1;
+    double most = farthest(is_joined);
+    while (!queue_.empty() && queue_.top().first <= most) {
       const auto [cost, t] = queue_.top();
       queue_.pop();
       if (cost > cost_[t]) continue;
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i);
         const TriId next = triOf(mesh().twin(e));
+        if (mesh().regions[next] != mesh().regions[t]) continue;
         const double share = shareOf(e);
-        if (mesh().regions[next] != mesh().regions[t] || share < least_) continue;
+        if (share < least_) continue;
         const double step = (distance(centreOf(t), middleOf(e)) + distance(middleOf(e), centreOf(next))) / sizeAt(e);
         const double there = cost + step * (kWide + std::max(0.0, narrowest_ / share - 1.0));
         if (!(there < cost_[next])) continue;
         cost_[next] = there;
         from_[next] = e;
         queue_.emplace(there, next);
+        if (is_place[next] != 0) most = farthest(is_joined);
       }
     }
   }

@@ -1,0 +1,59 @@
+#include "gis/follow/shore_mend.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/metric.hpp"
+
+namespace coastmesh {
+namespace {
+
+// Water between a straight shore and one with a headland that comes as near to it as `width`, where sizes are 1.
+ShoreChains headland(double width) {
+  ShoreGraph graph;
+  const auto add = [&](double x, double y) {
+    graph.pslg.points.push_back({x, y});
+    graph.source.push_back(kNone);
+  };
+  for (int x = -6; x <= 6; ++x) add(x, 0.0);
+  for (int x = 6; x >= -6; --x) add(x, width + 0.5 * std::abs(x));
+  const auto count = static_cast<VertexId>(graph.pslg.points.size());
+  for (VertexId v = 0; v < count; ++v) graph.pslg.segments.push_back({v, (v + 1) % count, 0, 0, kOutside});
+  return chainsOf(std::move(graph), ConstantSize(1.0));
+}
+
+double narrowest(const ShoreChains& chains) {
+  double least = 1e9;
+  for (VertexId v = 0; v < chains.at.size(); ++v) {
+    for (VertexId w = 0; w < chains.at.size(); ++w) {
+      const VertexId x = chains.next[w];
+      if (chains.next[v] == kNone || x == kNone || v == w || v == x) continue;
+      if (chains.next[x] == v || chains.prev[w] == v || chains.next[v] == w || chains.prev[v] == x) continue;
+      least = std::min(least, squaredDistanceToSegment(chains.at[v], chains.at[w], chains.at[x]));
+    }
+  }
+  return std::sqrt(least);
+}
+
+TEST(MendShores, WidensWhatIsOnlyJustTooNarrow) {
+  for (const double width : {0.2, 0.4, 0.45, 0.485, 0.49, 0.495, 0.4999}) {
+    ShoreChains chains = headland(width);
+    ASSERT_NEAR(narrowest(chains), width, 1e-12);
+    mendShores(
+        chains, [](VertexId) {}, [](VertexId, const Point&) {});
+    EXPECT_GE(narrowest(chains), 0.5) << width;
+  }
+}
+
+TEST(MendShores, LeavesWhatIsWideEnough) {
+  ShoreChains chains = headland(0.5);
+  int edits = 0;
+  mendShores(
+      chains, [&](VertexId) { ++edits; }, [&](VertexId, const Point&) { ++edits; });
+  EXPECT_EQ(edits, 0);
+}
+
+}  // namespace
+}  // namespace coastmesh
