@@ -13,6 +13,7 @@
 #include "apps/job/grid_pieces.hpp"
 #include "apps/plot/mesh_shape.hpp"
 #include "apps/plot/plot_canvas.hpp"
+#include "apps/plot/plot_style.hpp"
 #include "core/quality.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_names.hpp"
@@ -23,39 +24,14 @@ namespace coastmesh {
 
 namespace {
 
-constexpr Color kLand{0.955, 0.950, 0.935};
-constexpr Color kWater{0.865, 0.925, 0.965};
-constexpr Color kEdge{0.32, 0.52, 0.68};
-constexpr Color kEdgeOnColor{0.16, 0.27, 0.36};
-constexpr Color kShore{0.10, 0.20, 0.32};
-constexpr Color kBad{0.88, 0.10, 0.10};
-constexpr Color kPaper{1.0, 1.0, 1.0};
-constexpr Color kInk{0.15, 0.15, 0.15};
-
-constexpr Color kOpen{0.84, 0.15, 0.56};
-constexpr Color kIsland{0.65, 0.45, 0.04};
-constexpr Color kUnknown{0.80, 0.80, 0.80};
-
 // Of nodes by their neighbours: five, seven, others.
 constexpr Color kFive{0.05, 0.60, 0.20};
 constexpr Color kSeven{0.93, 0.45, 0.05};
 constexpr Color kOtherDegree{0.55, 0.05, 0.55};
 constexpr double kWidestDotPx = 3.5, kDotShare = 0.18;  // a dot's radius, over the length of the edges
 constexpr double kLeastDotPx = 0.8;
-constexpr double kLeastQuality = 0.6;  // at the bad end of the colours
 
-constexpr std::size_t kMostVectorTriangles = 100'000;  // in an .svg; more come as an image in it
-constexpr double kRolePx = 2.2;
-
-constexpr double kMargin = 0.03;      // of the window, around what is drawn
-constexpr double kStripPx = 44.0;     // below the map: scale bar and legend
-constexpr double kEdgeShare = 0.075;  // an edge's width over its length, up to the widest
-constexpr double kWidestEdgePx = 0.8;
-constexpr double kShorePx = 1.1;
-constexpr double kBlurPx = 3.0;  // triangles smaller than this show as a tint, not as lines
-// Lines of kEdgeShare of the length of an equilateral triangle's edges cover this share of it.
-constexpr double kEdgeCover = 3.46 * kEdgeShare;
-
+constexpr double kMargin = 0.03;  // of the window, around what is drawn
 struct Window {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -115,30 +91,6 @@ std::vector<std::uint32_t> trianglesIn(const Grid& grid, const PlotOptions& opti
   }
   if (options.bbox && !any) shown.clear();
   return shown;
-}
-
-// The colour at a share of the way along four that lie evenly.
-Color between(const std::array<Color, 4>& stops, double share) {
-  const double at = std::clamp(share, 0.0, 1.0) * 3.0;
-  const auto stop = std::min<std::size_t>(2, static_cast<std::size_t>(at));
-  return mix(stops[stop], stops[stop + 1], at - static_cast<double>(stop));
-}
-
-// From bad to good: red, sand, pale green, blue.
-Color rampColor(double share) {
-  return between({{{0.80, 0.25, 0.18}, {0.97, 0.78, 0.47}, {0.90, 0.94, 0.80}, {0.18, 0.49, 0.66}}}, share);
-}
-
-// From deep to shallow: dark blue, blue, pale green, sand.
-Color depthColor(double share) {
-  return between({{{0.06, 0.16, 0.42}, {0.15, 0.47, 0.73}, {0.60, 0.83, 0.79}, {0.97, 0.92, 0.72}}}, share);
-}
-
-// Colours far apart for neighbours in number: hues turned by the golden section.
-Color featureColor(std::size_t feature) {
-  const double hue = std::fmod(static_cast<double>(feature) * 0.6180339887498949, 1.0);
-  const auto channel = [hue](double shift) { return 0.80 + 0.14 * std::cos(2.0 * std::numbers::pi * (hue + shift)); };
-  return {channel(0.0), channel(1.0 / 3.0), channel(2.0 / 3.0)};
 }
 
 // "12.5 km" of a length in metres; bare numbers in a plane without a place on Earth.
@@ -486,16 +438,6 @@ class MeshPlot {
     constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep,
                                     PlotColor::Quality};
     if (std::ranges::count(kWithScale, options_.color) == 0) return;
-    constexpr int kSteps = 60;
-    constexpr double kStep = 3.0;
-    const double left = canvas_.width() - kSteps * kStep - 12.0;
-    if (left < canvas_.width() / 2) return;  // no room for it beside the scale bar
-    const double top = canvas_.mapHeight() + 12.0;
-    for (int i = 0; i < kSteps; ++i) {
-      const double share = (i + 0.5) / kSteps;
-      const Color color = options_.color == PlotColor::Depth ? depthColor(share) : rampColor(share);
-      canvas_.fillRectangle({left + i * kStep, top}, kStep + 0.5, 10.0, color);
-    }
     std::string low = "0\u00b0";
     std::string high = "60\u00b0 smallest angle";
     if (options_.color == PlotColor::Quality) {
@@ -528,8 +470,7 @@ class MeshPlot {
       std::snprintf(text, sizeof text, "%.3g s by CFL", most_step_s_);
       high = text;
     }
-    canvas_.text({left, top + 26.0}, low, 13.0, kInk);
-    canvas_.textEndingAt({left + kSteps * kStep, top + 26.0}, high, 13.0, kInk);
+    drawRamp(canvas_, options_.color == PlotColor::Depth ? depthColor : rampColor, low, high);
   }
 
   const Grid& grid_;
@@ -565,6 +506,11 @@ PlotColor plotColorNamed(const std::string& name) {
   return static_cast<PlotColor>(at - plotColorNames().begin());
 }
 
+void requireColors(const Grid& grid, const PlotOptions& options) {
+  if (options.color == PlotColor::Piece && grid.piece_of.empty())
+    throw OptionError("the mesh does not say its pieces, to be coloured by: make it with --mark-pieces, as .nc");
+}
+
 void requirePlotFormat(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".svg" && ending != ".png") {
@@ -574,8 +520,7 @@ void requirePlotFormat(const std::string& path) {
 
 void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path) {
   requirePlotFormat(path);
-  if (options.color == PlotColor::Piece && grid.piece_of.empty())
-    throw OptionError("the mesh does not say its pieces, to be coloured by: make it with --mark-pieces, as .nc");
+  requireColors(grid, options);
   std::vector<std::uint32_t> shown = trianglesIn(grid, options);
   if (shown.empty()) throw InputError("the mesh has no triangle in the box asked for");
   const Projection projection = fitProjection(grid, shown);

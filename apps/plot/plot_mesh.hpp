@@ -34,6 +34,9 @@ struct PlotOptions {
 // it does not say its pieces.
 void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path);
 
+// Throws OptionError where the mesh does not say its pieces, and is to be coloured by them.
+void requireColors(const Grid& grid, const PlotOptions& options);
+
 // Throws OutputError where `path` ends neither in .svg nor in .png.
 void requirePlotFormat(const std::string& path);
 

@@ -7,6 +7,13 @@
 
 namespace coastmesh {
 
+// Which coordinates a format's files have.
+enum class NodePlaces {
+  AsTheyAre,   // those of the grid, bit for bit
+  Geographic,  // longitudes and latitudes in degrees, bit for bit where the grid has these
+  Sphere,  // angles in radians or a sphere's three coordinates, which rounding changes, where the grid is geographic
+};
+
 // A file format by its name ("gpkg") and the endings that choose it.
 struct GridFormat {
   std::string_view name;
@@ -16,6 +23,8 @@ struct GridFormat {
   bool writable = false;
   GridParts holds;          // what its files hold of a grid, and its reader takes back
   bool says_depth = false;  // every file of it has a depth at each node: 0 where the grid has none
+  NodePlaces places = NodePlaces::AsTheyAre;
+  bool beside_grid = false;  // no grid, but what a solver is given beside one: the parts that `holds` names
 };
 
 }  // namespace coastmesh

@@ -17,6 +17,8 @@ struct FormatFunctions {
   // `unsaid` is the CRS where nothing says one.
   Grid (*read)(const std::string& path, const Crs& unsaid) = nullptr;
   OutputFiles (*files)(const std::string& path) = nullptr;  // null: `path` and nothing else
+  // For a format whose files may have the ending of another: whether `path` holds it. Null: only its endings say so.
+  bool (*holds)(const std::string& path) = nullptr;
 };
 
 struct FormatRecord {
@@ -36,12 +38,19 @@ struct FormatRecord {
   FORMAT(schismFormat)                 \
   FORMAT(telemacFormat)                \
   FORMAT(fvcomFormat)                  \
+  FORMAT(fesomFormat)                  \
+  FORMAT(jigsawFormat)                 \
+  FORMAT(mpasFormat)                   \
   FORMAT(sms2dmFormat)                 \
   FORMAT(gmshFormat)                   \
   FORMAT(gmsh22Format)                 \
   FORMAT(ww3Format)                    \
   FORMAT(triangleFormat)               \
-  FORMAT(vtuFormat)
+  FORMAT(vtuFormat)                    \
+  FORMAT(vtuGlobeFormat)               \
+  FORMAT(plyFormat)                    \
+  FORMAT(schismPartitionFormat)        \
+  FORMAT(adcircPartitionFormat)
 #define COASTMESH_FORMAT(name) FormatRecord name();
 COASTMESH_GRID_FORMATS(COASTMESH_FORMAT)
 #undef COASTMESH_FORMAT

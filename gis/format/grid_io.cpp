@@ -25,10 +25,14 @@ const std::vector<FormatRecord>& records() {
   return known;
 }
 
+std::string inSmallLetters(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 // The longest of the endings that fit: "_22.msh" before ".msh".
 const GridFormat* formatByEnding(const std::string& path) {
-  std::string lower = path;
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = inSmallLetters(path);
   const GridFormat* found = nullptr;
   std::size_t longest = 0;
   for (const GridFormat& format : gridFormats()) {
@@ -39,6 +43,17 @@ const GridFormat* formatByEnding(const std::string& path) {
     }
   }
   return found;
+}
+
+// Programs give different formats the same ending (.msh, .nc): the one that the file holds.
+const GridFormat* formatByContent(const std::string& path) {
+  const std::string ending = inSmallLetters(std::filesystem::path(path).extension().string());
+  for (const GridFormat& format : gridFormats()) {
+    const auto isOf = [&](std::string_view known) { return !ending.empty() && known.ends_with(ending); };
+    const auto holds = functionsOf(format).holds;
+    if (holds != nullptr && std::ranges::any_of(format.endings, isOf) && holds(path)) return &format;
+  }
+  return formatByEnding(path);
 }
 
 std::string endingList(bool GridFormat::*able) {
@@ -121,7 +136,7 @@ Grid readGrid(const std::string& path, const Crs& unsaid) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError("there is no file '" + path + "'");
   if (std::filesystem::is_directory(path, error)) throw InputError("'" + path + "' is a folder, no mesh");
-  const GridFormat* const format = formatByEnding(path);
+  const GridFormat* const format = formatByContent(path);
   if (format == nullptr || !format->readable)
     throw InputError("cannot read '" + path + "' as a mesh; known endings are " + endingList(&GridFormat::readable));
   Grid grid = functionsOf(*format).read(path, unsaid);

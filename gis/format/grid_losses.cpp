@@ -74,6 +74,10 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
     }
     case GridPart::Pieces:
       return grid.piece_of.empty() ? "" : "the pieces that triangles were refined in";
+    case GridPart::Partition:
+      return grid.part_of.empty() ? "" : "the parts that triangles belong to";
+    case GridPart::NodePartition:
+      return grid.node_part_of.empty() ? "" : "the parts that nodes belong to";
     case GridPart::Lines: {
       if (grid.lines.empty()) return "";
       std::string text = linesOf(grid) + ", whose edges stay in the mesh";
@@ -113,13 +117,15 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
 
 constexpr std::array kGivenParts{GridPart::Regions, GridPart::Pieces,  GridPart::Lines, GridPart::LineNames,
                                  GridPart::Rivers,  GridPart::Ibtypes, GridPart::Weirs, GridPart::BareWeirs};
-constexpr std::array kAllParts{GridPart::Title,   GridPart::Sizes,   GridPart::Features, GridPart::FeatureNames,
-                               GridPart::Regions, GridPart::Pieces,  GridPart::Lines,    GridPart::LineNames,
-                               GridPart::Rivers,  GridPart::Ibtypes, GridPart::Weirs,    GridPart::BareWeirs};
+constexpr std::array kAllParts{GridPart::Title,     GridPart::Sizes,        GridPart::Features, GridPart::FeatureNames,
+                               GridPart::Regions,   GridPart::Pieces,       GridPart::Lines,    GridPart::LineNames,
+                               GridPart::Rivers,    GridPart::Ibtypes,      GridPart::Weirs,    GridPart::BareWeirs,
+                               GridPart::Partition, GridPart::NodePartition};
 
 }  // namespace
 
 std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
+  if (format.beside_grid) return {};
   std::vector<std::string> losses;
   for (const GridPart part : kAllParts) {
     if (of == LossesOf::Input && std::ranges::find(kGivenParts, part) == kGivenParts.end()) continue;

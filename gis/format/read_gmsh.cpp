@@ -27,12 +27,18 @@ struct Element {
   Tag tag = 0;
   Tag physical = 0;
   Tag entity = 0;
+  Tag part = 0;  // from 1; 0: none
   std::array<Tag, Corners> nodes{};
 };
 
 struct Contents {
   std::map<std::pair<int, Tag>, std::string> names;  // of physical groups, by dimension and tag
   std::map<std::pair<int, Tag>, Tag> physical_of;    // of entities, by dimension and tag
+  struct Origin {
+    Tag entity = 0;
+    Tag part = 0;
+  };
+  std::map<std::pair<int, Tag>, Origin> origin_of;  // of what the parts of a mesh hold of entities
   std::vector<Tag> node_tags;
   std::vector<std::array<double, 3>> places;
   std::vector<Element<2>> lines;
@@ -65,6 +71,34 @@ void readEntities(TextReader& file, Contents& contents) {
       const Tag tag = file.integer();
       for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) file.number();
       if (file.count() > 0) contents.physical_of[{dimension, tag}] = std::abs(file.integer());
+    }
+  }
+}
+
+// Of several parts that a border belongs to the first counts.
+void readPartitionedEntities(TextReader& file, Contents& contents) {
+  file.needLine();
+  file.count();  // parts
+  file.needLine();
+  const std::uint64_t ghosts = file.count();
+  for (std::uint64_t i = 0; i < ghosts; ++i) file.needLine();
+  file.needLine();
+  const std::array<std::uint64_t, 3> counts{file.count(), file.count(), file.count()};
+  for (int dimension = 0; dimension < 3; ++dimension) {
+    for (std::uint64_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
+      file.needLine();
+      const Tag tag = file.integer();
+      const std::int64_t parent_dimension = file.integer();
+      const Tag parent = file.integer();
+      const std::uint64_t parts = file.count();
+      Tag part = 0;
+      for (std::uint64_t k = 0; k < parts; ++k) {
+        const Tag next = file.integer();
+        if (k == 0) part = next;
+      }
+      for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) file.number();
+      if (file.count() > 0) contents.physical_of[{dimension, tag}] = std::abs(file.integer());
+      contents.origin_of[{dimension, tag}] = {parent_dimension == dimension ? parent : tag, part};
     }
   }
 }
@@ -108,13 +142,13 @@ void readNodes22(TextReader& file, Contents& contents) {
 }
 
 // The line is at the nodes of the element.
-void addElement(TextReader& file, std::int64_t type, Tag tag, Tag physical, Tag entity, Contents& contents) {
+void addElement(TextReader& file, std::int64_t type, Tag tag, Tag physical, Contents::Origin of, Contents& contents) {
   if (type == 1) {
     const Tag a = file.integer(), b = file.integer();
-    contents.lines.push_back({tag, physical, entity, {a, b}});
+    contents.lines.push_back({tag, physical, of.entity, of.part, {a, b}});
   } else if (type == 2) {
     const Tag a = file.integer(), b = file.integer(), c = file.integer();
-    contents.triangles.push_back({tag, physical, entity, {a, b, c}});
+    contents.triangles.push_back({tag, physical, of.entity, of.part, {a, b, c}});
   } else if (type != kPointType) {
     file.fail("an element of type " + std::to_string(type) + "; only meshes of triangles with three nodes can be read");
   }
@@ -130,10 +164,12 @@ void readElements41(TextReader& file, Contents& contents) {
     const std::int64_t type = file.integer();
     const std::uint64_t count = file.count();
     const auto physical = contents.physical_of.find({dimension, entity});
+    const auto origin = contents.origin_of.find({dimension, entity});
+    const Contents::Origin of = origin == contents.origin_of.end() ? Contents::Origin{entity, 0} : origin->second;
     for (std::uint64_t i = 0; i < count; ++i) {
       file.needLine();
       const Tag tag = file.integer();
-      addElement(file, type, tag, physical == contents.physical_of.end() ? 0 : physical->second, entity, contents);
+      addElement(file, type, tag, physical == contents.physical_of.end() ? 0 : physical->second, of, contents);
     }
   }
 }
@@ -152,7 +188,7 @@ void readElements22(TextReader& file, Contents& contents) {
       if (k == 0) physical = value;
       if (k == 1) entity = value;
     }
-    addElement(file, type, tag, physical, entity, contents);
+    addElement(file, type, tag, physical, {entity, 0}, contents);
   }
 }
 
@@ -207,6 +243,8 @@ Contents readSections(TextReader& file) {
       readPhysicalNames(file, contents);
     } else if (section == "$Entities") {
       readEntities(file, contents);
+    } else if (section == "$PartitionedEntities") {
+      readPartitionedEntities(file, contents);
     } else if (section == "$Nodes") {
       version == kVersion41 ? readNodes41(file, contents) : readNodes22(file, contents);
     } else if (section == "$Elements") {
@@ -240,6 +278,14 @@ void sortByTag(Contents& contents) {
   contents.node_tags = std::move(tags);
   contents.places = std::move(places);
   std::ranges::stable_sort(contents.triangles, {}, &Element<3>::tag);
+  // What parts cut a line into is one line again.
+  if (!contents.origin_of.empty()) std::ranges::stable_sort(contents.lines, {}, &Element<2>::tag);
+}
+
+void readParts(const Contents& contents, Grid& grid) {
+  if (std::ranges::all_of(contents.triangles, [](const auto& triangle) { return triangle.part < 1; })) return;
+  for (const auto& triangle : contents.triangles)
+    grid.part_of.push_back(static_cast<std::uint32_t>(std::clamp<Tag>(triangle.part - 1, 0, 4'000'000'000)));
 }
 
 void readZ(const Contents& contents, const IdMap& node_index, const std::string& path, Grid& grid) {
@@ -350,6 +396,7 @@ Grid readGmsh(const std::string& path, const Crs& unsaid) {
   }
   readZ(contents, node_index, path, grid);
   readFeatures(contents, grid);
+  readParts(contents, grid);
   grid.crs = readPrjBeside(path, unsaid);
   readCurves(contents, node_index, path, grid);
   return grid;

@@ -23,6 +23,7 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/grid/map_parts.hpp"
 #include "gis/grid/wind_triangles.hpp"
 
 namespace coastmesh {
@@ -102,26 +103,40 @@ Companion findCompanion(GDALDataset& dataset, const std::string& path, std::stri
 
 Point placeOf(const OGRSimpleCurve& chain, int i) { return {chain.getX(i), chain.getY(i)}; }
 
-// In the file's order, which says nothing of the winding: formats and programs have ways of their own.
-std::array<Point, 3> cornersOf(const OGRFeature& feature, const LayerReader& reader) {
+// The points of each of its parts, in the file's order, which says nothing of the winding: formats and programs have
+// ways of their own. A ring's first point is not repeated.
+std::vector<std::vector<Point>> partsOf(const OGRFeature& feature, const LayerReader& reader) {
   const OGRGeometry* geometry = feature.GetGeometryRef();
   if (geometry == nullptr || geometry->IsEmpty()) reader.fail("it has no geometry");
-  if (wkbFlatten(geometry->getGeometryType()) == wkbMultiPolygon) {
-    const OGRMultiPolygon& parts = *geometry->toMultiPolygon();
-    if (parts.getNumGeometries() != 1) reader.fail("it has several parts; only triangles can be read");
-    geometry = parts.getGeometryRef(0);
-  }
-  const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
-  if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is no polygon; only triangles can be read");
-  const OGRPolygon& polygon = *geometry->toPolygon();
-  const OGRLinearRing& ring = *polygon.getExteriorRing();
-  const int points = ring.getNumPoints();
-  if (polygon.getNumInteriorRings() != 0 || points != 4 || placeOf(ring, 0) != placeOf(ring, 3))
-    reader.fail("a polygon of " + std::to_string(points - 1) + " corners; only triangles can be read");
-  std::array<Point, 3> corners{placeOf(ring, 0), placeOf(ring, 1), placeOf(ring, 2)};
-  for (const Point& p : corners)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) reader.fail("a coordinate is not finite");
-  return corners;
+  std::vector<std::vector<Point>> parts;
+  const auto add = [&](const OGRGeometry& part) {
+    const OGRwkbGeometryType type = wkbFlatten(part.getGeometryType());
+    if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is no polygon; only triangles can be read");
+    const OGRPolygon& polygon = *part.toPolygon();
+    const OGRLinearRing& ring = *polygon.getExteriorRing();
+    const int points = ring.getNumPoints();
+    if (polygon.getNumInteriorRings() != 0 || points < 4 || placeOf(ring, 0) != placeOf(ring, points - 1))
+      reader.fail("a polygon of " + std::to_string(points - 1) + " corners; only triangles can be read");
+    std::vector<Point>& made = parts.emplace_back();
+    for (int i = 0; i + 1 < points; ++i) made.push_back(placeOf(ring, i));
+    for (const Point& p : made)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) reader.fail("a coordinate is not finite");
+  };
+  if (wkbFlatten(geometry->getGeometryType()) == wkbMultiPolygon)
+    for (const OGRPolygon* const part : *geometry->toMultiPolygon()) add(*part);
+  else
+    add(*geometry);
+  return parts;
+}
+
+// Ascending, each once.
+std::vector<Point> pointsOf(const std::vector<std::vector<Point>>& parts) {
+  std::vector<Point> points;
+  for (const auto& part : parts) points.insert(points.end(), part.begin(), part.end());
+  std::ranges::sort(points, lexLess);
+  const auto repeated = std::ranges::unique(points);
+  points.erase(repeated.begin(), repeated.end());
+  return points;
 }
 
 // The order of `ids`, which are a layer's; empty where they repeat, and then the file's order is as good.
@@ -199,12 +214,15 @@ class FeatureTable {
 
 struct LayerTriangle {
   std::array<Point, 3> corners;
+  bool has_corners = false;    // three, and no more; one that is cut (`MapCutter`) may have others
+  std::vector<Point> outline;  // all its points
   std::optional<std::array<std::int64_t, 3>> node_ids;  // counter-clockwise
+  std::int64_t feature = 0;
 };
 
 // The nodes that a triangle names, where they have its corners: somebody may have edited the layers.
 std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& triangle, const std::vector<Point>& nodes,
-                                                       const std::vector<std::int64_t>& ids) {
+                                                       const std::vector<std::int64_t>& ids, const MapCutter& cutter) {
   if (!triangle.node_ids) return std::nullopt;
   std::array<std::uint32_t, 3> named;
   for (unsigned i = 0; i < 3; ++i) {
@@ -212,6 +230,9 @@ std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& tria
     if (end - at != 1) return std::nullopt;
     named[i] = static_cast<std::uint32_t>(at - ids.begin());
   }
+  if (cutter.cuts(named))
+    return pointsOf(cutter.partsOf(named)) == triangle.outline ? std::optional(named) : std::nullopt;
+  if (!triangle.has_corners) return std::nullopt;
   const auto placesFrom = [&](unsigned first, unsigned step) {
     return std::array{nodes[named[first]], nodes[named[(first + step) % 3]], nodes[named[(first + 2 * step) % 3]]};
   };
@@ -221,15 +242,20 @@ std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& tria
 }
 
 void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<std::int64_t>& ids, Grid& grid,
-                   NodesByPlace& index) {
+                   NodesByPlace& index, const std::string& path) {
   std::vector<bool> wound;
+  const MapCutter cutter(grid);
   for (const LayerTriangle& from : given) {
-    const auto named = nodesNamed(from, grid.nodes, ids);
+    const auto named = nodesNamed(from, grid.nodes, ids, cutter);
     wound.push_back(named.has_value());
     if (named) {
       grid.triangles.push_back(*named);
       continue;
     }
+    if (!from.has_corners)
+      throw InputError("'" + path + "', feature " + std::to_string(from.feature) +
+                       ": it is cut at the antimeridian or a pole, and the nodes that it names do not say of which "
+                       "triangle it is; the layer of nodes has to be there");
     auto& triangle = grid.triangles.emplace_back();
     for (unsigned i = 0; i < 3; ++i) {
       triangle[i] = index.firstAt(from.corners[i]);
@@ -241,7 +267,8 @@ void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<st
   windTriangles(grid.nodes, grid.crs, wound, grid.triangles);
 }
 
-void readTriangles(LayerReader& reader, const std::vector<std::int64_t>& node_ids, Grid& grid, NodesByPlace& index) {
+void readTriangles(LayerReader& reader, const std::string& path, const std::vector<std::int64_t>& node_ids, Grid& grid,
+                   NodesByPlace& index) {
   const int id_field = reader.field("id"), angle_field = reader.field("min_angle"),
             area_field = reader.field("area_m2");
   std::array<int, 3> node_fields;
@@ -250,9 +277,19 @@ void readTriangles(LayerReader& reader, const std::vector<std::int64_t>& node_id
   std::vector<std::int64_t> ids;
   std::vector<LayerTriangle> triangles;
   while (const OGRFeature* feature = reader.next()) {
-    LayerTriangle& triangle = triangles.emplace_back(LayerTriangle{cornersOf(*feature, reader), {}});
+    LayerTriangle& triangle = triangles.emplace_back();
+    triangle.feature = feature->GetFID();
     const auto says = [&](int field) { return field >= 0 && feature->IsFieldSetAndNotNull(field); };
-    if (std::ranges::all_of(node_fields, says)) {
+    const auto parts = partsOf(*feature, reader);
+    triangle.has_corners = parts.size() == 1 && parts[0].size() == 3;
+    if (triangle.has_corners) std::ranges::copy(parts[0], triangle.corners.begin());
+    triangle.outline = pointsOf(parts);
+    const bool is_named = std::ranges::all_of(node_fields, says);
+    if (!triangle.has_corners && !is_named)
+      reader.fail(
+          (parts.size() > 1 ? "it has several parts" : "a polygon of " + std::to_string(parts[0].size()) + " corners") +
+          "; only triangles can be read");
+    if (is_named) {
       triangle.node_ids.emplace();
       for (std::size_t i = 0; i < 3; ++i) (*triangle.node_ids)[i] = feature->GetFieldAsInteger64(node_fields[i]);
     }
@@ -267,7 +304,7 @@ void readTriangles(LayerReader& reader, const std::vector<std::int64_t>& node_id
     orderTriangles(grid, order);
     sortFeatures(grid);
   }
-  makeTriangles(triangles, node_ids, grid, index);
+  makeTriangles(triangles, node_ids, grid, index, path);
 }
 
 // The nodes along a line of a layer.
@@ -358,7 +395,7 @@ Grid readOgrGrid(const std::string& path, const Crs& unsaid) {
   const std::vector<std::int64_t> node_ids =
       readNodeLayer(findCompanion(*dataset, path, kNodeLayer, errors), errors, grid, index);
   LayerReader reader(layer, path, errors);
-  readTriangles(reader, node_ids, grid, index);
+  readTriangles(reader, path, node_ids, grid, index);
   readBoundaries(findCompanion(*dataset, path, kBoundaryLayer, errors), errors, index, grid);
   readLines(findCompanion(*dataset, path, kLineLayer, errors), errors, index, grid);
   return grid;

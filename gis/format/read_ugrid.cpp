@@ -212,6 +212,8 @@ Grid readUgrid(const std::string& path, const Crs& unsaid) {
               file.hasVariable(region_name) ? file.texts(region_name) : std::vector<std::string>(), grid);
   for (const double piece : readFaceData(file, mesh + "_piece", grid.triangles.size()))
     grid.piece_of.push_back(piece >= 1.0 ? static_cast<std::uint32_t>(std::min(piece, 4e9)) - 1 : 0);
+  for (const double part : readFaceData(file, mesh + "_partition", grid.triangles.size()))
+    grid.part_of.push_back(part >= 0.0 ? static_cast<std::uint32_t>(std::min(part, 4e9)) : 0);
   readBoundaries(file, mesh, grid);
   readLines(file, mesh, grid);
   grid.crs = readCrs(file, x);

@@ -303,11 +303,14 @@ Grid readVtu(const std::string& path, const Crs& unsaid) {
       file.fail("node " + std::to_string(i + 1) + " has no finite coordinates");
     grid.nodes.push_back({places[3 * i], places[3 * i + 1]});
   }
+  const auto lon = file.array("PointData", kVtuLongitude), lat = file.array("PointData", kVtuLatitude);
+  const bool on_globe = lon && lat && lon->size() == nodes && lat->size() == nodes;
+  for (std::size_t i = 0; on_globe && i < nodes; ++i) grid.nodes[i] = {(*lon)[i], (*lat)[i]};
   const std::vector<std::size_t> cells = readTriangles(file, grid);
   if (auto z = file.array("PointData", "z"); z && z->size() == nodes) {
     grid.z = std::move(*z);
-  } else if (std::ranges::any_of(std::views::iota(std::size_t{0}, nodes),
-                                 [&](std::size_t i) { return places[3 * i + 2] != 0.0; })) {
+  } else if (!on_globe && std::ranges::any_of(std::views::iota(std::size_t{0}, nodes),
+                                              [&](std::size_t i) { return places[3 * i + 2] != 0.0; })) {
     for (std::size_t i = 0; i < nodes; ++i) grid.z.push_back(places[3 * i + 2]);
   }
   grid.min_angle_deg = readCellData(file, "min_angle", cells);
@@ -317,6 +320,7 @@ Grid readVtu(const std::string& path, const Crs& unsaid) {
   readBoundaries(file, grid);
   readLines(file, grid);
   grid.crs = readPrjBeside(path, unsaid);
+  if (on_globe && !grid.crs.geographic) grid.crs = wgs84();
   return grid;
 }
 

@@ -2,21 +2,14 @@
 #include <cctype>
 #include <filesystem>
 
-#include "gis/crs/geographic_map.hpp"
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/format/fort14_text.hpp"
 #include "gis/format/grid_formats.hpp"
+#include "gis/grid/geographic_nodes.hpp"
 
 namespace coastmesh {
 namespace {
-
-std::vector<Point> longitudesAndLatitudes(const Grid& grid) {
-  const GeographicMap map(grid.crs);
-  std::vector<Point> places(grid.nodes.size());
-  std::ranges::transform(grid.nodes, places.begin(), [&](const Point& p) { return asGeographic(map.forward(p)); });
-  return places;
-}
 
 // SCHISM's hgrid.gr3 in the grid's CRS, hgrid.ll beside it in longitudes and latitudes (not for a plane), and the CRS
 // in a .prj; depth positive down. `path` may name either file. Throws OutputError, also where a depth is unknown.
@@ -27,7 +20,7 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
   gr3.close();
   if (grid.crs.isPlane()) return;
   TextWriter ll(withEnding(path, ".ll"));
-  writeFort14(ll, grid, longitudesAndLatitudes(grid), Fort14Kind::Schism, loop);
+  writeFort14(ll, grid, geographicNodes(grid), Fort14Kind::Schism, loop);
   ll.close();
   writePrjBeside(path, grid.crs);
 }

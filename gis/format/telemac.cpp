@@ -75,6 +75,7 @@ std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& r
     grid.notes.push_back("there is no '" + std::filesystem::path(path).filename().string() + "' beside it");
     return roles;
   }
+  if (on_boundary == 0 && std::filesystem::is_empty(path)) return roles;  // a closed globe
   TextReader file(path);
   std::size_t lines = 0;
   while (file.nextLine()) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
-#include <variant>
 
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
@@ -12,8 +10,7 @@
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
 #include "gis/format/grid_formats.hpp"
-#include "gis/grid/boundary_chains.hpp"
-#include "gis/grid/grid_lines.hpp"
+#include "gis/grid/marked_edges.hpp"
 
 namespace coastmesh {
 namespace {
@@ -72,13 +69,6 @@ void readElements(const std::string& path, const IdMap& node_index, Grid& grid) 
   readFeatures(attribute, grid);
 }
 
-// Segments of one marker that follow one another.
-struct MarkedSegments {
-  std::int64_t marker = 0;
-  std::variant<BoundaryRole, LineKind> kind;
-  std::vector<NodePair> edges;
-};
-
 // Segments in the order and with the markers that `writeTriangle` gives them; others have no roles and are left out.
 void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) {
   TextReader file(path, kComment);
@@ -87,44 +77,19 @@ void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) 
   file.needLine();
   const std::uint64_t count = file.count();
   if (!file.hasWord() || file.count() == 0) return;
-  std::vector<MarkedSegments> marked;
+  std::vector<MarkedEdge> edges;
   for (std::uint64_t i = 0; i < count; ++i) {
     file.needLine();
     file.integer();
-    NodePair edge{};
-    for (std::uint32_t& end : edge) {
+    MarkedEdge& edge = edges.emplace_back();
+    for (std::uint32_t& end : edge.nodes) {
       const std::int64_t id = file.integer();
       end = node_index.indexOf(id);
       if (end == kNone) file.fail("there is no node " + std::to_string(id));
     }
-    const std::int64_t marker = file.integer();
-    if (marked.empty() || marker != marked.back().marker) {
-      if (const auto role = roleOfMarker(marker, marked.size())) {
-        marked.push_back({marker, *role, {}});
-      } else if (const auto kind = lineKindOfMarker(marker, marked.size())) {
-        marked.push_back({marker, *kind, {}});
-      } else {
-        return;
-      }
-    }
-    marked.back().edges.push_back(edge);
+    edge.marker = file.integer();
   }
-  std::vector<std::vector<NodePair>> groups;
-  for (MarkedSegments& segments : marked) {
-    auto& edges = groups.emplace_back();
-    if (const LineKind* const kind = std::get_if<LineKind>(&segments.kind)) {
-      std::ranges::move(linesAlong(segments.edges, *kind, {}), std::back_inserter(grid.lines));
-    } else {
-      edges = std::move(segments.edges);
-    }
-  }
-  keepBoundaryEdges(grid.triangles, groups);
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (Boundary& chain : chainEdges(groups[g])) {
-      chain.role = std::get<BoundaryRole>(marked[g].kind);
-      grid.boundaries.push_back(std::move(chain));
-    }
-  }
+  takeMarkedEdges(edges, grid);
 }
 
 // Triangle's .node and .ele, numbered from 0 or 1, with the boundaries of a .poly where its markers are ours, and the
@@ -140,16 +105,11 @@ Grid readTriangle(const std::string& path, const Crs& unsaid) {
   return grid;
 }
 
-std::int64_t markerOfLine(const Grid& grid, std::size_t line) {
-  return lineMarker(grid.boundaries.size() + line, grid.lines[line].kind);
-}
-
 void writeNodes(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   std::vector<std::int64_t> markers(grid.nodes.size(), 0);
-  for (std::size_t i = grid.lines.size(); i-- > 0;)
-    for (std::uint32_t node : grid.lines[i].nodes) markers[node] = markerOfLine(grid, i);
-  for (std::size_t b = grid.boundaries.size(); b-- > 0;)
-    for (std::uint32_t node : grid.boundaries[b].nodes) markers[node] = boundaryMarker(b, grid.boundaries[b].role);
+  const std::vector<MarkedEdge> edges = markedEdges(grid);
+  for (auto edge = edges.rbegin(); edge != edges.rend(); ++edge)
+    for (const std::uint32_t node : edge->nodes) markers[node] = edge->marker;
   TextWriter file(path);
   file << grid.nodes.size() << " 2 " << (grid.z.empty() ? 0 : 1) << " 1\n";
   file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
@@ -188,21 +148,15 @@ Point pointInside(const Grid& grid, const Boundary& island, const std::string& p
 }
 
 void writeSegments(const Grid& grid, const std::string& path) {
-  std::size_t segments = 0, islands = 0;
-  for (const Boundary& boundary : grid.boundaries) {
-    segments += edgesOf(boundary).size();
-    islands += boundary.closed && boundary.role == BoundaryRole::Island;
-  }
-  for (const GridLine& line : grid.lines) segments += edgesOf(line).size();
+  const std::vector<MarkedEdge> edges = markedEdges(grid);
+  const auto islands = std::ranges::count_if(grid.boundaries, [](const Boundary& boundary) {
+    return boundary.closed && boundary.role == BoundaryRole::Island;
+  });
   TextWriter file(path);
-  file << "0 2 0 1\n" << segments << " 1\n";
+  file << "0 2 0 1\n" << edges.size() << " 1\n";
   std::size_t id = 0;
-  for (std::size_t b = 0; b < grid.boundaries.size(); ++b)
-    for (const auto& [from, to] : edgesOf(grid.boundaries[b]))
-      file << ++id << ' ' << from + 1 << ' ' << to + 1 << ' ' << boundaryMarker(b, grid.boundaries[b].role) << '\n';
-  for (std::size_t i = 0; i < grid.lines.size(); ++i)
-    for (const auto& [from, to] : edgesOf(grid.lines[i]))
-      file << ++id << ' ' << from + 1 << ' ' << to + 1 << ' ' << markerOfLine(grid, i) << '\n';
+  for (const auto& [nodes, marker] : edges)
+    file << ++id << ' ' << nodes[0] + 1 << ' ' << nodes[1] + 1 << ' ' << marker << '\n';
   file << islands << '\n';
   id = 0;
   for (const Boundary& boundary : grid.boundaries) {

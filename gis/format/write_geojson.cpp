@@ -7,6 +7,7 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_layers.hpp"
 #include "gis/format/read_ogr_grid.hpp"
+#include "gis/grid/map_parts.hpp"
 
 namespace coastmesh {
 namespace {
@@ -50,7 +51,34 @@ void writeValue(TextBlock& file, const LayerColumn& column, std::size_t row) {
   }
 }
 
-void writeShape(TextBlock& file, const Grid& grid, GridLayer::Shape shape, const std::vector<std::uint32_t>& nodes) {
+void writeRing(TextBlock& file, const MapCutter::Ring& ring) {
+  file << "[[";
+  for (std::size_t i = 0; i <= ring.size(); ++i) {
+    const Point& p = ring[i % ring.size()];
+    file << (i > 0 ? ",[" : "[") << p.x << ',' << p.y << ']';
+  }
+  file << "]]";
+}
+
+void writeCutTriangle(TextBlock& file, const std::vector<MapCutter::Ring>& parts) {
+  if (parts.size() == 1) {
+    file << R"({"type":"Polygon","coordinates":)";
+    writeRing(file, parts[0]);
+  } else {
+    file << R"({"type":"MultiPolygon","coordinates":[)";
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (k > 0) file << ',';
+      writeRing(file, parts[k]);
+    }
+    file << ']';
+  }
+  file << '}';
+}
+
+void writeShape(TextBlock& file, const Grid& grid, GridLayer::Shape shape, const std::vector<std::uint32_t>& nodes,
+                const MapCutter& cutter) {
+  if (shape == GridLayer::Shape::Polygon && cutter.cuts({nodes[0], nodes[1], nodes[2]}))
+    return writeCutTriangle(file, cutter.partsOf({nodes[0], nodes[1], nodes[2]}));
   const auto writePlace = [&](std::uint32_t node) {
     file << '[' << grid.nodes[node].x << ',' << grid.nodes[node].y;
     if (shape == GridLayer::Shape::Point && !grid.z.empty() && std::isfinite(grid.z[node])) file << ',' << grid.z[node];
@@ -82,7 +110,7 @@ void writeShape(TextBlock& file, const Grid& grid, GridLayer::Shape shape, const
 }
 
 void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs_member, const std::string& path,
-                const ItemLoop& loop) {
+                const MapCutter& cutter, const ItemLoop& loop) {
   TextWriter file(path);
   file << "{\n\"type\": \"FeatureCollection\",\n\"name\": " << jsonText(layer.name) << ",\n"
        << crs_member << "\"features\": [\n";
@@ -98,7 +126,7 @@ void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs
     text << R"(},"geometry":)";
     std::vector<std::uint32_t> nodes;
     layer.shapeOf(row, nodes);
-    writeShape(text, grid, layer.shape, nodes);
+    writeShape(text, grid, layer.shape, nodes, cutter);
     text << (row + 1 < layer.rows ? "},\n" : "}\n");
   });
   file << "]\n}\n";
@@ -111,8 +139,9 @@ void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs
 // plane. Throws OutputError, also for a CRS without a code, since GeoJSON can only name codes.
 void writeGeoJson(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const std::string crs_member = crsMember(grid.crs, path);
+  const MapCutter cutter(grid);
   for (const GridLayer& layer : layersOf(grid))
-    writeLayer(grid, layer, crs_member, pathOfLayer(path, layer.name), loop);
+    writeLayer(grid, layer, crs_member, pathOfLayer(path, layer.name), cutter, loop);
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kLine = 1, kTriangle = 2;  // element types
 
-constexpr GridParts kParts{GridPart::Features, GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
-                           GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs};
+constexpr GridParts kParts22{GridPart::Features, GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
+                             GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs};
 
 // Curves are tagged from 1 in the order of the boundaries, then of the lines, surfaces go on after them in the order of
 // the features. Physical groups have the tags of their entities; lines of one kind and name are one group.
@@ -168,27 +168,141 @@ void writeEntities(TextWriter& file, const Grid& grid, const Layout& layout) {
   file << "$EndEntities\n";
 }
 
-// Every node in the block of the first entity that it lies on, curves before surfaces.
-void writeNodes(TextWriter& file, const Grid& grid, const Layout& layout, const ItemLoop& loop) {
-  std::vector<std::vector<std::uint32_t>> blocks(layout.curves.size() + layout.surfaces());
+// The elements of an entity, or of what lies of it in one part.
+struct Block {
+  int dimension = 0;
+  std::size_t tag = 0;
+  std::size_t entity = 0;              // its tag: another than `tag` where the mesh is partitioned
+  std::uint32_t part = 0;              // then: the part, from 0
+  std::vector<std::uint32_t> members;  // places in `linesOf`, or triangles
+};
+
+// The edges of all curves, one curve after another.
+std::vector<NodePair> linesOf(const Layout& layout) {
+  std::vector<NodePair> lines;
+  for (const Layout::Curve& curve : layout.curves) lines.insert(lines.end(), curve.edges.begin(), curve.edges.end());
+  return lines;
+}
+
+// The part of each line: that of the triangle to its left, or where there is none to its right.
+std::vector<std::uint32_t> partsOfLines(const Grid& grid, const std::vector<NodePair>& lines) {
+  std::vector<std::pair<NodePair, std::size_t>> sides;
+  std::vector<bool> on_line(grid.nodes.size(), false);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    sides.emplace_back(lines[i], i);
+    on_line[lines[i][0]] = on_line[lines[i][1]] = true;
+  }
+  std::ranges::sort(sides);
+  std::vector<std::uint32_t> parts(lines.size(), 0);
+  std::vector<bool> left(lines.size(), false);
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t a = grid.triangles[t][i], b = grid.triangles[t][next3(i)];
+      if (!on_line[a] || !on_line[b]) continue;
+      for (const bool is_left : {true, false}) {
+        const NodePair edge = is_left ? NodePair{a, b} : NodePair{b, a};
+        for (const auto& side : std::ranges::equal_range(sides, edge, {}, &std::pair<NodePair, std::size_t>::first)) {
+          if (left[side.second]) continue;
+          parts[side.second] = grid.part_of[t];
+          left[side.second] = is_left;
+        }
+      }
+    }
+  }
+  return parts;
+}
+
+// All elements, entity by entity, those of a partitioned mesh part by part within each; there tags go on after those of
+// the entities.
+std::vector<Block> blocksOf(const Grid& grid, const Layout& layout) {
+  std::vector<Block> blocks;
+  const bool partitioned = !grid.part_of.empty();
+  std::size_t next_tag = layout.surfaceTag(layout.surfaces());
+  const auto add = [&](int dimension, std::size_t entity, std::vector<std::uint32_t> members, auto&& partOf) {
+    if (!partitioned) {
+      blocks.push_back({dimension, entity, entity, 0, std::move(members)});
+      return;
+    }
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_part;
+    for (const std::uint32_t member : members) by_part[partOf(member)].push_back(member);
+    for (auto& [part, some] : by_part) blocks.push_back({dimension, next_tag++, entity, part, std::move(some)});
+  };
+  const std::vector<std::uint32_t> line_parts =
+      partitioned ? partsOfLines(grid, linesOf(layout)) : std::vector<std::uint32_t>();
+  std::uint32_t line = 0;
+  for (std::size_t c = 0; c < layout.curves.size(); ++c) {
+    std::vector<std::uint32_t> members(layout.curves[c].edges.size());
+    for (std::uint32_t& member : members) member = line++;
+    add(1, c + 1, std::move(members), [&](std::uint32_t l) { return line_parts[l]; });
+  }
+  for (std::size_t s = 0; s < layout.surfaces(); ++s)
+    add(2, layout.surfaceTag(s), layout.triangles[s], [&](std::uint32_t t) { return grid.part_of[t]; });
+  return blocks;
+}
+
+// Which part of which entity each block is, in Gmsh's words a partitioned entity; parts count from 1.
+void writePartitionedEntities(TextWriter& file, const Grid& grid, const Layout& layout,
+                              const std::vector<NodePair>& lines, const std::vector<Block>& blocks) {
+  if (grid.part_of.empty()) return;
+  const std::vector<std::set<std::size_t>> along = curvesAlong(grid, layout);
+  std::map<std::pair<std::size_t, std::uint32_t>, std::size_t> curve_part;  // curve and part -> tag
+  for (const Block& block : blocks)
+    if (block.dimension == 1) curve_part[{block.entity - 1, block.part}] = block.tag;
+  file << "$PartitionedEntities\n" << std::ranges::max(grid.part_of) + 1 << "\n0\n";
+  file << "0 " << curve_part.size() << ' ' << blocks.size() - curve_part.size() << " 0\n";
+  for (const Block& block : blocks) {
+    Box box;
+    for (const std::uint32_t member : block.members) {
+      if (block.dimension == 1) {
+        for (const std::uint32_t node : lines[member]) box.add(grid.nodes[node]);
+      } else {
+        for (const std::uint32_t node : grid.triangles[member]) box.add(grid.nodes[node]);
+      }
+    }
+    const std::size_t group = block.dimension == 1 ? layout.curves[block.entity - 1].group : block.entity;
+    file << block.tag << ' ' << block.dimension << ' ' << block.entity << " 1 " << block.part + 1 << ' ' << box << " 1 "
+         << group;
+    std::vector<std::size_t> around;
+    if (block.dimension == 2) {
+      for (const std::size_t c : along[block.entity - layout.curves.size() - 1])
+        if (const auto found = curve_part.find({c, block.part}); found != curve_part.end())
+          around.push_back(found->second);
+    }
+    file << ' ' << around.size();
+    for (const std::size_t tag : around) file << ' ' << tag;
+    file << '\n';
+  }
+  file << "$EndPartitionedEntities\n";
+}
+
+// Every node in the first block that it lies on, curves before surfaces.
+void writeNodes(TextWriter& file, const Grid& grid, const std::vector<NodePair>& lines,
+                const std::vector<Block>& blocks, const ItemLoop& loop) {
+  std::vector<std::vector<std::uint32_t>> nodes_of(blocks.size());
   std::vector<bool> placed(grid.nodes.size(), false);
   const auto place = [&](std::size_t block, std::uint32_t node) {
-    if (!placed[node]) blocks[block].push_back(node);
+    if (!placed[node]) nodes_of[block].push_back(node);
     placed[node] = true;
   };
-  for (std::size_t c = 0; c < layout.curves.size(); ++c)
-    for (std::uint32_t node : *layout.curves[c].nodes) place(c, node);
-  for (std::size_t s = 0; s < layout.surfaces(); ++s)
-    for (std::uint32_t t : layout.triangles[s])
-      for (std::uint32_t node : grid.triangles[t]) place(layout.curves.size() + s, node);
-  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) place(layout.curves.size(), node);
-  const auto filled = std::ranges::count_if(blocks, [](const auto& block) { return !block.empty(); });
+  std::size_t first_surface = blocks.size();
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (blocks[b].dimension == 2) first_surface = std::min(first_surface, b);
+    for (const std::uint32_t member : blocks[b].members) {
+      if (blocks[b].dimension == 1) {
+        for (const std::uint32_t node : lines[member]) place(b, node);
+      } else {
+        for (const std::uint32_t node : grid.triangles[member]) place(b, node);
+      }
+    }
+  }
+  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) place(first_surface, node);
+  const auto filled = std::ranges::count_if(nodes_of, [](const auto& nodes) { return !nodes.empty(); });
   file << "$Nodes\n" << filled << ' ' << grid.nodes.size() << " 1 " << grid.nodes.size() << '\n';
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (blocks[b].empty()) continue;
-    std::ranges::sort(blocks[b]);
-    file << (b < layout.curves.size() ? 1 : 2) << ' ' << b + 1 << " 0 " << blocks[b].size() << '\n';
-    const std::vector<std::uint32_t>& nodes = blocks[b];
+    std::vector<std::uint32_t>& nodes = nodes_of[b];
+    if (nodes.empty()) continue;
+    std::ranges::sort(nodes);
+    file << blocks[b].dimension << ' ' << blocks[b].tag << " 0 " << nodes.size() << '\n';
     file.rows(loop, nodes.size(), [&](TextBlock& text, std::size_t i) { text << nodes[i] + 1 << '\n'; });
     file.rows(loop, nodes.size(), [&](TextBlock& text, std::size_t i) {
       text << grid.nodes[nodes[i]].x << ' ' << grid.nodes[nodes[i]].y << " 0\n";
@@ -197,25 +311,25 @@ void writeNodes(TextWriter& file, const Grid& grid, const Layout& layout, const 
   file << "$EndNodes\n";
 }
 
-void writeElements(TextWriter& file, const Grid& grid, const Layout& layout, const ItemLoop& loop) {
-  const auto blocks = std::ranges::count_if(layout.curves, [](const auto& curve) { return !curve.edges.empty(); }) +
-                      std::ranges::count_if(layout.triangles, [](const auto& group) { return !group.empty(); });
-  const std::size_t count = layout.line_count + grid.triangles.size();
-  file << "$Elements\n" << blocks << ' ' << count << " 1 " << count << '\n';
-  std::size_t tag = 0;
-  for (std::size_t c = 0; c < layout.curves.size(); ++c) {
-    const std::vector<NodePair>& edges = layout.curves[c].edges;
-    if (edges.empty()) continue;
-    file << "1 " << c + 1 << ' ' << kLine << ' ' << edges.size() << '\n';
-    for (const auto& [from, to] : edges) file << ++tag << ' ' << from + 1 << ' ' << to + 1 << '\n';
-  }
-  for (std::size_t s = 0; s < layout.surfaces(); ++s) {
-    if (layout.triangles[s].empty()) continue;
-    file << "2 " << layout.surfaceTag(s) << ' ' << kTriangle << ' ' << layout.triangles[s].size() << '\n';
-    file.rows(loop, layout.triangles[s].size(), [&](TextBlock& text, std::size_t i) {
-      const std::uint32_t t = layout.triangles[s][i];
-      const auto& [a, b, c] = grid.triangles[t];
-      text << layout.line_count + t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+void writeElements(TextWriter& file, const Grid& grid, const std::vector<NodePair>& lines,
+                   const std::vector<Block>& blocks, const ItemLoop& loop) {
+  const auto filled = std::ranges::count_if(blocks, [](const Block& block) { return !block.members.empty(); });
+  const std::size_t count = lines.size() + grid.triangles.size();
+  file << "$Elements\n" << filled << ' ' << count << " 1 " << count << '\n';
+  for (const Block& block : blocks) {
+    if (block.members.empty()) continue;
+    const bool curve = block.dimension == 1;
+    file << block.dimension << ' ' << block.tag << ' ' << (curve ? kLine : kTriangle) << ' ' << block.members.size()
+         << '\n';
+    file.rows(loop, block.members.size(), [&](TextBlock& text, std::size_t i) {
+      const std::uint32_t member = block.members[i];
+      text << (curve ? member : lines.size() + member) + 1;
+      if (curve) {
+        for (const std::uint32_t node : lines[member]) text << ' ' << node + 1;
+      } else {
+        for (const std::uint32_t node : grid.triangles[member]) text << ' ' << node + 1;
+      }
+      text << '\n';
     });
   }
   file << "$EndElements\n";
@@ -231,8 +345,11 @@ void writeGmsh(const Grid& grid, const std::string& path, const ItemLoop& loop) 
   file << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   writePhysicalNames(file, grid, layout);
   writeEntities(file, grid, layout);
-  writeNodes(file, grid, layout, loop);
-  writeElements(file, grid, layout, loop);
+  const std::vector<NodePair> lines = linesOf(layout);
+  const std::vector<Block> blocks = blocksOf(grid, layout);
+  writePartitionedEntities(file, grid, layout, lines, blocks);
+  writeNodes(file, grid, lines, blocks, loop);
+  writeElements(file, grid, lines, blocks, loop);
   writeNodeData(file, grid);
   file.close();
   writePrjBeside(path, grid.crs);
@@ -268,12 +385,14 @@ void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop
 }  // namespace
 
 FormatRecord gmshFormat() {
-  return {{"gmsh", {".msh"}, "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS", true, true, kParts},
+  constexpr GridParts kParts41{GridPart::Features, GridPart::Regions, GridPart::Lines,     GridPart::LineNames,
+                               GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs, GridPart::Partition};
+  return {{"gmsh", {".msh"}, "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS", true, true, kParts41},
           {writeGmsh, readGmsh, withPrjBeside}};
 }
 
 FormatRecord gmsh22Format() {
-  return {{"gmsh22", {"_22.msh"}, "Gmsh 2.2", true, true, kParts}, {writeGmsh22, readGmsh, withPrjBeside}};
+  return {{"gmsh22", {"_22.msh"}, "Gmsh 2.2", true, true, kParts22}, {writeGmsh22, readGmsh, withPrjBeside}};
 }
 
 }  // namespace coastmesh

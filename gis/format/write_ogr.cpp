@@ -18,6 +18,7 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_layers.hpp"
 #include "gis/format/read_ogr_grid.hpp"
+#include "gis/grid/map_parts.hpp"
 
 namespace coastmesh {
 namespace {
@@ -103,10 +104,19 @@ void setField(OGRFeature& feature, int index, const LayerColumn& column, std::si
   }
 }
 
+// A layer of polygons on the map; where some are cut, all may have several parts.
+struct MapOfLayer {
+  MapCutter cutter;
+  bool has_parts = false;
+
+  MapOfLayer(const Grid& grid, const GridLayer& layer)
+      : cutter(grid), has_parts(layer.shape == GridLayer::Shape::Polygon && cutter.cutsAny()) {}
+};
+
 // One geometry for all rows of a layer, so that a row costs no allocation.
 class ShapeCursor {
  public:
-  ShapeCursor(const Grid& grid, const GridLayer& layer) : grid_(grid), layer_(layer) {
+  ShapeCursor(const Grid& grid, const GridLayer& layer) : grid_(grid), layer_(layer), map_(grid, layer) {
     switch (layer.shape) {
       case GridLayer::Shape::Point:
         geometry_ = std::make_unique<OGRPoint>();
@@ -132,7 +142,7 @@ class ShapeCursor {
       case GridLayer::Shape::Polygon:
         break;
     }
-    return wkbPolygon;
+    return MapOfLayer(grid, layer).has_parts ? wkbMultiPolygon : wkbPolygon;
   }
 
   const OGRGeometry& at(std::size_t row) {
@@ -144,6 +154,7 @@ class ShapeCursor {
       if (!grid_.z.empty()) point.setZ(grid_.z[nodes_[0]]);
       return point;
     }
+    if (map_.has_parts) return partsOf({nodes_[0], nodes_[1], nodes_[2]});
     auto& chain = layer_.shape == GridLayer::Shape::Line
                       ? static_cast<OGRSimpleCurve&>(static_cast<OGRLineString&>(*geometry_))
                       : static_cast<OGRSimpleCurve&>(*static_cast<OGRPolygon&>(*geometry_).getExteriorRing());
@@ -154,8 +165,23 @@ class ShapeCursor {
   }
 
  private:
+  const OGRGeometry& partsOf(const std::array<std::uint32_t, 3>& corners) {
+    auto parts = std::make_unique<OGRMultiPolygon>();
+    for (const MapCutter::Ring& ring : map_.cutter.partsOf(corners)) {
+      auto line = std::make_unique<OGRLinearRing>();
+      for (const Point& p : ring) line->addPoint(p.x, p.y);
+      line->addPoint(ring[0].x, ring[0].y);
+      auto polygon = std::make_unique<OGRPolygon>();
+      polygon->addRingDirectly(line.release());
+      parts->addGeometryDirectly(polygon.release());
+    }
+    geometry_ = std::move(parts);
+    return *geometry_;
+  }
+
   const Grid& grid_;
   const GridLayer& layer_;
+  MapOfLayer map_;
   std::unique_ptr<OGRGeometry> geometry_;
   std::vector<std::uint32_t> nodes_;
 };
@@ -195,13 +221,21 @@ void writeFeatures(OGRLayer& target, const std::string& path, const Grid& grid, 
 // The boxes of the layer's rows, which have the fids 1, 2, ...
 std::vector<IndexEntry> boxesOf(const Grid& grid, const GridLayer& layer) {
   std::vector<IndexEntry> boxes(layer.rows);
+  const MapOfLayer map(grid, layer);
   std::vector<std::uint32_t> nodes;
+  std::vector<Point> places;
   for (std::size_t row = 0; row < layer.rows; ++row) {
     layer.shapeOf(row, nodes);
+    places.clear();
+    if (map.has_parts && map.cutter.cuts({nodes[0], nodes[1], nodes[2]})) {
+      for (const MapCutter::Ring& ring : map.cutter.partsOf({nodes[0], nodes[1], nodes[2]}))
+        places.insert(places.end(), ring.begin(), ring.end());
+    } else {
+      for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
+    }
     IndexEntry& box = boxes[row];
-    box = {static_cast<std::int64_t>(row) + 1, grid.nodes[nodes[0]], grid.nodes[nodes[0]]};
-    for (const std::uint32_t node : nodes) {
-      const Point& p = grid.nodes[node];
+    box = {static_cast<std::int64_t>(row) + 1, places[0], places[0]};
+    for (const Point& p : places) {
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
       box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
     }

@@ -271,6 +271,9 @@ void defineFaces(UgridFile& ugrid, const Grid& grid, int faces) {
   if (!grid.piece_of.empty())
     data("piece", "piece that the face was refined in, from 1", {},
          [&grid](std::size_t t) { return static_cast<std::int32_t>(grid.piece_of[t]) + 1; });
+  if (!grid.part_of.empty())
+    data("partition", "process of a solver that the face belongs to, from 0", {},
+         [&grid](std::size_t t) { return static_cast<std::int32_t>(grid.part_of[t]); });
 }
 
 void defineLines(UgridFile& ugrid, const Grid& grid, int edge_dimension, const std::vector<NodePair>& edges) {
@@ -361,14 +364,15 @@ void writeUgrid(const Grid& grid, const std::string& path, const ItemLoop& loop)
 }  // namespace
 
 FormatRecord ugridFormat() {
-  return {{"ugrid",
-           {".nc"},
-           "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
-           true,
-           true,
-           {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces, GridPart::Lines,
-            GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes, GridPart::BareWeirs}},
-          {writeUgrid, readUgrid, nullptr}};
+  return {
+      {"ugrid",
+       {".nc"},
+       "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
+       true,
+       true,
+       {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces, GridPart::Partition,
+        GridPart::Lines, GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes, GridPart::BareWeirs}},
+      {writeUgrid, readUgrid, nullptr}};
 }
 
 }  // namespace coastmesh

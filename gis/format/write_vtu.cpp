@@ -7,6 +7,8 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/format/read_vtu.hpp"
+#include "gis/grid/geographic_nodes.hpp"
+#include "gis/grid/on_sphere.hpp"
 
 namespace coastmesh {
 namespace {
@@ -116,9 +118,12 @@ struct FieldArrays {
   }
 };
 
-// VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z as node data, smallest
-// angle, area and source fid as cell data. VTK has no word for a CRS. Throws OutputError.
-void writeVtu(const Grid& grid, const std::string& path, const ItemLoop&) {
+// Where nodes lie in space, and longitudes and latitudes besides where these are not the first two coordinates.
+struct VtuPlaces {
+  std::vector<double> coordinates, longitudes, latitudes;
+};
+
+void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& path) {
   const std::uint64_t nodes = grid.nodes.size(), cells = grid.triangles.size();
   TextWriter file(path);
   Appendix appendix(file);
@@ -140,6 +145,10 @@ void writeVtu(const Grid& grid, const std::string& path, const ItemLoop&) {
   appendix.declare("UInt8", "types", 1, cells);
   file << "</Cells>\n<PointData>\n";
   if (!grid.z.empty()) appendix.declare("Float64", "z", 1, nodes * 8);
+  if (!places.longitudes.empty()) {
+    appendix.declare("Float64", kVtuLongitude, 1, nodes * 8);
+    appendix.declare("Float64", kVtuLatitude, 1, nodes * 8);
+  }
   file << "</PointData>\n<CellData>\n";
   if (!grid.min_angle_deg.empty()) appendix.declare("Float64", "min_angle", 1, cells * 8);
   if (!grid.area_m2.empty()) appendix.declare("Float64", "area_m2", 1, cells * 8);
@@ -148,10 +157,7 @@ void writeVtu(const Grid& grid, const std::string& path, const ItemLoop&) {
   file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 
   fields.write(appendix);
-  std::vector<double> places;
-  places.reserve(3 * nodes);
-  for (const Point& p : grid.nodes) places.insert(places.end(), {p.x, p.y, 0.0});
-  appendix.write(places);
+  appendix.write(places.coordinates);
   std::vector<std::int64_t> connectivity, offsets, fids;
   connectivity.reserve(3 * cells);
   offsets.reserve(cells);
@@ -163,6 +169,10 @@ void writeVtu(const Grid& grid, const std::string& path, const ItemLoop&) {
   appendix.write(offsets);
   appendix.write(std::vector<std::uint8_t>(cells, kVtkTriangle));
   if (!grid.z.empty()) appendix.write(grid.z);
+  if (!places.longitudes.empty()) {
+    appendix.write(places.longitudes);
+    appendix.write(places.latitudes);
+  }
   if (!grid.min_angle_deg.empty()) appendix.write(grid.min_angle_deg);
   if (!grid.area_m2.empty()) appendix.write(grid.area_m2);
   if (!grid.feature_of.empty()) {
@@ -177,19 +187,51 @@ void writeVtu(const Grid& grid, const std::string& path, const ItemLoop&) {
   }
   file << "\n</AppendedData>\n</VTKFile>\n";
   file.close();
+}
+
+// VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z as node data, smallest
+// angle, area and source fid as cell data. VTK has no word for a CRS. Throws OutputError.
+void writeVtu(const Grid& grid, const std::string& path, const ItemLoop&) {
+  VtuPlaces places;
+  places.coordinates.reserve(3 * grid.nodes.size());
+  for (const Point& p : grid.nodes) places.coordinates.insert(places.coordinates.end(), {p.x, p.y, 0.0});
+  writeFile(grid, places, path);
   writePrjBeside(path, grid.crs);
 }
 
+// The same on a globe: nodes in metres from the middle of a sphere, latitudes as they are, and longitudes and latitudes
+// as node data. Throws OutputError, also for a mesh in a plane.
+void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop&) {
+  constexpr double kRadiusM = 6371220.0;
+  VtuPlaces places;
+  for (const Point& place : requireGeographicNodes(grid, path, "a globe")) {
+    for (const double x : onSphere(asLonLat(place))) places.coordinates.push_back(kRadiusM * x);
+    places.longitudes.push_back(place.x);
+    places.latitudes.push_back(place.y);
+  }
+  writeFile(grid, places, path);
+  if (grid.crs.geographic) writePrjBeside(path, grid.crs);
+}
+
+constexpr GridParts kParts{GridPart::Features, GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
+                           GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs};
+
 }  // namespace
 
+FormatRecord vtuGlobeFormat() {
+  return {{"vtu3d",
+           {"_globe.vtu"},
+           "the same on a globe, in metres from its middle",
+           true,
+           true,
+           kParts,
+           false,
+           NodePlaces::Geographic},
+          {writeVtuGlobe, readVtu, withPrjBeside}};
+}
+
 FormatRecord vtuFormat() {
-  return {{"vtu",
-           {".vtu"},
-           "VTK unstructured grid for ParaView",
-           true,
-           true,
-           {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::LineNames, GridPart::Rivers,
-            GridPart::Ibtypes, GridPart::BareWeirs}},
+  return {{"vtu", {".vtu"}, "VTK unstructured grid for ParaView", true, true, kParts},
           {writeVtu, readVtu, withPrjBeside}};
 }
 

@@ -62,6 +62,8 @@ struct Grid {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
   std::vector<std::uint32_t> feature_of;                // empty or one a triangle: index into `features`
   std::vector<std::uint32_t> piece_of;                  // empty or one a triangle: the piece that it was refined in
+  std::vector<std::uint32_t> part_of;                   // empty or one a triangle: the solver's process, from 0
+  std::vector<std::uint32_t> node_part_of;              // empty or one a node, likewise
   std::vector<double> min_angle_deg;                    // empty or one a triangle, measured in the working plane
   std::vector<double> area_m2;                          // empty or one a triangle, on the ellipsoid
   std::vector<GridFeature> features;
@@ -74,15 +76,15 @@ struct Grid {
 // member of Grid, so that a new one does not compile until it is put here where it belongs.
 template <typename AnyGrid>
 auto nodeArrays(AnyGrid& grid) {
-  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, min_angle_deg, area_m2, features, boundaries,
-         lines, notes] = grid;
-  return std::tie(nodes, z, size_m);
+  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, part_of, node_part_of, min_angle_deg, area_m2,
+         features, boundaries, lines, notes] = grid;
+  return std::tie(nodes, z, size_m, node_part_of);
 }
 template <typename AnyGrid>
 auto triangleArrays(AnyGrid& grid) {
-  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, min_angle_deg, area_m2, features, boundaries,
-         lines, notes] = grid;
-  return std::tie(triangles, feature_of, piece_of, min_angle_deg, area_m2);
+  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, part_of, node_part_of, min_angle_deg, area_m2,
+         features, boundaries, lines, notes] = grid;
+  return std::tie(triangles, feature_of, piece_of, part_of, min_angle_deg, area_m2);
 }
 
 // Throws OutputError where a z is unknown; for formats that need one at every node.

@@ -208,6 +208,8 @@ std::uint32_t addNode(Grid& grid, const Point& place) {
   forEachArray(nodeArrays(grid), [&]<typename T>(std::vector<T>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values.push_back(place);
+    } else if constexpr (std::is_integral_v<T>) {
+      if (!values.empty()) values.push_back(0);  // some part has to own it
     } else {
       static_assert(std::is_floating_point_v<T>, "say what is unknown");
       if (!values.empty()) values.push_back(kUnknown);
@@ -228,6 +230,8 @@ std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, doubl
   forEachArray(nodeArrays(grid), [&]<typename T>(std::vector<T>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values.push_back(placeBetween(grid.crs, values[a], values[b], share));
+    } else if constexpr (std::is_integral_v<T>) {
+      if (!values.empty()) values.push_back(values[a]);
     } else {
       static_assert(std::is_floating_point_v<T>, "say what lies between two");
       if (!values.empty()) values.push_back(values[a] + share * (values[b] - values[a]));
@@ -250,7 +254,7 @@ void moveNode(Grid& grid, std::uint32_t node, std::uint32_t a, std::uint32_t b, 
   forEachArray(nodeArrays(grid), [&]<typename T>(std::vector<T>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values[node] = placeBetween(grid.crs, values[node], placeBetween(grid.crs, values[a], values[b], 0.5), share);
-    } else {
+    } else if constexpr (!std::is_integral_v<T>) {
       static_assert(std::is_floating_point_v<T>, "say what lies between two");
       if (values.empty()) return;
       const T step = static_cast<T>(share) * ((values[a] + values[b]) / 2 - values[node]);
@@ -364,6 +368,11 @@ void appendGrid(Grid& whole, Grid&& part) {
   if (whole.piece_of.empty() != part.piece_of.empty()) {
     Grid& silent = whole.piece_of.empty() ? whole : part;
     silent.piece_of.assign(silent.triangles.size(), 0);
+  }
+  // Parts are of a mesh as a whole.
+  for (Grid* grid : {&whole, &part}) {
+    grid->part_of.clear();
+    grid->node_part_of.clear();
   }
   const auto node_shift = static_cast<std::uint32_t>(whole.nodes.size());
   const auto feature_shift = static_cast<std::uint32_t>(whole.features.size());

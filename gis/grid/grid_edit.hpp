@@ -60,7 +60,8 @@ void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
 void sortFeatures(Grid& grid);
 
 // `part` behind `whole`, its indices shifted; the title and CRS of `whole` count. Values that one of the two does not
-// have are unknown there (NaN; one piece of its own). REQUIRES: both have features, or neither does.
+// have are unknown there (NaN; one piece of its own); parts of a solver are those of neither, and go. REQUIRES: both
+// have features, or neither does.
 void appendGrid(Grid& whole, Grid&& part);
 
 // Cuts lines where they do not run along an edge between two triangles.

@@ -13,7 +13,9 @@ enum class GridPart : std::uint8_t {
   FeatureNames,  // names and sources of features
   Regions,       // names of regions, by triangle
   Pieces,        // the piece that a triangle was refined in
-  Lines,         // lines inside the mesh and what they are
+  Partition,     // the part of a triangle, for solvers
+  NodePartition,
+  Lines,  // lines inside the mesh and what they are
   LineNames,
   Rivers,     // which boundaries are rivers
   Ibtypes,    // ADCIRC's types of boundaries, where the role alone does not say them

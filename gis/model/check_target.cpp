@@ -11,9 +11,11 @@
 #include "core/tri_mesh.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/grid/boundary_kinds.hpp"
+#include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/grid/loop_role.hpp"
+#include "gis/grid/on_sphere.hpp"
 #include "gis/model/flow_links.hpp"
 #include "gis/model/target_limits.hpp"
 #include "gis/model/time_step.hpp"
@@ -22,10 +24,21 @@ namespace coastmesh {
 namespace {
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
-    "wrong count",    "broken edge",     "clockwise",       "unused node",    "repeated node",   "hanging node",
-    "pinched node",   "orphan cell",     "unknown depth",   "dry opening",    "no boundary",     "stray boundary",
-    "boundary twice", "boundary turned", "looped boundary", "wrong shore",    "two open edges",  "open and solid edge",
-    "lone wall",      "valence",         "large angle",     "not orthogonal", "small flow link", "courant"};
+    "wrong count",  "broken edge",    "clockwise",           "unused node",     "repeated node",
+    "hanging node", "pinched node",   "orphan cell",         "unknown depth",   "dry opening",
+    "no boundary",  "stray boundary", "boundary twice",      "boundary turned", "looped boundary",
+    "wrong shore",  "two open edges", "open and solid edge", "one neighbour",   "lone wall",
+    "valence",      "large angle",    "not orthogonal",      "small flow link", "courant"};
+
+// The Courant number is that of long waves. SWAN computes none, FESOM2 and MPAS-Ocean step them apart.
+bool isOfLongWaves(Target target) {
+  return target != Target::Swan && target != Target::Fesom && target != Target::Mpas;
+}
+
+// The others have no openings, or take dry ones.
+bool mindsDryOpenings(Target target) {
+  return target == Target::Adcirc || target == Target::Schism || target == Target::Fvcom || target == Target::Telemac;
+}
 
 bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
 
@@ -44,6 +57,20 @@ std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, b
   return found;
 }
 
+// The largest angle where it is more than the model takes, else 0.
+double angleBeyond(const Grid& grid, Target target, const std::array<std::uint32_t, 3>& corners) {
+  const Point &a = grid.nodes[corners[0]], &b = grid.nodes[corners[1]], &c = grid.nodes[corners[2]];
+  if (target == Target::Swan) {
+    const double largest = largestFileAngle(a, b, c);
+    return largest > kSwanLargestAngleDeg ? largest : 0.0;
+  }
+  if (target == Target::Mpas) {
+    const double largest = largestSphereAngle(grid.crs, a, b, c);
+    return largest > kMpasLargestAngleDeg ? largest : 0.0;
+  }
+  return 0.0;
+}
+
 class TargetCheck {
  public:
   TargetCheck(const Grid& grid, Target target, const TargetCheckOptions& options)
@@ -59,11 +86,11 @@ class TargetCheck {
     checkNodes();
     checkHangingNodes();
     if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
-    if (target_ != Target::Swan && target_ != Target::Dflowfm) checkOpenings();
+    if (mindsDryOpenings(target_)) checkOpenings();
     if (target_ == Target::Fvcom) checkOpenCells();
     if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
     if (target_ == Target::Dflowfm) checkFlowLinks();
-    if (options_.time_step_s > 0.0 && target_ != Target::Swan && !grid_.z.empty()) checkCourant();
+    if (options_.time_step_s > 0.0 && isOfLongWaves(target_) && !grid_.z.empty()) checkCourant();
     std::ranges::stable_sort(defects_, {},
                              [](const TargetDefect& defect) { return std::pair(defect.advice, defect.kind); });
     return std::move(defects_);
@@ -76,14 +103,10 @@ class TargetCheck {
   }
 
   Point middle(std::uint32_t a, std::uint32_t b) const {
-    return {(grid_.nodes[a].x + grid_.nodes[b].x) / 2.0, (grid_.nodes[a].y + grid_.nodes[b].y) / 2.0};
+    return meanPlace(grid_.crs, std::array{grid_.nodes[a], grid_.nodes[b]});
   }
 
-  Point middle(std::size_t t) const {
-    const auto& [a, b, c] = grid_.triangles[t];
-    return {(grid_.nodes[a].x + grid_.nodes[b].x + grid_.nodes[c].x) / 3.0,
-            (grid_.nodes[a].y + grid_.nodes[b].y + grid_.nodes[c].y) / 3.0};
-  }
+  Point middle(std::size_t t) const { return middleOf(grid_, static_cast<std::uint32_t>(t)); }
 
   std::vector<Point> cornersOf(std::size_t t) const { return localPlane(grid_, grid_.triangles[t]); }
 
@@ -95,12 +118,13 @@ class TargetCheck {
         continue;
       }
       const auto& adj = mesh_.triangles[t].adj;
-      if (std::ranges::count(adj, kNone) == 3)
+      const auto neighbours = 3 - std::ranges::count(adj, kNone);
+      if (neighbours == 0) {
         add(TargetDefectKind::OrphanCell, middle(t), static_cast<std::int64_t>(t));
-      if (target_ != Target::Swan) continue;
-      const auto& [a, b, c] = grid_.triangles[t];
-      const double largest = largestFileAngle(grid_.nodes[a], grid_.nodes[b], grid_.nodes[c]);
-      if (largest > kSwanLargestAngleDeg)
+      } else if (target_ == Target::Fesom && neighbours < kFesomFewestNeighbours) {
+        add(TargetDefectKind::OneNeighbour, middle(t), static_cast<std::int64_t>(t));
+      }
+      if (const double largest = angleBeyond(grid_, target_, grid_.triangles[t]); largest > 0.0)
         add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
     }
   }
@@ -119,8 +143,10 @@ class TargetCheck {
       if (boundary_starts[node] > 1) add(TargetDefectKind::PinchedNode, place, -1, node, boundary_starts[node]);
       if (!grid_.z.empty() && std::isnan(grid_.z[node])) add(TargetDefectKind::UnknownDepth, place, -1, node);
       const bool inner = cells[node] > 0 && boundary_starts[node] == 0;
-      if (target_ == Target::Swan && inner && (cells[node] < kSwanFewestCells || cells[node] > kSwanMostCells))
-        add(TargetDefectKind::Valence, place, -1, node, cells[node]);
+      const bool refused =
+          (target_ == Target::Swan && inner && (cells[node] < kSwanFewestCells || cells[node] > kSwanMostCells)) ||
+          (target_ == Target::Fesom && cells[node] > kFesomMostCells);
+      if (refused) add(TargetDefectKind::Valence, place, -1, node, cells[node]);
     }
     std::vector<std::uint32_t> order(grid_.nodes.size());
     for (std::uint32_t node = 0; node < order.size(); ++node) order[node] = node;
@@ -291,6 +317,11 @@ class TargetCheck {
 }  // namespace
 
 std::string_view toString(TargetDefectKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
+
+double largestSphereAngle(const Crs& crs, const Point& a, const Point& b, const Point& c) {
+  if (!crs.geographic) return std::ranges::max(anglesDeg(a, b, c));
+  return std::ranges::max(flatAnglesDeg(onSphere(asLonLat(a)), onSphere(asLonLat(b)), onSphere(asLonLat(c))));
+}
 
 double largestFileAngle(const Point& a, const Point& b, const Point& c) { return std::ranges::max(anglesDeg(a, b, c)); }
 

@@ -30,6 +30,7 @@ enum class TargetDefectKind {
   WrongShore,      // an outer shore that says it is an island, or the other way round
   TwoOpenEdges,    // a triangle with two open edges
   OpenAndSolid,    // a triangle with an open edge and a solid one
+  OneNeighbour,    // a triangle with one neighbour alone
   LoneWall,        // a single solid edge between two openings, which codes at nodes cannot say
   Valence,         // an inner node with too few or too many triangles
   LargeAngle,      // an angle larger than the model takes
@@ -37,7 +38,7 @@ enum class TargetDefectKind {
   SmallFlowLink,   // an edge with the neighbours' centres too near to one another
   Courant,         // a triangle whose Courant number the time step puts out of range
 };
-inline constexpr std::size_t kTargetDefectKinds = 24;
+inline constexpr std::size_t kTargetDefectKinds = 25;
 std::string_view toString(TargetDefectKind kind);
 
 struct TargetDefect {
@@ -61,6 +62,10 @@ std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const Tar
 
 // The same of the time step alone, whatever the model: triangles with a Courant number above 1, from the worst on.
 std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s);
+
+// MPAS' measure: the largest angle in degrees of the flat triangle through three places of a sphere, latitudes as they
+// are; of coordinates that are no longitudes and latitudes, as they stand.
+double largestSphereAngle(const Crs& crs, const Point& a, const Point& b, const Point& c);
 
 // SWAN's measure: the largest angle in degrees, of coordinates as they stand in the file. It takes longitudes and
 // latitudes for a plane.

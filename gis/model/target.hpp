@@ -7,8 +7,8 @@
 namespace coastmesh {
 
 // Models that a grid may be for.
-enum class Target { Adcirc, Schism, Fvcom, Telemac, Dflowfm, Swan };
-inline constexpr std::array kTargetNames{"adcirc", "schism", "fvcom", "telemac", "dflowfm", "swan"};
+enum class Target { Adcirc, Schism, Fvcom, Telemac, Dflowfm, Swan, Fesom, Mpas };
+inline constexpr std::array kTargetNames{"adcirc", "schism", "fvcom", "telemac", "dflowfm", "swan", "fesom", "mpas"};
 
 // "adcirc|schism|…"
 std::string allTargetNames();

@@ -9,6 +9,13 @@ namespace coastmesh {
 inline constexpr double kSwanLargestAngleDeg = 143.0;
 inline constexpr int kSwanFewestCells = 4, kSwanMostCells = 10;
 
+// FESOM2, its mesh partitioner: it stops at a triangle with fewer neighbours, and at a node with more triangles.
+inline constexpr int kFesomFewestNeighbours = 2, kFesomMostCells = 32;
+
+// MPAS: the line between the centres of two cells has to cross the edge between them, which is so where no triangle is
+// obtuse. Its mesh converter counts those that are.
+inline constexpr double kMpasLargestAngleDeg = 90.0;
+
 // D-Flow FM, user manual, "orthogonality": the cosine of the angle between an edge and the line between the centres
 // beside it.
 inline constexpr double kDflowfmLargestCosine = 0.5;

@@ -66,6 +66,10 @@ std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEd
     const auto q = placesOf(view, edit, v);
     score.defects += largestFileAngle(q[0], q[1], q[2]) > kSwanLargestAngleDeg;
   }
+  if (view.isFor(Target::Mpas)) {
+    const auto q = placesOf(view, edit, v);
+    score.defects += largestSphereAngle(view.grid.crs, q[0], q[1], q[2]) > kMpasLargestAngleDeg;
+  }
   int open = 0, solid = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const BoundaryKind* const kind = kindOf(view, edit, v[i], v[next3(i)]);
@@ -76,7 +80,9 @@ std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEd
       ++solid;
   }
   if (view.isFor(Target::Fvcom)) score.defects += (open > 1 ? 1 : 0) + (open > 0 && solid > 0 ? 1 : 0);
-  score.defects += open + solid == 3;
+  const int neighbours = 3 - open - solid;
+  if (view.isFor(Target::Fesom)) score.defects += neighbours > 0 && neighbours < kFesomFewestNeighbours;
+  score.defects += neighbours == 0;
   return score;
 }
 
@@ -141,8 +147,11 @@ int badValencesAdded(const RepairView& view, const PatchEdit& edit, std::span<co
   for (const std::uint32_t t : replaced)
     for (const std::uint32_t node : view.grid.triangles[t]) changes.emplace_back(node, -1);
   std::ranges::sort(changes);
-  const auto bad = [](int count) {
-    return count > 0 ? std::max({0, kSwanFewestCells - count, count - kSwanMostCells}) : 0;
+  const auto bad = [&view](int count, bool inner) {
+    if (count == 0) return 0;
+    const int for_swan =
+        view.isFor(Target::Swan) && inner ? std::max({0, kSwanFewestCells - count, count - kSwanMostCells}) : 0;
+    return for_swan + (view.isFor(Target::Fesom) ? std::max(0, count - kFesomMostCells) : 0);
   };
   int added = 0;
   for (std::size_t i = 0; i < changes.size();) {
@@ -150,9 +159,9 @@ int badValencesAdded(const RepairView& view, const PatchEdit& edit, std::span<co
     int change = 0;
     for (; i < changes.size() && changes[i].first == node; ++i) change += changes[i].second;
     const bool is_new = node >= view.links.triangles_at.size();
-    if (is_new ? !edit.made.empty() : view.links.on_boundary[node]) continue;
+    const bool inner = is_new ? edit.made.empty() : !view.links.on_boundary[node];
     const int count = is_new ? 0 : static_cast<int>(view.links.triangles_at[node].size());
-    added += bad(count + change) - bad(count);
+    added += bad(count + change, inner) - bad(count, inner);
   }
   return added;
 }
@@ -203,7 +212,7 @@ EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& 
   const auto kept = std::ranges::find_if(scale.angles, isKept, &std::pair<double, std::uint32_t>::second);
   if (kept != scale.angles.end()) score.min_angle = std::min(score.min_angle, kept->first);
   if (view.isFor(Target::Dflowfm)) score.defects += edgeDefectsAdded(view, patch, edit, replaced);
-  if (view.isFor(Target::Swan)) score.defects += badValencesAdded(view, edit, replaced);
+  if (view.isFor(Target::Swan) || view.isFor(Target::Fesom)) score.defects += badValencesAdded(view, edit, replaced);
   return score;
 }
 

@@ -85,6 +85,7 @@ void mend(RepairState& state, const FoundDefect& found) {
       return lowerDryOpening(state, found);
     case TargetDefectKind::TwoOpenEdges:
     case TargetDefectKind::OpenAndSolid:
+    case TargetDefectKind::OneNeighbour:
     case TargetDefectKind::LargeAngle:
     case TargetDefectKind::NotOrthogonal:
       return reshapeTriangle(state, found);

@@ -121,4 +121,14 @@ inline Grid sampleGrid(const Crs& crs, Point origin, double size, int cells = 6)
   return grid;
 }
 
+// The grid dealt out to three processes, at random.
+inline Grid inParts(Grid grid) {
+  std::mt19937_64 random(20240301);
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
+    grid.part_of.push_back(static_cast<std::uint32_t>(random() % 3));
+  for (std::size_t n = 0; n < grid.nodes.size(); ++n)
+    grid.node_part_of.push_back(static_cast<std::uint32_t>(random() % 3));
+  return grid;
+}
+
 }  // namespace coastmesh::testing

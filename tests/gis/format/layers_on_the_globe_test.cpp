@@ -199,7 +199,18 @@ TEST_P(LayersOnTheGlobe, KeepWhatIsBroken) {
 INSTANTIATE_TEST_SUITE_P(Formats, LayersOnTheGlobe, ::testing::Values(".gpkg", ".shp", ".geojson", ".fgb"),
                          [](const auto& instance) { return std::string(instance.param).substr(1); });
 
-// Triangles alone, as another program would write them: the same triangles by their corners' places, wound alike.
+// Whether a map of longitudes and latitudes has to cut some of the triangles.
+bool reachesOverTheMapsEnd(const Grid& grid) {
+  for (const auto& t : grid.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point &p = grid.nodes[t[i]], &q = grid.nodes[t[(i + 1) % 3]];
+      if (std::abs(p.x - q.x) >= 180.0 || std::abs(p.y) == 90.0) return true;
+    }
+  return false;
+}
+
+// Triangles alone, as another program would write them: the same triangles by their corners' places, wound alike. Those
+// that are cut need their nodes.
 TEST(TrianglesAlone, ComeBackAlike) {
   const auto places = [](const Grid& grid) {
     std::vector<std::array<Point, 3>> all;
@@ -208,10 +219,13 @@ TEST(TrianglesAlone, ComeBackAlike) {
   };
   for (const std::string ending : {".shp", ".geojson", ".fgb"}) {
     std::mt19937_64 random(20240302);
-    for (int round = 0; round < 20; ++round) {
+    int whole = 0;
+    for (int round = 0; whole < 20; ++round) {
       SCOPED_TRACE(ending + ' ' + std::to_string(round));
       const TemporaryFolder folder;
       const Grid grid = randomGrid(random);
+      if (reachesOverTheMapsEnd(grid)) continue;
+      ++whole;
       StagedOutput output(folder / ("m" + ending), gridFormatFor("m" + ending, ""), false);
       output.write(grid);
       output.commit();

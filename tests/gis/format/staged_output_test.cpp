@@ -25,7 +25,7 @@ using testing::sampleGrid;
 using testing::TemporaryFolder;
 
 Grid lakes(const char* crs = "EPSG:4326", int cells = 4) {
-  return sampleGrid(parseCrs(crs), {-87.5, 43.1}, 0.01, cells);
+  return testing::inParts(sampleGrid(parseCrs(crs), {-87.5, 43.1}, 0.01, cells));
 }
 
 std::string endingOf(const GridFormat& format) {

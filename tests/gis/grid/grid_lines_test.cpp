@@ -155,6 +155,7 @@ TEST_P(NamedGrid, ComesBackAsTheFormatSays) {
 // What came through a file once comes through it again as the same bytes.
 TEST_P(NamedGrid, IsWrittenAgainAsItWasRead) {
   const GridFormat& format = GetParam();
+  if (format.places == NodePlaces::Sphere) GTEST_SKIP() << "its places are rounded each time";
   const TemporaryFolder first, second;
   const Grid got = throughFile(namedGrid(), format, first);
   throughFile(got, format, second);
@@ -167,9 +168,38 @@ TEST_P(NamedGrid, IsWrittenAgainAsItWasRead) {
   }
 }
 
-std::vector<GridFormat> allFormats() { return gridFormats(); }
+// Parts go through all lines and features, which are whole again when they are read.
+TEST_P(NamedGrid, KeepsPartsWhereTheFormatDoes) {
+  const GridFormat& format = GetParam();
+  const Grid grid = testing::inParts(namedGrid());
+  const TemporaryFolder first, second;
+  const Grid got = throughFile(grid, format, first);
+  const std::string losses = lossesIn(grid, format, LossesOf::Grid);
+  EXPECT_EQ(losses.find("parts that triangles") == std::string::npos, format.holds.has(GridPart::Partition));
+  EXPECT_EQ(losses.find("parts that nodes") == std::string::npos, format.holds.has(GridPart::NodePartition));
+  if (!format.holds.has(GridPart::Partition)) {
+    EXPECT_TRUE(got.part_of.empty());
+    return;
+  }
+  EXPECT_EQ(got.part_of, grid.part_of);
+  EXPECT_EQ(got.triangles, grid.triangles);
+  const Grid whole = throughFile(namedGrid(), format, second);
+  EXPECT_TRUE(whole.part_of.empty());
+  ASSERT_EQ(got.lines.size(), whole.lines.size());
+  for (std::size_t i = 0; i < whole.lines.size(); ++i) EXPECT_EQ(got.lines[i].nodes, whole.lines[i].nodes);
+  ASSERT_EQ(got.boundaries.size(), whole.boundaries.size());
+  for (std::size_t i = 0; i < whole.boundaries.size(); ++i)
+    EXPECT_EQ(got.boundaries[i].nodes, whole.boundaries[i].nodes);
+}
 
-INSTANTIATE_TEST_SUITE_P(Formats, NamedGrid, ::testing::ValuesIn(allFormats()),
+std::vector<GridFormat> formatsOfGrids() {
+  std::vector<GridFormat> formats;
+  for (const GridFormat& format : gridFormats())
+    if (format.readable) formats.push_back(format);
+  return formats;
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, NamedGrid, ::testing::ValuesIn(formatsOfGrids()),
                          [](const auto& instance) { return "to_" + std::string(instance.param.name); });
 
 // A mesh without any of it has nothing to lose, whatever the format.
@@ -203,7 +233,7 @@ TEST(LossesIn, WeirsBetweenShores) {
   weir.back_nodes.assign(weir.nodes.size(), grid.boundaries[1].nodes[0]);
   weir.weir.assign(3 * weir.nodes.size(), 1.5);
   const TemporaryFolder folder;
-  for (const GridFormat& format : gridFormats()) {
+  for (const GridFormat& format : formatsOfGrids()) {
     const std::string losses = lossesIn(grid, format, LossesOf::Grid);
     EXPECT_EQ(losses.find("heights and nodes across of 1 weir") == std::string::npos, format.name == "adcirc")
         << format.name;

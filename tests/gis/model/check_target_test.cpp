@@ -25,8 +25,9 @@ namespace {
 using testing::lattice;
 using testing::TemporaryFolder;
 
-constexpr Target kAll[] = {Target::Adcirc,  Target::Schism,  Target::Fvcom,
-                           Target::Telemac, Target::Dflowfm, Target::Swan};
+// All but FESOM2, which refuses two corners of the grid below.
+constexpr Target kAll[] = {Target::Adcirc,  Target::Schism, Target::Fvcom, Target::Telemac,
+                           Target::Dflowfm, Target::Swan,   Target::Mpas};
 
 // A sea of nearly equilateral triangles with an island; no corner has both its edges in one triangle.
 Grid soundGrid() {
@@ -372,6 +373,61 @@ TEST(CheckTarget, SwanMeasuresAnglesOfDegreesAsIfTheyWereAPlane) {
   EXPECT_EQ(kindsIn(flat, Target::Swan), Kinds{});
 }
 
+// The corners of a rhombus: two of them have both their edges in one triangle.
+TEST(CheckTarget, OneNeighbourIsTooFewForFesom) {
+  const Grid grid = soundGrid();
+  const std::vector<TargetDefect> found = checkTarget(grid, Target::Fesom);
+  ASSERT_EQ(found.size(), 2u);
+  for (const TargetDefect& defect : found) {
+    EXPECT_EQ(defect.kind, TargetDefectKind::OneNeighbour);
+    const auto& v = grid.triangles[static_cast<std::size_t>(defect.triangle)];
+    int neighbours = 0;
+    for (const auto& other : grid.triangles) {
+      const auto shared = std::ranges::count_if(other, [&](std::uint32_t node) { return std::ranges::count(v, node); });
+      neighbours += shared == 2;
+    }
+    EXPECT_EQ(neighbours, 1);
+  }
+  expectMended(grid, {Target::Fesom});
+}
+
+TEST(CheckTarget, FesomsPartitionerHasRoomForSoManyTriangles) {
+  EXPECT_FALSE(kindsIn(fan(32), Target::Fesom).contains(TargetDefectKind::Valence));
+  EXPECT_TRUE(kindsIn(fan(33), Target::Fesom).contains(TargetDefectKind::Valence));
+  expectMended(fan(33), {Target::Fesom});
+}
+
+// Latitudes are those of a sphere, whatever the ellipsoid: at 60 degrees a degree of longitude is half of one of
+// latitude. The flat triangle counts: its corners' angles add up to 180.
+TEST(CheckTarget, MpasMeasuresAnglesOnItsSphere) {
+  for (const double lon : {10.0, 179.99}) {
+    for (const double off : {-1e-4, 1e-4}) {
+      Grid grid;
+      grid.crs = wgs84();
+      // The corner in the north opens to 90 degrees where it lies half as far from the base as that is long.
+      const double half = 0.02;
+      grid.nodes = {{lon - half, 60.0}, {lon + half, 60.0}, {lon, 60.0 + half * 0.5 + off}};
+      if (lon + half > 180.0) grid.nodes[1].x -= 360.0;
+      grid.triangles = {{0, 1, 2}};
+      const bool obtuse = off < 0;
+      EXPECT_EQ(kindsIn(grid, Target::Mpas).contains(TargetDefectKind::LargeAngle), obtuse) << lon << ' ' << off;
+      // Beside it, not on the other side of the Earth.
+      for (const TargetDefect& defect : checkTarget(grid, Target::Mpas))
+        EXPECT_NEAR(std::remainder(defect.place.x - lon, 360.0), 0.0, 0.1);
+    }
+  }
+  // A node at the pole: the other two far apart in longitude. An octant has 60 degrees in each corner of its chords.
+  EXPECT_NEAR(largestSphereAngle(wgs84(), {0, 0}, {90, 0}, {123, 90}), 60.0, 1e-12);
+  EXPECT_NEAR(largestSphereAngle(wgs84(), {170, 80}, {-170, 80}, {0, 90}), 80.03844190190964, 1e-9);
+}
+
+TEST(CheckTarget, ObtuseTrianglesAreMendedForMpas) {
+  Grid grid = soundGrid();
+  grid.nodes[30].y += 400.0;
+  ASSERT_EQ(kindsIn(grid, Target::Mpas), Kinds{TargetDefectKind::LargeAngle});
+  expectMended(grid, {Target::Mpas});
+}
+
 TEST(CheckTarget, SmallFlowLink) {
   // Centres are the middles of the hypotenuses: a square's two are one.
   EXPECT_NEAR(flowLinkAcross({0, 0}, {4, 4}, {0, 4}, {4, 0}).length, 0.0, 1e-12);
@@ -443,7 +499,7 @@ TEST(CheckTarget, OpeningsAreUnderWater) {
   grid.z[first] = 3.0;
   grid.z[second] = 0.5;
   for (const Target target : kAll) {
-    const bool minds = target != Target::Swan && target != Target::Dflowfm;
+    const bool minds = target != Target::Swan && target != Target::Dflowfm && target != Target::Mpas;
     EXPECT_EQ(kindsIn(grid, target).contains(TargetDefectKind::DryOpening), minds);
   }
   Grid mended = grid;

@@ -87,7 +87,7 @@ int defectsOf(const Grid& grid, Target target) {
   for (const TargetDefect& defect : checkTarget(grid, target)) {
     if (defect.kind == TargetDefectKind::Valence) {
       const int cells = static_cast<int>(defect.value);
-      count += std::max(4 - cells, cells - 10);
+      count += target == Target::Fesom ? cells - 32 : std::max(4 - cells, cells - 10);
     } else {
       count += defect.kind != TargetDefectKind::LoneWall;
     }
@@ -146,7 +146,7 @@ void expectTrueScores(Target target, const Crs& crs) {
 }
 
 TEST(RepairScore, IsWhatTheWholeMeshGains) {
-  for (const Target target : {Target::Swan, Target::Dflowfm, Target::Fvcom}) {
+  for (const Target target : {Target::Swan, Target::Dflowfm, Target::Fvcom, Target::Fesom, Target::Mpas}) {
     SCOPED_TRACE(kTargetNames[static_cast<std::size_t>(target)]);
     expectTrueScores(target, {});
     expectTrueScores(target, wgs84());

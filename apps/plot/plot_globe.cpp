@@ -1,0 +1,391 @@
+#include "apps/plot/plot_globe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "apps/plot/plot_canvas.hpp"
+#include "apps/plot/plot_style.hpp"
+#include "core/tri_mesh.hpp"
+#include "gis/error.hpp"
+#include "gis/format/grid_names.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/geographic_nodes.hpp"
+#include "gis/grid/grid_lines.hpp"
+#include "gis/grid/local_plane.hpp"
+#include "gis/grid/on_sphere.hpp"
+#include "gis/model/time_step.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr double kRoom = 1.04;          // of the picture's half side over the globe's radius
+constexpr double kStep = 0.035;         // of the radius: longer edges are drawn as several lines
+constexpr double kGraticuleDeg = 15.0;  // between meridians and parallels
+constexpr double kGraticulePx = 0.5, kOutlinePx = 1.4;
+const Color kGraticule = mix(kLand, kShore, 0.22);
+
+// The globe as it is seen: x to the right, y up, z towards the eye.
+class Eye {
+ public:
+  explicit Eye(const LonLat& above)
+      : up_(onSphere(above)),
+        east_(onSphere({above.lon + 90.0, 0.0})),  // at a pole too
+        north_(cross(up_, east_)) {}
+
+  SphereVector see(const SphereVector& v) const { return {dot(v, east_), dot(v, north_), dot(v, up_)}; }
+
+ private:
+  SphereVector up_, east_, north_;
+};
+
+// What a triangle's colour shows, as a share of a ramp, and what the ends of this are.
+struct Shares {
+  std::vector<double> of;  // one a triangle; NaN: unknown
+  Color (*ramp)(double) = rampColor;
+  std::string low, high;
+};
+
+std::string formatted(const char* format, double value) {
+  char text[60];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+class GlobePlot {
+ public:
+  GlobePlot(const Grid& grid, const PlotOptions& options, const std::vector<SphereVector>& places, const LonLat& above,
+            const std::string& path)
+      : grid_(grid),
+        options_(options),
+        places_(places),
+        above_(above),
+        eye_(above),
+        canvas_(path, {-kRoom, -kRoom}, {kRoom, kRoom}, static_cast<double>(options.size_px), kStripPx) {
+    for (const SphereVector& place : places) seen_.push_back(eye_.see(place));
+    mesh_ = linkTriangles(grid.nodes, grid.triangles, conflicts_);
+  }
+
+  void draw() {
+    findColors();
+    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight() + kStripPx, kPaper);
+    canvas_.fillCircle(pixelOf({0.0, 0.0, 1.0}), canvas_.pixelsPerUnit(), kLand);
+    const bool many = grid_.triangles.size() > kMostVectorTriangles;
+    if (many) canvas_.beginPixels();
+    for (TriId t = 0; t < grid_.triangles.size(); ++t) drawTriangle(t);
+    drawGraticule();
+    if (options_.edges) drawEdges();
+    if (many) canvas_.endPixels();
+    drawShore();
+    canvas_.strokeCircle(pixelOf({0.0, 0.0, 1.0}), canvas_.pixelsPerUnit(), kOutlinePx, kShore);
+    drawLegend();
+    canvas_.finish();
+  }
+
+ private:
+  Point pixelOf(const SphereVector& seen) const { return canvas_.toPixel({seen[0], seen[1]}); }
+
+  std::array<double, 3> anglesOf(TriId t) const {
+    const auto& [a, b, c] = grid_.triangles[t];
+    return flatAnglesDeg(places_[a], places_[b], places_[c]);
+  }
+  double smallestAngle(TriId t) const { return std::ranges::min(anglesOf(t)); }
+
+  // Of the flat triangle, with the sphere's radius as the unit.
+  std::array<double, 3> squaresOf(TriId t) const {
+    std::array<double, 3> squares;
+    for (unsigned i = 0; i < 3; ++i) {
+      const SphereVector side = minus(places_[grid_.triangles[t][next3(i)]], places_[grid_.triangles[t][prev3(i)]]);
+      squares[i] = dot(side, side);
+    }
+    return squares;
+  }
+  double areaOf(TriId t) const {
+    const auto& [a, b, c] = grid_.triangles[t];
+    const SphereVector normal = cross(minus(places_[b], places_[a]), minus(places_[c], places_[a]));
+    return std::sqrt(dot(normal, normal)) / 2.0;
+  }
+
+  void takeShares(const std::function<double(TriId)>& value, double low, double high) {
+    for (TriId t = 0; t < grid_.triangles.size(); ++t)
+      shares_.of.push_back((value(t) - low) / std::max(1e-12, high - low));
+  }
+
+  // The least and the largest of the finite values, less the few smallest.
+  static std::pair<double, double> rangeOf(const std::function<double(TriId)>& value, std::size_t count,
+                                           const char* else_text) {
+    std::vector<double> values;
+    for (TriId t = 0; t < count; ++t)
+      if (const double v = value(t); std::isfinite(v)) values.push_back(v);
+    if (values.empty()) throw InputError(else_text);
+    std::ranges::sort(values);
+    return {values[values.size() / 50], values.back()};
+  }
+
+  void findColors() {
+    const std::size_t count = grid_.triangles.size();
+    switch (options_.color) {
+      case PlotColor::Angle:
+        shares_.low = "0\u00b0";
+        shares_.high = "60\u00b0 smallest angle";
+        return takeShares([this](TriId t) { return smallestAngle(t); }, 0.0, 60.0);
+      case PlotColor::Quality:
+        shares_.low = formatted("%g", kLeastQuality);
+        shares_.high = "1 quality";
+        return takeShares(
+            [this](TriId t) {
+              const auto [a, b, c] = squaresOf(t);
+              return 4.0 * std::numbers::sqrt3 * areaOf(t) / (a + b + c);
+            },
+            kLeastQuality, 1.0);
+      case PlotColor::Size: {
+        // The edge of an equilateral triangle of that area, in kilometres.
+        const auto edge = [this](TriId t) {
+          return std::log(std::sqrt(2.309 * areaOf(t)) * grid_.crs.semi_major_m / 1000.0);
+        };
+        const auto [low, high] = rangeOf(edge, count, "the mesh has no triangle with an area");
+        shares_.low = formatted("%.3g km", std::exp(low));
+        shares_.high = formatted("%.3g km edge", std::exp(high));
+        return takeShares(edge, low, high);
+      }
+      case PlotColor::Depth: {
+        if (grid_.z.empty()) throw InputError("the mesh has no depth to colour it by");
+        const auto height = [this](TriId t) {
+          double sum = 0.0;
+          for (const std::uint32_t node : grid_.triangles[t]) sum += grid_.z[node];
+          return sum / 3.0;
+        };
+        const auto [low, high] = rangeOf(height, count, "the mesh has no depth to colour it by");
+        shares_.ramp = depthColor;
+        shares_.low = formatted("%.4g m", low);
+        shares_.high = formatted("%.4g m up", high);
+        return takeShares(height, low, high);
+      }
+      case PlotColor::TimeStep: {
+        const std::vector<double> steps = timeSteps(grid_);
+        const auto step = [&steps](TriId t) { return std::log(steps[t]); };
+        const auto [low, high] =
+            rangeOf(step, steps.size(), "the mesh has no depth below water, so no time step to colour it by");
+        shares_.low = formatted("%.3g s", std::exp(low));
+        shares_.high = formatted("%.3g s by CFL", std::exp(high));
+        return takeShares(step, low, high);
+      }
+      case PlotColor::Region:
+        regions_ = regionNumbers(grid_, regionNames(grid_));
+        return;
+      case PlotColor::Feature:
+      case PlotColor::Piece:
+      case PlotColor::None:
+        return;
+    }
+  }
+
+  Color colorOf(TriId t) const {
+    if (smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg) return kBad;
+    if (!shares_.of.empty()) return std::isfinite(shares_.of[t]) ? shares_.ramp(shares_.of[t]) : kUnknown;
+    const std::uint32_t feature = grid_.feature_of.empty() ? 0 : grid_.feature_of[t];
+    if (options_.color == PlotColor::Feature) return featureColor(feature);
+    if (options_.color == PlotColor::Piece) return featureColor(grid_.piece_of[t]);
+    if (options_.color == PlotColor::Region)
+      return featureColor(regions_.empty() ? 0 : static_cast<std::size_t>(regions_[feature]));
+    return kWater;
+  }
+
+  // Points of a great circle from `a` on to short of `b`.
+  void addArc(const SphereVector& a, const SphereVector& b, std::vector<SphereVector>& line) const {
+    const SphereVector chord = minus(b, a);
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::sqrt(dot(chord, chord)) / kStep)));
+    for (int k = 0; k < steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      line.push_back(k == 0 ? a : unit({a[0] + share * chord[0], a[1] + share * chord[1], a[2] + share * chord[2]}));
+    }
+  }
+
+  // What lies beyond the horizon is drawn onto it.
+  Point atMost(const SphereVector& seen) const {
+    const double reach = std::hypot(seen[0], seen[1]);
+    if (seen[2] >= 0.0 || reach == 0.0) return pixelOf(seen);
+    return pixelOf({seen[0] / reach, seen[1] / reach, 0.0});
+  }
+
+  double longestEdgePx(TriId t) const {
+    double longest = 0.0;
+    for (unsigned i = 0; i < 3; ++i) {
+      const SphereVector &a = seen_[grid_.triangles[t][i]], &b = seen_[grid_.triangles[t][next3(i)]];
+      longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1]));
+    }
+    return longest * canvas_.pixelsPerUnit();
+  }
+
+  Color edgeColor() const { return options_.color == PlotColor::None ? kEdge : kEdgeOnColor; }
+
+  void drawTriangle(TriId t) {
+    const auto& [a, b, c] = grid_.triangles[t];
+    std::vector<SphereVector> outline;
+    addArc(seen_[a], seen_[b], outline);
+    addArc(seen_[b], seen_[c], outline);
+    addArc(seen_[c], seen_[a], outline);
+    if (std::ranges::none_of(outline, [](const SphereVector& p) { return p[2] > 0.0; })) return;
+    Color color = colorOf(t);
+    if (options_.edges && longestEdgePx(t) < kBlurPx) color = mix(color, edgeColor(), kEdgeCover);
+    if (outline.size() == 3) return canvas_.fillTriangle({atMost(seen_[a]), atMost(seen_[b]), atMost(seen_[c])}, color);
+    SphereVector middle{};
+    for (const std::uint32_t node : {a, b, c})
+      for (std::size_t k = 0; k < 3; ++k) middle[k] += seen_[node][k];
+    const Point centre = atMost(unit(middle));
+    for (std::size_t i = 0; i < outline.size(); ++i)
+      canvas_.fillTriangle({centre, atMost(outline[i]), atMost(outline[(i + 1) % outline.size()])}, color);
+  }
+
+  using Lines = std::vector<std::array<Point, 2>>;
+
+  // What of a line of short steps lies this side of the horizon.
+  void addSeen(const std::vector<SphereVector>& line, Lines& lines) const {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      SphereVector p = line[i], q = line[i + 1];
+      if (p[2] < 0.0 && q[2] < 0.0) continue;
+      if (p[2] < 0.0) std::swap(p, q);
+      if (q[2] < 0.0) {
+        const double share = p[2] / (p[2] - q[2]);
+        q = unit({p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), 0.0});
+      }
+      lines.push_back({pixelOf(p), pixelOf(q)});
+    }
+  }
+
+  void addEdge(std::uint32_t a, std::uint32_t b, Lines& lines) const {
+    std::vector<SphereVector> line;
+    addArc(seen_[a], seen_[b], line);
+    line.push_back(seen_[b]);
+    addSeen(line, lines);
+  }
+
+  // How much of a line's width is drawn: towards the horizon all lies closer together.
+  double shareAslant(std::uint32_t a, std::uint32_t b) const {
+    constexpr double kLeast = 0.2;
+    return std::clamp((seen_[a][2] + seen_[b][2]) / 2.0, 0.0, 1.0) * (1.0 - kLeast) + kLeast;
+  }
+
+  void drawGraticule() {
+    Lines lines;
+    constexpr double kFine = 2.0, kLast = 90.0 - kGraticuleDeg;
+    for (double lon = -180.0; lon < 180.0; lon += kGraticuleDeg) {
+      std::vector<SphereVector> line;
+      for (double lat = -kLast; lat <= kLast; lat += kFine / 2) line.push_back(eye_.see(onSphere({lon, lat})));
+      addSeen(line, lines);
+    }
+    for (double lat = -kLast; lat <= kLast; lat += kGraticuleDeg) {
+      std::vector<SphereVector> line;
+      for (double lon = -180.0; lon <= 180.0; lon += kFine) line.push_back(eye_.see(onSphere({lon, lat})));
+      addSeen(line, lines);
+    }
+    canvas_.strokeLines(lines, kGraticulePx, kGraticule);
+  }
+
+  // Lines get thinner with the triangles, so that dense places, and those seen aslant, keep the tint of the others.
+  void drawEdges() {
+    std::map<int, Lines> by_width;  // in quarter octaves below the widest
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      if (longestEdgePx(t) < kBlurPx) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
+        if (twin == kNone || (twin < e && longestEdgePx(triOf(twin)) >= kBlurPx)) continue;
+        const std::uint32_t a = mesh_.origin(e), b = mesh_.target(e);
+        const Point p = pixelOf(seen_[a]), q = pixelOf(seen_[b]);
+        const double width = std::min(kWidestEdgePx, kEdgeShare * std::hypot(q.x - p.x, q.y - p.y)) * shareAslant(a, b);
+        addEdge(a, b, by_width[static_cast<int>(std::floor(4.0 * std::log2(kWidestEdgePx / std::max(width, 1e-3))))]);
+      }
+    }
+    for (const auto& [level, lines] : by_width)
+      canvas_.strokeLines(lines, kWidestEdgePx * std::exp2(-level / 4.0), edgeColor());
+  }
+
+  void drawShore() {
+    std::map<int, Lines> by_width;  // in eighths of the widest
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (mesh_.triangles[t].adj[i] != kNone) continue;
+        const std::uint32_t a = mesh_.origin(edgeRef(t, i)), b = mesh_.target(edgeRef(t, i));
+        addEdge(a, b, by_width[static_cast<int>(std::ceil(8.0 * shareAslant(a, b)))]);
+      }
+    }
+    for (const auto& [level, shore] : by_width) canvas_.strokeLines(shore, kShorePx * level / 8.0, kShore);
+    Lines open, lines;
+    for (const Boundary& boundary : grid_.boundaries)
+      if (boundary.role == BoundaryRole::Open)
+        for (const auto& [a, b] : edgesOf(boundary)) addEdge(a, b, open);
+    for (const GridLine& line : grid_.lines)
+      for (const auto& [a, b] : edgesOf(line)) addEdge(a, b, lines);
+    canvas_.strokeLines(lines, kShorePx, kShore);
+    canvas_.strokeLines(open, kRolePx, kOpen);
+  }
+
+  void drawLegend() {
+    const std::string east = formatted("%.4g\u00b0 ", std::abs(above_.lon)) + (above_.lon < 0.0 ? "W" : "E");
+    const std::string north = formatted("%.4g\u00b0 ", std::abs(above_.lat)) + (above_.lat < 0.0 ? "S" : "N");
+    canvas_.text({12.0, canvas_.mapHeight() + 24.0}, "seen from above " + east + ", " + north, 13.0, kInk);
+    if (!shares_.of.empty()) drawRamp(canvas_, shares_.ramp, shares_.low, shares_.high);
+  }
+
+  const Grid& grid_;
+  const PlotOptions& options_;
+  const std::vector<SphereVector>& places_;  // one a node
+  const LonLat above_;
+  const Eye eye_;
+  PlotCanvas canvas_;
+  std::vector<SphereVector> seen_;  // one a node
+  TriMesh mesh_;
+  std::vector<EdgeConflict> conflicts_;
+  Shares shares_;
+  std::vector<int> regions_;  // one a feature
+};
+
+// Above the middle of the triangles; where they go all round, above the prime meridian.
+LonLat middleOf(const Grid& grid, const std::vector<SphereVector>& places) {
+  SphereVector sum{};
+  for (const auto& [a, b, c] : grid.triangles) {
+    const SphereVector normal = cross(minus(places[b], places[a]), minus(places[c], places[a]));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += normal[k];
+  }
+  constexpr double kAllRound = 0.05;  // of the sphere's radius, squared: of the flat triangles' areas, added as vectors
+  if (std::sqrt(dot(sum, sum)) < kAllRound) return {0.0, 20.0};
+  const LonLat middle = placeOf(sum);
+  return {std::round(middle.lon), std::round(middle.lat)};
+}
+
+}  // namespace
+
+std::optional<GlobeView> globeViewNamed(const std::string& text) {
+  if (text == "plane") return std::nullopt;
+  constexpr std::string_view kName = "orthographic";
+  if (text == kName) return GlobeView{};
+  const auto fail = [&]() -> std::optional<GlobeView> {
+    throw OptionError("--view: '" + text + "' is neither plane nor orthographic nor orthographic=LON,LAT in degrees");
+  };
+  if (!text.starts_with(kName) || text[kName.size()] != '=') return fail();
+  const char* const end = text.data() + text.size();
+  LonLat above;
+  const auto lon = std::from_chars(text.data() + kName.size() + 1, end, above.lon);
+  if (lon.ec != std::errc() || lon.ptr == end || *lon.ptr != ',') return fail();
+  const auto lat = std::from_chars(lon.ptr + 1, end, above.lat);
+  if (lat.ec != std::errc() || lat.ptr != end) return fail();
+  if (!(std::abs(above.lon) <= 360.0) || !(std::abs(above.lat) <= 90.0)) return fail();
+  return GlobeView{above};
+}
+
+void plotGlobe(const Grid& grid, const PlotOptions& options, const GlobeView& view, const std::string& path) {
+  requirePlotFormat(path);
+  if (grid.crs.isPlane()) throw InputError("the mesh lies in a plane, and has no place on a globe; say its CRS");
+  requireColors(grid, options);
+  std::vector<SphereVector> places;
+  for (const Point& place : geographicNodes(grid)) places.push_back(onSphere(asLonLat(place)));
+  GlobePlot(grid, options, places, view.above ? *view.above : middleOf(grid, places), path).draw();
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/plot/plot_mesh.hpp"
+#include "gis/crs/lon_lat.hpp"
+#include "gis/grid/grid.hpp"
+
+namespace coastmesh {
+
+// Where the globe is looked at from: above `above`, from far off; none: above the middle of the mesh.
+struct GlobeView {
+  std::optional<LonLat> above;
+};
+
+// Reads "orthographic" or "orthographic=LON,LAT"; none for "plane". Throws OptionError for all else.
+std::optional<GlobeView> globeViewNamed(const std::string& text);
+
+// Draws the grid on a globe, its edges great circles, latitudes taken for those of a sphere; what lies beyond the
+// horizon is not seen. Of the options all but the box and the dots on nodes mean the same as for `plotMesh`; angles
+// and quality are those of flat triangles through the corners. Throws as that does, and InputError for a mesh in a
+// plane.
+void plotGlobe(const Grid& grid, const PlotOptions& options, const GlobeView& view, const std::string& path);
+
+}  // namespace coastmesh

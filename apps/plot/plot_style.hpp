@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "apps/plot/plot_canvas.hpp"
+
+namespace coastmesh {
+
+// What all pictures of meshes have alike.
+
+inline constexpr Color kLand{0.955, 0.950, 0.935};
+inline constexpr Color kWater{0.865, 0.925, 0.965};
+inline constexpr Color kEdge{0.32, 0.52, 0.68};
+inline constexpr Color kEdgeOnColor{0.16, 0.27, 0.36};
+inline constexpr Color kShore{0.10, 0.20, 0.32};
+inline constexpr Color kBad{0.88, 0.10, 0.10};
+inline constexpr Color kPaper{1.0, 1.0, 1.0};
+inline constexpr Color kInk{0.15, 0.15, 0.15};
+inline constexpr Color kOpen{0.84, 0.15, 0.56};
+inline constexpr Color kIsland{0.65, 0.45, 0.04};
+inline constexpr Color kUnknown{0.80, 0.80, 0.80};
+
+inline constexpr double kStripPx = 44.0;     // below the map: scale bar and legend
+inline constexpr double kRolePx = 2.2;       // of open boundaries
+inline constexpr double kEdgeShare = 0.075;  // an edge's width over its length, up to the widest
+inline constexpr double kWidestEdgePx = 0.8;
+inline constexpr double kShorePx = 1.1;
+inline constexpr double kBlurPx = 3.0;  // triangles smaller than this show as a tint, not as lines
+// Lines of kEdgeShare of the length of an equilateral triangle's edges cover this share of it.
+inline constexpr double kEdgeCover = 3.46 * kEdgeShare;
+inline constexpr std::size_t kMostVectorTriangles = 100'000;  // in an .svg; more come as an image in it
+
+inline constexpr double kLeastQuality = 0.6;  // at the bad end of the colours
+
+// From bad to good: red, sand, pale green, blue. Shares from 0 to 1.
+Color rampColor(double share);
+// From deep to shallow: dark blue, blue, pale green, sand.
+Color depthColor(double share);
+// Colours far apart for neighbours in number: hues turned by the golden section.
+Color featureColor(std::size_t feature);
+
+// A scale of colours in the strip below the map, at its right, with what its ends mean; where there is room for it.
+void drawRamp(PlotCanvas& canvas, Color (*color_at)(double), const std::string& low, const std::string& high);
+
+}  // namespace coastmesh
