@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${next_python}), python3-numpy, proj-data")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "qgis (>= 3.22), libgdal-dev, libgeographiclib-dev, libnetcdf-dev, libtbb-dev, libcgal-dev")
+  "qgis (>= 3.22), libgdal-dev, libgeographiclib-dev, libnetcdf-dev, libscotch-dev, libtbb-dev, libcgal-dev")
 # Modules are compiled where they are installed, and their compiled twins go with them.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)

@@ -14,6 +14,7 @@ struct Run {
   Interrupt& interrupt;
   std::vector<std::string> inputs;    // all files that the run reads
   std::vector<std::string> warnings;  // printed already; for the report
+  const OptionTable& options;         // all that was given
 
   void warn(const std::string& text);  // prints a line on standard error, and notes it
 };
@@ -31,5 +32,7 @@ Command declareInfo(CLI::App& root);
 Command declarePlot(CLI::App& root);
 Command declareConvert(CLI::App& root);
 Command declareClean(CLI::App& root);
+Command declarePartition(CLI::App& root);
+Command declareGather(CLI::App& root);
 
 }  // namespace coastmesh

@@ -29,11 +29,7 @@ int runConvert(const ConvertUsage& usage, Run& run) {
   RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
   outputs.addGrids(usage.outputs, usage.format);
   Grid grid = readMeshFile(usage.mesh, run);
-  if (grid.boundaries.empty()) {
-    // The file says none: the boundary of the mesh does.
-    std::vector<EdgeConflict> conflicts;
-    grid.boundaries = findBoundaries(toTriMesh(grid, Projection::plane(), conflicts));
-  }
+  findMissingBoundaries(grid);
   const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
   const FinishReport report = finishGrid(grid, usage.finish, control);
   for (const std::string& warning : report.warnings()) run.warn(warning);

@@ -7,6 +7,7 @@
 #include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
+#include "apps/plot/plot_globe.hpp"
 #include "apps/plot/plot_mesh.hpp"
 
 namespace coastmesh {
@@ -17,6 +18,7 @@ struct PlotUsage {
   MeshFile mesh;
   std::string output;
   std::string color = "none";
+  std::string view = "plane";
   PlotOptions plot;
   bool overwrite = false;
 };
@@ -32,12 +34,18 @@ std::string storeBox(const std::vector<double>& sides, PlotOptions& plot) {
 
 int runPlot(PlotUsage& usage, Run& run) {
   usage.plot.color = plotColorNamed(usage.color);
+  const std::optional<GlobeView> globe = globeViewNamed(usage.view);
   requirePlotFormat(usage.output);
   RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
   StagedFiles& picture = outputs.addFile(usage.output);
   const Grid grid = readMeshFile(usage.mesh, run);
   run.interrupt.check();
-  picture.make([&](const std::string& path) { plotMesh(grid, usage.plot, path); });
+  picture.make([&](const std::string& path) {
+    if (globe)
+      plotGlobe(grid, usage.plot, *globe, path);
+    else
+      plotMesh(grid, usage.plot, path);
+  });
   outputs.commit();
   return kExitDone;
 }
@@ -55,6 +63,11 @@ Command declarePlot(CLI::App& root) {
       "--bbox", "W,S,E,N", false,
       [&plot = usage->plot](const std::vector<double>& sides) { return storeBox(sides, plot); },
       "what to show, in the mesh's CRS; all of it by default");
+  table.text("--view", usage->view, "VIEW",
+             "plane: a conformal one fitted to the mesh; orthographic=LON,LAT: a globe seen from above that place, or "
+             "without it from above the middle of the mesh");
+  const auto on_plane = [usage = usage.get()] { return usage->view == "plane"; };
+  table.option("--bbox").needs(on_plane, "with --view orthographic");
   table.choice(
       "--color", usage->color, plotColorNames(),
       "what the triangles' colour shows; quality is 4 sqrt(3) area / sum of squared edges, 1 for equilateral ones");
@@ -63,12 +76,14 @@ Command declarePlot(CLI::App& root) {
       "--degrees", usage->plot.degrees,
       "draw a dot on each node inside the mesh that has not six neighbours: green for 5, orange for 7, purple for "
       "other numbers");
+  table.option("--degrees").needs(on_plane, "with --view orthographic");
   table.number("--min-angle", usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
                "show triangles with a smaller angle in red");
   table.flag("--overwrite", usage->overwrite, "replace a file that exists");
   table.example("coastmesh plot lake.nc -o lake.png --color angle", "a picture coloured by the smallest angle");
   table.example("coastmesh plot lake.nc -o shapes.png --color quality --degrees", "how regular it is");
   table.example("coastmesh plot lake.nc -o bay.svg --bbox=-90.5,46.5,-90,47", "a part of it, as a vector drawing");
+  table.example("coastmesh plot lake.nc -o globe.png --view orthographic=-60,30", "where on the globe it lies");
   return {{root, std::move(table)}, [usage](Run& run) { return runPlot(*usage, run); }};
 }
 

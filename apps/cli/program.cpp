@@ -28,7 +28,8 @@ std::string wholeUsage(const std::vector<Command>& commands) {
                                 {"endings", format.endings},
                                 {"description", format.description},
                                 {"readable", format.readable},
-                                {"writable", format.writable}});
+                                {"writable", format.writable},
+                                {"beside_grid", format.beside_grid}});
   }
   for (const Command& command : commands) usage["commands"].push_back(Json::parse(command.line.options().jsonUsage()));
   return usage.dump(2) + "\n";
@@ -47,7 +48,7 @@ std::string welcome(const std::vector<Command>& commands) {
   for (const Command& command : commands) {
     const Json usage = Json::parse(command.line.options().jsonUsage());
     const std::string name = usage["command"];
-    text += "  " + name + std::string(10 - std::min<std::size_t>(9, name.size()), ' ') +
+    text += "  " + name + std::string(11 - std::min<std::size_t>(10, name.size()), ' ') +
             usage["help"].get<std::string>() + "\n";
   }
   return text + "\ncoastmesh COMMAND --help shows the options of a command, with examples; man coastmesh has it all.\n";
@@ -82,7 +83,8 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
          "print usage for other programs: bash, zsh, fish (completion), man, man:COMMAND, markdown")
       ->type_name("FORM")
       ->trigger_on_parse();
-  for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareClean}) {
+  for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareClean,
+                             declarePartition, declareGather}) {
     commands.push_back(declare(app));
   }
   if (argc < 2) {
@@ -117,7 +119,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     if (!command.line.chosen()) continue;
     command.line.complete(names, former_names);
     requireOutputsApart(command.line.options());
-    Run run{interrupt, {}, {}};
+    Run run{interrupt, {}, {}, command.line.options()};
     for (const auto& [option, path] : command.line.options().inputs()) run.inputs.push_back(path);
     for (const std::string& sentence : former_names) run.warn(sentence);
     for (const std::string& sentence : command.line.options().withoutEffect()) run.warn(sentence);

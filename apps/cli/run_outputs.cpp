@@ -133,10 +133,12 @@ class Claims {
 
 }  // namespace
 
-void requireOutputsApart(const OptionTable& table) {
+void requireOutputsApart(const OptionTable& table, const std::vector<OptionTable::NamedFile>& besides) {
   const std::vector<OptionTable::NamedOutput> outputs = table.outputs();
   if (outputs.empty()) return;
-  const Inputs inputs(table.inputs());
+  std::vector<OptionTable::NamedFile> read = table.inputs();
+  read.insert(read.end(), besides.begin(), besides.end());
+  const Inputs inputs(read);
   Claims claims;
   for (const OptionTable::NamedOutput& output : outputs) {
     for (const std::string& file : output.files.targets) inputs.requireApart(output, file, true);

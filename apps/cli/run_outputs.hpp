@@ -15,8 +15,8 @@ namespace coastmesh {
 
 // Throws OptionError where outputs of the run that `line` asks for share a file, or one would replace what the run
 // reads: any file that an option or an argument names, those that belong to it, and those that it takes its data from.
-// To be called before anything is read or written.
-void requireOutputsApart(const OptionTable& table);
+// To be called before anything is read or written. `besides`: what the run reads that `table` does not name.
+void requireOutputsApart(const OptionTable& table, const std::vector<OptionTable::NamedFile>& besides = {});
 
 // All outputs of a run: none comes into place before all are written, and then all do or none.
 class RunOutputs {

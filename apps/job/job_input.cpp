@@ -1,6 +1,7 @@
 #include "apps/job/job_input.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 
 #include "apps/job/places.hpp"
@@ -144,6 +145,33 @@ std::size_t JobInput::pointsOf(std::size_t group) const {
   std::size_t count = 0;
   for (std::size_t member : groups_[group]) count += countPoints(coastline_.features[member]);
   return count;
+}
+
+std::uint64_t JobInput::digest() const {
+  std::uint64_t digest = 0;
+  const auto mix = [&digest](std::uint64_t value) { digest = std::rotl((digest ^ value) * 0x9E3779B97F4A7C15ull, 31); };
+  const auto mixChain = [&mix](const std::vector<Point>& chain) {
+    mix(chain.size());
+    for (const Point& p : chain) {
+      mix(std::bit_cast<std::uint64_t>(p.x));
+      mix(std::bit_cast<std::uint64_t>(p.y));
+    }
+  };
+  for (const auto& group : groups_) {
+    mix(group.size());
+    for (const std::size_t member : group) {
+      const Feature& feature = coastline_.features[member];
+      mix(member);
+      mix(static_cast<std::uint64_t>(feature.fid));
+      for (const Polygon& polygon : feature.polygons) {
+        mixChain(polygon.outer);
+        for (const Ring& hole : polygon.holes) mixChain(hole);
+      }
+      for (const auto& line : feature.lines) mixChain(line);
+    }
+  }
+  if (poly_) mixChain(poly_->points);
+  return digest;
 }
 
 Projection JobInput::projectionOf(std::size_t group) const {

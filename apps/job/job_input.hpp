@@ -43,6 +43,10 @@ class JobInput {
   std::size_t groups() const { return groups_.size(); }
   const std::vector<std::size_t>& members(std::size_t group) const { return groups_[group]; }
   std::size_t pointsOf(std::size_t group) const;
+  // The same for the same features in the same groups, on any machine of a kind.
+  std::uint64_t digest() const;
+  // The working plane of a group; not of a .poly.
+  Projection projectionOf(std::size_t group) const;
 
   // Projects and cleans a group. Throws InputError where nothing of it can be meshed. May be called from several
   // threads at once. Throws NothingWanted for one that lies outside of the frame or apart from the water asked for.
@@ -55,7 +59,6 @@ class JobInput {
  private:
   void readPolyFile(const std::string& path);
   void takePlaneGraph(Pslg pslg, const std::string& source);
-  Projection projectionOf(std::size_t group) const;
 
   InputOptions options_;
   Coastline coastline_;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/job/available_memory.hpp"
+#include "apps/job/deal_groups.hpp"
 #include "apps/job/grid_pieces.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/stopwatch.hpp"
@@ -125,8 +126,9 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
 // Puts the groups' results together in the groups' order, each as soon as those before it are there.
 class OrderedMerge {
  public:
-  OrderedMerge(const JobInput& input, MeshJobResult& result)
-      : input_(input), result_(result), waiting_(input.groups()) {}
+  // Groups that are not `expected` are passed over.
+  OrderedMerge(const JobInput& input, const std::vector<bool>& expected, MeshJobResult& result)
+      : input_(input), expected_(expected), result_(result), waiting_(input.groups()) {}
 
   const std::vector<GroupPlane>& planes() const { return planes_; }
 
@@ -134,7 +136,8 @@ class OrderedMerge {
     const std::lock_guard lock(mutex_);
     waiting_[group] = std::make_unique<GroupResult>(std::move(part));
     const double before = threadSeconds();
-    for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
+    for (; next_ < waiting_.size() && (waiting_[next_] || !expected_[next_]); ++next_) {
+      if (!waiting_[next_]) continue;
       GroupResult& next = *waiting_[next_];
       if (next.plane)
         planes_.push_back({std::move(*next.plane), static_cast<std::uint32_t>(result_.grid.features.size())});
@@ -153,6 +156,7 @@ class OrderedMerge {
 
  private:
   const JobInput& input_;
+  const std::vector<bool>& expected_;
   MeshJobResult& result_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<GroupResult>> waiting_;
@@ -217,15 +221,31 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   std::vector<std::size_t> points(input.groups());
   for (std::size_t g = 0; g < points.size(); ++g) points[g] = input.pointsOf(g);
   const std::size_t all_points = std::accumulate(points.begin(), points.end(), std::size_t{0});
-  const std::vector<std::size_t> order = workOrder(points);
-  GroupProgress progress(points, control);
-  OrderedMerge merge(input, result);
+  const GroupExchange& exchange = job.exchange;
+  if (exchange.begin) exchange.begin(input.digest(), input.groups());
+  std::vector<std::size_t> order = workOrder(points);
+  std::vector<bool> expected(input.groups(), true);
+  if (exchange.shards > 1) {
+    const std::vector<std::uint32_t> shard_of = dealGroups(points, exchange.shards);
+    for (std::size_t g = 0; g < expected.size(); ++g) expected[g] = shard_of[g] == exchange.shard;
+    std::erase_if(order, [&expected](std::size_t g) { return !expected[g]; });
+  }
+  std::vector<std::size_t> weights = points;
+  for (std::size_t g = 0; g < weights.size(); ++g)
+    if (!expected[g]) weights[g] = 0;
+  GroupProgress progress(weights, control);
+  OrderedMerge merge(input, expected, result);
+  const bool mends = !job.finish.targets.empty() || job.sizes.time_step_s > 0.0;
   const double memory = availableMemory();
   forEachItem(order.size(), RunControl{control.cancelled, {}}, [&](std::size_t i) {
     const std::size_t g = order[i];
     const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
-    merge.add(g, meshGroup(job, input, sizes, g, {budget, memory}, inner));
+    GroupResult part = exchange.take ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, memory}, inner);
+    if (exchange.keep) exchange.keep(g, part);
+    // Planes are looked at again after repairs only.
+    if (exchange.take && part.plane && mends && !input.isPoly()) part.plane->projection = input.projectionOf(g);
+    merge.add(g, std::move(part));
     progress.report(g, 1.0);
   });
   merge.finish();

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "apps/job/finish_grid.hpp"
+#include "apps/job/group_exchange.hpp"
 #include "apps/job/job_input.hpp"
 #include "gis/size/size_source.hpp"
 #include "parallel/mesh_regions.hpp"
@@ -18,6 +19,7 @@ struct MeshJob {
   SizeOptions sizes;  // where nothing but `most_m` is asked for, no edge is longer than that
   ParallelOptions parallel;
   FinishOptions finish;
+  GroupExchange exchange;
   bool keep_edits = false;  // where what was changed lies, besides how often
 };
 

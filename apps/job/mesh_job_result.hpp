@@ -17,6 +17,7 @@
 #include "gis/clean/clean_report.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/read/read_report.hpp"
+#include "gis/solver/partition_grid.hpp"
 #include "parallel/work_log.hpp"
 
 namespace coastmesh {
@@ -91,6 +92,7 @@ struct MeshJobResult {
   PhaseSeconds seconds;
   FinishReport finish;                       // depths, boundaries and repairs
   StepOutcome step;                          // of the finished grid
+  PartitionReport partition;                 // for a solver, where one is asked for
   std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
 
   bool complete() const {

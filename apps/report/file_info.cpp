@@ -53,8 +53,11 @@ class ExtremeEdges {
  private:
   double compare(const Point& a, const Point& b) const {
     if (!crs_.geographic) return std::hypot(b.x - a.x, b.y - a.y);
-    const double latitude = (a.y + b.y) / 2 * std::numbers::pi / 180.0;
-    return std::hypot(std::remainder(b.x - a.x, 360.0) * std::cos(latitude), b.y - a.y);
+    // Half the chord: at the poles longitudes say nothing.
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    const double across = std::sin(std::remainder(b.x - a.x, 360.0) / 2 * kDegree);
+    const double along = std::sin((b.y - a.y) / 2 * kDegree);
+    return std::sqrt(along * along + std::cos(a.y * kDegree) * std::cos(b.y * kDegree) * across * across);
   }
 
   double measure(const std::vector<Point>& edge) const { return edge.empty() ? 0.0 : chainLengths({edge}, crs_)[0]; }

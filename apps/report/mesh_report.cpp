@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "apps/report/partition_report.hpp"
 #include "apps/report/report_sections.hpp"
 #include "gis/grid/grid_lines.hpp"
 
@@ -173,6 +174,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"step", outcomeJson(result.step, job.sizes)},
                     {"lines", lineSection(result.grid)},
                     {"repairs", Json::parse(repairSection(result.finish))},
+                    {"partition", partitionSection(result.partition)},
                     {"output_warnings", result.output_warnings},
                     {"time_s", timeSection(result.seconds)},
                     {"parallel", parallelSection(result.log)},
@@ -207,6 +209,7 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     text += grouped(static_cast<std::uint64_t>(rings)) +
             " open boundaries are rings, which fort.14 and hgrid.gr3 hold as two that share their ends\n";
   text += finishSummary(job.finish, result.finish);
+  text += partitionText(result.partition);
   if (result.refine.budget_reached) text += "the vertex budget was reached before all angles were good\n";
   return text;
 }

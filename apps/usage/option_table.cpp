@@ -140,8 +140,9 @@ struct OptionTable::Impl {
     return added;
   }
 
-  Declared& addArgument(const std::string& argument, const std::string& help_text) {
-    Declared& added = add(argument, OptionKind::File, "FILE", help_text);
+  Declared& addArgument(const std::string& argument, const std::string& help_text, OptionKind kind = OptionKind::File,
+                        const std::string& range = {}) {
+    Declared& added = add(argument, kind, kind == OptionKind::File ? "FILE" : "", help_text, range);
     added.entry.argument = true;
     added.entry.required = true;
     added.initial = std::string{};
@@ -171,7 +172,7 @@ struct OptionTable::Impl {
         options.push_back(one->json);
       else
         arguments.push_back({{"name", one->entry.name},
-                             {"type", "file"},
+                             {"type", typeName(one->entry.kind)},
                              {"multiple", one->entry.multiple},
                              {"help", one->json["help"]}});
     }
@@ -260,20 +261,38 @@ OptionTable::Option OptionTable::number(const std::string& names, double& value,
   return {*this, added.entry.name};
 }
 
+namespace {
+
+std::string wholeRange(std::uint64_t low, std::uint64_t high) {
+  constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+  return std::to_string(low) + (high == kNoLimit ? " or more" : " to " + std::to_string(high));
+}
+
+auto storeInteger(std::uint64_t& value, std::uint64_t low, std::uint64_t high) {
+  return [&value, low, high](const OptionValue& asked) -> std::string {
+    // What is no whole number comes as the text that it is.
+    const std::uint64_t* const number = std::get_if<std::uint64_t>(&asked);
+    if (number == nullptr || *number < low || *number > high)
+      return "is not a whole number in the range " + wholeRange(low, high);
+    value = *number;
+    return {};
+  };
+}
+
+}  // namespace
+
+void OptionTable::integerArgument(const std::string& name, std::uint64_t& value, std::uint64_t low, std::uint64_t high,
+                                  const std::string& help) {
+  impl_->addArgument(name, help, OptionKind::Integer, wholeRange(low, high)).store = storeInteger(value, low, high);
+}
+
 OptionTable::Option OptionTable::integer(const std::string& names, std::uint64_t& value, const std::string& unit,
                                          std::uint64_t low, std::uint64_t high, const std::string& help) {
   constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
   const bool has_default = value != kNoLimit;
-  const std::string wanted = std::to_string(low) + (high == kNoLimit ? " or more" : " to " + std::to_string(high));
-  Impl::Declared& added = impl_->add(names, OptionKind::Integer, unit, help, wanted);
+  Impl::Declared& added = impl_->add(names, OptionKind::Integer, unit, help, wholeRange(low, high));
   added.initial = value;
-  added.store = [&value, low, high, wanted](const OptionValue& asked) -> std::string {
-    // What is no whole number comes as the text that it is.
-    const std::uint64_t* const number = std::get_if<std::uint64_t>(&asked);
-    if (number == nullptr || *number < low || *number > high) return "is not a whole number in the range " + wanted;
-    value = *number;
-    return {};
-  };
+  added.store = storeInteger(value, low, high);
   added.entry.shown_default = has_default ? std::to_string(value) : "none";
   added.json["default"] = has_default ? Json(value) : Json(nullptr);
   added.json["minimum"] = low;

@@ -61,6 +61,9 @@ class OptionTable {
   // Arguments known by their place. Names are as the help shows them: "INPUT".
   void argument(const std::string& name, std::string& value, const std::string& help);
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
+  // One that is a whole number, and no file.
+  void integerArgument(const std::string& name, std::uint64_t& value, std::uint64_t low, std::uint64_t high,
+                       const std::string& help);
 
   // Options. Names are as a user of the program types them: "-o,--output". `unit` is what the value is counted in
   // ("DEG", "M"), or what it is ("FILE"). Numbers must be within their range and `isComputable`; an infinite default,

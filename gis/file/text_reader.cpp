@@ -14,8 +14,6 @@
 namespace coastmesh {
 namespace {
 
-constexpr std::string_view kBetweenWords = " \t\r,";
-
 std::string readWhole(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              [](std::FILE* f) { return f ? std::fclose(f) : 0; });
@@ -30,8 +28,8 @@ std::string readWhole(const std::string& path) {
 
 }  // namespace
 
-TextReader::TextReader(std::string path, char comment)
-    : path_(std::move(path)), comment_(comment), text_(readWhole(path_)) {}
+TextReader::TextReader(std::string path, char comment, std::string_view between)
+    : path_(std::move(path)), comment_(comment), between_(between), text_(readWhole(path_)) {}
 
 bool TextReader::nextLine() {
   while (next_ < text_.size()) {
@@ -54,13 +52,13 @@ void TextReader::needLine() {
 }
 
 bool TextReader::hasWord() {
-  at_ = std::min(line_.find_first_not_of(kBetweenWords, at_), line_.size());
+  at_ = std::min(line_.find_first_not_of(between_, at_), line_.size());
   return at_ < line_.size();
 }
 
 std::string_view TextReader::word() {
   if (!hasWord()) return {};
-  const std::size_t end = std::min(line_.find_first_of(kBetweenWords, at_), line_.size());
+  const std::size_t end = std::min(line_.find_first_of(between_, at_), line_.size());
   const std::string_view found = line_.substr(at_, end - at_);
   at_ = end;
   return found;

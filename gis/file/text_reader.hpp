@@ -8,12 +8,12 @@
 
 namespace coastmesh {
 
-// A text file, line by line and word by word; words are set apart by blanks, tabs and commas. What does not fit throws
-// InputError with the file and the line.
+// A text file, line by line and word by word; words are set apart by blanks, tabs and commas, or by what is in
+// `between`. What does not fit throws InputError with the file and the line.
 class TextReader {
  public:
   // `comment`: from there on a line is ignored; '\0' for none.
-  explicit TextReader(std::string path, char comment = '\0');
+  explicit TextReader(std::string path, char comment = '\0', std::string_view between = " \t\r,");
 
   bool nextLine();  // goes to the next line that is not blank; false at the end of the file
   void needLine();  // the same, for a line that has to be there
@@ -32,6 +32,7 @@ class TextReader {
  private:
   std::string path_;
   char comment_;
+  std::string_view between_;
   std::string text_;
   std::size_t next_ = 0;  // where the next line starts
   std::size_t line_number_ = 0;

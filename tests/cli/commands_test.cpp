@@ -45,7 +45,7 @@ TEST_F(Commands, EveryOptionOfTheJsonUsageIsInTheHelp) {
       for (const std::string name : option["names"]) EXPECT_NE(help.output.find(name), std::string::npos) << name;
     }
   }
-  EXPECT_EQ(verbs, (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "clean"}));
+  EXPECT_EQ(verbs, (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "clean", "partition", "gather"}));
 }
 
 TEST_F(Commands, UsageTellsDefaultAndRange) {

@@ -35,6 +35,25 @@ def blocks(path):
         yield language, words, found.group("text")
 
 
+# Schedulers that are seldom installed, as far as the pages go: sbatch runs the tasks of the array that the script asks for,
+# parallel a command for each word behind ":::".
+SBATCH = """#!/bin/bash
+set -u
+script=${!#}
+[[ $(sed -n 's/^#SBATCH .*--array=\\([0-9]*\\)-\\([0-9]*\\).*/\\1 \\2/p' "$script") =~ ^([0-9]+)\\ ([0-9]+)$ ]] || exit 2
+first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}
+cpus=$(sed -n 's/^#SBATCH .*--cpus-per-task=\\([0-9]*\\).*/\\1/p' "$script")
+for ((task = first; task <= last; ++task)); do
+  SLURM_ARRAY_TASK_ID=$task SLURM_ARRAY_TASK_COUNT=$((last - first + 1)) SLURM_CPUS_PER_TASK=$cpus bash "$script" || exit
+done
+"""
+PARALLEL = """#!/bin/bash
+command=()
+while (($# > 0)) && [[ $1 != ::: ]]; do command+=("$1"); shift; done
+for word in "${@:2}"; do "${command[@]//\\{\\}/$word}" || exit; done
+"""
+
+
 class Folder:
     """Where a page's commands are run: with data/, and with the files that examples speak of."""
 
@@ -45,6 +64,10 @@ class Folder:
         bin_folder = os.path.join(self.path, ".bin")
         os.mkdir(bin_folder)
         os.symlink(PROGRAM, os.path.join(bin_folder, "coastmesh"))
+        for name, text in (("sbatch", SBATCH), ("parallel", PARALLEL)):
+            with open(os.path.join(bin_folder, name), "w", encoding="utf-8") as stub:
+                stub.write(text)
+            os.chmod(stub.name, 0o755)
         self.environment = {
             **os.environ,
             "PATH": bin_folder + os.pathsep + os.environ["PATH"],
@@ -66,7 +89,9 @@ class Folder:
             # Depths over all of the lake.
             self.run("gdal_create -q -of GTiff -ot Float32 -outsize 20 20 -a_srs EPSG:4326 -a_ullr -93 50 -83 45 -burn -50 dem.tif")
             self.run("coastmesh clean lake.geojson -o lakes.gpkg && coastmesh mesh lake.geojson -o grid.2dm "
-                     "&& coastmesh mesh lake.geojson --target adcirc -o fort.14")
+                     "&& coastmesh mesh lake.geojson --target adcirc -o fort.14 "
+                     "&& coastmesh mesh lake.geojson --target schism -o hgrid.gr3")
+            self.run("for k in 1 2 3 4 5 6 7; do coastmesh mesh lakes.gpkg --shard $k/7 -o lakes-$k.shard; done")
 
     def run(self, script, interpreter=("bash", "-euo", "pipefail", "-c")):
         run = subprocess.run([*interpreter, script], cwd=self.path, env=self.environment, capture_output=True, text=True,
@@ -122,6 +147,14 @@ class GuideTest(unittest.TestCase):
         self.assertGreaterEqual(ran, 3)
         report = json.loads(read(os.path.join(folder.path, "lakes.json")))
         self.assertGreater(report["mesh"]["triangles"], 0)
+        # What was gathered is what one run makes.
+        folder.run("coastmesh mesh data/samples/finnish_lakes.geojson data/samples/english_lakes.geojson -o whole.nc "
+                   "&& cmp whole.nc gathered.nc && cmp lakes.gpkg gathered.gpkg "
+                   "&& coastmesh mesh data/samples/finnish_lakes.geojson -o whole.nc --overwrite && cmp whole.nc finnish.nc")
+        # A shard that was lost is made again, the others are not.
+        folder.run("rm lakes-3.shard gathered.nc && touch -d 2000-01-01 lakes-*.shard && sbatch lakes.sbatch "
+                   "&& test lakes-3.shard -nt lakes-1.shard && test ! lakes-2.shard -nt lakes-1.shard "
+                   "&& coastmesh gather lakes-*.shard -o gathered.nc")
 
     def test_python(self):
         self.require_module()
@@ -163,6 +196,12 @@ class GuideTest(unittest.TestCase):
 
     def test_models_ww3(self):
         self.run_model("ww3", "sea_ww3.msh")
+
+    def test_models_fesom(self):
+        self.assertLessEqual({"nod2d.out", "elem2d.out", "aux3d.out"}, self.run_model("fesom", "nod2d.out"))
+
+    def test_models_mpas(self):
+        self.run_model("mpas", "sea_mpas.nc")
 
     def test_every_page_has_a_test(self):
         pages = {os.path.relpath(path, os.path.join(SOURCES, "docs"))[:-len(".md")].replace(os.sep, "_") for path in GUIDE}

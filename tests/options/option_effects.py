@@ -109,7 +109,7 @@ def write_inputs(folder):
     for name in ("dem", "part", "sizes"):
         put(name + ".prj", WGS84)
     put("angle.toml", "[mesh]\nsize-max = 150\n[check]\nmin-angle = 50\n[plot]\nsize = 300\n[info]\njson = true\n"
-        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n")
+        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n")
 
 
 def cases():
@@ -187,6 +187,9 @@ def cases():
         "--max-vertices": Case("15"),
         "--cut": Case(name="--no-cut", extra=["--size-max", "11"], because="60,000 vertices are one piece"),
         "--mark-pieces": Case(),
+        "--partition": Case("3"),
+        "--shard": Case("2/2", input="two.geojson"),
+        "--skip-existing": Case(exists=["out.nc"]),
         "--threads": Case("1", report="threads"),
         "--report": Case("report2.json"),
         "--edits": Case("edits.gpkg"),
@@ -228,14 +231,23 @@ def cases():
     plot = {"--config": Case("angle.toml"), "--output": Case("other.svg"), "--size": Case("300"),
             "--bbox": Case("-87.49,41.60,-87.48,41.61"),
             "--color": Case("angle"), "--edges": Case(name="--no-edges"), "--min-angle": Case("50"),
-            "--degrees": Case(), "--overwrite": Case(exists=["out.svg"]), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
+            "--view": Case("orthographic=-87,41"), "--degrees": Case(), "--overwrite": Case(exists=["out.svg"]), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
     info = {"--config": Case("angle.toml"), "--json": Case(), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
-    return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info}
+    partition = {**common, "--output": Case("more.prop"), "--format": Case("gmsh"), "--quiet": Case(),
+                 "--report": Case("report2.json"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
+    gather = {"--config": Case("angle.toml"), "--output": Case("more.2dm"), "--format": Case("2dm"),
+              "--partition": Case("3"), "--report": Case("report2.json"), "--edits": Case("edits.gpkg"),
+              "--progress": Case("json"), "--overwrite": Case(exists=["out.nc"]),
+              "--skip-existing": Case(exists=["out.nc"]), "--quiet": Case(), "--threads": Case("1", report="threads")}
+    return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
+            "partition": partition, "gather": gather}
 
 
 INPUT = {"mesh": "lake.geojson", "clean": "lake.geojson", "check": "lake.nc", "convert": "lake.nc", "plot": "lake.nc",
-         "info": "lake.nc"}
-OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg"}
+         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard"}
+OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg", "partition": "out.nc", "gather": "out.nc"}
+# Numbers that stand after the file.
+ARGUMENTS = {"partition": ["4"]}
 
 
 class Runs:
@@ -250,10 +262,10 @@ class Runs:
         folder = Path(tempfile.mkdtemp(dir=self.work))
         for name in exists:
             (folder / name).write_text("precious")
-        words = [PROGRAM, command, source, *options]
+        words = [PROGRAM, command, source, *ARGUMENTS.get(command, []), *options]
         if command in OUTPUT and "--output" not in options:
             words += ["-o", OUTPUT[command]]
-        if command in ("mesh", "clean") and "--report" not in options:
+        if command in ("mesh", "clean", "gather") and "--report" not in options:
             words += ["--report", "report.json"]
         done = subprocess.run(self.resolved(words), cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
                               check=False, timeout=300)
@@ -334,7 +346,8 @@ def main():
         frame = ["--bbox", "-87.51,41.603,-87.48,41.63"]
         for name, options in {"lake.nc": ["lake.geojson"], "hourglass.nc": ["hourglass.geojson"],
                               "deep.nc": ["lake.geojson", "--bathymetry", "dem.asc"],
-                              "bare.2dm": ["lake.geojson"], "framed.nc": ["lake.geojson", *frame]}.items():
+                              "bare.2dm": ["lake.geojson"], "lake.shard": [str(inputs / "lake.geojson")],
+                              "framed.nc": ["lake.geojson", *frame]}.items():
             made = runs.run("mesh", options[0], [*options[1:], "--output", str(inputs / name)])
             if made[0] != 0:
                 sys.exit(f"cannot make {name}: {made[1]}")

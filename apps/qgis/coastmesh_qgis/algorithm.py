@@ -140,7 +140,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
 
     def _filters(self, first=None):
         """The formats that the program writes, as a file dialog has them; the first one is the default."""
-        formats = [f for f in self.formats if f["writable"] and f["endings"]]
+        formats = [f for f in self.formats if f["writable"] and f["endings"] and not f.get("beside_grid")]
         formats.sort(key=lambda f: f["name"] != first)
         return ";;".join(
             "{} ({})".format(f["description"].replace("(", "").replace(")", ""), " ".join("*" + e for e in f["endings"]))

@@ -1,0 +1,45 @@
+#include <memory>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/mesh_run.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/cli/shard_file.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct GatherUsage {
+  std::vector<std::string> shards;
+  MeshRunUsage whole;
+};
+
+// The run that the shards are of, with their meshes in place of its own: whatever comes after meshing is done here.
+int runGather(GatherUsage& usage, Run& run) {
+  const GatheredShards gathered(usage.shards);
+  OptionTable job = meshJobOptions(usage.whole.mesh);
+  for (const auto& [name, value] : gathered.options()) job.set(name, value, name);
+  settle(usage.whole.mesh);
+  requireOutputsApart(run.options, job.inputs());
+  for (const auto& [option, path] : job.inputs()) run.inputs.push_back(path);
+  GroupExchange& exchange = usage.whole.mesh.job.exchange;
+  exchange.begin = [&gathered](std::uint64_t digest, std::size_t groups) { gathered.begin(digest, groups); };
+  exchange.take = [&gathered](std::size_t group) { return gathered.take(group); };
+  return runMesh(usage.whole, run);
+}
+
+}  // namespace
+
+Command declareGather(CLI::App& root) {
+  auto usage = std::make_shared<GatherUsage>();
+  OptionTable table = commandOptions("gather", "Put the shards of a mesh together, as if it had been made in one run");
+  table.arguments("SHARD", usage->shards, "all .shard files of a run, in any order; its inputs are read again");
+  declareMeshes(table, usage->whole, false);
+  declareRunOutputs(table, usage->whole);
+  table.integer("--threads", usage->whole.mesh.threads, "N", 0, 1024,
+                "threads to work on, 0 for all cores; never changes the result");
+  table.example("coastmesh gather lakes-*.shard -o lakes.nc --report lakes.json", "all lakes, from their shards");
+  return {{root, std::move(table)}, [usage](Run& run) { return runGather(*usage, run); }};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,229 @@
+#include "apps/cli/mesh_run.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include "apps/cli/cleaned_output.hpp"
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/partition_outputs.hpp"
+#include "apps/cli/progress.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/cli/shard_file.hpp"
+#include "apps/job/mesh_job.hpp"
+#include "apps/report/mesh_report.hpp"
+#include "apps/report/mesh_warnings.hpp"
+#include "apps/usage/grid_usage.hpp"
+#include "apps/usage/mesh_usage.hpp"
+#include "core/run_control.hpp"
+#include "gis/error.hpp"
+#include "gis/format/grid_io.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+int threadsAsked(const ParallelOptions& options) {
+  return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+// Why there is no mesh at all.
+std::string reasonOf(const std::vector<Refusal>& refusals) {
+  if (refusals.size() == 1) return refusals.front().reason;
+  return "none of the " + std::to_string(refusals.size()) + " parts of the input can be meshed";
+}
+
+// Gives what files cannot hold of the mesh, or hold and the mesh has not, having warned of it.
+std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, ProgressDisplay& display, Run& run,
+                                    const ItemLoop& loop) {
+  std::vector<std::string> warnings = outputs.lossWarnings(grid, LossesOf::Input);
+  if (const std::string warning = outputs.depthWarning(grid); !warning.empty()) warnings.push_back(warning);
+  if (!warnings.empty()) display.clear();
+  for (const std::string& warning : warnings) run.warn(warning);
+  for (std::size_t i = 0; i < outputs.grids(); ++i) {
+    display.show("write", static_cast<double>(i) / static_cast<double>(outputs.grids()));
+    outputs.writeGrid(i, grid, loop);
+    run.interrupt.check();
+    if (display.abandoned()) throw Cancelled();
+  }
+  display.show("write", 1.0);
+  return warnings;
+}
+
+// "3/7" as the third of seven, counted from 1.
+std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text) {
+  if (text.empty()) return {0, 1};
+  constexpr std::uint32_t kMostShards = 1'000'000;
+  std::uint32_t shard = 0, shards = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard);
+  const bool divided = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second = divided ? std::from_chars(first.ptr + 1, end, shards) : first;
+  if (!divided || second.ec != std::errc() || second.ptr != end || shards > kMostShards || shard < 1 || shard > shards)
+    throw OptionError("--shard " + text + ": is not I/N, such as 3/7 for the third of seven, up to a million");
+  return {shard - 1, shards};
+}
+
+// The exit code of the run that made what is there already; none where that is not all.
+std::optional<int> doneBefore(const MeshRunUsage& usage, const Run& run, const GivenOptions& given) {
+  int code = kExitDone;
+  for (const OptionTable::NamedOutput& output : run.options.outputs()) {
+    std::error_code error;
+    if (!std::filesystem::exists(output.path, error)) return std::nullopt;
+    if (!isShardFile(output.path)) continue;
+    const ShardHeader header = readShardHeader(output.path);
+    const auto [shard, shards] = shardOf(usage.shard);
+    if (header.options != given || header.shard != shard || header.shards != shards)
+      throw OptionError("'" + output.path + "' is there, but of another run: give another name, or --overwrite");
+    code = header.exit_code;
+  }
+  return code;
+}
+
+}  // namespace
+
+OptionTable meshJobOptions(MeshUsage& usage) {
+  OptionTable table("mesh", "");
+  table.arguments(kInputs, usage.job.input.files, "");
+  declareMeshOptions(table, usage);
+  return table;
+}
+
+void declareMeshes(OptionTable& table, MeshRunUsage& usage, bool with_shards) {
+  const auto files = [&usage, with_shards](const std::string& path) -> OutputFiles {
+    if (with_shards && isShardFile(path)) return {{path}, {}, {}};
+    return filesOf(gridFormatFor(path, usage.format), path);
+  };
+  table.outputs("-o,--output", usage.outputs, {.required = true, .files = files},
+                with_shards ? "mesh to write, or a .shard for gather; repeat it for several"
+                            : "mesh to write; repeat it for several");
+  table.text("--format", usage.format, "NAME", "format of the output, where its ending does not say");
+}
+
+void declareRunOutputs(OptionTable& table, MeshRunUsage& usage) {
+  declareParts(table, usage.parts, usage.outputs, usage.format);
+  table.output("--report", usage.report, {.standard_output = true},
+               "write a report as JSON; - prints it in place of the summary");
+  table.output("--edits", usage.edits, {},
+               "write what cleaning and --coast follow changed, as points with its kind and the feature: a .gpkg, "
+               ".geojson or .fgb");
+  table.choice(
+      "--progress", usage.progress, {"auto", "bar", "log", "json", "none"},
+      "how to show progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, else lines); "
+      "or JSON lines on stdout");
+  table.flag("--overwrite", usage.overwrite, "replace files that exist");
+  table
+      .flag("--skip-existing", usage.skip_existing,
+            "do nothing where all outputs are there already; where some are not, make and replace all")
+      .ignoredWith({"--overwrite"});
+  table.flag("--quiet", usage.quiet, "print no summary");
+}
+
+int runMesh(const MeshRunUsage& usage, Run& run) {
+  MeshJob job = usage.mesh.job;
+  const Interrupt& interrupt = run.interrupt;
+  if (usage.report == "-" && usage.progress == "json")
+    throw OptionError("--report - and --progress json both write to standard output: give the report a file");
+  const std::vector<std::string> grids = withoutShardFiles(usage.outputs);
+  const PartitionOptions partition = partitionFor(usage.parts, grids, usage.format);
+  std::tie(job.exchange.shard, job.exchange.shards) = shardOf(usage.shard);
+  const bool to_shard = grids.size() < usage.outputs.size();
+  if (to_shard && std::ranges::count(job.input.files, "-") > 0)
+    throw OptionError("a .shard is gathered with its input, which standard input is not: give a file");
+  MeshUsage of_job;
+  const GivenOptions given = to_shard ? givenOptions(run.options, meshJobOptions(of_job)) : GivenOptions();
+  const bool skips = usage.skip_existing && !usage.overwrite;
+  if (skips) {
+    if (const std::optional<int> code = doneBefore(usage, run, given)) {
+      if (!usage.quiet) std::fputs("all outputs are there already\n", stdout);
+      return *code;
+    }
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto secondsSince = [](std::chrono::steady_clock::time_point since) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+  };
+  RunOutputs outputs(usage.overwrite || skips, run.inputs, run.interrupt);
+  outputs.addGrids(grids, usage.format);
+  if (!usage.edits.empty()) requireVectorFormat(usage.edits, 1);
+  StagedFiles* const edits = !usage.edits.empty() ? &outputs.addFile(usage.edits) : nullptr;
+  std::vector<StagedFiles*> shard_files;
+  for (const std::string& path : usage.outputs)
+    if (isShardFile(path)) shard_files.push_back(&outputs.addFile(path));
+  outputs.addReport(usage.report);
+  ShardWriter shard(given, job.exchange.shard, job.exchange.shards);
+  if (to_shard) {
+    job.exchange.begin = [&shard](std::uint64_t digest, std::size_t groups) { shard.begin(digest, groups); };
+    job.exchange.keep = [&shard](std::size_t group, const GroupResult& result) { shard.keep(group, result); };
+  }
+  job.keep_edits = edits != nullptr || to_shard;  // gather may be asked for them
+  ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
+  const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
+                           [&display](std::string_view phase, double share) { display.show(phase, share); }};
+  MeshJobResult result = runMeshJob(job, control);
+  display.clear();
+  for (const std::string& warning : warningsOf(result)) run.warn(warning);
+
+  auto write_start = std::chrono::steady_clock::now();
+  const bool any = result.regions > 0;
+  if (any) {
+    withThreads(job.parallel, [&] {
+      Recorder recorder;
+      result.partition = partitionGrid(result.grid, partition, recorder.loop("partition", {control.cancelled, {}}));
+      result.log.append(recorder.finish("partition"));
+      result.seconds.finish += secondsSince(write_start);
+      write_start = std::chrono::steady_clock::now();
+      result.output_warnings =
+          writeGrids(outputs, result.grid, display, run, recorder.loop("write", {control.cancelled, {}}));
+      result.log.append(recorder.finish("write"));
+    });
+  }
+  if (edits != nullptr && any)
+    edits->make([&](const std::string& path) {
+      writeVectorLayers(path, result.crs, {editLayer(result.edit_places, result.read)});
+    });
+  const int code = (any ? result.complete() : result.refusals.empty()) ? kExitDone : kExitShort;
+  for (StagedFiles* const file : shard_files) file->write(shard.file(code));
+  result.seconds.write = secondsSince(write_start);
+  result.seconds.total = secondsSince(start);
+  outputs.writeReport(meshReport(job, result, threadsAsked(job.parallel), run.warnings));
+  outputs.commit();
+  // Other shards may have what this one has not.
+  if (!any && to_shard) {
+    display.clear();
+    if (!usage.quiet) std::fputs("nothing of this shard was meshed\n", stdout);
+    return code;
+  }
+  if (!any && job.exchange.shards > 1 && result.refusals.empty() && result.last_unwanted.empty())
+    throw InputError("there are fewer groups of features than shards: none of them is shard " + usage.shard + "'s");
+  if (!any && !result.refusals.empty() && std::ranges::all_of(result.refusals, &Refusal::over_budget)) {
+    std::fprintf(stderr, "coastmesh: error: %s\n", reasonOf(result.refusals).c_str());
+    return kExitShort;
+  }
+  if (!any && result.refusals.empty()) throw InputError(result.last_unwanted);
+  if (!any) throw InputError(reasonOf(result.refusals));
+
+  display.show("done", 1.0);
+  display.clear();
+  if (!usage.quiet && usage.progress != "json" && usage.report != "-") {
+    std::string text = meshSummary(job, result);
+    for (const std::string& note : result.read.notes) text += note + "\n";
+    for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
+    if (!usage.edits.empty()) text += "wrote " + usage.edits + "\n";
+    if (!usage.report.empty()) text += "wrote " + usage.report + "\n";
+    std::fputs(text.c_str(), stdout);
+  }
+  return code;
+}
+
+}  // namespace coastmesh

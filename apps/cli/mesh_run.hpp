@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/cli/commands.hpp"
+#include "apps/usage/mesh_usage.hpp"
+
+namespace coastmesh {
+
+// The name of the argument for what is meshed.
+inline constexpr const char* kInputs = "INPUT";
+
+// A run that ends with a mesh, of all of the input or of a shard of it, made here or gathered.
+struct MeshRunUsage {
+  MeshUsage mesh;
+  std::vector<std::string> outputs;
+  std::string format;
+  std::string report;
+  std::string edits;
+  std::uint64_t parts = 0;
+  std::string shard;  // "I/N"; empty: all
+  std::string progress = "auto";
+  bool overwrite = false;
+  bool skip_existing = false;
+  bool quiet = false;
+};
+
+// The options that say what a mesh is, and its inputs.
+OptionTable meshJobOptions(MeshUsage& usage);
+
+// -o and --format; `with_shards`: .shard files too.
+void declareMeshes(OptionTable& table, MeshRunUsage& usage, bool with_shards);
+// What else such a run writes, and how.
+void declareRunOutputs(OptionTable& table, MeshRunUsage& usage);
+
+// REQUIRES: `usage.mesh` is settled. Gives an exit code; throws what main turns into messages and codes.
+int runMesh(const MeshRunUsage& usage, Run& run);
+
+}  // namespace coastmesh

@@ -1,0 +1,78 @@
+#include <cstdio>
+#include <memory>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/mesh_file.hpp"
+#include "apps/cli/partition_outputs.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/report/partition_report.hpp"
+#include "apps/usage/grid_usage.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct PartitionUsage {
+  MeshFile mesh;
+  std::uint64_t parts = 0;
+  std::vector<std::string> outputs;
+  std::string format;
+  std::string report;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+std::string reportOf(const PartitionReport& report, const Run& run) {
+  return textOf(
+      {{"coastmesh", COASTMESH_VERSION}, {"warnings", run.warnings}, {"partition", partitionSection(report)}});
+}
+
+int runPartition(const PartitionUsage& usage, Run& run) {
+  Interrupt& interrupt = run.interrupt;
+  const PartitionOptions options = partitionFor(usage.parts, usage.outputs, usage.format);
+  if (!options.elements && !options.nodes)
+    throw OptionError("no output holds parts: give one that is .prop, partmesh.txt, .nc or .msh");
+  RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
+  outputs.addGrids(usage.outputs, usage.format);
+  outputs.addReport(usage.report);
+  Grid grid = readMeshFile(usage.mesh, run);
+  findMissingBoundaries(grid);
+  PartitionReport report;
+  withThreads({}, [&] {
+    const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
+    Recorder recorder;
+    report = partitionGrid(grid, options, recorder.loop("partition", control));
+    for (const std::string& warning : outputs.lossWarnings(grid, LossesOf::Input)) run.warn(warning);
+    for (std::size_t i = 0; i < outputs.grids(); ++i) {
+      interrupt.check();
+      outputs.writeGrid(i, grid, recorder.loop("write", control));
+    }
+  });
+  outputs.writeReport(reportOf(report, run));
+  outputs.commit();
+  if (!usage.quiet && usage.report != "-") std::fputs(partitionText(report).c_str(), stdout);
+  return kExitDone;
+}
+
+}  // namespace
+
+Command declarePartition(CLI::App& root) {
+  auto usage = std::make_shared<PartitionUsage>();
+  OptionTable table = commandOptions("partition", "Deal a mesh out to the processes of a solver");
+  declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
+  table.integerArgument("N", usage->parts, 1, kMostParts, "how many processes");
+  declareGridOutputs(table, usage->outputs, usage->format);
+  table.output("--report", usage->report, {.standard_output = true},
+               "write a report as JSON; - prints it in place of the summary");
+  table.flag("--overwrite", usage->overwrite, "replace files that exist");
+  table.flag("--quiet", usage->quiet, "print no summary");
+  table.example("coastmesh partition hgrid.gr3 480 -o partition.prop", "for SCHISM on 480 processes");
+  table.example("coastmesh partition fort.14 64 -o partmesh.txt -o parts.nc",
+                "for ADCIRC's adcprep, and to look at as a layer");
+  return {{root, std::move(table)}, [usage](Run& run) { return runPartition(*usage, run); }};
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,40 @@
+#include "apps/cli/partition_outputs.hpp"
+
+#include <algorithm>
+
+#include "apps/cli/shard_file.hpp"
+#include "gis/format/grid_io.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+bool anyHolds(const std::vector<std::string>& outputs, const std::string& format, GridPart part) {
+  return std::ranges::any_of(withoutShardFiles(outputs),
+                             [&](const std::string& path) { return gridFormatFor(path, format).holds.has(part); });
+}
+
+}  // namespace
+
+void declareParts(OptionTable& table, std::uint64_t& parts, const std::vector<std::string>& outputs,
+                  const std::string& format) {
+  table
+      .integer("--partition", parts, "N", 0, kMostParts,
+               "deal the mesh out to N processes of a solver, 0 for none: SCHISM's partition.prop and ADCIRC's "
+               "partmesh.txt as outputs of these names, and in .nc and .msh")
+      .needs(
+          [&outputs, &format] {
+            return anyHolds(outputs, format, GridPart::Partition) || anyHolds(outputs, format, GridPart::NodePartition);
+          },
+          "without an output that holds parts (.prop, partmesh.txt, .nc, .msh)");
+}
+
+PartitionOptions partitionFor(std::uint64_t parts, const std::vector<std::string>& outputs, const std::string& format) {
+  for (const std::string& path : outputs)
+    if (parts == 0 && gridFormatFor(path, format).beside_grid)
+      throw OptionError("'" + path + "' holds the parts of a mesh: say with --partition how many");
+  return {static_cast<std::uint32_t>(parts), anyHolds(outputs, format, GridPart::Partition),
+          anyHolds(outputs, format, GridPart::NodePartition)};
+}
+
+}  // namespace coastmesh

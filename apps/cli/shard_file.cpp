@@ -1,0 +1,203 @@
+#include "apps/cli/shard_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "apps/job/bytes.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+// Found by the calls of `pass`.
+auto partsOf(auto& header) requires std::is_same_v<std::remove_cvref_t<decltype(header)>, ShardHeader> {
+  auto& [version, options, shard, shards, exit_code, input_digest, groups] = header;
+  return std::tie(version, options, shard, shards, exit_code, input_digest, groups);
+}
+// Bounds that are missed are in `short_of`.
+auto partsOf(auto& stats) requires std::is_same_v<std::remove_cvref_t<decltype(stats)>, RefineStats> {
+  auto& [steiner_points, by_type, segment_splits, relocations, removals, merges, budget_reached, unresolved] = stats;
+  return std::tie(steiner_points, by_type, segment_splits, relocations, removals, merges, budget_reached);
+}
+auto partsOf(auto& seconds) requires std::is_same_v<std::remove_cvref_t<decltype(seconds)>, MeshSeconds> {
+  auto& [triangulate, refine, coarsen, optimise, stitch] = seconds;
+  return std::tie(triangulate, refine, coarsen, optimise, stitch);
+}
+// All but the plane and the log.
+auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, GroupResult> {
+  auto& [grid, edits, edit_places, projection, projection_reason, least_scale, greatest_scale, refine, short_of,
+         quality, plane, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log, estimated_vertices,
+         refusal, over_budget, refusal_place, unwanted, notes, warnings] = result;
+  return std::tie(grid, edits, edit_places, projection, projection_reason, least_scale, greatest_scale, refine,
+                  short_of, quality, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces,
+                  estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings);
+}
+
+namespace {
+
+constexpr std::string_view kMagic = "coastmesh shard\n";
+constexpr const char* kEnding = ".shard";
+
+std::string bytesOf(const GroupResult& result) {
+  ByteWriter writer;
+  writer.pass(result);
+  writer.pass(result.plane ? std::optional(result.plane->size_max) : std::nullopt);
+  writer.pass(result.log.work());
+  return writer.take();
+}
+
+std::string contentsOf(const std::string& path, std::size_t most) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError("there is no file '" + path + "', or it cannot be read");
+  std::string bytes;
+  bytes.resize(std::min<std::uintmax_t>(most, std::filesystem::file_size(path)));
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file) throw InputError("'" + path + "' cannot be read");
+  return bytes;
+}
+
+ShardHeader readHeader(ByteReader& reader, const std::string& path) {
+  std::string magic(kMagic.size(), ' ');
+  for (char& c : magic) reader.pass(c);
+  if (magic != kMagic) throw InputError("'" + path + "' is no file that mesh --shard wrote");
+  ShardHeader header;
+  reader.pass(header.version);
+  if (header.version != COASTMESH_VERSION)
+    throw InputError("'" + path + "' was made by coastmesh " + header.version + ", this is " + COASTMESH_VERSION +
+                     ": make it anew");
+  reader.pass(header);
+  return header;
+}
+
+std::string numbered(std::uint32_t shard, std::uint32_t shards) {
+  return std::to_string(shard + 1) + '/' + std::to_string(shards);
+}
+
+}  // namespace
+
+bool isShardFile(const std::string& path) { return path.ends_with(kEnding); }
+
+std::vector<std::string> withoutShardFiles(const std::vector<std::string>& paths) {
+  std::vector<std::string> others;
+  std::ranges::remove_copy_if(paths, std::back_inserter(others), isShardFile);
+  return others;
+}
+
+GivenOptions givenOptions(const OptionTable& table, const OptionTable& of_job) {
+  GivenOptions options;
+  for (const OptionTable::Entry* entry : of_job.entries()) {
+    if (entry->name == "--threads") continue;
+    for (const OptionValue& value : table.given(entry->name)) options.emplace_back(entry->name, value);
+  }
+  return options;
+}
+
+ShardHeader readShardHeader(const std::string& path) {
+  constexpr std::size_t kEnough = 1 << 20;
+  const std::string bytes = contentsOf(path, kEnough);
+  ByteReader reader(bytes, "'" + path + "'");
+  return readHeader(reader, path);
+}
+
+ShardWriter::ShardWriter(GivenOptions options, std::uint32_t shard, std::uint32_t shards) {
+  header_.version = COASTMESH_VERSION;
+  header_.options = std::move(options);
+  header_.shard = shard;
+  header_.shards = shards;
+}
+
+void ShardWriter::begin(std::uint64_t input_digest, std::size_t groups) {
+  header_.input_digest = input_digest;
+  header_.groups = groups;
+}
+
+void ShardWriter::keep(std::size_t group, const GroupResult& result) {
+  std::string bytes = bytesOf(result);
+  const std::lock_guard lock(mutex_);
+  groups_.emplace_back(group, std::move(bytes));
+}
+
+std::string ShardWriter::file(int exit_code) const {
+  ShardHeader header = header_;
+  header.exit_code = exit_code;
+  ByteWriter writer;
+  for (const char c : kMagic) writer.pass(c);
+  writer.pass(header.version);
+  writer.pass(header);
+  writer.pass(static_cast<std::uint64_t>(groups_.size()));
+  std::string bytes = writer.take();
+  std::vector<const std::pair<std::uint64_t, std::string>*> order;
+  for (const auto& group : groups_) order.push_back(&group);
+  std::ranges::sort(order, {}, [](const auto* group) { return group->first; });
+  for (const auto* group : order) {
+    ByteWriter number;
+    number.pass(group->first);
+    number.pass(static_cast<std::uint64_t>(group->second.size()));
+    bytes += number.take();
+    bytes += group->second;
+  }
+  return bytes;
+}
+
+GatheredShards::GatheredShards(const std::vector<std::string>& paths) : paths_(paths) {
+  for (const std::string& path : paths_) contents_.push_back(contentsOf(path, std::string::npos));
+  std::vector<std::size_t> file_of;
+  for (std::size_t f = 0; f < paths_.size(); ++f) {
+    ByteReader reader(contents_[f], "'" + paths_[f] + "'");
+    const ShardHeader header = readHeader(reader, paths_[f]);
+    if (f == 0) {
+      header_ = header;
+      file_of.assign(header.shards, paths_.size());
+      places_.resize(header.groups);
+    }
+    if (!header.ofSameRun(header_) || header.shard >= header.shards)
+      throw InputError("'" + paths_[f] + "' is of another run than '" + paths_[0] +
+                       "': other options, or another number of shards");
+    if (header.input_digest != header_.input_digest || header.groups != header_.groups)
+      throw InputError("'" + paths_[f] + "' was made of another input than '" + paths_[0] + "': make it anew");
+    std::size_t& file = file_of[header.shard];
+    if (file != paths_.size())
+      throw InputError("'" + paths_[f] + "' and '" + paths_[file] + "' are both shard " +
+                       numbered(header.shard, header.shards) + ": give it once");
+    file = f;
+    std::uint64_t count = 0;
+    reader.pass(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      std::uint64_t group = 0, size = 0;
+      reader.pass(group);
+      reader.pass(size);
+      if (group >= places_.size() || !places_[group].bytes.empty()) throw InputError("'" + paths_[f] + "' is damaged");
+      places_[group] = {f, reader.passView(size)};
+    }
+    if (!reader.atEnd()) throw InputError("'" + paths_[f] + "' is longer than it should be");
+  }
+  std::string missing;
+  for (std::uint32_t shard = 0; shard < header_.shards; ++shard)
+    if (file_of[shard] == paths_.size()) missing += (missing.empty() ? "" : ", ") + numbered(shard, header_.shards);
+  if (!missing.empty()) throw InputError("these shards are missing: " + missing + "; run them, then gather all");
+  for (std::size_t group = 0; group < places_.size(); ++group)
+    if (places_[group].bytes.empty()) throw InputError("group " + std::to_string(group + 1) + " is in no shard");
+}
+
+void GatheredShards::begin(std::uint64_t input_digest, std::size_t groups) const {
+  if (input_digest != header_.input_digest || groups != header_.groups)
+    throw InputError("'" + paths_[0] + "' and the others were made of another input than the one that is there now");
+}
+
+GroupResult GatheredShards::take(std::size_t group) const {
+  const Place& place = places_[group];
+  ByteReader reader(place.bytes, "'" + paths_[place.file] + "'");
+  GroupResult result;
+  reader.pass(result);
+  std::optional<double> size_max;
+  double work = 0.0;
+  reader.pass(size_max);
+  reader.pass(work);
+  if (!reader.atEnd()) throw InputError("'" + paths_[place.file] + "' is damaged");
+  if (size_max) result.plane = WorkingPlane{Projection::plane(), *size_max};
+  result.log.addAlone("regions", work);
+  return result;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,39 @@
+#include "apps/report/partition_report.hpp"
+
+#include <cstdio>
+
+namespace coastmesh {
+
+namespace {
+
+Json figuresSection(const std::optional<PartitionFigures>& figures) {
+  if (!figures) return nullptr;
+  return {{"edge_cut", figures->edge_cut},
+          {"balance", figures->balance},
+          {"connected_parts", figures->connected_parts},
+          {"least", figures->least},
+          {"most", figures->most}};
+}
+
+std::string figuresText(const std::optional<PartitionFigures>& figures, std::uint32_t parts, const char* what) {
+  if (!figures) return {};
+  char balance[40];
+  std::snprintf(balance, sizeof balance, "balance %.4f", figures->balance);
+  return grouped(parts) + " parts of " + grouped(figures->least) + " to " + grouped(figures->most) + ' ' + what + ", " +
+         balance + "; " + grouped(figures->edge_cut) + " edges cut; " + grouped(figures->connected_parts) +
+         " parts hang together\n";
+}
+
+}  // namespace
+
+Json partitionSection(const PartitionReport& report) {
+  if (report.parts == 0) return nullptr;
+  return {
+      {"parts", report.parts}, {"elements", figuresSection(report.elements)}, {"nodes", figuresSection(report.nodes)}};
+}
+
+std::string partitionText(const PartitionReport& report) {
+  return figuresText(report.elements, report.parts, "triangles") + figuresText(report.nodes, report.parts, "nodes");
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "apps/report/report_sections.hpp"
+#include "gis/solver/partition_grid.hpp"
+
+namespace coastmesh {
+
+// null where the grid was not partitioned.
+Json partitionSection(const PartitionReport& report);
+
+// For people: a line each for elements and nodes; empty where the grid was not partitioned.
+std::string partitionText(const PartitionReport& report);
+
+}  // namespace coastmesh

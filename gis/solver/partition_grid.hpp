@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/item_loop.hpp"
+#include "gis/grid/grid.hpp"
+#include "gis/solver/partition_graph.hpp"
+
+namespace coastmesh {
+
+// What of a grid is dealt out to the parts: solvers differ in what they own.
+struct PartitionOptions {
+  std::uint32_t parts = 0;  // 0: none
+  bool elements = false;
+  bool nodes = false;
+};
+
+struct PartitionReport {
+  std::uint32_t parts = 0;  // 0: the grid was not partitioned
+  std::optional<PartitionFigures> elements, nodes;
+};
+
+// Fills `part_of` and `node_part_of` of the grid. Throws InputError where it has fewer elements or nodes than there are
+// to be parts.
+PartitionReport partitionGrid(Grid& grid, const PartitionOptions& options, const ItemLoop& loop = inOrder);
+
+}  // namespace coastmesh
