@@ -7,10 +7,11 @@
 
 #include "core/point.hpp"
 #include "core/size_function.hpp"
+#include "core/surface.hpp"
 
 namespace coastmesh {
 
-// The quality measure, of the plane only. Tests that decide on topology are exact and lie in core/predicates.hpp.
+// The quality measure: of the plane, and in `isBad` of the surface that it stands for. Tests that decide on topology are exact and lie in core/predicates.hpp.
 
 inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y}; }
 inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
@@ -80,11 +81,12 @@ struct AngleBound {
   }
 };
 
-// What is asked of every triangle: of its angles, and of the length of its edges.
+// What is asked of every triangle: of its angles, and of the length of its edges, on the surface.
 struct TriangleBound : AngleBound {
   double squared_size;                 // longest edge, squared; infinite where nothing is asked
   const SizeFunction* size = nullptr;  // lengths wanted; null where none are
   double longest_share = 0.0;          // longest edge as a share of the length wanted at the triangle's centroid
+  Surface surface;                     // that the plane stands for
 
   TriangleBound(double min_angle_deg, double max_angle_deg, double size_max)
       : AngleBound(min_angle_deg, max_angle_deg), squared_size(size_max * size_max) {}
@@ -149,8 +151,12 @@ inline bool isTooLong(const Point& a, const Point& b, const Point& c, double squ
   return bound.size != nullptr && isLongerThanWanted(a, b, c, squared_longest, bound);
 }
 
+// The same on a sphere, of the flat triangle between the places there.
+bool isBadOnSphere(const Point& a, const Point& b, const Point& c, const TriangleBound& bound);
+
 // Whether a triangle falls short of what is asked.
 inline bool isBad(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
+  if (bound.surface.isCurved()) return isBadOnSphere(a, b, c, bound);
   if (bound.min_angle > 0.0 && isSmallestAngleBelow(a, b, c, bound.cot_min)) return true;
   if (bound.max_angle < std::numbers::pi && isLargestAngleAbove(a, b, c, bound.cos_max)) return true;
   if (std::isinf(bound.squared_size)) return false;

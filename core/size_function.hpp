@@ -4,7 +4,8 @@
 
 namespace coastmesh {
 
-// How long edges should be, place by place: the sizing interface of the core, in plane units. Implementations hold no
+// How long edges should be, place by place: the sizing interface of the core. Lengths are those on the surface that the
+// plane stands for. Implementations hold no
 // state that reading changes: any number of threads may ask at the same time.
 class SizeFunction {
  public:

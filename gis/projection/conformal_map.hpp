@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/point.hpp"
+#include "core/surface.hpp"
 #include "gis/crs/lon_lat.hpp"
 
 namespace coastmesh {
@@ -22,6 +23,8 @@ class ConformalMap {
   virtual Point forward(const LonLat& place) const = 0;
   virtual LonLat inverse(const Point& plane) const = 0;
   virtual double scaleAt(const Point& plane) const = 0;  // plane length over length on the ellipsoid
+  // The sphere that it is a stereographic map of; flat where there is none.
+  virtual Surface sphere() const { return {}; }
   // The one place that lies beyond all of the plane, where the map shows all others, to a thousandth of a degree.
   virtual std::optional<LonLat> infinity() const { return std::nullopt; }
 };

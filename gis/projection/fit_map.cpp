@@ -297,33 +297,46 @@ bool isPlainlySmall(const Extent& extent) {
   return extent.height() < 10 && extent.width < 20 && extent.south > -60 && extent.north < 60;
 }
 
-// The map for what is large or near a pole, if it is.
+// A stereographic map; the polar one by the oblique one's mathematics where its sphere is asked for.
+FittedMap stereographic(const LonLat& centre, const Ellipsoid& ellipsoid, bool is_surface) {
+  const bool at_pole = std::abs(centre.lat) == 90;
+  FittedMap fitted = at_pole ? polar(centre, ellipsoid) : oblique(centre, ellipsoid);
+  fitted.is_surface = is_surface;
+  if (at_pole && is_surface) fitted.map = obliqueStereographic(ellipsoid, centre);
+  return fitted;
+}
+
+// The map for what is large or near a pole, or for what any surface is asked for.
 std::optional<FittedMap> mapAboutCentre(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups,
-                                        const Extent& extent, const Ellipsoid& ellipsoid) {
+                                        const Extent& extent, const Ellipsoid& ellipsoid, SurfaceKind kind) {
   const std::vector<Direction> directions = thinned(places);
   const Cap cap = leastCap(extent, directions);
-  const auto atPole = [](const LonLat& p) { return std::abs(p.lat) == 90; };
+  const bool asked = kind == SurfaceKind::Ellipsoid || kind == SurfaceKind::Sphere;
+  const bool is_surface = asked || (kind == SurfaceKind::Auto && cap.radius > kLargeCap);
   if (cap.radius > 90) {
     const double west = std::ranges::min(places, {}, &LonLat::lon).lon;  // longitudes may run from -180 or from 0
     const LonLat centre = centreAwayFromLand(groups, west, directions);
-    return because(atPole(centre) ? polar(centre, ellipsoid) : oblique(centre, ellipsoid),
+    return because(stereographic(centre, ellipsoid, is_surface),
                    "larger than a hemisphere: projected away from the middle of what is left out");
   }
   const std::string radius = "lies within " + degreesInWords(cap.radius) + " of ";
-  if (atPole(cap.centre)) return because(polar(cap.centre, ellipsoid), radius + "the pole");
+  if (std::abs(cap.centre.lat) == 90) {
+    return because(stereographic(cap.centre, ellipsoid, is_surface), radius + "the pole");
+  }
   const bool holds_pole = 90 - std::abs(cap.centre.lat) <= cap.radius;
-  if (cap.radius > kLargeCap || holds_pole) {
-    return because(oblique(cap.centre, ellipsoid), radius + "the centre" + (holds_pole ? ", a pole among it" : ""));
+  if (cap.radius > kLargeCap || holds_pole || is_surface) {
+    return because(stereographic(cap.centre, ellipsoid, is_surface),
+                   radius + "the centre" + (holds_pole ? ", a pole among it" : ""));
   }
   return std::nullopt;
 }
 
-FittedMap chooseMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups,
-                    const Ellipsoid& ellipsoid) {
+FittedMap chooseMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid,
+                    SurfaceKind kind) {
   constexpr double kElongated = 1.5;
   const Extent extent = extentOf(places);
-  if (!isPlainlySmall(extent)) {
-    if (std::optional<FittedMap> map = mapAboutCentre(places, groups, extent, ellipsoid)) return std::move(*map);
+  if (!isPlainlySmall(extent) || kind == SurfaceKind::Ellipsoid || kind == SurfaceKind::Sphere) {
+    if (std::optional<FittedMap> map = mapAboutCentre(places, groups, extent, ellipsoid, kind)) return std::move(*map);
   }
   const LonLat middle{extent.mid_lon, extent.midLat()};
   const double width = extent.width * std::cos(middle.lat * Math::degree());
@@ -345,8 +358,9 @@ FittedMap chooseMap(const std::vector<LonLat>& places, const std::vector<RingGro
 
 }  // namespace
 
-FittedMap fitMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid) {
-  return chooseMap(places, groups, ellipsoid);
+FittedMap fitMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid,
+                 SurfaceKind kind) {
+  return chooseMap(places, groups, ellipsoid, kind);
 }
 
 }  // namespace coastmesh

@@ -23,6 +23,16 @@ Projection Projection::plane() { return Projection(std::make_shared<Identity>())
 Point Projection::forward(const Point& input) const { return impl_->forward(input); }
 Point Projection::inverse(const Point& plane) const { return impl_->inverse(plane); }
 double Projection::scaleAt(const Point& plane) const { return impl_->scaleAt(plane); }
+Surface Projection::surface() const { return impl_->surface(); }
+double Projection::measureAt(const Point& plane) const {
+  return impl_->scaleAt(plane) * impl_->surface().shrinkAt(plane);
+}
+std::vector<SpacePoint> Projection::spacePlaces(std::span<const Point> plane, const ItemLoop& loop) const {
+  if (!surface().isCurved()) return {};
+  std::vector<SpacePoint> places(plane.size());
+  forEachByStretches(loop, plane.size(), [&](std::size_t i) { places[i] = impl_->spaceAt(plane[i]); });
+  return places;
+}
 std::optional<Point> Projection::infinity() const { return impl_->infinity(); }
 bool Projection::isIdentity() const { return impl_->isIdentity(); }
 bool Projection::mayTear() const { return impl_->mayTear(); }

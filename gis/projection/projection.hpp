@@ -2,12 +2,17 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/point.hpp"
+#include "core/space_point.hpp"
+#include "core/surface.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/crs/crs.hpp"
+#include "gis/projection/surface_kind.hpp"
 
 namespace coastmesh {
 
@@ -22,10 +27,13 @@ class Projection {
   // A conformal projection fitted to the extent of `features[members]`, on the ellipsoid of `crs`: transverse Mercator,
   // Lambert conformal conic, polar or oblique stereographic. Crosses the antimeridian and the poles unharmed. The plane
   // for a plane. Throws InputError for a point that is no place on Earth and for a group that leaves no land out.
-  static Projection fitted(const Coastline& coastline, const std::vector<std::size_t>& members);
+  // Where `kind` asks for a surface the projection is stereographic, and `surface` says which sphere it is of.
+  static Projection fitted(const Coastline& coastline, const std::vector<std::size_t>& members,
+                           SurfaceKind kind = SurfaceKind::Plane);
   // The same for each of many groups; what they have in common is done once.
   static std::vector<Projection> fittedEach(const Coastline& coastline,
-                                            const std::vector<std::vector<std::size_t>>& groups);
+                                            const std::vector<std::vector<std::size_t>>& groups,
+                                            SurfaceKind kind = SurfaceKind::Plane);
   // The CRS of the user's choice. Throws InputError where no transformation exists.
   static Projection to(const Crs& input, const Crs& working);
 
@@ -33,6 +41,13 @@ class Projection {
   Point inverse(const Point& plane) const;
   // Plane length over true length on the ellipsoid at a place of the plane. 1 for `plane()`.
   double scaleAt(const Point& plane) const;
+  // What lengths and angles are measured on: a sphere that stands for the ellipsoid, or the plane.
+  Surface surface() const;
+  // Length on that surface over length on the ellipsoid at a place of the plane: near 1 on a sphere, `scaleAt` in the
+  // plane.
+  double measureAt(const Point& plane) const;
+  // Places of the plane in space, metres from the middle of the ellipsoid; empty where the plane itself rules.
+  std::vector<SpacePoint> spacePlaces(std::span<const Point> plane, const ItemLoop& loop = inOrder) const;
   // The place, in the input's CRS, that lies beyond all of the plane, for maps that show all others.
   std::optional<Point> infinity() const;
   bool isIdentity() const;                 // of `plane()`

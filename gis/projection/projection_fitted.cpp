@@ -1,3 +1,4 @@
+#include <GeographicLib/Geocentric.hpp>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -19,8 +20,12 @@ namespace {
 
 class Fitted final : public ProjectionMap {
  public:
-  Fitted(GeographicMap to_geographic, FittedMap fitted, double middle_longitude)
-      : to_geographic_(std::move(to_geographic)), map_(std::move(fitted.map)), middle_(middle_longitude) {
+  Fitted(GeographicMap to_geographic, FittedMap fitted, const Ellipsoid& ellipsoid, double middle_longitude)
+      : to_geographic_(std::move(to_geographic)),
+        map_(std::move(fitted.map)),
+        in_space_(ellipsoid.a, ellipsoid.f),
+        middle_(middle_longitude) {
+    if (fitted.is_surface) surface_ = map_->sphere();
     description = std::move(fitted.description);
     reason = std::move(fitted.reason);
   }
@@ -34,6 +39,13 @@ class Fitted final : public ProjectionMap {
     return to_geographic_.inverse(place);
   }
   double scaleAt(const Point& plane) const override { return map_->scaleAt(plane); }
+  Surface surface() const override { return surface_; }
+  SpacePoint spaceAt(const Point& plane) const override {
+    const LonLat place = map_->inverse(plane);
+    SpacePoint in_space;
+    in_space_.Forward(place.lat, place.lon, 0.0, in_space.x, in_space.y, in_space.z);
+    return in_space;
+  }
   std::optional<Point> infinity() const override {
     const std::optional<LonLat> beyond = to_geographic_.isIdentity() ? map_->infinity() : std::nullopt;
     if (!beyond) return std::nullopt;
@@ -43,6 +55,8 @@ class Fitted final : public ProjectionMap {
  private:
   GeographicMap to_geographic_;
   std::unique_ptr<ConformalMap> map_;
+  GeographicLib::Geocentric in_space_;
+  Surface surface_;
   double middle_;
 };
 
@@ -78,7 +92,7 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
 }
 
 std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std::vector<std::size_t>& members,
-                                           const GeographicMap& to_geographic) {
+                                           const GeographicMap& to_geographic, SurfaceKind kind) {
   std::vector<LonLat> places;
   std::deque<Ring> projected_rings;
   std::vector<RingGroup> groups(1);  // the frame and lines of the coast; then one a feature
@@ -116,24 +130,26 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
   });
   if (places.empty()) throw InputError("the features hold no point");
   const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
-  const Ellipsoid ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
-  return std::make_shared<Fitted>(to_geographic, fitMap(places, groups, ellipsoid), middle);
+  const Ellipsoid ellipsoid = kind == SurfaceKind::Sphere
+                                  ? Ellipsoid{kSphereRadius, 0.0}
+                                  : Ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
+  return std::make_shared<Fitted>(to_geographic, fitMap(places, groups, ellipsoid, kind), ellipsoid, middle);
 }
 
 }  // namespace
 
 std::vector<Projection> Projection::fittedEach(const Coastline& coastline,
-                                               const std::vector<std::vector<std::size_t>>& groups) {
+                                               const std::vector<std::vector<std::size_t>>& groups, SurfaceKind kind) {
   if (coastline.crs.isPlane()) return std::vector<Projection>(groups.size(), plane());
   const GeographicMap to_geographic(coastline.crs);
   std::vector<Projection> projections;
   projections.reserve(groups.size());
-  for (const auto& members : groups) projections.push_back(Projection(fitTo(coastline, members, to_geographic)));
+  for (const auto& members : groups) projections.push_back(Projection(fitTo(coastline, members, to_geographic, kind)));
   return projections;
 }
 
-Projection Projection::fitted(const Coastline& coastline, const std::vector<std::size_t>& members) {
-  return fittedEach(coastline, {members}).front();
+Projection Projection::fitted(const Coastline& coastline, const std::vector<std::size_t>& members, SurfaceKind kind) {
+  return fittedEach(coastline, {members}, kind).front();
 }
 
 }  // namespace coastmesh
