@@ -123,18 +123,27 @@ def area_in_plane(nodes, triangles):
                       (nodes[c][0] - nodes[a][0]) * (nodes[b][1] - nodes[a][1])) / 2 for a, b, c in triangles)
 
 
-def area_of_ring(ring, geographic):
-    """Signed; of a ring in degrees on the globe, of radius 1 and with lines of constant direction in degrees as edges."""
-    total, (x0, y0) = [], ring[0]
+def area_of_ring(ring):
+    """Signed, in steradians; of a ring in degrees whose edges are great circles, and lines along a pole."""
+    total = []
     for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1]):
-        if not geographic:
-            total.append(((ax - x0) * (by - y0) - (bx - x0) * (ay - y0)) / 2)
+        width = math.radians(bx - ax)
+        if ay == by and abs(ay) == 90.0:
+            total.append(-math.copysign(width, ay * width))
             continue
-        width, low, high = math.radians(bx - ax), math.radians(ay), math.radians(by)
-        mean, half = (low + high) / 2, (high - low) / 2
-        # The mean of the sine of the latitude along the edge.
-        total.append(-width * math.sin(mean) * (math.sin(half) / half if half else 1.0))
+        # Between the edge and the equator.
+        low, high = math.tan(math.radians(ay) / 2), math.tan(math.radians(by) / 2)
+        total.append(-2.0 * math.atan2(math.tan(width / 2) * (low + high), 1.0 + low * high))
     return math.fsum(total)
+
+
+def area_on_globe(a, b, c):
+    """Of a triangle smaller than a hemisphere, in steradians, without a map: wherever poles and the longitudes' end are."""
+    a, b, c = ([math.radians(v) for v in on_sphere(p)] for p in (a, b, c))
+    dot = lambda p, q: math.fsum(v * w for v, w in zip(p, q))
+    (u, v, w), (x, y, z) = ([q - p for p, q in zip(a, other)] for other in (b, c))
+    volume = math.fsum((a[0] * (v * z - w * y), a[1] * (w * x - u * z), a[2] * (u * y - v * x)))
+    return 2.0 * math.atan2(volume, 1.0 + dot(a, b) + dot(b, c) + dot(c, a))
 
 
 def check_layer(layer, nodes, triangles, geographic, what):
@@ -152,15 +161,9 @@ def check_layer(layer, nodes, triangles, geographic, what):
         require(geographic, f"{what}: polygon {number} has {len(rings)} rings")
         require(all(-180 <= x <= 180 and -90 <= y <= 90 for ring in rings for x, y in ring),
                 f"{what}: polygon {number} leaves the map: {rings}")
-        area = math.fsum(area_of_ring(ring, True) for ring in rings)
-        polar = round(sum(((b[0] - a[0] + 540) % 360 - 180) for a, b in zip(corners, corners[1:] + corners[:1])) / 360)
-        around = [corners[0]]
-        for p in corners[1:]:
-            around.append((around[-1][0] + (p[0] - around[-1][0] + 540) % 360 - 180, p[1]))
-        if polar:  # round a pole: on to where it began, and along the pole
-            pole = math.copysign(90, sum(p[1] for p in corners))
-            around += [(around[0][0] + 360 * polar, around[0][1]), (around[0][0] + 360 * polar, pole), (around[0][0], pole)]
-        expected = area_of_ring(around, True)
+        area, expected = math.fsum(area_of_ring(ring) for ring in rings), area_on_globe(*corners)
+        if what.endswith(".shp"):
+            area = abs(area)
         require(abs(area - expected) <= 1e-6 * abs(expected) + 1e-15,
                 f"{what}: polygon {number} has the area {area:.12g}, not {expected:.12g}: {rings}, {corners}")
 
