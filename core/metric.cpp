@@ -2,6 +2,20 @@
 
 namespace coastmesh {
 
+double distanceToSegment(const Surface& surface, const Point& p, const Point& a, const Point& b) {
+  if (!surface.isCurved()) return std::sqrt(squaredDistanceToSegment(p, a, b));
+  const Frame at_p(surface, p);
+  return std::sqrt(squaredDistanceToSegment({}, at_p.relative(a), at_p.relative(b)));
+}
+
+double areaOn(const Surface& surface, const Point& a, const Point& b, const Point& c) {
+  if (!surface.isCurved()) return 0.5 * cross(b - a, c - a);
+  const TriangleShape shape(a, b, c, surface);
+  const double la = shape.squared[0], lb = shape.squared[1], lc = shape.squared[2];
+  const double across = la + lb - lc;
+  return 0.25 * std::sqrt(std::max(0.0, 4.0 * la * lb - across * across));
+}
+
 // By the law of cosines: lengths of chords are known to rounding, however short they are.
 bool isBadOnSphere(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
   const Surface& surface = bound.surface;

@@ -11,7 +11,8 @@
 
 namespace coastmesh {
 
-// The quality measure: of the plane, and in `isBad` of the surface that it stands for. Tests that decide on topology are exact and lie in core/predicates.hpp.
+// The quality measure: of the plane, and in `isBad` of the surface that it stands for. Tests that decide on topology
+// are exact and lie in core/predicates.hpp.
 
 inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y}; }
 inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
@@ -105,8 +106,8 @@ struct TriangleShape {
   unsigned shortest;  // index of the shortest edge; of equal ones the first
   unsigned longest;
 
-  TriangleShape(const Point& a, const Point& b, const Point& c)
-      : squared{squaredDistance(b, c), squaredDistance(c, a), squaredDistance(a, b)} {
+  TriangleShape(const Point& a, const Point& b, const Point& c, const Surface& surface = {})
+      : squared{surface.squaredChord(b, c), surface.squaredChord(c, a), surface.squaredChord(a, b)} {
     shortest = squared[0] <= squared[1] ? (squared[0] <= squared[2] ? 0 : 2) : (squared[1] <= squared[2] ? 1 : 2);
     longest = squared[0] >= squared[1] ? (squared[0] >= squared[2] ? 0 : 2) : (squared[1] >= squared[2] ? 1 : 2);
   }
@@ -143,6 +144,12 @@ inline bool isLongerThanWanted(const Point& a, const Point& b, const Point& c, d
   const double longest = bound.longest_share * bound.size->at(centroid(a, b, c));
   return squared_longest > longest * longest;
 }
+
+// On a sphere in the frame at p: to second order where the segment is near, and less than half a sphere away at all.
+double distanceToSegment(const Surface& surface, const Point& p, const Point& a, const Point& b);
+
+// Of the flat triangle between places of the surface; 0 or more on a sphere, on either side of it in the plane.
+double areaOn(const Surface& surface, const Point& a, const Point& b, const Point& c);
 
 // Whether the longest edge of a triangle, given squared, is longer than asked.
 inline bool isTooLong(const Point& a, const Point& b, const Point& c, double squared_longest,

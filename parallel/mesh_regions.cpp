@@ -38,7 +38,7 @@ int optimiseSweeps(const MeshOptions& options) {
 
 // Where lengths rule, most vertices are known beforehand. Algorithms for comparison stay as they were published.
 std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
-  if (options.algorithm != Algorithm::Relocate) return {};
+  if (options.algorithm != Algorithm::Relocate || options.surface.isCurved()) return {};
   // Twice as many triangles, and four names for the edges of each.
   const std::uint64_t most = std::min({options.max_vertices, options.most_in_memory, std::uint64_t{kNone / 16}});
   const std::uint64_t left = most - std::min<std::uint64_t>(most, mesh.points.size());

@@ -79,7 +79,7 @@ double cutAngle(int round) {
 double wantedIn(const Point& a, const Point& b, const Point& c, const TriangleBound& bound, int depth) {
   constexpr double kFine = 16.0;
   const double size = bound.longest_share / kLongestShare * bound.size->at(centroid(a, b, c));
-  const double count = 0.5 * std::abs(cross(b - a, c - a)) / (kEquilateral * size * size);
+  const double count = std::abs(areaOn(bound.surface, a, b, c)) / (kEquilateral * size * size);
   if (count < kFine || depth == 0) return count;
   const Point ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
   return wantedIn(a, ab, ca, bound, depth - 1) + wantedIn(ab, b, bc, bound, depth - 1) +
@@ -91,7 +91,7 @@ double expectedOf(const TriMesh& mesh, TriId t, const TriangleBound& bound) {
   const Point &a = mesh.point(v[0]), &b = mesh.point(v[1]), &c = mesh.point(v[2]);
   if (!isBad(a, b, c, bound)) return 1.0;
   if (bound.size != nullptr) return std::max(kOfABadOne, wantedIn(a, b, c, bound, kMostDepth));
-  const double area = 0.5 * std::abs(cross(b - a, c - a));
+  const double area = std::abs(areaOn(bound.surface, a, b, c));
   return std::max(kOfABadOne, kExcess * area / (kEquilateral * bound.squared_size));
 }
 
@@ -185,8 +185,9 @@ std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& 
   double area = 0.0, longest = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Point &a = mesh.point(t.v[0]), &b = mesh.point(t.v[1]), &c = mesh.point(t.v[2]);
-    area += 0.5 * cross(b - a, c - a);
-    longest = std::max({longest, squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)});
+    const TriangleShape shape(a, b, c, options.surface);
+    area += areaOn(options.surface, a, b, c);
+    longest = std::max(longest, shape.squared[shape.longest]);
   }
   if (options.size != nullptr) {
     const double all = expectedTriangles(mesh, options);

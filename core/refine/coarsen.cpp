@@ -135,8 +135,8 @@ bool Coarsener::isFinerThanWanted(VertexId v) {
   mesh_.star(v, star_);
   double longest = 0.0;
   for (const EdgeRef e : star_)
-    longest = std::max({longest, squaredDistance(here, mesh_.point(mesh_.origin(e))),
-                        squaredDistance(here, mesh_.point(mesh_.target(e)))});
+    longest = std::max({longest, bound_.surface.squaredChord(here, mesh_.point(mesh_.origin(e))),
+                        bound_.surface.squaredChord(here, mesh_.point(mesh_.target(e)))});
   const double most = kFineShare * size_->at(here);
   return longest < most * most;
 }

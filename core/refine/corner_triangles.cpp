@@ -35,7 +35,7 @@ void growCornerTriangle(RefineRun& run, TriId filler, VertexId apex, Beyond beyo
     const VertexId goes = on_right ? a : b, stays = on_right ? b : a;
     if (mesh.kind(goes) != VertexKind::Segment) return;
     const Point &from = mesh.point(apex), &to = mesh.point(c);
-    if (isTooLong(from, to, mesh.point(stays), squaredDistance(from, to), run.bound)) return;
+    if (isTooLong(from, to, mesh.point(stays), run.bound.surface.squaredChord(from, to), run.bound)) return;
     const std::size_t known = run.touched.size();
     if (!(beyond == Beyond::StaysGood ? run.ops.removeInto({apex, c, stays}, goes, run.touched)
                                       : run.ops.removeAnyway(goes, run.touched)))

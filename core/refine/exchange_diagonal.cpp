@@ -22,6 +22,12 @@ constexpr double kMostCost = 1.1;
 Point DiagonalExchange::placeOf(VertexId v) const {
   for (const Moved& moved : moved_)
     if (moved.vertex == v) return moved.place;
+  return frame_.to(mesh_.point(v));
+}
+
+Point DiagonalExchange::inPlane(VertexId v) const {
+  for (const Moved& moved : moved_)
+    if (moved.vertex == v) return frame_.from(moved.place);
   return mesh_.point(v);
 }
 
@@ -29,7 +35,8 @@ double DiagonalExchange::costBefore() const {
   double sum = 0.0;
   for (const TriId t : patch_.triangles) {
     const Corners& v = mesh_.triangle(t).v;
-    sum += costOf(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), wantedIn(v));
+    const auto seen = [&](VertexId u) { return frame_.to(mesh_.point(u)); };
+    sum += costOf(seen(v[0]), seen(v[1]), seen(v[2]), wantedIn(v));
   }
   return sum;
 }
@@ -38,9 +45,9 @@ double DiagonalExchange::costBefore() const {
 double DiagonalExchange::costAfter() const {
   double sum = 0.0;
   for (const Corners& v : fresh_) {
-    const Point a = placeOf(v[0]), b = placeOf(v[1]), c = placeOf(v[2]);
+    const Point a = inPlane(v[0]), b = inPlane(v[1]), c = inPlane(v[2]);
     if (orient2d(a, b, c) <= 0 || isBad(a, b, c, bound_)) return std::numeric_limits<double>::infinity();
-    sum += costOf(a, b, c, wantedIn(v));
+    sum += costOf(placeOf(v[0]), placeOf(v[1]), placeOf(v[2]), wantedIn(v));
   }
   return sum;
 }
@@ -69,7 +76,7 @@ bool DiagonalExchange::isDelaunay() const {
   for (std::size_t i = 0; i < fresh_.size(); ++i) {
     for (unsigned k = 0; k < 3; ++k) {
       const VertexId a = fresh_[i][k], b = fresh_[i][next3(k)];
-      const Point pa = placeOf(a), pb = placeOf(b), pc = placeOf(fresh_[i][prev3(k)]);
+      const Point pa = inPlane(a), pb = inPlane(b), pc = inPlane(fresh_[i][prev3(k)]);
       const auto outer =
           std::ranges::find_if(patch_.boundary, [&](const BoundaryEdge& r) { return r.a == a && r.b == b; });
       if (outer != patch_.boundary.end()) {
@@ -79,7 +86,7 @@ bool DiagonalExchange::isDelaunay() const {
       }
       for (std::size_t j = i + 1; j < fresh_.size(); ++j)
         for (unsigned m = 0; m < 3; ++m)
-          if (fresh_[j][m] == b && fresh_[j][next3(m)] == a && inCircle(pa, pb, pc, placeOf(fresh_[j][prev3(m)])) > 0)
+          if (fresh_[j][m] == b && fresh_[j][next3(m)] == a && inCircle(pa, pb, pc, inPlane(fresh_[j][prev3(m)])) > 0)
             return false;
     }
   }
@@ -92,7 +99,8 @@ bool DiagonalExchange::tryExchange(VertexId v, VertexId w, VertexId c, VertexId 
   if (std::ranges::any_of(patch_.boundary,
                           [&](const BoundaryEdge& r) { return r.seg == kFrozen || ops_.isBadBeyond(r.beyond); }))
     return false;
-  for (std::size_t i = 0; i < corners.size(); ++i) moved_[i] = {corners[i], mesh_.point(corners[i])};
+  frame_ = Frame(bound_.surface, mesh_.point(v));
+  for (std::size_t i = 0; i < corners.size(); ++i) moved_[i] = {corners[i], frame_.to(mesh_.point(corners[i]))};
   fresh_.clear();
   for (const TriId t : patch_.triangles) {
     const Corners& k = mesh_.triangle(t).v;
@@ -102,7 +110,7 @@ bool DiagonalExchange::tryExchange(VertexId v, VertexId w, VertexId c, VertexId 
   fresh_.push_back({d, w, c});
   relax();
   if (!(costAfter() < kMostCost * costBefore()) || !isDelaunay()) return false;
-  for (const Moved& moved : moved_) mesh_.setPoint(moved.vertex, moved.place);
+  for (const Moved& moved : moved_) mesh_.setPoint(moved.vertex, frame_.from(moved.place));
   mesh_.replace(patch_, fresh_, {}, touched);
   return true;
 }

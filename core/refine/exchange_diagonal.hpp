@@ -27,10 +27,11 @@ class DiagonalExchange {
  private:
   struct Moved {
     VertexId vertex = kNone;
-    Point place;
+    Point place;  // in the frame
   };
 
-  Point placeOf(VertexId v) const;
+  Point placeOf(VertexId v) const;  // in the frame
+  Point inPlane(VertexId v) const;
   double costBefore() const;
   double costAfter() const;
   double wantedIn(const Corners& t) const { return (wanted_[t[0]] + wanted_[t[1]] + wanted_[t[2]]) / 3.0; }
@@ -44,6 +45,7 @@ class DiagonalExchange {
   Patch patch_;                 // the triangles round the four
   std::vector<Corners> fresh_;  // what they become
   Moved moved_[4];
+  Frame frame_{{}, {}};  // on a sphere, about the first of the four
 };
 
 }  // namespace coastmesh

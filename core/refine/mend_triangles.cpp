@@ -60,24 +60,26 @@ bool mendWithoutInsertion(RefineRun& run, TriId t) {
 // Whether x sees the subsegment under 180° - 2 alpha or more: the diametral lens of Chew (1993) and Shewchuk (1997) for
 // 30°, wider with alpha. A triangle with such an angle is bad, so a subsegment that a vertex encroaches upon always has
 // one.
-bool isEncroached(double cos_lens, const Point& x, const Point& a, const Point& b) {
-  const double d = dot(a - x, b - x);
+bool isEncroached(double cos_lens, const Frame& at_x, const Point& a, const Point& b) {
+  const Point xa = at_x.relative(a), xb = at_x.relative(b);
+  const double d = dot(xa, xb);
   if (d >= 0.0) return false;
   if (cos_lens >= 0.0) return true;
-  return d * d >= cos_lens * cos_lens * squaredDistance(x, a) * squaredDistance(x, b);
+  return d * d >= cos_lens * cos_lens * squaredLength(xa) * squaredLength(xb);
 }
 
 // The subsegment of a cavity's boundary that x lies behind, or encroaches upon, with the widest angle; kNone where
 // there is none.
 EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavity) {
   const EditMesh& mesh = run.mesh;
+  const Frame at_x(run.bound.surface, x);
   EdgeRef hit = kNone;
   double widest = 0.0;
   for (const BoundaryEdge& r : cavity.boundary) {
     if (r.seg == kNone && r.beyond != kNone) continue;
     const Point &a = mesh.point(r.a), &b = mesh.point(r.b);
     const bool behind = orient2d(a, b, x) <= 0;
-    if (!behind && (r.seg == kFrozen || !isEncroached(run.cos_lens, x, a, b))) continue;
+    if (!behind && (r.seg == kFrozen || !isEncroached(run.cos_lens, at_x, a, b))) continue;
     const double angle = behind ? std::numbers::pi : angleAt(x, a, b);
     if (angle <= widest) continue;
     widest = angle;
@@ -121,7 +123,7 @@ bool insertPoint(RefineRun& run, TriId t, unsigned apex) {
 
 void mend(RefineRun& run, TriId t) {
   EditMesh& mesh = run.mesh;
-  const TriangleShape shape(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  const TriangleShape shape(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.bound.surface);
   if (!isBad(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.bound)) return;
   const auto isFrozen = [&](VertexId v) { return v < run.frozen.size() && run.frozen[v]; };
   if (std::ranges::any_of(mesh.triangle(t).v, isFrozen)) return defer(run, t);

@@ -89,6 +89,11 @@ class Optimiser {
   bool gatherRing(VertexId v) {
     constexpr std::size_t kMost = 64;
     if (mesh_.ring(v, mesh_.triangleOf(v), kMost, ring_) != StarKind::Closed) return false;
+    frame_ = Frame(bound_.surface, mesh_.point(v));
+    if (frame_.isCurved()) {
+      seen_.clear();
+      for (const VertexId w : ring_.corners) seen_.push_back(frame_.to(mesh_.point(w)));
+    }
     const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
     return !is_submesh_ || std::ranges::none_of(ring_.triangles, isFrozen);
   }
@@ -114,6 +119,13 @@ class Optimiser {
   const Point& corner(std::size_t i) const {
     return mesh_.point(ring_.corners[i < ring_.corners.size() ? i : i - ring_.corners.size()]);
   }
+  // The same in the frame.
+  const Point& seen(std::size_t i) const {
+    return frame_.isCurved() ? seen_[i < seen_.size() ? i : i - seen_.size()] : corner(i);
+  }
+  double squaredLengthOf(VertexId v, VertexId w) const {
+    return bound_.surface.squaredChord(mesh_.point(v), mesh_.point(w));
+  }
   double wantedOf(std::size_t i) const {
     return wanted_[ring_.corners[i < ring_.corners.size() ? i : i - ring_.corners.size()]];
   }
@@ -135,6 +147,9 @@ class Optimiser {
 
   // Scratch.
   Ring ring_;  // of the vertex whose turn it is
+  // Where that vertex lay when the ring was gathered: in this frame places are moved and costs are reckoned.
+  Frame frame_{{}, {}};
+  std::vector<Point> seen_;  // the ring's corners in the frame, on a sphere
   std::vector<EdgeRef> star_;
   std::vector<TriId> touched_;
 };
@@ -149,7 +164,7 @@ double Optimiser::wantedAt(VertexId v) {
   int count = 0;
   const auto add = [&](EdgeRef e) {
     if (!is_free && size_ != nullptr && !mesh_.isConstrained(e)) return;
-    sum += distance(mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.target(e)));
+    sum += std::sqrt(squaredLengthOf(mesh_.origin(e), mesh_.target(e)));
     ++count;
   };
   mesh_.star(v, star_);
@@ -160,18 +175,19 @@ double Optimiser::wantedAt(VertexId v) {
   return count == 0 ? wanted : std::min(wanted, sum / count);
 }
 
-// What the triangles round a vertex cost where it lies at `place`; infinite where a bound is broken or more than
-// `limit` is due.
+// What the triangles round a vertex cost where it lies at `place` of the frame; infinite where a bound is broken or
+// more than `limit` is due.
 double Optimiser::costRound(const Point& place, double wanted, double limit) const {
   constexpr double kTooMuch = std::numeric_limits<double>::infinity();
+  const Point in_plane = frame_.from(place);
   double sum = 0.0;
   Point a = mesh_.point(ring_.corners.front());
   double size = wanted_[ring_.corners.front()];
   for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
     const Point& b = corner(i + 1);
     const double next = wantedOf(i + 1);
-    if (orient2d(a, b, place) <= 0 || isBad(a, b, place, bound_)) return kTooMuch;
-    sum += costOf(a, b, place, (wanted + size + next) / 3.0);
+    if (orient2d(a, b, in_plane) <= 0 || isBad(a, b, in_plane, bound_)) return kTooMuch;
+    sum += costOf(seen(i), seen(i + 1), place, (wanted + size + next) / 3.0);
     if (sum > limit) return kTooMuch;
     a = b;
     size = next;
@@ -179,17 +195,17 @@ double Optimiser::costRound(const Point& place, double wanted, double limit) con
   return sum;
 }
 
-// What the triangles round a vertex cost, and the mean of their centroids, each weighted by how many triangles of the
-// size wanted its own is worth.
+// What the triangles round a vertex cost, and the mean of their centroids in the frame, each weighted by how many
+// triangles of the size wanted its own is worth.
 double Optimiser::costHere(VertexId v, Point& centre) const {
-  const Point here = mesh_.point(v);
-  Point mean, a = mesh_.point(ring_.corners.front());
+  const Point here = frame_.to(mesh_.point(v));
+  Point mean, a = seen(0);
   double sum = 0.0, weight = 0.0, size = wanted_[ring_.corners.front()];
   bool breaks = false;
   for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
-    const Point& b = corner(i + 1);
+    const Point& b = seen(i + 1);
     const double next = wantedOf(i + 1), wanted = (wanted_[v] + size + next) / 3.0;
-    breaks = breaks || isBad(a, b, here, bound_);
+    breaks = breaks || isBad(corner(i), corner(i + 1), mesh_.point(v), bound_);
     sum += costOf(a, b, here, wanted);
     const double own = cross(a - here, b - here) / (wanted * wanted);
     mean = mean + own * (a - here + (b - here));
@@ -204,7 +220,7 @@ double Optimiser::costHere(VertexId v, Point& centre) const {
 double Optimiser::leastShape(const Point& place, std::size_t& at) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
-    const double shape = shapeOf(corner(i), corner(i + 1), place);
+    const double shape = shapeOf(seen(i), seen(i + 1), place);
     if (shape < least) {
       least = shape;
       at = i;
@@ -220,7 +236,7 @@ double Optimiser::goalAt(VertexId v, const Point& place) const {
   const double enough_link = goal_ == QualityGoal::Links ? 0.22 : 0.12;
   double least = 1.0;
   for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
-    const Point &a = corner(i), &b = corner(i + 1), &c = corner(i + 2);
+    const Point &a = seen(i), &b = seen(i + 1), &c = seen(i + 2);
     if (goal_ == QualityGoal::Centred) {
       least = std::min(least, centrednessOf(place, a, b) / kEnoughCentred);
       continue;
@@ -228,16 +244,16 @@ double Optimiser::goalAt(VertexId v, const Point& place) const {
     least = std::min(least, linkShareOf(place, b, c, a) / enough_link);
     const EdgeRef beyond = mesh_.twin(edgeRef(ring_.triangles[i], mesh_.cornerOf(ring_.triangles[i], v)));
     if (beyond == kNone) continue;
-    least = std::min(least, linkShareOf(a, b, place, mesh_.point(mesh_.apex(beyond))) / enough_link);
+    least = std::min(least, linkShareOf(a, b, place, frame_.to(mesh_.point(mesh_.apex(beyond)))) / enough_link);
   }
   return least;
 }
 
-// The best of some places round a vertex for what the goal asks, where its star costs little more.
+// The best of some places of the frame round a vertex for what the goal asks, where its star costs little more.
 std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
   constexpr int kDirections = 8;
   constexpr double kMostGoalCost = 1.1;
-  const Point here = mesh_.point(v);
+  const Point here = frame_.to(mesh_.point(v));
   double best = goalAt(v, here) + kLeastGain;
   for (const double step : {0.2, 0.1, 0.05, 0.025}) {
     std::optional<Point> place;
@@ -255,9 +271,10 @@ std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
   return std::nullopt;
 }
 
-// Where the star of a vertex costs less or, later on, its poorest triangle gains and the others lose next to nothing.
+// Where in the frame the star of a vertex costs less or, later on, its poorest triangle gains and the others lose next
+// to nothing.
 std::optional<Point> Optimiser::betterPlace(VertexId v) const {
-  const Point here = mesh_.point(v);
+  const Point here = frame_.to(mesh_.point(v));
   Point to;
   const double cost = costHere(v, to);
   if (!std::isfinite(to.x) || !std::isfinite(to.y)) return std::nullopt;
@@ -274,7 +291,7 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   std::size_t poorest = 0, any = 0;
   const double shape = leastShape(here, poorest);
   if (shape > kPoorShape) return std::nullopt;
-  const Point &a = corner(poorest), &b = corner(poorest + 1);
+  const Point &a = seen(poorest), &b = seen(poorest + 1);
   const Point apex =
       midpoint(a, b) + 0.5 * kRootOfThree * Point{a.y - b.y, b.x - a.x};  // of the equilateral triangle there
   double share = 0.4;
@@ -302,13 +319,14 @@ bool Optimiser::flipsAt(VertexId v, const Point& place) const {
 
 // Returns whether the vertex has moved.
 bool Optimiser::move(VertexId v) {
-  const std::optional<Point> to = betterPlace(v);
-  if (!to) return false;
+  const std::optional<Point> better = betterPlace(v);
+  if (!better) return false;
+  const Point to = frame_.from(*better);
   const auto isBesideBad = [&](TriId t) { return ops_.isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
-  if ((any_bad_ && std::ranges::any_of(ring_.triangles, isBesideBad)) || (flips_may_harm_ && flipsAt(v, *to)))
+  if ((any_bad_ && std::ranges::any_of(ring_.triangles, isBesideBad)) || (flips_may_harm_ && flipsAt(v, to)))
     return false;
-  mesh_.setPoint(v, *to);
-  if (size_ != nullptr) wanted_[v] = size_->at(*to);
+  mesh_.setPoint(v, to);
+  if (size_ != nullptr) wanted_[v] = size_->at(to);
   touched_.assign(ring_.triangles.begin(), ring_.triangles.end());
   mesh_.restoreDelaunayRound(v, touched_);
   ++stats_.relocations;
@@ -326,10 +344,9 @@ bool Optimiser::mergeInto(VertexId v, VertexId stays) {
 }
 
 bool Optimiser::mergeShort(VertexId v) {
-  const Point here = mesh_.point(v);
   for (const VertexId w : ring_.corners) {
     const double shortest = kShortest * 0.5 * (wanted_[v] + wanted_[w]);
-    if (squaredDistance(here, mesh_.point(w)) > shortest * shortest || mesh_.kind(w) == VertexKind::Input) continue;
+    if (squaredLengthOf(v, w) > shortest * shortest || mesh_.kind(w) == VertexKind::Input) continue;
     if (mergeInto(v, w)) return true;
   }
   return false;
@@ -370,7 +387,7 @@ void Optimiser::mergeTooFew(VertexId v) {
     const VertexId w = corners[i];
     if (mesh_.kind(w) == VertexKind::Input || !isDue(w)) continue;
     const double longest = 0.5 * (wanted_[v] + wanted_[w]);
-    if (squaredDistance(mesh_.point(v), mesh_.point(w)) > longest * longest) continue;
+    if (squaredLengthOf(v, w) > longest * longest) continue;
     const int added = imbalanceAdded(w, count - 4) - own + imbalanceAdded(corners[(i + 1) % count], -1) +
                       imbalanceAdded(corners[(i + count - 1) % count], -1);
     if (added < best) {

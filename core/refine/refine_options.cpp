@@ -32,18 +32,24 @@ void requireInRange(const RefineOptions& options) {
           "60 to 180 degrees");
   require(options.resolution >= 0.0 && std::isfinite(options.resolution), "resolution", options.resolution,
           "a finite number of 0 or more");
+  require(options.surface.curvature >= 0.0 && std::isfinite(options.surface.curvature), "surface.curvature",
+          options.surface.curvature, "a finite number of 0 or more");
   require(options.size_max > 0.0, "size_max", options.size_max, "above 0");
   require(options.size_scale > 0.0 && std::isfinite(options.size_scale), "size_scale", options.size_scale,
           "a finite number above 0");
 }
 
 TriangleBound boundOf(const RefineOptions& options) {
-  return {options.min_angle_deg, options.max_angle_deg, options.size_max, options.size,
-          kLongestShare * options.size_scale};
+  TriangleBound bound(options.min_angle_deg, options.max_angle_deg, options.size_max, options.size,
+                      kLongestShare * options.size_scale);
+  bound.surface = options.surface;
+  return bound;
 }
 
 TriangleBound strictBoundOf(const RefineOptions& options) {
-  return {options.min_angle_deg, options.max_angle_deg, options.size_max};
+  TriangleBound bound(options.min_angle_deg, options.max_angle_deg, options.size_max);
+  bound.surface = options.surface;
+  return bound;
 }
 
 }  // namespace coastmesh

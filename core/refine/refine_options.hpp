@@ -41,7 +41,7 @@ struct RefineOptions {
   // plane's own, whose rounding sets such a distance in any case.
   double resolution = 0.0;
   QualityGoal goal = QualityGoal::Shape;
-  Surface surface;          // that the plane stands for: all lengths and angles are on it
+  Surface surface = {};     // that the plane stands for: all lengths and angles are on it
   double size_scale = 1.0;  // above 0; wanted are these times so much: a step on the way
 };
 

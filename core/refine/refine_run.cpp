@@ -92,7 +92,7 @@ bool isDeferred(const RefineRun& run, TriId t) {
 double spacingAt(const RefineRun& run, const Point& x, const Patch& cavity) {
   double spacing = run.bound.size == nullptr ? run.options.size_max : run.bound.size->at(x);
   for (const BoundaryEdge& r : cavity.boundary)
-    spacing = std::min(spacing, run.notes.spacing[r.a] + distance(x, run.mesh.point(r.a)));
+    spacing = std::min(spacing, run.notes.spacing[r.a] + run.bound.surface.chord(x, run.mesh.point(r.a)));
   return spacing;
 }
 
@@ -108,7 +108,7 @@ void enqueueIfBad(RefineRun& run, TriId t) {
   const Triangle& tri = mesh.triangle(t);
   const Point &a = mesh.point(tri.v[0]), &b = mesh.point(tri.v[1]), &c = mesh.point(tri.v[2]);
   if (!isBad(a, b, c, run.bound)) return;
-  const TriangleShape shape(a, b, c);
+  const TriangleShape shape(a, b, c, run.bound.surface);
   // Shortest edge first; the worst angle first for circumcentres (Erten & Üngör 2007, Section 2.1).
   const bool worst_first = run.variant.worst_first || run.options.algorithm == Algorithm::Circumcenter;
   run.queue.push(worst_first ? rankOfAngle(shape.cosAt(shape.shortest)) : rankOfLength(shape.squared[shape.shortest]),

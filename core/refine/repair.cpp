@@ -119,7 +119,8 @@ void take(RefineRun& run, const Submesh& patch, const Solution& solution, const 
   for (const VertexId v : added) {
     double spacing = std::numeric_limits<double>::infinity();
     for (VertexId f = 0; f < patch.parent.size(); ++f)
-      spacing = std::min(spacing, patch.notes.spacing[f] + distance(patch.mesh.points[f], run.mesh.point(v)));
+      spacing =
+          std::min(spacing, patch.notes.spacing[f] + run.bound.surface.chord(patch.mesh.points[f], run.mesh.point(v)));
     noteVertex(run, v, spacing);
   }
   run.mesh.restoreDelaunay(touched);

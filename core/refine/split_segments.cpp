@@ -25,19 +25,20 @@ constexpr double kStepsALength = 4.0;
 
 // Shares of the way from a to b that lie one wanted length apart, stretched to fit. What needs clearly more than `most`
 // of them is looked at as far as these go.
-void evenShares(const Point& a, const Point& b, const SizeFunction& size, std::uint64_t most,
+void evenShares(const Point& a, const Point& b, const SizeFunction& size, const Surface& surface, std::uint64_t most,
                 std::vector<double>& shares) {
+  const auto wantedAt = [&](const Point& x) { return size.at(x) / surface.shrinkAt(x); };  // in the plane
   shares.clear();
   const double length = distance(a, b);
   // How many wanted lengths there are up to each step, by the trapezoid rule; steps follow the wanted length.
   std::vector<std::pair<double, double>> marks{{0.0, 0.0}};
-  double along = 0.0, count = 0.0, here = size.at(a);
+  double along = 0.0, count = 0.0, here = wantedAt(a);
   const double most_steps = 2.0 * kStepsALength * (static_cast<double>(most) + 1.0);
   while (along < length && static_cast<double>(marks.size()) < most_steps) {
     const double step = std::min(here / kStepsALength, length - along);
     const double next = step >= length - along ? length : along + step;
     if (!(next > along)) break;  // lengths below what coordinates resolve
-    const double there = size.at(a + (next / length) * (b - a));
+    const double there = wantedAt(a + (next / length) * (b - a));
     count += 0.5 * (next - along) * (1.0 / here + 1.0 / there);
     along = next;
     here = there;
@@ -88,7 +89,7 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
   for (const Cut& cut : cuts) {
     if (edit.vertexCount() >= most) break;
     const Point a = edit.point(cut.a), b = edit.point(cut.b);
-    evenShares(a, b, *options.size, most - edit.vertexCount(), shares);
+    evenShares(a, b, *options.size, options.surface, most - edit.vertexCount(), shares);
     VertexId from = cut.a;
     for (const double share : shares) {
       if (edit.vertexCount() >= most) break;
@@ -104,8 +105,8 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
       const VertexId v = edit.splitSegment(edge, on, touched);
       if (v == kNone) break;
       notes.spacing.resize(edit.vertexSlots());
-      notes.spacing[v] = std::min(
-          {distance(on, a) + notes.spacing[cut.a], distance(on, b) + notes.spacing[cut.b], options.size->at(on)});
+      notes.spacing[v] = std::min({options.surface.chord(on, a) + notes.spacing[cut.a],
+                                   options.surface.chord(on, b) + notes.spacing[cut.b], options.size->at(on)});
       from = v;
     }
   }

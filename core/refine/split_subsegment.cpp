@@ -12,16 +12,24 @@ double spacingOnSegment(const RefineRun& run, const Point& x, EdgeRef edge, cons
   const EditMesh& mesh = run.mesh;
   double spacing = spacingAt(run, x, cavity);
   for (const VertexId v : {mesh.origin(edge), mesh.target(edge)})
-    spacing = std::min(spacing, run.notes.spacing[v] + distance(x, mesh.point(v)));
+    spacing = std::min(spacing, run.notes.spacing[v] + run.bound.surface.chord(x, mesh.point(v)));
   const Segment& own = run.pslg.segments[mesh.segment(edge)];
   for (const BoundaryEdge& r : cavity.boundary) {
     if (r.seg >= run.pslg.segments.size()) continue;
     // Near a common end two segments are arbitrarily close: there the spacing of that vertex counts.
     const Segment& other = run.pslg.segments[r.seg];
     if (own.a == other.a || own.a == other.b || own.b == other.a || own.b == other.b) continue;
-    spacing = std::min(spacing, std::sqrt(squaredDistanceToSegment(x, mesh.point(r.a), mesh.point(r.b))));
+    spacing = std::min(spacing, distanceToSegment(run.bound.surface, x, mesh.point(r.a), mesh.point(r.b)));
   }
   return spacing;
+}
+
+// A share of an edge's length on the surface, as a share of that in the plane: as its two pieces' chords are to one
+// another.
+double shareInPlane(const Surface& surface, const Point& a, const Point& b, double share) {
+  if (!surface.isCurved()) return share;
+  const double to_a = share * std::sqrt(surface.shrinkAt(b)), to_b = (1.0 - share) * std::sqrt(surface.shrinkAt(a));
+  return to_a / (to_a + to_b);
 }
 
 Point splitPlace(const RefineRun& run, VertexId a, VertexId b, SegmentId seg) {
@@ -31,14 +39,14 @@ Point splitPlace(const RefineRun& run, VertexId a, VertexId b, SegmentId seg) {
   double share = 0.5;
   if ((unit(a) > 0.0) != (unit(b) > 0.0)) {
     // On the shell round the small angle whose radius, the unit times a power of two, is nearest to the middle.
-    const double length = distance(pa, pb);
+    const double length = run.bound.surface.chord(pa, pb);
     const double radius_unit = std::max(unit(a), unit(b));
     const double radius = radius_unit * std::exp2(std::round(std::log2(0.5 * length / radius_unit)));
     const double from = std::clamp(radius / length, 0.25, 0.75);
     share = unit(a) > 0.0 ? from : 1.0 - from;
   }
   const Point &sa = run.pslg.points[run.pslg.segments[seg].a], &sb = run.pslg.points[run.pslg.segments[seg].b];
-  return projectedOnLine(pa + share * (pb - pa), sa, sb);
+  return projectedOnLine(pa + shareInPlane(run.bound.surface, pa, pb, share) * (pb - pa), sa, sb);
 }
 
 // Takes out the free vertices in the subsegment's diametral circle (Chew 1993). Returns the subsegment, which may have
@@ -50,7 +58,8 @@ EdgeRef clearDiametralCircle(RefineRun& run, EdgeRef edge) {
     // Every round takes a vertex out.
     while (edge != kNone) {
       const VertexId v = mesh.apex(edge);
-      if (mesh.kind(v) != VertexKind::Free || dot(mesh.point(a) - mesh.point(v), mesh.point(b) - mesh.point(v)) >= 0.0)
+      const Frame at_v(run.bound.surface, mesh.point(v));
+      if (mesh.kind(v) != VertexKind::Free || dot(at_v.relative(mesh.point(a)), at_v.relative(mesh.point(b))) >= 0.0)
         break;
       const VertexId from = mesh.origin(edge);
       if (!removeFreeVertex(run, v)) break;
@@ -89,7 +98,9 @@ bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex) {
     return false;
   }
   const double spacing = spacingOnSegment(run, place, edge, patch);
-  const double nearer = std::min(squaredDistance(place, mesh.point(a)), squaredDistance(place, mesh.point(b)));
+  const Surface& surface = run.bound.surface;
+  const double nearer =
+      std::min(surface.squaredChord(place, mesh.point(a)), surface.squaredChord(place, mesh.point(b)));
   // Where the input itself is finer than coordinates resolve, nothing can be mended.
   if (std::min(nearer, spacing * spacing) < run.squared_resolution) return false;
   if (nearer < kSegmentShare * kSegmentShare * spacing * spacing) return false;

@@ -25,20 +25,41 @@ double petalRadius(double length, double circumradius, double wanted, const Tria
   return std::max(radius, 0.5 * length);
 }
 
+// The petal of an edge on a sphere is a cap: a plane section through the edge sees it under one angle. In the frame at
+// one end, where the edge has this length, it is a disk that sees it under another, with this sine; 0 where the cap
+// would be larger than a half of the sphere.
+double sineInFrame(double sine, double length, const Surface& surface) {
+  if (!surface.isCurved()) return sine;
+  const double squared_tangent = surface.curvature * length * length;  // of half the arc
+  return std::sqrt(std::max(0.0, sine * sine * (1.0 + squared_tangent) - squared_tangent));
+}
+
 // Far more Voronoi edges than a petal has; a bound for meshes that rounding has bent.
 constexpr int kMostSteps = 10000;
 
 }  // namespace
 
 SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
-  // All geometry relative to p.
+  // All geometry relative to p, on a sphere in the frame there.
   const Triangle& bad = mesh.triangle(t);
   const Point& p = mesh.point(bad.v[next3(apex)]);
-  const Point q = mesh.point(bad.v[prev3(apex)]) - p;
-  const Point r = mesh.point(bad.v[apex]) - p;
+  const Frame frame(bound_.surface, p);
+  const auto relative = [&](VertexId v) { return frame.relative(mesh.point(v)); };
+  const auto clearance = [&](const Point& place, const Point& vertex) {
+    const double squared = squaredDistance(place, vertex);
+    return frame.isCurved() ? squared * frame.shrinkAt(place) * frame.shrinkAt(vertex) : squared;
+  };
+  const Point q = relative(bad.v[prev3(apex)]);
+  const Point r = relative(bad.v[apex]);
+  if (frame.isCurved() && !(cross(q, r) > 0.0)) {
+    // Its circle holds the far end of the sphere.
+    const Point centre = centroid(p, mesh.point(bad.v[prev3(apex)]), mesh.point(bad.v[apex]));
+    return {centre, SteinerType::OwnCircumcenter, t, bound_.surface.squaredChord(centre, p)};
+  }
   const Point own = circumcenterOffset({}, q, r);
-  const double own_clearance = squaredLength(own);
-  if (algorithm_ == Algorithm::Circumcenter) return {p + own, SteinerType::OwnCircumcenter, t, own_clearance};
+  const double own_clearance = clearance(own, {});
+  if (algorithm_ == Algorithm::Circumcenter)
+    return {frame.absolute(own), SteinerType::OwnCircumcenter, t, own_clearance};
 
   const double length = std::sqrt(squaredLength(q));
   const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cot_min);
@@ -46,13 +67,15 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   // As at the centroid of the equilateral triangle on pq: at pq itself edges come out too short where lengths grow away
   // from it, as they do away from every shore.
   const Point centre = 0.5 * q + 0.5 * kInverseRootOfThree * Point{-q.y, q.x};
-  const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(p + centre);
-  const double radius = petalRadius(length, std::sqrt(own_clearance), wanted, bound_, sin_place_, bad_angle);
+  const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(frame.absolute(centre));
+  const double circumradius = std::sqrt(squaredLength(own));
+  const double radius =
+      petalRadius(length, circumradius, wanted, bound_, sineInFrame(sin_place_, length, bound_.surface), bad_angle);
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
   // Type I where the circumcentre lies outside the petal; both are on the bisector of pq.
   if (dot(normal, own) > height + radius) {
     const Point tip = 0.5 * q + (height + radius) * normal;
-    return {p + tip, SteinerType::DualOfShortestEdge, t, squaredLength(tip)};
+    return {frame.absolute(tip), SteinerType::DualOfShortestEdge, t, clearance(tip, {})};
   }
   SteinerPoint best{own, SteinerType::OwnCircumcenter, t, own_clearance};
   if (algorithm_ != Algorithm::Offcenter) {
@@ -72,11 +95,11 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
       // Towards a constraint the way leads to places that are nearer to its ends, or behind it.
       if (mesh.isConstrained(edge)) continue;
       const EdgeRef beyond = mesh.twin(edge);
-      const Point u = mesh.point(mesh.origin(edge)) - p, w = mesh.point(mesh.target(edge)) - p;
-      const Point apex_point = mesh.point(mesh.apex(beyond)) - p;
+      const Point u = relative(mesh.origin(edge)), w = relative(mesh.target(edge));
+      const Point apex_point = relative(mesh.apex(beyond));
       const Point to = u + circumcenterOffset(u, apex_point, w);
       if (squaredDistance(to, middle) <= squared_radius) {
-        offer(to, SteinerType::OtherCircumcenter, triOf(beyond), squaredDistance(to, u));
+        offer(to, SteinerType::OtherCircumcenter, triOf(beyond), clearance(to, u));
         steps_.push_back({edgeRef(triOf(beyond), prev3(indexOf(beyond))), to});
         steps_.push_back({edgeRef(triOf(beyond), next3(indexOf(beyond))), to});
       } else {
@@ -85,11 +108,11 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
         const double a = squaredLength(along), b = dot(along, offset), c = squaredLength(offset) - squared_radius;
         const Point exit = from + ((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a) * along;
         if (!std::isfinite(exit.x) || !std::isfinite(exit.y)) continue;
-        offer(exit, SteinerType::OtherVoronoiEdge, triOf(beyond), squaredDistance(exit, u));
+        offer(exit, SteinerType::OtherVoronoiEdge, triOf(beyond), clearance(exit, u));
       }
     }
   }
-  best.place = p + best.place;
+  best.place = frame.absolute(best.place);
   return best;
 }
 

@@ -35,6 +35,7 @@ std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> 
 VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId parent_inputs,
                     const VertexNotes& notes) {
   VertexNotes some;
+  some.surface = notes.surface;
   some.corners = notes.corners;
   if (!notes.spacing.empty()) {
     some.spacing.reserve(vertices.size());

@@ -28,26 +28,30 @@ void noteAngles(const TriMesh& mesh, const TriangleBound& bound, VertexNotes& no
       const Sector sector = sectorAt(mesh, t, i);
       if (!bound.canDivide(sector.angle)) notes.small_angle[v] = true;
       if (sector.angle >= kShellAngle) continue;
-      const double nearer = std::min(distance(mesh.point(v), mesh.point(mesh.target(sector.right))),
-                                     distance(mesh.point(v), mesh.point(mesh.origin(sector.left))));
+      const double nearer = std::min(bound.surface.chord(mesh.point(v), mesh.point(mesh.target(sector.right))),
+                                     bound.surface.chord(mesh.point(v), mesh.point(mesh.origin(sector.left))));
       notes.shell_unit[v] = notes.shell_unit[v] == 0.0 ? nearer : std::min(notes.shell_unit[v], nearer);
     }
   }
 }
 
 // The distance to the nearest vertex or segment that a vertex sees, from the triangles round it.
-void noteSpacing(const TriMesh& mesh, VertexNotes& notes) {
+void noteSpacing(const TriMesh& mesh, const Surface& surface, VertexNotes& notes) {
   notes.spacing.assign(mesh.points.size(), std::numeric_limits<double>::infinity());
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& tri = mesh.triangle(t);
     for (unsigned i = 0; i < 3; ++i) {
       const VertexId a = tri.v[next3(i)], b = tri.v[prev3(i)];
-      const Point ab = mesh.point(b) - mesh.point(a);
-      const double length = std::sqrt(squaredLength(ab));
+      const double length = surface.chord(mesh.point(a), mesh.point(b));
       notes.spacing[a] = std::min(notes.spacing[a], length);
       notes.spacing[b] = std::min(notes.spacing[b], length);
       if (!isConstrained(mesh, edgeRef(t, i))) continue;
-      const Point av = mesh.point(tri.v[i]) - mesh.point(a);
+      if (surface.isCurved()) {
+        notes.spacing[tri.v[i]] = std::min(
+            notes.spacing[tri.v[i]], distanceToSegment(surface, mesh.point(tri.v[i]), mesh.point(a), mesh.point(b)));
+        continue;
+      }
+      const Point ab = mesh.point(b) - mesh.point(a), av = mesh.point(tri.v[i]) - mesh.point(a);
       const double along = dot(av, ab);
       if (along > 0.0 && along < length * length)
         notes.spacing[tri.v[i]] = std::min(notes.spacing[tri.v[i]], std::abs(cross(ab, av)) / length);
@@ -60,7 +64,8 @@ void noteSpacing(const TriMesh& mesh, VertexNotes& notes) {
 VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound) {
   VertexNotes notes;
   noteAngles(mesh, bound, notes);
-  noteSpacing(mesh, notes);
+  notes.surface = bound.surface;
+  noteSpacing(mesh, bound.surface, notes);
   InputCorners corners(mesh, bound);
   if (!corners.all().empty()) notes.corners = std::make_shared<const InputCorners>(std::move(corners));
   return notes;
@@ -73,7 +78,7 @@ void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes) {
     for (unsigned i = 0; i < 3; ++i) {
       const VertexId a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
       if (a < known && b < known) continue;
-      const double length = distance(mesh.point(a), mesh.point(b));
+      const double length = notes.surface.chord(mesh.point(a), mesh.point(b));
       for (const VertexId v : {a, b})
         if (v >= known) notes.spacing[v] = std::min(notes.spacing[v], length);
     }

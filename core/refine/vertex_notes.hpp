@@ -9,8 +9,9 @@
 
 namespace coastmesh {
 
-// What a run knows of vertices besides their places.
+// What a run knows of vertices besides their places. Lengths are those on the surface.
 struct VertexNotes {
+  Surface surface;
   std::vector<double> spacing;     // one a vertex: the local feature size of the input there, from above
   std::vector<double> shell_unit;  // one an input vertex: radius of a shell round it; 0 where no small angle is there
   std::vector<bool> small_angle;   // one an input vertex: some sector of it is too small for the bounds

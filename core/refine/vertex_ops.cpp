@@ -58,7 +58,7 @@ bool fits(const Link& link, const Point& place, const TriangleBound& bound) {
       link, [&](const LinkEdge& e) { return orient2d(e.x, e.y, place) > 0 && !isBad(e.x, e.y, place, bound); });
 }
 
-Point meanOf(const Link& link) {
+Point meanOf(std::span<const LinkEdge> link) {
   Point sum;
   for (const LinkEdge& e : link) sum = sum + e.x;
   return (1.0 / static_cast<double>(link.size())) * sum;
@@ -126,6 +126,15 @@ bool VertexOps::gatherBoth(VertexId goes, VertexId stays, Star& star) {
   return common <= 1;
 }
 
+// A link as it is seen from a place of the surface.
+std::span<const LinkEdge> VertexOps::framed(const Frame& frame, std::span<const LinkEdge> link) {
+  if (!frame.isCurved()) return link;
+  Link& seen = memory_.framed_link;
+  seen.clear();
+  for (const LinkEdge& e : link) seen.push_back({frame.to(e.x), frame.to(e.y)});
+  return seen;
+}
+
 // Where v may go so that all triangles of its star are good.
 std::optional<Point> VertexOps::findPlace(VertexId v, const Star& star) {
   Link& link = memory_.link;
@@ -137,12 +146,18 @@ std::optional<Point> VertexOps::findPlace(VertexId v, const Star& star) {
 }
 
 std::optional<Point> VertexOps::findFeasible(VertexId v, const Star& star, std::span<const LinkEdge> link) {
-  if (mesh_.kind(v) == VertexKind::Free) return region_.findPoint(link);
+  const Frame frame(bound_.surface, mesh_.point(v));
+  const auto inPlane = [&](std::optional<Point> place) {
+    if (place) place = frame.from(*place);
+    return place;
+  };
+  if (mesh_.kind(v) == VertexKind::Free) return inPlane(region_.findPoint(framed(frame, link)));
   if (star.spokes.size() != 2 || star.spokes[0].seg != star.spokes[1].seg ||
       star.spokes[0].seg >= pslg_.segments.size())
     return std::nullopt;
-  const std::optional<Point> place = region_.findPointBetween(mesh_.point(otherEnd(star.spokes[0], v)),
-                                                              mesh_.point(otherEnd(star.spokes[1], v)), link);
+  const std::optional<Point> place =
+      inPlane(region_.findPointBetween(frame.to(mesh_.point(otherEnd(star.spokes[0], v))),
+                                       frame.to(mesh_.point(otherEnd(star.spokes[1], v))), framed(frame, link)));
   if (!place) return std::nullopt;
   // On the input segment itself, lest rounding adds up.
   const Segment& seg = pslg_.segments[star.spokes[0].seg];
@@ -207,7 +222,7 @@ bool VertexOps::cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId besi
   link.clear();
   appendLink(mesh_, ring, w, link);
   appendLink(mesh_, other, v, link);
-  return region_.isEmpty(link);
+  return region_.isEmpty(framed(Frame(bound_.surface, mesh_.point(v)), link));
 }
 
 bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
@@ -218,10 +233,15 @@ bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
   appendLink(mesh_, ring, kNone, link);
   const Point& here = mesh_.point(v);
   const bool good = std::ranges::none_of(link, [&](const LinkEdge& e) { return isBad(e.x, e.y, here, bound_); });
-  if (!good && region_.isEmpty(link)) return false;
+  const Frame frame(bound_.surface, here);
+  const std::span<const LinkEdge> seen = framed(frame, link);
+  if (!good && region_.isEmpty(seen)) return false;
   std::optional<Point> place;
-  if (good && bound_.min_angle < kMeanServesBelow) place = meanOf(link);
-  if (!place || !fits(link, *place, bound_)) place = region_.findPoint(link);
+  if (good && bound_.min_angle < kMeanServesBelow) place = frame.from(meanOf(seen));
+  if (!place || !fits(link, *place, bound_)) {
+    place = region_.findPoint(seen);
+    if (place) place = frame.from(*place);
+  }
   if (!place || !fits(link, *place, bound_)) return false;
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   if (clear_of_frozen_ && std::ranges::any_of(ring.triangles, isFrozen)) return false;
@@ -343,7 +363,7 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
     if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring) != StarKind::Closed) return false;
     const Point here = mesh_.point(v);
     double longest = 0.0;
-    for (const VertexId w : ring.corners) longest += squaredDistance(here, mesh_.point(w));
+    for (const VertexId w : ring.corners) longest += bound_.surface.squaredChord(here, mesh_.point(w));
     longest *= kLongestToMerge / static_cast<double>(ring.corners.size());
     for (std::size_t k = 0; k < ring.corners.size(); ++k) {
       const VertexId w = ring.corners[k];
@@ -351,7 +371,8 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
       if (kind == VertexKind::Input) continue;
       if (kind == VertexKind::Free) {
         if (each_gets_its_turn && w < v) continue;
-        if (squaredDistance(here, mesh_.point(w)) > longest || cannotMerge(v, ring, w, ring.triangles[k])) continue;
+        if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest || cannotMerge(v, ring, w, ring.triangles[k]))
+          continue;
       }
       if (merge(v, w, touched)) return true;
     }

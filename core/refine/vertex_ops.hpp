@@ -80,6 +80,7 @@ class VertexOps {
                          std::vector<Corners>& fresh);
   std::optional<Point> findPlace(VertexId v, const Star& star);
   std::optional<Point> findFeasible(VertexId v, const Star& star, std::span<const LinkEdge> link);
+  std::span<const LinkEdge> framed(const Frame& frame, std::span<const LinkEdge> link);
   bool isGood(const Corners& c) const;
   bool fanFlips(const Star& star, const Point& place) const;
   bool holeFlips(const Star& star, std::span<const Corners> fresh) const;
@@ -106,7 +107,7 @@ class VertexOps {
     std::vector<EdgeRef> opposite;
     std::vector<VertexId> neighbours, polygon;
     std::vector<Corners> fresh, fresh_beyond;
-    std::vector<LinkEdge> link;
+    std::vector<LinkEdge> link, framed_link;
   } memory_;
 };
 
