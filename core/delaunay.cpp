@@ -181,10 +181,11 @@ class Carver {
 };
 
 // The new numbers of the triangles that are kept, along Hilbert's curve by their last corner; kNone for the others.
-std::vector<TriId> numberAlongCurve(std::span<const Point> points, std::span<const Triangle> triangles,
-                                    const std::vector<RegionId>& region, TriId& count) {
+std::vector<TriId> numberAlongCurve(std::span<const Point> points, const Surface& surface,
+                                    std::span<const Triangle> triangles, const std::vector<RegionId>& region,
+                                    TriId& count) {
   std::vector<std::uint32_t> place(points.size());
-  for (std::uint32_t i = 0; const VertexId v : hilbertOrder(points)) place[v] = i++;
+  for (std::uint32_t i = 0; const VertexId v : hilbertOrder(points, surface)) place[v] = i++;
   const auto last = [&](TriId t) {
     const auto& v = triangles[t].v;
     return std::max({place[v[0]], place[v[1]], place[v[2]]});
@@ -200,9 +201,9 @@ std::vector<TriId> numberAlongCurve(std::span<const Point> points, std::span<con
   return numbers;
 }
 
-DelaunayBuilder triangulate(const Pslg& pslg) {
+DelaunayBuilder triangulate(const Pslg& pslg, const Surface& surface) {
   try {
-    return DelaunayBuilder(pslg.points);
+    return DelaunayBuilder(pslg.points, surface);
   } catch (const DelaunayBuilder::Clash& clash) {
     refuse(PslgDefect::Kind::PointsCoincide, pslg.points[clash.at], kNone, "two vertices lie at the same place");
   }
@@ -210,9 +211,9 @@ DelaunayBuilder triangulate(const Pslg& pslg) {
 
 }  // namespace
 
-TriMesh constrainedDelaunay(const Pslg& pslg) {
+TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface) {
   checkReferences(pslg);
-  DelaunayBuilder builder = triangulate(pslg);
+  DelaunayBuilder builder = triangulate(pslg, surface);
   if (!builder.hasTriangles())
     refuse(PslgDefect::Kind::NoArea, pslg.points.empty() ? Point{} : pslg.points.front(), kNone,
            "the vertices lie on one line and enclose no area");
@@ -221,7 +222,7 @@ TriMesh constrainedDelaunay(const Pslg& pslg) {
 
   const std::vector<RegionId> region = Carver(pslg, builder).run();
   TriId count = 0;
-  const std::vector<TriId> numbers = numberAlongCurve(pslg.points, builder.triangles(), region, count);
+  const std::vector<TriId> numbers = numberAlongCurve(pslg.points, surface, builder.triangles(), region, count);
   if (count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
 
   TriMesh mesh;

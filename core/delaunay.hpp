@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/pslg.hpp"
+#include "core/surface.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -36,6 +37,7 @@ struct BadPslg : std::runtime_error {
 
 // The constrained Delaunay triangulation of the PSLG's domain: holes and outside are carved, regions labelled.
 // Throws BadPslg, and nothing else, where the input is no PSLG or encloses no area. Cost O(n log n) time, O(n) memory.
-TriMesh constrainedDelaunay(const Pslg& pslg);
+// The surface is for speed alone: what lies near to one another on it is numbered so.
+TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface = {});
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/point.hpp"
+#include "core/surface.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -27,7 +28,7 @@ class DelaunayBuilder {
 
   // Inserts all points: in rounds, each along Hilbert's curve, so that each point lies near the one before and no order
   // of them makes many triangles for nothing. Throws Clash for points at the same place.
-  explicit DelaunayBuilder(std::span<const Point> points);
+  explicit DelaunayBuilder(std::span<const Point> points, const Surface& surface = {});
 
   bool hasTriangles() const { return !mesh_.triangles.empty(); }
 

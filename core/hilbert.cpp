@@ -84,4 +84,14 @@ std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points) {
   return order;
 }
 
+std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const Surface& surface) {
+  if (!surface.isCurved()) return hilbertOrder(points);
+  std::vector<Point> on_map(points.size());
+  std::ranges::transform(points, on_map.begin(), [&](const Point& x) {
+    const double shrink = std::sqrt(surface.shrinkAt(x));
+    return Point{shrink * x.x, shrink * x.y};
+  });
+  return hilbertOrder(on_map);
+}
+
 }  // namespace coastmesh

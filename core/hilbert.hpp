@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/point.hpp"
+#include "core/surface.hpp"
 
 namespace coastmesh {
 
@@ -17,5 +18,8 @@ std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points);
 
 // The numbers of the points in their order along the curve; of one cell the lesser first.
 std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points);
+// The same; on a sphere along a curve that is drawn on its equivalent map, since the plane has most of it in a small
+// part round the origin.
+std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const Surface& surface);
 
 }  // namespace coastmesh

@@ -33,7 +33,7 @@ void labelRegions(TriMesh& mesh, const Pslg& pslg) {
     if (mesh.regions[t] != kUnlabelled) continue;
     for (unsigned i = 0; i < 3 && mesh.regions[t] == kUnlabelled; ++i) {
       const SegmentId s = mesh.triangles[t].seg[i];
-      if (s == kNone) continue;
+      if (s >= pslg.segments.size()) continue;  // none, or frozen
       const Segment& segment = pslg.segments[s];
       // Pieces of a segment run with it or against it: decided by its longer side alone, since products underflow.
       const Point &a = pslg.points[segment.a], &b = pslg.points[segment.b];

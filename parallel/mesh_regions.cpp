@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <span>
 #include <utility>
 
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
 #include "core/lattice/lattice_core.hpp"
+#include "core/metric.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/optimise.hpp"
 #include "core/refine/vertex_notes.hpp"
@@ -45,6 +47,27 @@ std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions&
   return layLattices(mesh, {options.size_max, options.size, options.min_angle_deg, options.max_angle_deg, left}, loop);
 }
 
+// The PSLG of what is to be meshed: with the ring of a cap round it.
+Pslg withRing(const Pslg& pslg, const MeshOptions& options) {
+  Pslg all = pslg;
+  const auto first = static_cast<VertexId>(pslg.points.size()),
+             corners = static_cast<VertexId>(options.cap.ring.size());
+  all.points.insert(all.points.end(), options.cap.ring.begin(), options.cap.ring.end());
+  for (VertexId i = 0; i < corners; ++i)
+    all.segments.push_back({first + i, first + (i + 1) % corners, 0, options.cap_region, kOutside});
+  return all;
+}
+
+TriMesh triangulateInRing(const Pslg& pslg, const MeshOptions& options, std::span<const Point> seeds) {
+  Pslg all = withRing(pslg, options);
+  const std::size_t fixed = all.points.size();
+  all.points.insert(all.points.end(), seeds.begin(), seeds.end());
+  TriMesh mesh = constrainedDelaunay(all, options.refine.surface);
+  mesh.input_vertices = static_cast<VertexId>(fixed);
+  freezeRing(mesh, static_cast<VertexId>(pslg.points.size()), options.cap);
+  return mesh;
+}
+
 // What goes with a mesh that has the places of lattices for vertices.
 struct Seeds {
   VertexNotes input;               // notes on the input alone; empty where there are no cores
@@ -53,9 +76,24 @@ struct Seeds {
   std::uint64_t core_vertices = 0;
 };
 
+// The same of a mesh that is to be closed: with the vertices that it begins with.
+Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options) {
+  Recorder recorder;
+  Seeds seeds;
+  seeds.notes = noteInput(region.mesh, boundOf(options.refine));
+  if (!options.seeds.empty()) {
+    region.mesh = triangulateInRing(pslg, options, options.seeds);
+    noteFurther(region.mesh, seeds.notes);
+  }
+  region.log.append(recorder.finish("triangulate"));
+  return seeds;
+}
+
 // Triangulates once more where there are lattices to be laid.
-Seeds seed(MeshedRegion& region, const Pslg& pslg, const RefineOptions& options, bool with_cores,
+Seeds seed(MeshedRegion& region, const Pslg& pslg, const MeshOptions& all_options, bool with_cores,
            const RunControl& control) {
+  if (!all_options.cap.empty()) return seedInRing(region, pslg, all_options);
+  const RefineOptions& options = all_options.refine;
   Recorder recorder;
   const ItemLoop loop = recorder.loop("lattice", control);
   Seeds seeds;
@@ -75,11 +113,11 @@ Seeds seed(MeshedRegion& region, const Pslg& pslg, const RefineOptions& options,
 
 void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   Stopwatch watch;
-  Seeds seeds = seed(region, pslg, options.refine, false, control);
+  Seeds seeds = seed(region, pslg, options, false, control);
   region.seconds.triangulate += watch.lap();
   Recorder recorder;
   // Without further vertices a small input may be refined in several ways.
-  region.stats = region.mesh.points.size() == pslg.points.size()
+  region.stats = options.cap.empty() && region.mesh.points.size() == pslg.points.size()
                      ? refine(region.mesh, pslg, options.refine, control)
                      : refine(region.mesh, pslg, options.refine, std::move(seeds.notes), control);
   region.seconds.refine = watch.lap();
@@ -137,7 +175,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
     region.log.append(std::move(report.log));
   };
   Stopwatch watch;
-  Seeds seeds = seed(region, pslg, options.refine, true, control);
+  Seeds seeds = seed(region, pslg, options, true, control);
   RefineOptions around = options.refine;
   around.max_vertices -= std::min(around.max_vertices, seeds.core_vertices);
   region.seconds.triangulate += watch.lap();
@@ -162,11 +200,39 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   }
   Recorder recorder;
   const ItemLoop label = recorder.loop("label", control);
-  region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
-  labelRegions(region.mesh, pslg);
+  if (options.cap.empty()) {
+    region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
+    labelRegions(region.mesh, pslg);
+  }
   if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, label);
   region.log.append(recorder.finish());
   region.seconds.stitch = watch.lap();
+}
+
+// Whether a lattice is all that there is to be: nothing of the input, and no triangle that falls short.
+bool isDone(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options) {
+  if (!pslg.points.empty()) return false;
+  const TriangleBound bound = boundOf(options);
+  return std::ranges::none_of(mesh.triangles, [&](const Triangle& t) {
+    return isBad(mesh.point(t.v[0]), mesh.point(t.v[1]), mesh.point(t.v[2]), bound);
+  });
+}
+
+void closeRegion(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
+  Stopwatch watch;
+  Recorder recorder;
+  const ItemLoop label = recorder.loop("label", control);
+  closeSphere(region.mesh, static_cast<VertexId>(pslg.points.size()), options.cap);
+  region.mesh.input_vertices = static_cast<VertexId>(pslg.points.size());
+  if (pslg.segments.empty()) {
+    region.mesh.regions.assign(region.mesh.triangles.size(), options.cap_region);
+  } else {
+    labelRegions(region.mesh, pslg);
+  }
+  region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
+  if (!region.piece_of.empty()) region.piece_of.resize(region.mesh.triangles.size(), 0);
+  region.log.append(recorder.finish("stitch"));
+  region.seconds.stitch += watch.lap();
 }
 
 }  // namespace
@@ -176,12 +242,17 @@ MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunC
   MeshedRegion region;
   Stopwatch watch;
   Recorder recorder;
-  region.mesh = constrainedDelaunay(pslg);
+  const bool closed = !options.cap.empty();
+  if (closed && pslg.points.empty() && !options.seeds.empty())
+    region.mesh = triangulateInRing(pslg, options, options.seeds);
+  const bool done = closed && !region.mesh.points.empty() && isDone(region.mesh, pslg, options.refine);
+  if (!done) region.mesh = closed ? triangulateInRing(pslg, options, {}) : constrainedDelaunay(pslg);
   region.seconds.triangulate = watch.lap();
   region.log.append(recorder.finish("triangulate"));
-  const bool cut = !options.one_piece && expectedTriangles(region.mesh, options.refine) >= kWorthCutting;
-  (cut ? meshInPieces : meshWhole)(region, pslg, options, control);
+  const bool cut = !done && !options.one_piece && expectedTriangles(region.mesh, options.refine) >= kWorthCutting;
+  if (!done) (cut ? meshInPieces : meshWhole)(region, pslg, options, control);
   if (options.mark_pieces && !cut) region.piece_of.assign(region.mesh.triangles.size(), 0);
+  if (closed) closeRegion(region, pslg, options, control);
   region.stats.steiner_points = region.mesh.points.size() - region.mesh.input_vertices;
   return region;
 }

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
+#include "core/point.hpp"
 #include "core/pslg.hpp"
 #include "core/refine/refine.hpp"
 #include "core/run_control.hpp"
+#include "core/sphere/close_sphere.hpp"
 #include "core/tri_mesh.hpp"
 #include "parallel/work_log.hpp"
 
@@ -16,6 +19,11 @@ struct MeshOptions {
   bool smooth = false;       // optimises for longer; where no lengths are wanted, at all
   bool one_piece = false;    // never cuts a region, however large
   bool mark_pieces = false;  // fill `MeshedRegion::piece_of`
+  // Of a mesh that is all of a sphere, as `refine.surface` says; where it is not empty, the region is what lies within
+  // its ring, nothing of the input may lie beyond that, and the mesh is closed.
+  SphereCap cap;
+  RegionId cap_region = 0;   // that the cap lies in
+  std::vector<Point> seeds;  // vertices to begin with, clear of the input and within the ring
 };
 
 // Seconds by the clock of each stage, one after another; several threads may share in a stage.
@@ -37,8 +45,9 @@ struct MeshedRegion {
   WorkLog log;
 };
 
-// Triangulates, refines and coarsens one region; a large one is cut into pieces for that. Throws BadPslg, Cancelled,
-// and std::invalid_argument for options beyond their ranges.
+// Triangulates, refines and coarsens one region; a large one is cut into pieces for that. A closed mesh has the
+// vertices of the PSLG first, as any other, and no edge with one triangle alone. Throws BadPslg, Cancelled, and
+// std::invalid_argument for options beyond their ranges.
 MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunControl& control = {});
 
 }  // namespace coastmesh

@@ -55,7 +55,8 @@ Submesh extractSubmesh(const Mesh& parent, VertexId parent_inputs, const VertexN
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i), twin = parent.twin(e);
       if (const VertexId v = parent.apex(e); v < parent_inputs) number(v);
-      if (twin == kNone || slotOf(triOf(twin)) != kNone) continue;
+      // Where the parent's own boundary is frozen, it is here too.
+      if (twin == kNone ? parent.segment(e) != kFrozen : slotOf(triOf(twin)) != kNone) continue;
       number(parent.origin(e));
       number(parent.target(e));
       sub.frozen.push_back(e);

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "core/point.hpp"
+#include "core/pslg.hpp"
+#include "core/space_point.hpp"
+#include "core/surface.hpp"
+
+namespace coastmesh {
+
+// A lattice of equilateral triangles wrapped round an icosahedron (Caspar, Klug, "Physical principles in the
+// construction of regular viruses", 1962): from one corner to the next it takes h steps, turns to the left by 60
+// degrees and takes k more.
+struct SphereLattice {
+  std::int64_t h = 1, k = 0;  // 0 <= k <= h, h > 0
+
+  std::int64_t trianglesOfFace() const { return h * h + h * k + k * k; }
+  std::int64_t triangles() const { return 20 * trianglesOfFace(); }
+  std::int64_t vertices() const { return 10 * trianglesOfFace() + 2; }
+};
+
+// The lattice whose edges come nearest to this length, on the sphere of radius 1; within a hundredth, one without turns
+// (k = 0), whose triangles are better. REQUIRES: at least `kLeastLatticeEdge`.
+SphereLattice sphereLattice(double edge);
+
+// Finer lattices have more places than there are numbers for.
+inline constexpr double kLeastLatticeEdge = 1e-4;
+
+// The first places of a lattice: a pole and its neighbours.
+inline constexpr std::size_t kLatticePole = 1, kLatticeRing = 5;
+
+// Its places on the sphere of radius 1, each once. The first is the pole (0, 0, -1), the next five are its neighbours,
+// counter-clockwise in the plane that the sphere is mapped to from there. Edges are 0.9 to 1.1 of their mean, angles
+// 49 to 77 degrees; without turns 54 to 72.
+std::vector<SpacePoint> placesOf(const SphereLattice& lattice, const ItemLoop& loop = inOrder);
+
+// Those of some places, in the plane, that lie within a convex ring and are nowhere nearer to one of its corners, to a
+// segment or to a point of `pslg` than the clearance, a length on the surface. REQUIRES: the surface is curved, the
+// ring counter-clockwise round the origin, the clearance above 0.
+std::vector<Point> clearPlaces(std::span<const SpacePoint> places, const Pslg& pslg, std::span<const Point> ring,
+                               const Surface& surface, double clearance, const ItemLoop& loop = inOrder);
+
+}  // namespace coastmesh
