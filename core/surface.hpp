@@ -39,30 +39,18 @@ class Frame {
 
   bool isCurved() const { return curvature_ > 0.0; }
   // On a sphere relative to the centre, in a plane as it is.
-  Point to(const Point& z) const { return isCurved() ? relative(z) : z; }
-  Point from(const Point& w) const { return isCurved() ? absolute(w) : w; }
+  Point to(const Point& z) const { return isCurved() ? turned(z) : z; }
+  Point from(const Point& w) const { return isCurved() ? turnedBack(w) : w; }
   // On both relative to the centre.
-  Point relative(const Point& z) const {
-    const Point d{z.x - centre_.x, z.y - centre_.y};
-    if (!isCurved()) return d;
-    return quotient(
-        d, {1.0 + curvature_ * (centre_.x * z.x + centre_.y * z.y), curvature_ * (centre_.x * z.y - centre_.y * z.x)});
-  }
-  Point absolute(const Point& w) const {
-    const Point s{w.x + centre_.x, w.y + centre_.y};
-    if (!isCurved()) return s;
-    return quotient(
-        s, {1.0 - curvature_ * (centre_.x * w.x + centre_.y * w.y), -curvature_ * (centre_.x * w.y - centre_.y * w.x)});
-  }
+  Point relative(const Point& z) const { return isCurved() ? turned(z) : Point{z.x - centre_.x, z.y - centre_.y}; }
+  Point absolute(const Point& w) const { return isCurved() ? turnedBack(w) : Point{w.x + centre_.x, w.y + centre_.y}; }
   // Length on the surface over length in the frame, at a place of the frame.
   double shrinkAt(const Point& w) const { return 1.0 / (1.0 + curvature_ * (w.x * w.x + w.y * w.y)); }
 
  private:
-  // As complex numbers.
-  static Point quotient(const Point& a, const Point& b) {
-    const double inverse = 1.0 / (b.x * b.x + b.y * b.y);
-    return {(a.x * b.x + a.y * b.y) * inverse, (a.y * b.x - a.x * b.y) * inverse};
-  }
+  // Not inline: the plane's code stays as small as it is.
+  Point turned(const Point& z) const;
+  Point turnedBack(const Point& w) const;
 
   Point centre_;
   double curvature_;

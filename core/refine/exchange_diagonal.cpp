@@ -14,21 +14,26 @@ namespace {
 
 // Turns of the four corners; further ones move them by less than a hundredth of an edge.
 constexpr int kTurns = 10;
+constexpr std::uint32_t kMoved = 4;
 // What follows makes good more than this.
 constexpr double kMostCost = 1.1;
 
 }  // namespace
 
-Point DiagonalExchange::placeOf(VertexId v) const {
-  for (const Moved& moved : moved_)
-    if (moved.vertex == v) return moved.place;
-  return frame_.to(mesh_.point(v));
+std::uint32_t DiagonalExchange::numberOf(VertexId v) {
+  const auto at = std::ranges::find(vertices_, v);
+  const auto number = static_cast<std::uint32_t>(at - vertices_.begin());
+  if (at == vertices_.end()) {
+    vertices_.push_back(v);
+    in_plane_.push_back(mesh_.point(v));
+    seen_.push_back(frame_.to(mesh_.point(v)));
+  }
+  return number;
 }
 
-Point DiagonalExchange::inPlane(VertexId v) const {
-  for (const Moved& moved : moved_)
-    if (moved.vertex == v) return frame_.from(moved.place);
-  return mesh_.point(v);
+void DiagonalExchange::number() {
+  numbered_.clear();
+  for (const Corners& v : fresh_) numbered_.push_back({numberOf(v[0]), numberOf(v[1]), numberOf(v[2])});
 }
 
 double DiagonalExchange::costBefore() const {
@@ -44,10 +49,11 @@ double DiagonalExchange::costBefore() const {
 // Infinite where a bound is broken.
 double DiagonalExchange::costAfter() const {
   double sum = 0.0;
-  for (const Corners& v : fresh_) {
-    const Point a = inPlane(v[0]), b = inPlane(v[1]), c = inPlane(v[2]);
+  for (std::size_t i = 0; i < fresh_.size(); ++i) {
+    const Corners& n = numbered_[i];
+    const Point &a = in_plane_[n[0]], &b = in_plane_[n[1]], &c = in_plane_[n[2]];
     if (orient2d(a, b, c) <= 0 || isBad(a, b, c, bound_)) return std::numeric_limits<double>::infinity();
-    sum += costOf(placeOf(v[0]), placeOf(v[1]), placeOf(v[2]), wantedIn(v));
+    sum += costOf(seen_[n[0]], seen_[n[1]], seen_[n[2]], wantedIn(fresh_[i]));
   }
   return sum;
 }
@@ -55,28 +61,31 @@ double DiagonalExchange::costAfter() const {
 // Moves each of the four to the weighted mean of the centroids round it, in turns.
 void DiagonalExchange::relax() {
   for (int turn = 0; turn < kTurns; ++turn) {
-    for (Moved& moved : moved_) {
+    for (std::uint32_t moved = 0; moved < kMoved; ++moved) {
+      Point& place = seen_[moved];
       Point sum;
       double weight = 0.0;
-      for (const Corners& v : fresh_) {
-        const auto at = std::ranges::find(v, moved.vertex);
-        if (at == v.end()) continue;
-        const Point a = placeOf(v[0]), b = placeOf(v[1]), c = placeOf(v[2]);
-        const double size = wantedIn(v);
+      for (std::size_t i = 0; i < fresh_.size(); ++i) {
+        const Corners& n = numbered_[i];
+        if (n[0] != moved && n[1] != moved && n[2] != moved) continue;
+        const Point &a = seen_[n[0]], &b = seen_[n[1]], &c = seen_[n[2]];
+        const double size = wantedIn(fresh_[i]);
         const double own = std::abs(cross(b - a, c - a)) / (size * size);
-        sum = sum + own * (centroid(a, b, c) - moved.place);
+        sum = sum + own * (centroid(a, b, c) - place);
         weight += own;
       }
-      if (weight > 0.0) moved.place = moved.place + (1.0 / weight) * sum;
+      if (weight > 0.0) place = place + (1.0 / weight) * sum;
     }
   }
+  for (std::uint32_t moved = 0; moved < kMoved; ++moved) in_plane_[moved] = frame_.from(seen_[moved]);
 }
 
 bool DiagonalExchange::isDelaunay() const {
   for (std::size_t i = 0; i < fresh_.size(); ++i) {
     for (unsigned k = 0; k < 3; ++k) {
       const VertexId a = fresh_[i][k], b = fresh_[i][next3(k)];
-      const Point pa = inPlane(a), pb = inPlane(b), pc = inPlane(fresh_[i][prev3(k)]);
+      const Corners& n = numbered_[i];
+      const Point &pa = in_plane_[n[k]], &pb = in_plane_[n[next3(k)]], &pc = in_plane_[n[prev3(k)]];
       const auto outer =
           std::ranges::find_if(patch_.boundary, [&](const BoundaryEdge& r) { return r.a == a && r.b == b; });
       if (outer != patch_.boundary.end()) {
@@ -86,7 +95,8 @@ bool DiagonalExchange::isDelaunay() const {
       }
       for (std::size_t j = i + 1; j < fresh_.size(); ++j)
         for (unsigned m = 0; m < 3; ++m)
-          if (fresh_[j][m] == b && fresh_[j][next3(m)] == a && inCircle(pa, pb, pc, inPlane(fresh_[j][prev3(m)])) > 0)
+          if (fresh_[j][m] == b && fresh_[j][next3(m)] == a &&
+              inCircle(pa, pb, pc, in_plane_[numbered_[j][prev3(m)]]) > 0)
             return false;
     }
   }
@@ -94,13 +104,16 @@ bool DiagonalExchange::isDelaunay() const {
 }
 
 bool DiagonalExchange::tryExchange(VertexId v, VertexId w, VertexId c, VertexId d, std::vector<TriId>& touched) {
-  const std::array<VertexId, 4> corners{v, w, c, d};
+  const std::array<VertexId, kMoved> corners{v, w, c, d};
   if (!mesh_.gatherPatch(corners, patch_)) return false;
   if (std::ranges::any_of(patch_.boundary,
                           [&](const BoundaryEdge& r) { return r.seg == kFrozen || ops_.isBadBeyond(r.beyond); }))
     return false;
   frame_ = Frame(bound_.surface, mesh_.point(v));
-  for (std::size_t i = 0; i < corners.size(); ++i) moved_[i] = {corners[i], frame_.to(mesh_.point(corners[i]))};
+  vertices_.clear();
+  seen_.clear();
+  in_plane_.clear();
+  for (const VertexId corner : corners) numberOf(corner);
   fresh_.clear();
   for (const TriId t : patch_.triangles) {
     const Corners& k = mesh_.triangle(t).v;
@@ -108,9 +121,10 @@ bool DiagonalExchange::tryExchange(VertexId v, VertexId w, VertexId c, VertexId 
   }
   fresh_.push_back({c, v, d});
   fresh_.push_back({d, w, c});
+  number();
   relax();
   if (!(costAfter() < kMostCost * costBefore()) || !isDelaunay()) return false;
-  for (const Moved& moved : moved_) mesh_.setPoint(moved.vertex, frame_.from(moved.place));
+  for (std::uint32_t moved = 0; moved < kMoved; ++moved) mesh_.setPoint(corners[moved], in_plane_[moved]);
   mesh_.replace(patch_, fresh_, {}, touched);
   return true;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
+#include <cstdint>
 #include <vector>
 
 #include "core/edit_mesh.hpp"
@@ -25,16 +24,11 @@ class DiagonalExchange {
   bool tryExchange(VertexId v, VertexId w, VertexId c, VertexId d, std::vector<TriId>& touched);
 
  private:
-  struct Moved {
-    VertexId vertex = kNone;
-    Point place;  // in the frame
-  };
-
-  Point placeOf(VertexId v) const;  // in the frame
-  Point inPlane(VertexId v) const;
+  void number();
+  std::uint32_t numberOf(VertexId v);
+  double wantedIn(const Corners& t) const { return (wanted_[t[0]] + wanted_[t[1]] + wanted_[t[2]]) / 3.0; }
   double costBefore() const;
   double costAfter() const;
-  double wantedIn(const Corners& t) const { return (wanted_[t[0]] + wanted_[t[1]] + wanted_[t[2]]) / 3.0; }
   void relax();
   bool isDelaunay() const;
 
@@ -44,8 +38,13 @@ class DiagonalExchange {
   const std::vector<double>& wanted_;
   Patch patch_;                 // the triangles round the four
   std::vector<Corners> fresh_;  // what they become
-  Moved moved_[4];
-  Frame frame_{{}, {}};  // on a sphere, about the first of the four
+  Frame frame_{{}, {}};         // on a sphere, about the first of the four
+
+  // The vertices of `fresh_`, which have numbers of their own here, those of the four first; where they are to be, in
+  // the frame and in the plane; and the triangles by these numbers.
+  std::vector<VertexId> vertices_;
+  std::vector<Point> seen_, in_plane_;
+  std::vector<Corners> numbered_;
 };
 
 }  // namespace coastmesh

@@ -179,15 +179,16 @@ double Optimiser::wantedAt(VertexId v) {
 // more than `limit` is due.
 double Optimiser::costRound(const Point& place, double wanted, double limit) const {
   constexpr double kTooMuch = std::numeric_limits<double>::infinity();
+  const bool curved = frame_.isCurved();
   const Point in_plane = frame_.from(place);
   double sum = 0.0;
   Point a = mesh_.point(ring_.corners.front());
   double size = wanted_[ring_.corners.front()];
   for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
     const Point& b = corner(i + 1);
-    const double next = wantedOf(i + 1);
+    const double next = wantedOf(i + 1), mean = (wanted + size + next) / 3.0;
     if (orient2d(a, b, in_plane) <= 0 || isBad(a, b, in_plane, bound_)) return kTooMuch;
-    sum += costOf(seen(i), seen(i + 1), place, (wanted + size + next) / 3.0);
+    sum += curved ? costOf(seen(i), seen(i + 1), place, mean) : costOf(a, b, place, mean);
     if (sum > limit) return kTooMuch;
     a = b;
     size = next;

@@ -130,8 +130,8 @@ bool VertexOps::gatherBoth(VertexId goes, VertexId stays, Star& star) {
 std::span<const LinkEdge> VertexOps::framed(const Frame& frame, std::span<const LinkEdge> link) {
   if (!frame.isCurved()) return link;
   Link& seen = memory_.framed_link;
-  seen.clear();
-  for (const LinkEdge& e : link) seen.push_back({frame.to(e.x), frame.to(e.y)});
+  seen.assign(link.begin(), link.end());
+  for (LinkEdge& e : seen) e = {frame.to(e.x), frame.to(e.y)};
   return seen;
 }
 
