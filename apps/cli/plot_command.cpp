@@ -65,9 +65,10 @@ Command declarePlot(CLI::App& root) {
       "what to show, in the mesh's CRS; all of it by default");
   table.text("--view", usage->view, "VIEW",
              "plane: a conformal one fitted to the mesh; orthographic=LON,LAT: a globe seen from above that place, or "
-             "without it from above the middle of the mesh");
+             "without it from above the middle of the mesh; natural-earth=LON: all of the Earth about that longitude, "
+             "or 0");
   const auto on_plane = [usage = usage.get()] { return usage->view == "plane"; };
-  table.option("--bbox").needs(on_plane, "with --view orthographic");
+  table.option("--bbox").needs(on_plane, "with a globe as --view");
   table.choice(
       "--color", usage->color, plotColorNames(),
       "what the triangles' colour shows; quality is 4 sqrt(3) area / sum of squared edges, 1 for equilateral ones");
@@ -76,7 +77,7 @@ Command declarePlot(CLI::App& root) {
       "--degrees", usage->plot.degrees,
       "draw a dot on each node inside the mesh that has not six neighbours: green for 5, orange for 7, purple for "
       "other numbers");
-  table.option("--degrees").needs(on_plane, "with --view orthographic");
+  table.option("--degrees").needs(on_plane, "with a globe as --view");
   table.number("--min-angle", usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
                "show triangles with a smaller angle in red");
   table.flag("--overwrite", usage->overwrite, "replace a file that exists");
@@ -84,6 +85,7 @@ Command declarePlot(CLI::App& root) {
   table.example("coastmesh plot lake.nc -o shapes.png --color quality --degrees", "how regular it is");
   table.example("coastmesh plot lake.nc -o bay.svg --bbox=-90.5,46.5,-90,47", "a part of it, as a vector drawing");
   table.example("coastmesh plot lake.nc -o globe.png --view orthographic=-60,30", "where on the globe it lies");
+  table.example("coastmesh plot globe.nc -o world.png --view natural-earth --color size", "all of the Earth");
   return {{root, std::move(table)}, [usage](Run& run) { return runPlot(*usage, run); }};
 }
 

@@ -10,8 +10,10 @@
 #include <map>
 #include <numbers>
 
+#include "apps/plot/globe_chart.hpp"
 #include "apps/plot/plot_canvas.hpp"
 #include "apps/plot/plot_style.hpp"
+#include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_names.hpp"
@@ -31,20 +33,6 @@ constexpr double kGraticuleDeg = 15.0;  // between meridians and parallels
 constexpr double kGraticulePx = 0.5, kOutlinePx = 1.4;
 const Color kGraticule = mix(kLand, kShore, 0.22);
 
-// The globe as it is seen: x to the right, y up, z towards the eye.
-class Eye {
- public:
-  explicit Eye(const LonLat& above)
-      : up_(onSphere(above)),
-        east_(onSphere({above.lon + 90.0, 0.0})),  // at a pole too
-        north_(cross(up_, east_)) {}
-
-  SphereVector see(const SphereVector& v) const { return {dot(v, east_), dot(v, north_), dot(v, up_)}; }
-
- private:
-  SphereVector up_, east_, north_;
-};
-
 // What a triangle's colour shows, as a share of a ramp, and what the ends of this are.
 struct Shares {
   std::vector<double> of;  // one a triangle; NaN: unknown
@@ -60,22 +48,23 @@ std::string formatted(const char* format, double value) {
 
 class GlobePlot {
  public:
-  GlobePlot(const Grid& grid, const PlotOptions& options, const std::vector<SphereVector>& places, const LonLat& above,
-            const std::string& path)
+  GlobePlot(const Grid& grid, const PlotOptions& options, const std::vector<SphereVector>& places,
+            const GlobeChart& chart, const std::string& path)
       : grid_(grid),
         options_(options),
         places_(places),
-        above_(above),
-        eye_(above),
-        canvas_(path, {-kRoom, -kRoom}, {kRoom, kRoom}, static_cast<double>(options.size_px), kStripPx) {
-    for (const SphereVector& place : places) seen_.push_back(eye_.see(place));
+        chart_(chart),
+        canvas_(path, (-kRoom) * chart.half(), kRoom * chart.half(), static_cast<double>(options.size_px), kStripPx) {
+    for (const SphereVector& place : places) seen_.push_back(chart.see(place));
     mesh_ = linkTriangles(grid.nodes, grid.triangles, conflicts_);
   }
 
   void draw() {
     findColors();
     canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight() + kStripPx, kPaper);
-    canvas_.fillCircle(pixelOf({0.0, 0.0, 1.0}), canvas_.pixelsPerUnit(), kLand);
+    std::vector<Point> outline = chart_.outline();
+    for (Point& p : outline) p = canvas_.toPixel(p);
+    canvas_.fillLoops({outline}, kLand);
     const bool many = grid_.triangles.size() > kMostVectorTriangles;
     if (many) canvas_.beginPixels();
     for (TriId t = 0; t < grid_.triangles.size(); ++t) drawTriangle(t);
@@ -83,13 +72,15 @@ class GlobePlot {
     if (options_.edges) drawEdges();
     if (many) canvas_.endPixels();
     drawShore();
-    canvas_.strokeCircle(pixelOf({0.0, 0.0, 1.0}), canvas_.pixelsPerUnit(), kOutlinePx, kShore);
+    Lines rim;
+    for (std::size_t i = 0; i < outline.size(); ++i) rim.push_back({outline[i], outline[(i + 1) % outline.size()]});
+    canvas_.strokeLines(rim, kOutlinePx, kShore);
     drawLegend();
     canvas_.finish();
   }
 
  private:
-  Point pixelOf(const SphereVector& seen) const { return canvas_.toPixel({seen[0], seen[1]}); }
+  using Lines = GlobeChart::Lines;
 
   std::array<double, 3> anglesOf(TriId t) const {
     const auto& [a, b, c] = grid_.triangles[t];
@@ -207,18 +198,10 @@ class GlobePlot {
     }
   }
 
-  // What lies beyond the horizon is drawn onto it.
-  Point atMost(const SphereVector& seen) const {
-    const double reach = std::hypot(seen[0], seen[1]);
-    if (seen[2] >= 0.0 || reach == 0.0) return pixelOf(seen);
-    return pixelOf({seen[0] / reach, seen[1] / reach, 0.0});
-  }
-
   double longestEdgePx(TriId t) const {
     double longest = 0.0;
     for (unsigned i = 0; i < 3; ++i) {
-      const SphereVector &a = seen_[grid_.triangles[t][i]], &b = seen_[grid_.triangles[t][next3(i)]];
-      longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1]));
+      longest = std::max(longest, chart_.lengthOf(seen_[grid_.triangles[t][i]], seen_[grid_.triangles[t][next3(i)]]));
     }
     return longest * canvas_.pixelsPerUnit();
   }
@@ -231,32 +214,21 @@ class GlobePlot {
     addArc(seen_[a], seen_[b], outline);
     addArc(seen_[b], seen_[c], outline);
     addArc(seen_[c], seen_[a], outline);
-    if (std::ranges::none_of(outline, [](const SphereVector& p) { return p[2] > 0.0; })) return;
+    areas_.clear();
+    chart_.addArea(outline, areas_);
+    if (areas_.empty()) return;
     Color color = colorOf(t);
     if (options_.edges && longestEdgePx(t) < kBlurPx) color = mix(color, edgeColor(), kEdgeCover);
-    if (outline.size() == 3) return canvas_.fillTriangle({atMost(seen_[a]), atMost(seen_[b]), atMost(seen_[c])}, color);
-    SphereVector middle{};
-    for (const std::uint32_t node : {a, b, c})
-      for (std::size_t k = 0; k < 3; ++k) middle[k] += seen_[node][k];
-    const Point centre = atMost(unit(middle));
-    for (std::size_t i = 0; i < outline.size(); ++i)
-      canvas_.fillTriangle({centre, atMost(outline[i]), atMost(outline[(i + 1) % outline.size()])}, color);
+    for (const auto& [p, q, r] : areas_)
+      canvas_.fillTriangle({canvas_.toPixel(p), canvas_.toPixel(q), canvas_.toPixel(r)}, color);
   }
 
-  using Lines = std::vector<std::array<Point, 2>>;
-
-  // What of a line of short steps lies this side of the horizon.
+  // In pixels.
   void addSeen(const std::vector<SphereVector>& line, Lines& lines) const {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      SphereVector p = line[i], q = line[i + 1];
-      if (p[2] < 0.0 && q[2] < 0.0) continue;
-      if (p[2] < 0.0) std::swap(p, q);
-      if (q[2] < 0.0) {
-        const double share = p[2] / (p[2] - q[2]);
-        q = unit({p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), 0.0});
-      }
-      lines.push_back({pixelOf(p), pixelOf(q)});
-    }
+    const std::size_t before = lines.size();
+    chart_.addLine(line, lines);
+    for (std::size_t i = before; i < lines.size(); ++i)
+      lines[i] = {canvas_.toPixel(lines[i][0]), canvas_.toPixel(lines[i][1])};
   }
 
   void addEdge(std::uint32_t a, std::uint32_t b, Lines& lines) const {
@@ -266,23 +238,19 @@ class GlobePlot {
     addSeen(line, lines);
   }
 
-  // How much of a line's width is drawn: towards the horizon all lies closer together.
-  double shareAslant(std::uint32_t a, std::uint32_t b) const {
-    constexpr double kLeast = 0.2;
-    return std::clamp((seen_[a][2] + seen_[b][2]) / 2.0, 0.0, 1.0) * (1.0 - kLeast) + kLeast;
-  }
+  double shareAslant(std::uint32_t a, std::uint32_t b) const { return chart_.widthAt(seen_[a], seen_[b]); }
 
   void drawGraticule() {
     Lines lines;
     constexpr double kFine = 2.0, kLast = 90.0 - kGraticuleDeg;
     for (double lon = -180.0; lon < 180.0; lon += kGraticuleDeg) {
       std::vector<SphereVector> line;
-      for (double lat = -kLast; lat <= kLast; lat += kFine / 2) line.push_back(eye_.see(onSphere({lon, lat})));
+      for (double lat = -kLast; lat <= kLast; lat += kFine / 2) line.push_back(chart_.see(onSphere({lon, lat})));
       addSeen(line, lines);
     }
     for (double lat = -kLast; lat <= kLast; lat += kGraticuleDeg) {
       std::vector<SphereVector> line;
-      for (double lon = -180.0; lon <= 180.0; lon += kFine) line.push_back(eye_.see(onSphere({lon, lat})));
+      for (double lon = -180.0; lon <= 180.0; lon += kFine) line.push_back(chart_.see(onSphere({lon, lat})));
       addSeen(line, lines);
     }
     canvas_.strokeLines(lines, kGraticulePx, kGraticule);
@@ -297,8 +265,8 @@ class GlobePlot {
         const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
         if (twin == kNone || (twin < e && longestEdgePx(triOf(twin)) >= kBlurPx)) continue;
         const std::uint32_t a = mesh_.origin(e), b = mesh_.target(e);
-        const Point p = pixelOf(seen_[a]), q = pixelOf(seen_[b]);
-        const double width = std::min(kWidestEdgePx, kEdgeShare * std::hypot(q.x - p.x, q.y - p.y)) * shareAslant(a, b);
+        const double length = chart_.lengthOf(seen_[a], seen_[b]) * canvas_.pixelsPerUnit();
+        const double width = std::min(kWidestEdgePx, kEdgeShare * length) * shareAslant(a, b);
         addEdge(a, b, by_width[static_cast<int>(std::floor(4.0 * std::log2(kWidestEdgePx / std::max(width, 1e-3))))]);
       }
     }
@@ -327,23 +295,21 @@ class GlobePlot {
   }
 
   void drawLegend() {
-    const std::string east = formatted("%.4g\u00b0 ", std::abs(above_.lon)) + (above_.lon < 0.0 ? "W" : "E");
-    const std::string north = formatted("%.4g\u00b0 ", std::abs(above_.lat)) + (above_.lat < 0.0 ? "S" : "N");
-    canvas_.text({12.0, canvas_.mapHeight() + 24.0}, "seen from above " + east + ", " + north, 13.0, kInk);
+    canvas_.text({12.0, canvas_.mapHeight() + 24.0}, chart_.caption(), 13.0, kInk);
     if (!shares_.of.empty()) drawRamp(canvas_, shares_.ramp, shares_.low, shares_.high);
   }
 
   const Grid& grid_;
   const PlotOptions& options_;
   const std::vector<SphereVector>& places_;  // one a node
-  const LonLat above_;
-  const Eye eye_;
+  const GlobeChart& chart_;
   PlotCanvas canvas_;
   std::vector<SphereVector> seen_;  // one a node
   TriMesh mesh_;
   std::vector<EdgeConflict> conflicts_;
   Shares shares_;
-  std::vector<int> regions_;  // one a feature
+  GlobeChart::Triangles areas_;  // of one triangle of the mesh
+  std::vector<int> regions_;     // one a feature
 };
 
 // Above the middle of the triangles; where they go all round, above the prime meridian.
@@ -363,20 +329,28 @@ LonLat middleOf(const Grid& grid, const std::vector<SphereVector>& places) {
 
 std::optional<GlobeView> globeViewNamed(const std::string& text) {
   if (text == "plane") return std::nullopt;
-  constexpr std::string_view kName = "orthographic";
-  if (text == kName) return GlobeView{};
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string name = text.substr(0, equals);
+  std::vector<double> numbers;
   const auto fail = [&]() -> std::optional<GlobeView> {
-    throw OptionError("--view: '" + text + "' is neither plane nor orthographic nor orthographic=LON,LAT in degrees");
+    throw OptionError("--view: '" + text +
+                      "' is none of plane, orthographic, orthographic=LON,LAT, natural-earth and natural-earth=LON in "
+                      "degrees");
   };
-  if (!text.starts_with(kName) || text[kName.size()] != '=') return fail();
   const char* const end = text.data() + text.size();
-  LonLat above;
-  const auto lon = std::from_chars(text.data() + kName.size() + 1, end, above.lon);
-  if (lon.ec != std::errc() || lon.ptr == end || *lon.ptr != ',') return fail();
-  const auto lat = std::from_chars(lon.ptr + 1, end, above.lat);
-  if (lat.ec != std::errc() || lat.ptr != end) return fail();
-  if (!(std::abs(above.lon) <= 360.0) || !(std::abs(above.lat) <= 90.0)) return fail();
-  return GlobeView{above};
+  for (const char* at = text.data() + equals; at != end;) {
+    if (*at != (numbers.empty() ? '=' : ',')) return fail();
+    const auto read = std::from_chars(at + 1, end, numbers.emplace_back());
+    if (read.ec != std::errc()) return fail();
+    at = read.ptr;
+  }
+  if (!numbers.empty() && !(std::abs(numbers[0]) <= 360.0)) return fail();
+  if (name == "orthographic" && numbers.empty()) return GlobeView{};
+  if (name == "orthographic" && numbers.size() == 2 && std::abs(numbers[1]) <= 90.0)
+    return GlobeView{.above = LonLat{numbers[0], numbers[1]}};
+  if (name == "natural-earth" && numbers.size() < 2)
+    return GlobeView{.all = true, .above = LonLat{numbers.empty() ? 0.0 : numbers[0], 0.0}};
+  return fail();
 }
 
 void plotGlobe(const Grid& grid, const PlotOptions& options, const GlobeView& view, const std::string& path) {
@@ -385,7 +359,9 @@ void plotGlobe(const Grid& grid, const PlotOptions& options, const GlobeView& vi
   requireColors(grid, options);
   std::vector<SphereVector> places;
   for (const Point& place : geographicNodes(grid)) places.push_back(onSphere(asLonLat(place)));
-  GlobePlot(grid, options, places, view.above ? *view.above : middleOf(grid, places), path).draw();
+  const LonLat above = view.above ? *view.above : middleOf(grid, places);
+  const std::unique_ptr<GlobeChart> chart = view.all ? naturalEarthChart(above.lon) : orthographicChart(above);
+  GlobePlot(grid, options, places, *chart, path).draw();
 }
 
 }  // namespace coastmesh

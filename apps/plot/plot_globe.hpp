@@ -9,12 +9,15 @@
 
 namespace coastmesh {
 
-// Where the globe is looked at from: above `above`, from far off; none: above the middle of the mesh.
+// What is seen of the globe: the half below `above` (none: below it lies the middle of the mesh) from far off, or all of
+// it, about that longitude.
 struct GlobeView {
+  bool all = false;
   std::optional<LonLat> above;
 };
 
-// Reads "orthographic" or "orthographic=LON,LAT"; none for "plane". Throws OptionError for all else.
+// Reads "orthographic", "orthographic=LON,LAT", "natural-earth" or "natural-earth=LON"; none for "plane". Throws
+// OptionError for all else.
 std::optional<GlobeView> globeViewNamed(const std::string& text);
 
 // Draws the grid on a globe, its edges great circles, latitudes taken for those of a sphere; what lies beyond the

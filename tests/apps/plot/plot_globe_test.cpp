@@ -38,7 +38,10 @@ class Picture {
   // `right` and `up` are shares of the globe's radius.
   Pixel at(double right, double up) const {
     const double half = kSize / 2.0, radius = half / 1.04;
-    const int x = static_cast<int>(half + right * radius), y = static_cast<int>(half - up * radius);
+    return atPixel(static_cast<int>(half + right * radius), static_cast<int>(half - up * radius));
+  }
+
+  Pixel atPixel(int x, int y) const {
     const unsigned char* const row =
         cairo_image_surface_get_data(picture_.get()) + y * cairo_image_surface_get_stride(picture_.get());
     const std::uint32_t color = reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffff;
@@ -132,11 +135,47 @@ TEST(PlotGlobe, EdgesAreGreatCircles) {
   EXPECT_EQ(picture.at(0.3, -0.05), Pixel::Land);
 }
 
+// A map of all the Earth is as wide as 2 to 1.04, and half as high or so: places by PROJ's natearth on a sphere of radius
+// 1, whose map reaches 2.7354 to the right and 1.4224 up.
+class WorldPicture : public Picture {
+ public:
+  using Picture::Picture;
+  Pixel atChart(double x, double y) const {
+    const double pixels = kSize / (2.0 * 1.04 * 2.7354);
+    return atPixel(static_cast<int>(kSize / 2.0 + x * pixels), static_cast<int>((1.04 * 1.4224 - y) * pixels));
+  }
+};
+
+TEST(PlotGlobe, AllOfTheEarthIsSeenAtOnce) {
+  const WorldPicture all(octahedralGlobe(3, [](const SpaceVector&) { return true; }), "natural-earth");
+  for (const double x : {-2.6, -1.3, 0.05, 1.3, 2.6}) EXPECT_EQ(all.atChart(x, 0.07), Pixel::Water) << x;
+  for (const double y : {-1.38, -0.7, 0.7, 1.38}) EXPECT_EQ(all.atChart(0.07, y), Pixel::Water) << y;
+  EXPECT_EQ(all.atChart(2.7, 1.3), Pixel::Paper);
+}
+
+TEST(PlotGlobe, WhatTheMapCutsLiesOnBothItsSides) {
+  const WorldPicture behind(cap({180, 0}, 20), "natural-earth");
+  for (const double x : {-2.6, 2.6}) EXPECT_EQ(behind.atChart(x, 0.1), Pixel::Water) << x;
+  EXPECT_EQ(behind.atChart(0.1, 0.1), Pixel::Land);
+  const WorldPicture turned(cap({180, 0}, 20), "natural-earth=180");
+  EXPECT_EQ(turned.atChart(0.1, 0.1), Pixel::Water);
+  for (const double x : {-2.6, 2.6}) EXPECT_EQ(turned.atChart(x, 0.1), Pixel::Land) << x;
+  const WorldPicture pole(cap({0, -90}, 15), "natural-earth");
+  for (const double x : {-1.2, 0.07, 1.2}) {
+    EXPECT_EQ(pole.atChart(x, -1.37), Pixel::Water) << x;
+    EXPECT_EQ(pole.atChart(x, -0.9), Pixel::Land) << x;
+  }
+}
+
 TEST(PlotGlobe, ViewsAreNamed) {
   EXPECT_FALSE(globeViewNamed("plane"));
   EXPECT_FALSE(globeViewNamed("orthographic").value().above);
   EXPECT_EQ(globeViewNamed("orthographic=-40.5,25").value().above, (LonLat{-40.5, 25.0}));
-  for (const char* wrong : {"", "globe", "orthographic=", "orthographic=1", "orthographic=1,", "orthographic=1,2,3",
+  EXPECT_TRUE(globeViewNamed("natural-earth").value().all);
+  EXPECT_EQ(globeViewNamed("natural-earth=150").value().above, (LonLat{150.0, 0.0}));
+  EXPECT_FALSE(globeViewNamed("orthographic=1,2").value().all);
+  for (const char* wrong : {"", "natural-earth=", "natural-earth=1,2", "natural-earth=east", "plane=1", "globe",
+                            "orthographic=", "orthographic=1", "orthographic=1,", "orthographic=1,2,3",
                             "orthographic=1,91", "orthographic=nan,0", "orthographic 1,2"})
     EXPECT_THROW(globeViewNamed(wrong), OptionError) << wrong;
 }
