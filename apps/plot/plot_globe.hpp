@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// What is seen of the globe: the half below `above` (none: below it lies the middle of the mesh) from far off, or all of
+// What is seen of the globe: from far off the half below `above` (none: the middle of the mesh lies there), or all of
 // it, about that longitude.
 struct GlobeView {
   bool all = false;

@@ -135,8 +135,8 @@ TEST(PlotGlobe, EdgesAreGreatCircles) {
   EXPECT_EQ(picture.at(0.3, -0.05), Pixel::Land);
 }
 
-// A map of all the Earth is as wide as 2 to 1.04, and half as high or so: places by PROJ's natearth on a sphere of radius
-// 1, whose map reaches 2.7354 to the right and 1.4224 up.
+// Places of the map of all of the Earth, by the Natural Earth projection of a sphere with the radius 1, which reaches
+// 2.7354 to the right and 1.4224 up.
 class WorldPicture : public Picture {
  public:
   using Picture::Picture;
