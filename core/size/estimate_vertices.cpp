@@ -13,13 +13,14 @@ namespace {
 constexpr double kLeadingOut = 1.2;
 
 // How many wanted lengths there are from a to b, by the trapezoid rule; no further than `enough`.
-double lengthsAlong(const Point& a, const Point& b, const SizeFunction& size, double enough) {
+double lengthsAlong(const Point& a, const Point& b, const SizeFunction& size, const Surface& surface, double enough) {
   const double length = distance(a, b);
-  double along = 0.0, count = 0.0, here = size.at(a);
+  const auto inPlane = [&](const Point& x) { return size.at(x) / surface.shrinkAt(x); };
+  double along = 0.0, count = 0.0, here = inPlane(a);
   while (along < length && count <= enough) {
     const double next = std::min(along + here, length);
     if (!(next > along)) return enough + 1.0;  // lengths below what coordinates resolve
-    const double there = size.at(a + (next / length) * (b - a));
+    const double there = inPlane(a + (next / length) * (b - a));
     count += 0.5 * (next - along) * (1.0 / here + 1.0 / there);
     along = next;
     here = there;
@@ -29,13 +30,13 @@ double lengthsAlong(const Point& a, const Point& b, const SizeFunction& size, do
 
 }  // namespace
 
-double verticesOfSegments(const Pslg& pslg, const SizeFunction& size, double enough) {
+double verticesOfSegments(const Pslg& pslg, const SizeFunction& size, double enough, const Surface& surface) {
   double sum = 0.0;
   for (const Segment& s : pslg.segments) {
     if (sum > enough) break;
     const bool labelled = s.left != kUnlabelled || s.right != kUnlabelled;
     const int sides = labelled ? (s.left >= 0) + (s.right >= 0) : 1;
-    const double lengths = lengthsAlong(pslg.points[s.a], pslg.points[s.b], size, 2.0 * (enough - sum) + 1.0);
+    const double lengths = lengthsAlong(pslg.points[s.a], pslg.points[s.b], size, surface, 2.0 * (enough - sum) + 1.0);
     if (sides == 1) sum += 0.5 * std::max(1.0, lengths);
     sum += sides * kLeadingOut * std::max(0.0, 1.0 - lengths);
   }

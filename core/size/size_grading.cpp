@@ -6,6 +6,7 @@
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
+#include "core/size/on_surface.hpp"
 #include "core/size/size_queue.hpp"
 
 namespace coastmesh {
@@ -40,12 +41,28 @@ double roundedDown(double size) {
 
 }  // namespace
 
-SizeGrading::SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit,
-                         std::span<const LeafVertices> leaves, double gradation, const ItemLoop& loop)
-    : sizes_(sizes), places_(places), unit_(unit), leaves_(leaves), gradation_(gradation), loop_(loop) {
+double SizeGrid::shrinkAt(std::uint32_t v) const {
+  return surface.isCurved() ? surface.shrinkAt(origin + placeOf(v)) : 1.0;
+}
+
+double SizeGrid::distanceBetween(std::uint32_t v, std::uint32_t w) const {
+  const double straight = distance(placeOf(v), placeOf(w));
+  return surface.isCurved() ? arcOfChord(surface, straight * std::sqrt(shrinkAt(v) * shrinkAt(w))) : straight;
+}
+
+// The shrink is the least at one of the corners.
+double SizeGrid::slopeIn(const LeafVertices& leaf) const {
+  if (!surface.isCurved()) return gradation;
+  const Point low = origin + placeOf(leaf[0]), high = origin + placeOf(leaf[8]);
+  return gradation * surface.shrinkAt({std::max(-low.x, high.x), std::max(-low.y, high.y)});
+}
+
+SizeGrading::SizeGrading(GradedSizes& sizes, const SizeGrid& grid, std::span<const LeafVertices> leaves,
+                         const ItemLoop& loop)
+    : sizes_(sizes), grid_(grid), leaves_(leaves), loop_(loop) {
   // The quadrants of each vertex that lie in its cell, as bits.
   constexpr std::array<unsigned, 9> kQuadrants = {1, 3, 2, 5, 15, 10, 4, 12, 8};
-  round_.assign(places_.size(), kNowhere);
+  round_.assign(grid_.places.size(), kNowhere);
   forEachByStretches(loop_, leaves_.size(), [&](std::size_t l) {
     for (std::size_t i = 0; i < 9; ++i)
       for (std::size_t k = 0; k < 4; ++k)
@@ -64,7 +81,8 @@ Point SizeGrading::gradient(const Point& ab, const Point& ac, double hb, double 
   return (1.0 / cross(ab, ac)) * (hb * Point{ac.y, -ac.x} + hc * Point{-ab.y, ab.x});
 }
 
-bool SizeGrading::isSteeper(std::uint32_t leaf, double slope) const {
+bool SizeGrading::isSteep(std::uint32_t leaf) const {
+  const double slope = grid_.slopeIn(leaves_[leaf]);
   bool is = false;
   forEachTriangle(leaves_[leaf],
                   [&](auto a, auto b, auto c) { is = is || !(squaredLength(gradient(a, b, c)) <= slope * slope); });
@@ -75,7 +93,7 @@ std::vector<std::uint32_t> SizeGrading::findSteep() const {
   return joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> steep;
     for (std::size_t l = first; l < last; ++l)
-      if (isSteeper(static_cast<std::uint32_t>(l), gradation_)) steep.push_back(static_cast<std::uint32_t>(l));
+      if (isSteep(static_cast<std::uint32_t>(l))) steep.push_back(static_cast<std::uint32_t>(l));
     return steep;
   }));
 }
@@ -103,11 +121,11 @@ void SizeGrading::spread() {
        [&](std::uint32_t v) { return !std::isfinite(sizes_.own[v]); });
 
   // Then to where more is.
-  const double limit = kMuchTooSteep * gradation_;
   std::vector<std::uint32_t> low =
       joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
         std::vector<std::uint32_t> lowest;
         for (const LeafVertices& leaf : leaves_.subspan(first, last - first)) {
+          const double limit = kMuchTooSteep * grid_.slopeIn(leaf);
           forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             if (squaredLength(gradient(a, b, c)) > limit * limit)
               lowest.push_back(std::min({a, b, c}, [&](auto v, auto w) { return sizes_.size[v] < sizes_.size[w]; }));
@@ -118,8 +136,8 @@ void SizeGrading::spread() {
   const std::vector<std::uint32_t> others = besideNew();
   low.insert(low.end(), others.begin(), others.end());
   grow(std::move(low), [](std::uint32_t) { return true; });
-  sizes_.is_spread.resize(places_.size(), 0);
-  forEachByStretches(loop_, places_.size(),
+  sizes_.is_spread.resize(grid_.places.size(), 0);
+  forEachByStretches(loop_, grid_.places.size(),
                      [&](std::size_t v) { sizes_.is_spread[v] |= std::uint8_t{round_[v] != kNowhere}; });
 }
 
@@ -139,16 +157,16 @@ std::vector<std::uint32_t> SizeGrading::besideNew() const {
   }));
 }
 
-// The longest leg of the triangles round a vertex.
+// The longest leg of the triangles round a vertex, on the surface.
 double SizeGrading::legAt(std::uint32_t v) const {
   double leg = 0.0;
   forLeavesRound(
       v, [&](std::uint32_t l) { leg = std::max(leg, distance(placeOf(leaves_[l][4]), placeOf(leaves_[l][0]))); });
-  return leg;
+  return leg * grid_.shrinkAt(v);
 }
 
-// From each place sizes grow with the straight distance from it, not with that along edges: every vertex knows the
-// place that decides.
+// From each place sizes grow with the distance from it on the surface, not with that along edges: every vertex knows
+// the place that decides.
 template <typename F>
 void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
   sortOnce(from);
@@ -181,13 +199,12 @@ void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
 template <typename F>
 void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const {
   const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
-  const Point place = placeOf(origin);
   const double flat = kFlatFoot * legAt(origin);
   forLeavesRound(v, [&](std::uint32_t l) {
     for (const std::uint32_t w : leaves_[l]) {
       if (w == kNone || !mayLower(w)) continue;
-      const double way = std::max(distance(place, placeOf(w)) - flat, 0.0);
-      const double allowed = sizes_.own[origin] + kSizeGrowth * gradation_ * way;
+      const double way = std::max(grid_.distanceBetween(origin, w) - flat, 0.0);
+      const double allowed = sizes_.own[origin] + kSizeGrowth * grid_.gradation * way;
       if (allowed < sizes_.size[w] * (1.0 - 1e-9)) found.push_back({allowed, w, origin});
     }
   });
@@ -237,7 +254,7 @@ void SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
       [&](std::size_t first, std::size_t last) {
         std::vector<std::uint32_t> steep;
         for (const std::uint32_t l : std::span(leaves).subspan(first, last - first))
-          if (isSteeper(l, gradation_)) steep.push_back(l);
+          if (isSteep(l)) steep.push_back(l);
         return steep;
       },
       kStretch));
@@ -248,6 +265,7 @@ void SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
 // steep in turn, on and on.
 void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered) const {
   const LeafVertices& vertices = leaves_[leaf];
+  const double steepest = grid_.slopeIn(vertices);
   std::array<double, 9> size{};
   for (std::size_t i = 0; i < size.size(); ++i)
     if (vertices[i] != kNone) size[i] = sizes_.size[vertices[i]];
@@ -259,7 +277,7 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered)
     const std::array<Point, 3> places = {placeOf(a), placeOf(b), placeOf(c)};
     const Point slope = gradient(places[1] - places[0], places[2] - places[0], size[slots[1]] - size[slots[0]],
                                  size[slots[2]] - size[slots[0]]);
-    if (squaredLength(slope) <= gradation_ * gradation_) return;
+    if (squaredLength(slope) <= steepest * steepest) return;
     // How the gradient changes while each corner goes down as fast as the square of the slope falls with it.
     std::array<double, 3> down;
     Point change;
@@ -271,7 +289,7 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered)
       change = change + down[i] * with;
     }
     // Until |slope - way * change| is what is allowed, or as near as it comes this way.
-    const double allowed = kFlattened * gradation_;
+    const double allowed = kFlattened * steepest;
     const double aa = squaredLength(change), ab = dot(slope, change);
     const double inside = ab * ab - aa * (squaredLength(slope) - allowed * allowed);
     const double way = (ab - std::sqrt(std::max(inside, 0.0))) / aa;
@@ -298,10 +316,11 @@ void SizeGrading::flattenLegs() {
   const auto growLegs = [&](double size, std::uint32_t v) {
     forLeavesRound(v, [&](std::uint32_t l) {
       if (!is_strict[l]) return;
+      const double slope = grid_.slopeIn(leaves_[l]);
       forEachTriangle(leaves_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         if (v != a && v != b && v != c) return;
         for (const std::uint32_t w : {a, b, c}) {
-          const double growth = kFlattened * std::sqrt(0.5) * gradation_ * distance(placeOf(v), placeOf(w));
+          const double growth = kFlattened * std::sqrt(0.5) * slope * distance(placeOf(v), placeOf(w));
           const double allowed = std::max(size, roundedDown(size + growth));
           if (!(allowed < sizes_.size[w])) continue;
           sizes_.size[w] = allowed;

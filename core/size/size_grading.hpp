@@ -11,6 +11,7 @@
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "core/size/size_places.hpp"
+#include "core/surface.hpp"
 
 namespace coastmesh {
 
@@ -38,17 +39,31 @@ struct GradedSizes {
   std::vector<std::uint8_t> is_spread;  // of vertices that are new, missing
 };
 
-// Lowers sizes at the vertices of such cells until they grow no faster than `gradation` anywhere, in two steps. Places
-// are in multiples of `unit`.
+// Where the vertices of such cells lie, and how fast sizes may grow there.
+struct SizeGrid {
+  const SizePlaces& places;  // in multiples of `unit`, from `origin`
+  double unit = 1.0;
+  Point origin;
+  Surface surface;  // that the plane stands for
+  double gradation = 0.3;
+
+  // From the grid's own origin.
+  Point placeOf(std::uint32_t v) const { return {unit * places[v].x, unit * places[v].y}; }
+  double shrinkAt(std::uint32_t v) const;                          // length on the surface over length in the plane
+  double distanceBetween(std::uint32_t v, std::uint32_t w) const;  // on the surface
+  // The steepest gradient, in the plane, that grows no faster than the gradation on the surface, anywhere in a cell.
+  double slopeIn(const LeafVertices& leaf) const;
+};
+
+// Lowers sizes at the vertices of such cells until they grow no faster than the gradation anywhere, in two steps.
 class SizeGrading {
  public:
-  SizeGrading(GradedSizes& sizes, const SizePlaces& places, double unit, std::span<const LeafVertices> leaves,
-              double gradation, const ItemLoop& loop);
+  SizeGrading(GradedSizes& sizes, const SizeGrid& grid, std::span<const LeafVertices> leaves, const ItemLoop& loop);
 
   // From the feet of triangles that are much too steep, and from what grew before next to vertices that are new, sizes
-  // grow with the straight distance; where none are wanted, they grow from those round it.
+  // grow with the distance on the surface; where none are wanted, they grow from those round it.
   void spread();
-  // Lowers what is steeper than `gradation` as little as each triangle needs, and rounds to single precision.
+  // Lowers what is steeper than the gradation as little as each triangle needs, and rounds to single precision.
   // Afterwards no triangle is.
   void flatten();
 
@@ -63,10 +78,10 @@ class SizeGrading {
     double size;
   };
 
-  Point placeOf(std::uint32_t v) const { return {unit_ * places_[v].x, unit_ * places_[v].y}; }
+  Point placeOf(std::uint32_t v) const { return grid_.placeOf(v); }
   Point gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   static Point gradient(const Point& ab, const Point& ac, double hb, double hc);
-  bool isSteeper(std::uint32_t leaf, double slope) const;
+  bool isSteep(std::uint32_t leaf) const;
   std::vector<std::uint32_t> findSteep() const;
   double lowestOf(std::uint32_t leaf) const;
   double legAt(std::uint32_t v) const;
@@ -86,12 +101,10 @@ class SizeGrading {
   }
 
   GradedSizes& sizes_;
-  const SizePlaces& places_;
-  double unit_;
+  SizeGrid grid_;
   std::span<const LeafVertices> leaves_;
   // The cells round a vertex, by quadrants from the upper right one; twice one that meets it with the middle of a side.
   std::vector<std::array<std::uint32_t, 4>> round_;
-  double gradation_;
   const ItemLoop& loop_;
 };
 

@@ -8,14 +8,11 @@
 
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
+#include "core/size/size_box.hpp"
 #include "core/size_function.hpp"
+#include "core/surface.hpp"
 
 namespace coastmesh {
-
-struct SizeBox {  // a square
-  Point centre;
-  double half = 0.0;
-};
 
 struct SizeRange {
   double low = 0.0;
@@ -23,7 +20,7 @@ struct SizeRange {
 };
 
 // Where wanted lengths come from: asked for many places at once, so that whoever computes them can share the work out.
-// Lengths are in plane units, above 0; infinite where nothing is wanted.
+// Lengths are those on the surface, above 0; infinite where nothing is wanted.
 class SizeSource {
  public:
   virtual ~SizeSource() = default;
@@ -33,18 +30,19 @@ class SizeSource {
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
   // Whether anyone will ask for lengths within the box: elsewhere the tree stays as coarse as it can.
   virtual bool isWanted(const SizeBox&) const { return true; }
-  // How much of the box is to be meshed, 0 to 1.
+  // How much of the box is to be meshed, 0 to 1, of its area on the surface.
   virtual double share(const SizeBox& box) const { return isWanted(box) ? 1.0 : 0.0; }
 };
 
-// How many vertices lengths ask for: the integral of 2 / (sqrt(3) h²) over what is to be meshed.
+// How many vertices lengths ask for: the integral of 2 / (sqrt(3) h²) over what is to be meshed of the surface.
 struct SizeDemand {
   double vertices = 0.0;
   SizeBox most_in;    // of the tree's cells the one that asks for the most
-  double size = 0.0;  // the length there, plane units
+  double size = 0.0;  // the length there
 };
 
 struct SizeTreeOptions {
+  Surface surface;         // that the plane stands for: lengths, distances and areas are those on it
   double gradation = 0.3;  // above 0: no two places' lengths differ by more than this times their distance
   // Cells are split down to so many times the least length in them, where that changes within them; further, to
   // `finest`, where what lies between their corners is not known from these to `tolerance`: twice that in a cell half
@@ -67,6 +65,12 @@ struct SizeTreeOptions {
 // of pieces, each in one triangle, and on each the length changes by at most the gradation times the piece. A place
 // beyond the square gets the length of the nearest place in it, and nearest places of a convex set are no further apart
 // than the places themselves.
+//
+// Where the plane stands for a sphere, the gradient on a triangle is at most the gradation times the least shrink in
+// it: along any way over the square the length changes by at most the gradation times what that way measures on the
+// sphere. The distance of two places is that of the shortest such way: an arc of a great circle, unless that leaves the
+// square. Cells over which the shrink changes are split until it does so by little, so that the least of it and what
+// lies between a cell's vertices are near what is wanted.
 class SizeTree final : public SizeFunction {
  public:
   // Covers the box from `low` to `high`; beyond it the nearest place counts. `loop` lends threads; the tree does not

@@ -7,6 +7,7 @@
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
+#include "core/size/on_surface.hpp"
 #include "core/size/size_grading.hpp"
 #include "core/size/size_places.hpp"
 #include "core/size/size_tree.hpp"
@@ -25,6 +26,10 @@ constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // of the root's side: a 
 const double kVerticesPerArea = 2.0 / std::sqrt(3.0);
 // Where slopes are compared, rounding counts.
 constexpr double kSafely = 1.0 - 1e-6;
+// By how much the shrink may change over a cell: over any, so that what is summed over it is right, and over one in
+// which sizes change. Sizes on the triangles of a cell are as steep as they may be where the shrink is least, and a
+// cone that grows by `kSizeGrowth` is to be hardly steeper: what is must be flattened.
+constexpr double kAnyStretch = 1.3, kGradedStretch = 1.06;
 
 struct Square {
   std::uint32_t x = 0, y = 0;  // of the lower left corner, in units
@@ -64,6 +69,12 @@ class SizeTreeBuilder {
     const Square& s = squares_[c];
     const double half = 0.5 * unit() * s.side();
     return {tree_.origin_ + Point{unit() * s.x + half, unit() * s.y + half}, half};
+  }
+  // On the surface, of a cell's longest side; at most.
+  double sideOf(const SizeBox& box) const { return 2.0 * box.half * shrinkIn(options_.surface, box).high; }
+  bool isStretched(const SizeBox& box, double most) const {
+    const ShrinkRange shrink = shrinkIn(options_.surface, box);
+    return shrink.high > most * shrink.low;
   }
   // Where vertex i of a cell is, as `LeafVertices` counts them.
   SizePlaces::Place vertexOf(std::uint32_t c, unsigned i) const {
@@ -112,11 +123,13 @@ class SizeTreeBuilder {
 
   Demand demandOf(std::uint32_t c, const SizeRange& range) const {
     const SizeBox box = boxOf(c);
-    const double area = source_.share(box) * 4.0 * box.half * box.half;
+    const double share = source_.share(box);
+    const double area =
+        options_.surface.isCurved() ? share * areaOn(options_.surface, box) : share * 4.0 * box.half * box.half;
     if (!(area > 0.0) || range.low == kInfinity) return {};
     // Graded, lengths grow no faster from the least one; the mean of 1 / h² of what grows evenly is that of both ends'
     // product.
-    const double high = std::min(range.high, range.low + options_.gradation * std::sqrt(8.0) * box.half);
+    const double high = std::min(range.high, range.low + options_.gradation * std::sqrt(2.0) * sideOf(box));
     const double low = range.low > 0.0 ? range.low : high;
     const double likely = kVerticesPerArea * area / low / high;
     return {kVerticesPerArea * area / range.high / range.high, likely, likely, box, low};
@@ -153,9 +166,19 @@ class SizeTreeBuilder {
             forEachTriangle(leaf_vertices_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
               const double x = sizes_.size[a], y = sizes_.size[b], z = sizes_.size[c];
               const auto atMiddle = [](double p, double q) { return 4.0 / (p + q) / (p + q); };
+              // Of area on the surface over area in the plane.
+              const auto shareOf = [&](std::uint32_t p, std::uint32_t q) {
+                if (!options_.surface.isCurved()) return 1.0;
+                const double shrink =
+                    options_.surface.shrinkAt(tree_.origin_ + 0.5 * unit() * (gridPoint(p) + gridPoint(q)));
+                return shrink * shrink;
+              };
               const double area =
                   0.5 * unit() * unit() * std::abs(cross(gridPoint(b) - gridPoint(a), gridPoint(c) - gridPoint(a)));
-              here.likely += kVerticesPerArea * share * area * (atMiddle(x, y) + atMiddle(y, z) + atMiddle(z, x)) / 3.0;
+              here.likely +=
+                  kVerticesPerArea * share * area *
+                  (shareOf(a, b) * atMiddle(x, y) + shareOf(b, c) * atMiddle(y, z) + shareOf(c, a) * atMiddle(z, x)) /
+                  3.0;
               here.size = std::min({here.size, x, y, z});
             });
             here.most_here = here.likely;
@@ -180,14 +203,16 @@ class SizeTreeBuilder {
     bool too_much = false;
     for (int level = 0; level < kLevels; ++level) {
       const auto end = static_cast<std::uint32_t>(tree_.cells_.size());
+      for (std::uint32_t c = first; options_.surface.isCurved() && c < end && !isFull(); ++c)
+        if (isStretched(boxOf(c), kAnyStretch)) split(c);
       const std::vector<std::uint32_t> wanted =
           joined(overStretches(loop_, end - first, [&](std::size_t from, std::size_t to) {
             std::vector<std::uint32_t> here;
             for (auto c = static_cast<std::uint32_t>(first + from); c < first + to; ++c)
-              if (source_.isWanted(boxOf(c))) here.push_back(c);
+              if (tree_.cells_[c].is_leaf && source_.isWanted(boxOf(c))) here.push_back(c);
             return here;
           }));
-      if (wanted.empty()) break;
+      if (wanted.empty() && tree_.cells_.size() == end) break;
       boxes.clear();
       for (const std::uint32_t c : wanted) boxes.push_back(boxOf(c));
       ranges.resize(boxes.size());
@@ -203,8 +228,8 @@ class SizeTreeBuilder {
       for (std::size_t k = 0; k < wanted.size() && !isFull(); ++k) {
         const auto [low, high] = ranges[k];
         if (!(high > low * (1.0 + options_.tolerance))) continue;
-        const double side = 2.0 * boxes[k].half;
-        if (side > options_.coarsest * low) {
+        const double side = sideOf(boxes[k]);
+        if (side > options_.coarsest * low || isStretched(boxes[k], kGradedStretch)) {
           split(wanted[k]);
         } else if (side > options_.finest * low) {
           unsure.push_back(wanted[k]);
@@ -237,7 +262,7 @@ class SizeTreeBuilder {
       double off = std::abs(0.25 * (v[0] + v[2] + v[6] + v[8]) - v[4]);
       off = 0.5 * std::max({off, std::abs(0.5 * (v[0] + v[2]) - v[1]), std::abs(0.5 * (v[0] + v[6]) - v[3]),
                             std::abs(0.5 * (v[2] + v[8]) - v[5]), std::abs(0.5 * (v[6] + v[8]) - v[7])});
-      const double least = std::ranges::min(v), side = unit() * squares_[cells[k]].side();
+      const double least = std::ranges::min(v), side = sideOf(boxOf(cells[k]));
       if (least > kHidden * lows[k]) return true;
       return std::isfinite(off) ? off * side > options_.tolerance * least * least : std::isfinite(least);
     };
@@ -365,7 +390,8 @@ class SizeTreeBuilder {
 
   void limitGradation() {
     const auto grading = [&] {
-      return SizeGrading(sizes_, vertices_, unit(), leaf_vertices_, kSafely * options_.gradation, loop_);
+      const SizeGrid grid{vertices_, unit(), tree_.origin_, options_.surface, kSafely * options_.gradation};
+      return SizeGrading(sizes_, grid, leaf_vertices_, loop_);
     };
     for (int round = 0; round < kLevels; ++round) {
       grading().spread();
@@ -374,38 +400,54 @@ class SizeTreeBuilder {
       number();
     }
     // Where nothing is wanted anywhere: as large as the whole.
-    for (double& size : sizes_.size) size = std::min(size, tree_.side_);
+    const double whole =
+        options_.surface.isCurved() ? std::min(tree_.side_, 2.0 * options_.surface.radius()) : tree_.side_;
+    for (double& size : sizes_.size) size = std::min(size, whole);
     grading().flatten();
   }
 
-  // Splits leaves that are too large for what grows into them.
+  // Splits leaves that are too large for what grows into them, or too stretched; of those that nobody will ask for the
+  // latter alone, since through them sizes grow as well.
   bool splitGraded() {
     const std::size_t before = tree_.cells_.size();
     for (std::size_t l = 0; l < leaf_cells_.size(); ++l) {
-      if (!is_wanted_[l]) continue;
+      if (!is_wanted_[l] && !options_.surface.isCurved()) continue;
       std::array<std::uint32_t, 9> sources;
       std::size_t count = 0;
       for (const std::uint32_t v : leaf_vertices_[l])
         if (v != kNone && sizes_.source[v] != kNone) sources[count++] = sizes_.source[v];
-      if (count > 0) splitBelow(leaf_cells_[l], std::span(sources).first(count));
+      if (count > 0) splitBelow(leaf_cells_[l], std::span(sources).first(count), is_wanted_[l] != 0);
     }
     return tree_.cells_.size() > before;
   }
 
-  void splitBelow(std::uint32_t c, std::span<const std::uint32_t> sources) {
+  void splitBelow(std::uint32_t c, std::span<const std::uint32_t> sources, bool is_wanted) {
     const Square square = squares_[c];
     if (square.level == kLevels || isFull()) return;
+    if (!(is_wanted && isTooLarge(c, sources)) && !isStretched(boxOf(c), kGradedStretch)) return;
+    split(c);
+    for (std::uint32_t k = 0; k < 4; ++k) splitBelow(tree_.cells_[c].below + k, sources, is_wanted);
+  }
+
+  bool isTooLarge(std::uint32_t c, std::span<const std::uint32_t> sources) const {
+    const Surface& surface = options_.surface;
+    const Square square = squares_[c];
     const double half = 0.5 * unit() * square.side();
     const Point centre{unit() * square.x + half, unit() * square.y + half};
     double low = kInfinity;
     for (const std::uint32_t s : sources) {
       const Point off = Point{unit() * vertices_[s].x, unit() * vertices_[s].y} - centre;
       const Point beyond{std::max(std::abs(off.x) - half, 0.0), std::max(std::abs(off.y) - half, 0.0)};
-      low = std::min(low, sizes_.own[s] + kSizeGrowth * options_.gradation * std::sqrt(squaredLength(beyond)));
+      double way = std::sqrt(squaredLength(beyond));
+      if (surface.isCurved()) {
+        const Point at = tree_.origin_ + centre + off;
+        const Point nearest =
+            tree_.origin_ + centre + Point{std::clamp(off.x, -half, half), std::clamp(off.y, -half, half)};
+        way = arcBetween(surface, at, nearest);
+      }
+      low = std::min(low, sizes_.own[s] + kSizeGrowth * options_.gradation * way);
     }
-    if (2.0 * half <= options_.coarsest * low) return;
-    split(c);
-    for (std::uint32_t k = 0; k < 4; ++k) splitBelow(tree_.cells_[c].below + k, sources);
+    return sideOf(boxOf(c)) > options_.coarsest * low;
   }
 
   // Cells and leaves as the tree keeps them: depth first, so that what lies near in the plane lies near in memory.

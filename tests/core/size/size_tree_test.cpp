@@ -256,7 +256,7 @@ TEST(SizeGrading, EndsWithNothingSteep) {
   sizes.source.assign(places.size(), kNone);
   const double gradation = 0.201 * std::sqrt(1.25);
   const ItemLoop loop = inOrder;
-  SizeGrading(sizes, places, 1.0, leaves, gradation, loop).flatten();
+  SizeGrading(sizes, {places, 1.0, {}, {}, gradation}, leaves, loop).flatten();
   for (const LeafVertices& leaf : leaves) {
     forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       // Along and across: the slope from two edges at right angles.

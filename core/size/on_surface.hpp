@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/metric.hpp"
+#include "core/size/size_box.hpp"
+#include "core/surface.hpp"
+
+namespace coastmesh {
+
+// Lengths and areas on the surface of what is given in its plane. Of a plane they are those of the plane, to the bit.
+
+// Of the shortest way on the surface, from the straight way through space; and back. No arc is longer than half round
+// the sphere.
+inline double arcOfChord(const Surface& surface, double chord) {
+  if (!surface.isCurved()) return chord;
+  const double per_length = std::sqrt(surface.curvature);
+  return std::asin(std::min(1.0, chord * per_length)) / per_length;
+}
+inline double chordOfArc(const Surface& surface, double arc) {
+  if (!surface.isCurved()) return arc;
+  const double per_length = std::sqrt(surface.curvature);
+  return std::sin(std::min(0.5 * std::numbers::pi, arc * per_length)) / per_length;
+}
+inline double arcBetween(const Surface& surface, const Point& a, const Point& b) {
+  return arcOfChord(surface, surface.chord(a, b));
+}
+
+// Between what bounds length on the surface over length in the plane lies within a square.
+struct ShrinkRange {
+  double low = 1.0, high = 1.0;
+};
+
+inline ShrinkRange shrinkIn(const Surface& surface, const SizeBox& box) {
+  if (!surface.isCurved()) return {};
+  const double x = std::abs(box.centre.x), y = std::abs(box.centre.y);
+  return {surface.shrinkAt({x + box.half, y + box.half}),
+          surface.shrinkAt({std::max(x - box.half, 0.0), std::max(y - box.half, 0.0)})};
+}
+
+// Of a rectangle of the plane between two corners.
+double areaOn(const Surface& surface, const Point& low, const Point& high);
+inline double areaOn(const Surface& surface, const SizeBox& box) {
+  return areaOn(surface, box.centre - Point{box.half, box.half}, box.centre + Point{box.half, box.half});
+}
+
+}  // namespace coastmesh

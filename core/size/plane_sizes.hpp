@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/size_function.hpp"
+#include "core/surface.hpp"
+
+namespace coastmesh {
+
+// Sizes of a surface as lengths in its plane, for what measures there: a length along a straight line at a place,
+// short enough that the shrink hardly changes on it.
+class PlaneSizes final : public SizeFunction {
+ public:
+  // Of what lies in the box from `low` to `high`; beyond it lengths grow no further. `size` has to outlive this.
+  PlaneSizes(const SizeFunction& size, const Surface& surface, const Point& low, const Point& high)
+      : size_(size),
+        surface_(surface),
+        least_shrink_(surface.shrinkAt(
+            {std::max(std::abs(low.x), std::abs(high.x)), std::max(std::abs(low.y), std::abs(high.y))})) {}
+
+  double at(const Point& x) const override { return size_.at(x) / std::max(surface_.shrinkAt(x), least_shrink_); }
+  double least() const override { return size_.least(); }
+  double most() const override { return size_.most() / least_shrink_; }
+
+ private:
+  const SizeFunction& size_;
+  Surface surface_;
+  double least_shrink_;
+};
+
+}  // namespace coastmesh
