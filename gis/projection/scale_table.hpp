@@ -1,27 +1,33 @@
 #pragma once
 
+#include "core/surface.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/projection/plane_table.hpp"
 #include "gis/projection/projection.hpp"
 
 namespace coastmesh {
 
-// `Projection::scaleAt` to within 1e-5, from a table. Usable from several threads.
+// `Projection::scaleAt` and `Projection::measureAt` to within 1e-5 (the scale of a sphere's plane: of itself), from a
+// table of the latter, which hardly changes. Usable from several threads.
 class ScaleTable {
  public:
   // Fast within the box; beyond it the projection is asked.
   ScaleTable(const Projection& projection, const Box& box)
-      : table_(
+      : surface_(projection.surface()),
+        table_(
             [projection](const Point& x) {
-              return Point{projection.scaleAt(x), 0.0};
+              return Point{projection.measureAt(x), 0.0};
             },
             box, kTolerance) {}
 
-  double at(const Point& x) const { return table_.at(x).x; }
+  double at(const Point& x) const { return measureAt(x) / surface_.shrinkAt(x); }
+  double measureAt(const Point& x) const { return table_.at(x).x; }
+  const Surface& surface() const { return surface_; }  // what the plane stands for
 
  private:
   static constexpr double kTolerance = 1e-5;
 
+  Surface surface_;
   PlaneTable table_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
+#include "core/size/on_surface.hpp"
 
 namespace coastmesh {
 
@@ -37,8 +38,8 @@ int levelsFor(const Pslg& pslg) {
 
 }  // namespace
 
-DomainMask::DomainMask(const Pslg& pslg, const SizeBox& square)
-    : origin_(square.centre - Point{square.half, square.half}), side_(2.0 * square.half) {
+DomainMask::DomainMask(const Pslg& pslg, const SizeBox& square, const Surface& surface)
+    : origin_(square.centre - Point{square.half, square.half}), side_(2.0 * square.half), surface_(surface) {
   if (std::ranges::none_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; })) {
     const Pslg boundary = labelledBoundary(pslg);
     measureShares(boundary);
@@ -117,10 +118,25 @@ void DomainMask::measureShares(const Pslg& pslg) {
     for (std::size_t j = 0; j < m; ++j) {
       for (std::size_t i = 0; i < m; ++i) {
         const std::size_t below = 4 * m * j + 2 * i;
-        coarse[m * j + i] = 0.25F * (fine[below] + fine[below + 1] + fine[below + 2 * m] + fine[below + 2 * m + 1]);
+        coarse[m * j + i] =
+            shareOf({fine[below], fine[below + 1], fine[below + 2 * m], fine[below + 2 * m + 1]}, i, j, m);
       }
     }
   }
+}
+
+// Of a cell (i, j) of `cells` in a row, from its four quarters.
+float DomainMask::shareOf(const std::array<float, 4>& below, std::size_t i, std::size_t j, std::size_t cells) const {
+  if (!surface_.isCurved()) return 0.25F * (below[0] + below[1] + below[2] + below[3]);
+  const double half = 0.25 * side_ / static_cast<double>(cells);
+  double inside = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Point off{static_cast<double>(2 * (2 * i + k % 2) + 1), static_cast<double>(2 * (2 * j + k / 2) + 1)};
+    const double area = areaOn(surface_, {origin_ + half * off, half});
+    inside += area * static_cast<double>(below[k]);
+    all += area;
+  }
+  return static_cast<float>(inside / all);
 }
 
 void DomainMask::listBoundary(const Pslg& pslg) {

@@ -25,16 +25,17 @@ Neighbours neighboursIn(const TriMesh& mesh) {
 }  // namespace
 
 std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double gradation,
-                              const std::function<double(const Point&)>& scale) {
+                              const std::function<double(const Point&)>& measure, const Surface& surface) {
   // Slightly less, since others round the lengths that they measure otherwise.
   constexpr double kHair = 1.0 - 1e-6;
-  std::vector<double> sizes(mesh.points.size()), scales(mesh.points.size());
+  std::vector<double> sizes(mesh.points.size()), measures(mesh.points.size());
   for (VertexId v = 0; v < sizes.size(); ++v) {
-    scales[v] = scale(mesh.points[v]);
-    sizes[v] = size.at(mesh.points[v]) / scales[v];
+    measures[v] = measure(mesh.points[v]);
+    sizes[v] = size.at(mesh.points[v]) / measures[v];
   }
   const auto allowed = [&](VertexId from, VertexId to) {
-    const double metres = distance(mesh.points[from], mesh.points[to]) / std::max(scales[from], scales[to]);
+    const double length = surface.chord(mesh.points[from], mesh.points[to]);
+    const double metres = length / std::max(measures[from], measures[to]);
     return sizes[from] + kHair * gradation * metres;
   };
   using Entry = std::pair<double, VertexId>;

@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "core/size_function.hpp"
+#include "core/surface.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
 
 // The sizes wanted at a mesh's vertices, in metres: no two at the ends of an edge differ by more than `gradation` times
-// its length, which takes away the last of what rounding and interpolation left. `scale` is plane length over metres.
+// its length, which takes away the last of what rounding and interpolation left. `measure` is length on `surface`, that
+// the plane stands for, over metres.
 std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double gradation,
-                              const std::function<double(const Point&)>& scale);
+                              const std::function<double(const Point&)>& measure, const Surface& surface = {});
 
 }  // namespace coastmesh

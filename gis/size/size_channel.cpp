@@ -91,7 +91,8 @@ Circle shrink(const Shores& shores, const Point& at, const Point& normal, double
 }  // namespace
 
 ChannelLines channelLines(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
-                          const std::function<double(const Point&)>& scale, const ChannelRoom& room) {
+                          const std::function<double(const Point&)>& scale, const ChannelRoom& room,
+                          const Surface& surface) {
   const Shores shores(pslg);
   const bool labelled =
       std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
@@ -105,7 +106,9 @@ ChannelLines channelLines(const Pslg& pslg, double elements, double rate, double
   const auto alongSide = [&](const Point& a, const Point& b, const Point& normal) {
     const double length = distance(a, b), local = scale(midpoint(a, b));
     const double least_step = std::max(kStep * 0.5 * elements * least_m * local, length / kMostPlaces);
-    const double largest = std::min(extent, 0.5 * elements * most_m * local);
+    // What is wider is left out; where the scale changes over a circle only its own says how wide it is.
+    const double with_room = surface.isCurved() ? 2.0 : 1.0;
+    const double largest = std::min(extent, with_room * 0.5 * elements * most_m * local);
     double along = std::min(0.5 * length, 0.5 * least_step);
     while (along < length && !isTooMuch()) {
       const Point at = a + (along / length) * (b - a);
@@ -114,12 +117,13 @@ ChannelLines channelLines(const Pslg& pslg, double elements, double rate, double
         const Point centre = at + circle.radius * normal;
         const Point to_at = at - centre, to_other = *circle.other - centre;
         const double cosine = dot(to_at, to_other) / std::sqrt(squaredLength(to_at) * squaredLength(to_other));
-        const double size = std::max(least_m, 2.0 * circle.radius / local / elements);
+        const double scale_there = surface.isCurved() ? scale(centre) : local;
+        const double size = std::max(least_m, 2.0 * circle.radius / scale_there / elements);
         if (cosine < kCosApart && size < most_m) {
           found.lines.push_back({at, *circle.other, size, rate});
           // Half of the channel's width along the step to the next place; where that is less, the shore itself.
           const double step = std::min(length - along, std::max(least_step, kStep * circle.radius));
-          const double edge = size * local;
+          const double edge = size * scale_there;
           found.vertices += std::max(kVerticesPerArea * step * circle.radius / edge / edge, 0.5 * step / edge);
         }
       }

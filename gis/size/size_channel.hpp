@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/pslg.hpp"
+#include "core/surface.hpp"
 #include "gis/size/size_distance.hpp"
 
 namespace coastmesh {
@@ -27,8 +28,10 @@ struct ChannelRoom {
 // water there is wide. After Ma, Bae & Choi, "3D medial axis point approximation using nearest neighbors and the normal
 // field" (2012). Bends of one shore do not make a channel: the two touching places lie more than 110 degrees apart,
 // seen from the centre. Sizes are at least `least_m`, and what is wider than asks for `most_m` is left out; `scale` is
-// plane length over metres. Stops where they pass what is allowed.
+// plane length over metres. On a sphere, too, the circles of the plane are circles: as wide as the scale at their
+// centres says. Stops where they pass what is allowed.
 ChannelLines channelLines(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
-                          const std::function<double(const Point&)>& scale, const ChannelRoom& room = {});
+                          const std::function<double(const Point&)>& scale, const ChannelRoom& room = {},
+                          const Surface& surface = {});
 
 }  // namespace coastmesh

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/size/on_surface.hpp"
 #include "gis/geometry/box.hpp"
 
 namespace coastmesh {
@@ -38,7 +39,8 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
   const Point middle{0.5 * (box.xmin + box.xmax), 0.5 * (box.ymin + box.ymax)};
-  const double across = std::sqrt((box.xmax - box.xmin) * (box.ymax - box.ymin)) / domain.projection.scaleAt(middle);
+  const double area = areaOn(domain.projection.surface(), {box.xmin, box.ymin}, {box.xmax, box.ymax});
+  const double across = std::sqrt(area) / domain.projection.measureAt(middle);
   SizeOptions chosen = options;
   chosen.choose = false;
   chosen.most_m = rounded(across / kElementsAcross);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/hilbert.hpp"
 #include "core/metric.hpp"
+#include "core/size/on_surface.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box.hpp"
 
@@ -17,15 +19,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+// Lengths are those of the plane, on a sphere those of chords.
 struct DistanceField::Search {
   Point x;
-  double per_metre;  // 1 / scale
-  double best;       // a size; where all lines are alike, the square of a distance
+  double shrink;     // at x
+  double per_metre;  // length on the surface for a metre there, inverted
+  double best;       // a size; where all lines are alike, the square of a length
   std::uint32_t nearest = kNone;
 };
 
-DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(const Point&)> scale, double most_m)
-    : most_m_(most_m), scale_(std::move(scale)) {
+DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(const Point&)> scale, double most_m,
+                             const Surface& surface)
+    : most_m_(most_m), scale_(std::move(scale)), surface_(surface) {
   if (lines.empty()) return;
   std::vector<Point> middles;
   for (const SizedLine& line : lines) {
@@ -61,11 +66,14 @@ DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(
         Group& group = groups_.emplace_back();
         for (auto* of : {&group.xmin, &group.ymin, &group.size_m, &group.rate}) of->fill(kInfinity);
         for (auto* of : {&group.xmax, &group.ymax}) of->fill(-kInfinity);
+        group.shrink.fill(1.0);
       }
       Group& group = groups_.back();
       group.xmin[k] = below[i].box.xmin, group.ymin[k] = below[i].box.ymin;
       group.xmax[k] = below[i].box.xmax, group.ymax[k] = below[i].box.ymax;
       group.size_m[k] = below[i].size_m, group.rate[k] = below[i].rate;
+      const Box& box = below[i].box;
+      group.shrink[k] = surface_.shrinkAt({std::max(-box.xmin, box.xmax), std::max(-box.ymin, box.ymax)});
       add(i, below[i]);
     }
   } while (nodes.size() > 1);
@@ -78,20 +86,47 @@ void DistanceField::limitRate(double rate) {
     for (double& least : group.rate) least = std::min(least, rate);
 }
 
-template <bool kAlike>
+// The square of the chord from x to the place on a line at the share t is n(t) / q(t) times the shrink at x. n is the
+// square of the plane's length, q the inverse of the shrink there, both quadratic in t. At one of its derivative's two
+// roots it is the least on the whole line; where that lies beyond the ends, at one of these.
+double DistanceField::squaredChordTo(const Line& line, const Search& search) const {
+  const double k = surface_.curvature;
+  const Point off = line.a - search.x;
+  const double n0 = squaredLength(off), n1 = dot(off, line.along), n2 = squaredLength(line.along);
+  const double q0 = 1.0 + k * squaredLength(line.a), q1 = k * dot(line.a, line.along), q2 = k * n2;
+  const double a = n2 * q1 - n1 * q2, b = n2 * q0 - n0 * q2, c = n1 * q0 - n0 * q1;
+  const double root = std::sqrt(std::max(b * b - 4.0 * a * c, 0.0));
+  // Where the derivative, a t² + b t + c, rises through 0.
+  const double share = b > 0.0 ? -2.0 * c / (b + root) : (root - b) / (2.0 * a);
+  const auto at = [&](double t) { return squaredLength(off + t * line.along) / (q0 + t * (2.0 * q1 + t * q2)); };
+  double least = std::min(at(0.0), at(1.0));
+  if (share > 0.0 && share < 1.0) least = std::min(least, at(share));
+  return least * search.shrink;
+}
+
+template <bool kAlike, bool kCurved>
 void DistanceField::measure(std::uint32_t i, Search& search) const {
   const Line& line = lines_[i];
-  const Point to = search.x - line.a;
-  const double share = std::min(std::max(dot(to, line.along) * line.inverse_square, 0.0), 1.0);
-  const double square = squaredLength(to - share * line.along);
-  const double value = kAlike ? square : line.size_m + line.rate * std::sqrt(square) * search.per_metre;
+  double square;
+  if constexpr (kCurved) {
+    square = squaredChordTo(line, search);
+  } else {
+    const Point to = search.x - line.a;
+    const double share = std::min(std::max(dot(to, line.along) * line.inverse_square, 0.0), 1.0);
+    square = squaredLength(to - share * line.along);
+  }
+  const auto metres = [&] {
+    const double length = std::sqrt(square);
+    return (kCurved ? arcOfChord(surface_, length) : length) * search.per_metre;
+  };
+  const double value = kAlike ? square : line.size_m + line.rate * metres();
   if (value < search.best) {
     search.best = value;
     search.nearest = i;
   }
 }
 
-template <bool kAlike>
+template <bool kAlike, bool kCurved>
 void DistanceField::descend(std::size_t level, std::size_t number, Search& search) const {
   const Group& group = groups_[level_begin_[level] + number];
   std::array<double, kFanout> off;
@@ -99,6 +134,7 @@ void DistanceField::descend(std::size_t level, std::size_t number, Search& searc
     const double dx = std::max(std::max(group.xmin[k] - search.x.x, search.x.x - group.xmax[k]), 0.0);
     const double dy = std::max(std::max(group.ymin[k] - search.x.y, search.x.y - group.ymax[k]), 0.0);
     off[k] = dx * dx + dy * dy;
+    if constexpr (kCurved) off[k] *= search.shrink * group.shrink[k];
     if constexpr (!kAlike) off[k] = group.size_m[k] + group.rate[k] * std::sqrt(off[k]) * search.per_metre;
   }
   // The most promising first; mostly few are left.
@@ -114,22 +150,27 @@ void DistanceField::descend(std::size_t level, std::size_t number, Search& searc
     if (!(off[order[i]] < search.best)) return;
     const std::size_t node = number * kFanout + order[i];
     if (level > 0) {
-      descend<kAlike>(level - 1, node, search);
+      descend<kAlike, kCurved>(level - 1, node, search);
     } else {
       const std::size_t end = std::min(lines_.size(), (node + 1) * kFanout);
       for (std::size_t line = node * kFanout; line < end; ++line)
-        measure<kAlike>(static_cast<std::uint32_t>(line), search);
+        measure<kAlike, kCurved>(static_cast<std::uint32_t>(line), search);
     }
   }
 }
 
 double DistanceField::sizeAt(const Point& x, double scale, double most_m, std::uint32_t& nearest) const {
   if (lines_.empty()) return kInfinity;
-  Search search{x, 1.0 / scale, most_m};
-  const auto run = [&]<bool kAlike>() {
-    if (nearest != kNone) measure<kAlike>(nearest, search);
-    descend<kAlike>(level_begin_.size() - 1, 0, search);
+  const bool curved = surface_.isCurved();
+  const double shrink = surface_.shrinkAt(x), measure_here = scale * shrink;
+  Search search{x, shrink, 1.0 / measure_here, most_m};
+  const auto runOn = [&]<bool kAlike, bool kCurved>() {
+    if (nearest != kNone) measure<kAlike, kCurved>(nearest, search);
+    descend<kAlike, kCurved>(level_begin_.size() - 1, 0, search);
     if (search.nearest != kNone) nearest = search.nearest;
+  };
+  const auto run = [&]<bool kAlike>() {
+    curved ? runOn.template operator()<kAlike, true>() : runOn.template operator()<kAlike, false>();
   };
   if (!alike_) {
     run.operator()<false>();
@@ -137,10 +178,14 @@ double DistanceField::sizeAt(const Point& x, double scale, double most_m, std::u
   }
   const Line& line = lines_.front();
   if (!(most_m > line.size_m) || line.rate == 0.0) return std::min(most_m, line.size_m);
-  const double reach = (most_m - line.size_m) / line.rate * scale;
-  search.best = reach * reach;
+  const double reach = (most_m - line.size_m) / line.rate * measure_here;
+  const double straight = chordOfArc(surface_, reach);
+  const bool all_round = curved && reach >= std::numbers::pi * surface_.radius();
+  search.best = all_round ? kInfinity : straight * straight;
   run.operator()<true>();
-  return search.nearest == kNone ? most_m : line.size_m + line.rate * std::sqrt(search.best) * search.per_metre;
+  return search.nearest == kNone
+             ? most_m
+             : line.size_m + line.rate * arcOfChord(surface_, std::sqrt(search.best)) * search.per_metre;
 }
 
 void DistanceField::sample(std::span<const Point> places, std::span<double> sizes) const {
@@ -152,7 +197,9 @@ void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> r
   std::uint32_t nearest = kNone;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const double scale = scale_(boxes[i].centre);
-    const double reach = most_rate_ * std::sqrt(2.0) * boxes[i].half / scale * 1.01;
+    // As far as the box reaches, in metres, times the rate.
+    const double shrinks = shrinkIn(surface_, boxes[i]).high / surface_.shrinkAt(boxes[i].centre);
+    const double reach = most_rate_ * std::sqrt(2.0) * boxes[i].half / scale * shrinks * 1.01;
     const double size = sizeAt(boxes[i].centre, scale, most_m_ + reach, nearest);
     ranges[i] = {std::max(least_size_m_, size - reach), size + reach};
   }

@@ -9,6 +9,7 @@
 
 #include "core/ids.hpp"
 #include "core/pslg.hpp"
+#include "core/surface.hpp"
 #include "gis/size/size_field.hpp"
 
 namespace coastmesh {
@@ -22,13 +23,15 @@ struct SizedLine {
 };
 
 // size + rate * distance, the least over all lines. A packed tree whose nodes know the least size and rate below them;
-// what was nearest to one place is where the search for the next one starts.
+// what was nearest to one place is where the search for the next one starts. On a sphere distances are those of arcs,
+// and chords are compared: the square of one is that of the plane's length times the shrink at both ends, of which a
+// node knows the least.
 class DistanceField final : public SizeField {
  public:
-  // `scale` is plane length over metres at a place. Sizes above `most_m` are not told apart: to find the nearest line
-  // from far off is what takes time.
+  // `scale` is plane length over metres at a place; `surface` is what the plane stands for. Sizes above `most_m` are
+  // not told apart: to find the nearest line from far off is what takes time.
   DistanceField(std::vector<SizedLine> lines, std::function<double(const Point&)> scale,
-                double most_m = std::numeric_limits<double>::infinity());
+                double most_m = std::numeric_limits<double>::infinity(), const Surface& surface = {});
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
@@ -45,16 +48,18 @@ class DistanceField final : public SizeField {
   // The boxes of so many nodes of the level below; those that are not there lie infinitely far away.
   struct Group {
     std::array<double, kFanout> xmin, ymin, xmax, ymax, size_m, rate;
+    std::array<double, kFanout> shrink;  // the least
   };
   struct Search;
 
   // `most_m`: what is no less need not be found. `nearest`: the line found, where there is one; before, one to begin
   // with.
   double sizeAt(const Point& x, double scale, double most_m, std::uint32_t& nearest) const;
-  template <bool kAlike>
+  template <bool kAlike, bool kCurved>
   void measure(std::uint32_t line, Search& search) const;
-  template <bool kAlike>
+  template <bool kAlike, bool kCurved>
   void descend(std::size_t level, std::size_t group, Search& search) const;
+  double squaredChordTo(const Line& line, const Search& search) const;
 
   std::vector<Line> lines_;    // along Hilbert's curve
   std::vector<Group> groups_;  // level after level; of the first level's the nodes are `kFanout` lines in a row
@@ -63,6 +68,7 @@ class DistanceField final : public SizeField {
   double most_rate_ = 0.0, least_size_m_ = std::numeric_limits<double>::infinity();
   double most_m_;
   std::function<double(const Point&)> scale_;
+  Surface surface_;
 };
 
 // The shore of a domain: the segments with land on one side.

@@ -213,7 +213,7 @@ std::vector<std::unique_ptr<SizeField>> featureFields(const SizedFeatures& featu
     if (!polygon.rings.empty()) polygons.push_back(std::move(polygon));
   }
   std::vector<std::unique_ptr<SizeField>> fields;
-  fields.push_back(std::make_unique<DistanceField>(std::move(lines), scale));
+  fields.push_back(std::make_unique<DistanceField>(std::move(lines), scale, kInfinity, projection.surface()));
   if (!polygons.empty()) fields.push_back(std::make_unique<PolygonField>(std::move(polygons)));
   return fields;
 }

@@ -29,7 +29,8 @@ struct SizedFeatures {
 SizedFeatures readSizedFeatures(const std::string& source, const Crs& crs, double usual_rate);
 
 // The fields of such features: inside polygons their size, round all of them what grows with the distance. A line that
-// leaves what the projection reaches is left out. `scale` is plane length over metres.
+// leaves what the projection reaches is left out. `scale` is plane length over metres; distances are those on the
+// projection's surface.
 std::vector<std::unique_ptr<SizeField>> featureFields(const SizedFeatures& features, const Projection& projection,
                                                       const std::function<double(const Point&)>& scale);
 

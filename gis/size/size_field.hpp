@@ -8,8 +8,9 @@
 namespace coastmesh {
 
 // One reason for a size: metres on the ground, above 0, infinite where it asks for nothing; places are those of the
-// working plane. Fields hold no state that reading changes: any number of threads may ask at the same time. What is
-// asked for in all is the least of several fields: see `composeSizes`.
+// working plane, distances those on the surface that it stands for. Fields hold no state that reading changes: any
+// number of threads may ask at the same time. What is asked for in all is the least of several fields: see
+// `composeSizes`.
 class SizeField {
  public:
   virtual ~SizeField() = default;

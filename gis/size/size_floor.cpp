@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/metric.hpp"
+#include "core/size/on_surface.hpp"
 
 namespace coastmesh {
 
@@ -23,7 +24,12 @@ SizeBox childOf(const SizeBox& box, unsigned i) {
   return {box.centre + Point{(i & 1U) != 0U ? half : -half, (i & 2U) != 0U ? half : -half}, half};
 }
 
-double distanceBetween(const SizeBox& a, const SizeBox& b) {
+// At least so much, on the surface.
+double distanceBetween(const Surface& surface, const SizeBox& a, const SizeBox& b) {
+  if (surface.isCurved()) {
+    const auto reach = [&](const SizeBox& box) { return std::numbers::sqrt2 * box.half * shrinkIn(surface, box).high; };
+    return std::max(0.0, arcBetween(surface, a.centre, b.centre) - reach(a) - reach(b));
+  }
   const double dx = std::max(0.0, std::abs(a.centre.x - b.centre.x) - a.half - b.half);
   const double dy = std::max(0.0, std::abs(a.centre.y - b.centre.y) - a.half - b.half);
   return std::sqrt(dx * dx + dy * dy);
@@ -33,8 +39,13 @@ double distanceBetween(const SizeBox& a, const SizeBox& b) {
 
 SizeFloor::SizeFloor(std::unique_ptr<SizeField> field, double rate, double least_m,
                      std::function<double(const Point&)> scale, const SizeBox& root, const DomainMask& mask,
-                     const ItemLoop& loop)
-    : field_(std::move(field)), rate_(rate), least_m_(least_m), scale_(std::move(scale)), root_(root) {
+                     const ItemLoop& loop, const Surface& surface)
+    : field_(std::move(field)),
+      rate_(rate),
+      least_m_(least_m),
+      scale_(std::move(scale)),
+      surface_(surface),
+      root_(root) {
   build(mask, loop);
 }
 
@@ -64,7 +75,7 @@ void SizeFloor::build(const DomainMask& mask, const ItemLoop& loop) {
       if (high < kInfinity && high - low <= kTolerance * high) continue;  // even
       // The least that is known to lie within stands for what is not.
       const double most = high < kInfinity ? high : std::max(low, std::isfinite(middles[i]) ? middles[i] : 0.0);
-      const double by_its_size = rate_ * 2.0 * box.half / scale_(box.centre);
+      const double by_its_size = rate_ * 2.0 * box.half * shrinkIn(surface_, box).high / measureAt(box.centre);
       if (by_its_size > kTolerance * most && nodes_.size() + 4 <= kMostNodes) {
         nodes_[node].below = static_cast<std::uint32_t>(nodes_.size());
         for (unsigned c = 0; c < 4; ++c) {
@@ -85,12 +96,12 @@ void SizeFloor::build(const DomainMask& mask, const ItemLoop& loop) {
 void SizeFloor::descend(std::uint32_t node, const SizeBox& box, const SizeBox& asked, double rate, double& most) const {
   const std::uint32_t below = nodes_[node].below;
   if (below == 0) {
-    most = std::max(most, nodes_[node].most - rate * distanceBetween(box, asked));
+    most = std::max(most, nodes_[node].most - rate * distanceBetween(surface_, box, asked));
     return;
   }
   std::array<std::pair<double, unsigned>, 4> order;
   for (unsigned c = 0; c < 4; ++c)
-    order[c] = {nodes_[below + c].most - rate * distanceBetween(childOf(box, c), asked), c};
+    order[c] = {nodes_[below + c].most - rate * distanceBetween(surface_, childOf(box, c), asked), c};
   std::ranges::sort(order, std::greater());
   for (const auto& [reaches, c] : order) {
     if (!(reaches > most)) return;
@@ -99,7 +110,7 @@ void SizeFloor::descend(std::uint32_t node, const SizeBox& box, const SizeBox& a
 }
 
 double SizeFloor::steepMost(const SizeBox& asked, double most) const {
-  descend(0, root_, asked, rate_ / scale_(asked.centre), most);
+  descend(0, root_, asked, rate_ / measureAt(asked.centre), most);
   return most;
 }
 
@@ -124,7 +135,7 @@ void SizeFloor::bound(std::span<const SizeBox> boxes, std::span<SizeRange> range
     const SizeBox& box = boxes[i];
     auto& [low, high] = ranges[i];
     const bool none = low == kInfinity, part = !none && high == kInfinity;
-    const double change = rate_ * std::numbers::sqrt2 * box.half / scale_(box.centre);
+    const double change = rate_ * std::numbers::sqrt2 * box.half * shrinkIn(surface_, box).high / measureAt(box.centre);
     low = steepMost({box.centre, 0.0}, change + (none || part ? 0.0 : low)) - change;
     high = steepMost(box, none ? 0.0 : high);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/item_loop.hpp"
+#include "core/surface.hpp"
 #include "gis/size/domain_mask.hpp"
 #include "gis/size/size_field.hpp"
 
@@ -20,9 +21,9 @@ namespace coastmesh {
 class SizeFloor final : public SizeField {
  public:
   // Over the square `root`, of what `mask` meets. What is no more than `least_m` matters to nobody: sizes are not less
-  // anyway. `scale` is plane length over metres at a place. `loop` lends threads.
+  // anyway. `scale` is plane length over metres at a place, `surface` what the plane stands for. `loop` lends threads.
   SizeFloor(std::unique_ptr<SizeField> field, double rate, double least_m, std::function<double(const Point&)> scale,
-            const SizeBox& root, const DomainMask& mask, const ItemLoop& loop);
+            const SizeBox& root, const DomainMask& mask, const ItemLoop& loop, const Surface& surface = {});
 
   // Beside what `distances` tells the distance from, in metres times a rate, it is `factor` times as high, and falls to
   // what it is elsewhere as the distance grows.
@@ -40,6 +41,8 @@ class SizeFloor final : public SizeField {
   };
 
   void build(const DomainMask& mask, const ItemLoop& loop);
+  // Length on the surface over metres.
+  double measureAt(const Point& x) const { return scale_(x) * surface_.shrinkAt(x); }
   // The most that steep squares leave in a box, or `most` where that is more; metres.
   double steepMost(const SizeBox& asked, double most) const;
   void descend(std::uint32_t node, const SizeBox& box, const SizeBox& asked, double rate, double& most) const;
@@ -47,6 +50,7 @@ class SizeFloor final : public SizeField {
   std::unique_ptr<SizeField> field_;
   double rate_, least_m_;
   std::function<double(const Point&)> scale_;
+  Surface surface_;
   SizeBox root_;
   std::vector<Node> nodes_;  // level after level
   std::unique_ptr<SizeField> distances_;

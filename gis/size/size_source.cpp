@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include "core/metric.hpp"
+#include "core/size/on_surface.hpp"
 #include "gis/error.hpp"
 #include "gis/projection/scale_table.hpp"
 #include "gis/size/guide_lines.hpp"
@@ -21,12 +23,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Several fields as one source in plane units.
+// Several fields as one source, in lengths on the surface that the plane stands for.
 class ComposedSizes final : public SizeSource {
  public:
-  ComposedSizes(const SizeOptions& options, std::function<double(const Point&)> scale, const DomainMask& mask,
+  // `measure` is length on the surface over metres.
+  ComposedSizes(const SizeOptions& options, std::function<double(const Point&)> measure, const DomainMask& mask,
                 const ItemLoop& loop)
-      : options_(options), scale_(std::move(scale)), mask_(mask), loop_(loop) {}
+      : options_(options), measure_(std::move(measure)), mask_(mask), loop_(loop) {}
 
   // `option` asks for it.
   void add(std::string option, std::unique_ptr<SizeField> field) {
@@ -56,7 +59,7 @@ class ComposedSizes final : public SizeSource {
       }
       std::ranges::fill(own, 0.0);
       if (floor_) floor_->sample(here, own);
-      for (std::size_t i = 0; i < out.size(); ++i) out[i] = bounded(out[i], own[i]) * scale_(here[i]);
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] = bounded(out[i], own[i]) * measure_(here[i]);
     });
   }
 
@@ -116,8 +119,8 @@ class ComposedSizes final : public SizeSource {
       std::ranges::fill(own, SizeRange{0.0, 0.0});
       if (floor_) floor_->bound(here, own);
       for (std::size_t i = 0; i < out.size(); ++i) {
-        const double scale = scale_(here[i].centre);
-        out[i] = {bounded(out[i].low, own[i].low) * scale, bounded(out[i].high, own[i].high) * scale};
+        const double measure = measure_(here[i].centre);
+        out[i] = {bounded(out[i].low, own[i].low) * measure, bounded(out[i].high, own[i].high) * measure};
       }
     });
   }
@@ -129,7 +132,7 @@ class ComposedSizes final : public SizeSource {
 
   const SizeOptions& options_;
   double most_m_ = kInfinity;
-  std::function<double(const Point&)> scale_;
+  std::function<double(const Point&)> measure_;
   const DomainMask& mask_;
   const ItemLoop& loop_;
   std::vector<std::unique_ptr<SizeField>> fields_;
@@ -165,11 +168,11 @@ std::unique_ptr<SizeField> rasterFields(const std::vector<RasterGeometry>& raste
   return std::make_unique<FirstOfFields>(std::move(fields));
 }
 
-// The tree grades lengths of the plane; what is asked for is that lengths on the ground are graded. The gradient of a
-// length h on the ground is that of the plane's length k h, less h times the gradient of the scale k: at most so much.
-// Infinite h counts as `most_m`.
-double gradationForScale(const ComposedSizes& source, const std::function<double(const Point&)>& scale,
-                         const SizeBox& square, double most_m) {
+// The tree grades lengths on the surface; what is asked for is that lengths on the ground are graded. The gradient of a
+// length h on the ground is that of the surface's length k h, less h times the gradient of the measure k: at most so
+// much. In a plane k is the scale; on a sphere it hardly changes. Infinite h counts as `most_m`.
+double gradationForMeasure(const ComposedSizes& source, const ScaleTable& scales, const SizeBox& square,
+                           double most_m) {
   constexpr int kProbes = 64;
   const double step = 2.0 * square.half / kProbes;
   std::vector<Point> places;
@@ -184,13 +187,21 @@ double gradationForScale(const ComposedSizes& source, const std::function<double
   double most = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Point x{0.5 * step, 0.0}, y{0.0, 0.5 * step};
-    const double k = scale(places[i]), h = std::min(lengths[i] / k, most_m);
+    const auto measure = [&](const Point& place) { return scales.measureAt(place); };
+    const double k = measure(places[i]), h = std::min(lengths[i] / k, most_m);
     const double slope =
-        std::hypot(scale(places[i] + x) - scale(places[i] - x), scale(places[i] + y) - scale(places[i] - y));
-    if (std::isfinite(slope)) most = std::max(most, h * slope / step);
+        std::hypot(measure(places[i] + x) - measure(places[i] - x), measure(places[i] + y) - measure(places[i] - y));
+    if (std::isfinite(slope)) most = std::max(most, h * slope / step / scales.surface().shrinkAt(places[i]));
   }
   constexpr double kBetweenProbes = 1.25;
   return kBetweenProbes * most;
+}
+
+// How far it is across a domain on the surface, at most, from what it is in the plane: never further than half round a
+// sphere.
+double reachOn(const Surface& surface, double extent, const SizeBox& square) {
+  if (!surface.isCurved()) return extent;
+  return std::min(extent * shrinkIn(surface, square).high, std::numbers::pi * surface.radius());
 }
 
 // Edges come out no shorter than this share of the size there, but for few.
@@ -226,7 +237,7 @@ VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, con
   source.sample(places, sizes);
   const Point& place = places[static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin())];
   return {demand.vertices, projection.inverse(place),
-          std::min(std::ranges::min(sizes), demand.size) / projection.scaleAt(place), source.optionAt(place)};
+          std::min(std::ranges::min(sizes), demand.size) / projection.measureAt(place), source.optionAt(place)};
 }
 
 }  // namespace
@@ -262,25 +273,30 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   const Projection& projection = domain.projection;
   const auto table = std::make_shared<ScaleTable>(projection, square);
   const auto scale = [table](const Point& x) { return table->at(x); };
+  const auto measure = [table](const Point& x) { return table->measureAt(x); };
+  const Surface& surface = table->surface();
 
   const SizeBox root{middle, 0.505 * extent};
-  const DomainMask mask(domain.pslg, root);
-  ComposedSizes source(options, scale, mask, loop);
-  const double reach_m = extent / scale(middle), most_m = std::min(options.most_m, options.size_m);
+  const DomainMask mask(domain.pslg, root, surface);
+  ComposedSizes source(options, measure, mask, loop);
+  const double reach = reachOn(surface, extent, root), reach_m = reach / measure(middle);
+  const double most_m = std::min(options.most_m, options.size_m);
   if (options.shore_m < kInfinity)
-    source.add("--size-shore", std::make_unique<DistanceField>(
-                                   shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale, most_m));
+    source.add("--size-shore",
+               std::make_unique<DistanceField>(shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale,
+                                               most_m, surface));
   if (options.channel_elements > 0.0) {
     // What the time step allows may be longer than what channels ask for: then their lines alone count.
-    ChannelLines channels = channelLines(domain.pslg, options.channel_elements, options.gradation, options.least_m,
-                                         std::min(most_m, reach_m), scale,
-                                         {options.time_step_s > 0.0 ? kInfinity : most_vertices, most_vertices});
+    ChannelLines channels = channelLines(
+        domain.pslg, options.channel_elements, options.gradation, options.least_m, std::min(most_m, reach_m), scale,
+        {options.time_step_s > 0.0 ? kInfinity : most_vertices, most_vertices}, surface);
     if (!channels.complete) {
       const SizedLine& last = channels.lines.back();
       throw TooManyVertices({channels.vertices, projection.inverse(last.a), last.size_m, "--channel-elements",
                              !(channels.vertices > most_vertices)});
     }
-    source.add("--channel-elements", std::make_unique<DistanceField>(std::move(channels.lines), scale, most_m));
+    source.add("--channel-elements",
+               std::make_unique<DistanceField>(std::move(channels.lines), scale, most_m, surface));
   }
   for (const SizedFeatures& features : inputs.features)
     for (auto& field : featureFields(features, projection, scale)) source.add("--size-features", std::move(field));
@@ -291,16 +307,17 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
                rasterFields(inputs.bathymetry, inputs.crs, projection, square, depthRule(options.depth), loop));
   if (options.time_step_s > 0.0) {
     const TileRule rule = courantRule(options.time_step_s, kShortestOfSize * options.courant, options.depth);
-    auto floor =
-        std::make_unique<SizeFloor>(rasterFields(inputs.bathymetry, inputs.crs, projection, square, rule, loop),
-                                    options.gradation, source.leastWanted() / kShoreFloor, scale, root, mask, loop);
+    auto floor = std::make_unique<SizeFloor>(
+        rasterFields(inputs.bathymetry, inputs.crs, projection, square, rule, loop), options.gradation,
+        source.leastWanted() / kShoreFloor, scale, root, mask, loop, surface);
     if (options.coast == CoastDetail::Follow)
-      floor->raiseNear(std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.gradation), scale),
-                       kShoreFloor);
+      floor->raiseNear(
+          std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.gradation), scale, kInfinity, surface),
+          kShoreFloor);
     source.setFloor(std::move(floor));
   }
   source.limitRate(options.gradation);
-  double for_scale = gradationForScale(source, scale, root, reach_m);
+  double for_scale = gradationForMeasure(source, *table, root, reach_m);
   if (for_scale > 0.5 * options.gradation) {  // elements as large as seas: no larger than leaves half of the gradation
     const double most = 0.5 * options.gradation / for_scale * reach_m;
     if (most < options.least_m) {
@@ -314,6 +331,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   SizeTreeOptions tree;
   constexpr double kRough = 0.1;
   if (accuracy == SizeAccuracy::Rough) tree.tolerance = kRough;
+  tree.surface = surface;
   tree.gradation = options.gradation - for_scale;
   // A little less: what is only just too steep everywhere would have to be flattened everywhere.
   constexpr double kJustBelow = 0.99;
@@ -325,13 +343,14 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   VertexDemand demand = demandOf(source, size->demand(), projection);
   demand.map_too_large = !size->isComplete() && !(demand.vertices > most_vertices);
   if (!size->isComplete()) throw TooManyVertices(std::move(demand));
-  // Of the extent: below it coordinates do not tell the corners of good triangles apart.
+  // Of the extent: below it coordinates do not tell the corners of good triangles apart. Far out in the plane of a
+  // sphere their steps are larger, and so are the triangles.
   constexpr double kLeastSize = 1e-9;
-  if (size->least() < kLeastSize * extent) {
+  if (size->least() < kLeastSize * reach) {
     char text[200];
     std::snprintf(text, sizeof text,
                   "sizes come down to %.3g m, too little for coordinates over an extent of %.3g m: give a --size-min",
-                  size->least() / scale(middle), reach_m);
+                  size->least() / measure(middle), reach_m);
     throw InputError(text);
   }
   return {std::move(size), std::move(demand)};

@@ -83,7 +83,7 @@ struct TooManyVertices : std::runtime_error {
 enum class SizeAccuracy { Fine, Rough };
 
 struct DomainSizes {
-  std::unique_ptr<SizeFunction> function;  // in the domain's plane
+  std::unique_ptr<SizeFunction> function;  // of places in the domain's plane; lengths on the surface it stands for
   VertexDemand demand;
 };
 
