@@ -105,7 +105,7 @@ MeshOptions optionsFor(const MeshJob& job, const Domain& domain, const GroupRoom
   if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
   if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
     options.refine.size_max = job.sizes.most_m;
-    options.refine.size_max *= domain.projection.scaleAt(centreOf(domain.pslg));
+    options.refine.size_max *= domain.projection.measureAt(centreOf(domain.pslg));
   }
   return options;
 }
@@ -291,7 +291,8 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   }
   VertexDemand& demand = sized.demand;
   demand.vertices +=
-      verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * mostVertices(room) - demand.vertices));
+      verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * mostVertices(room) - demand.vertices),
+                         domain.projection.surface());
   result.estimated_vertices = demand.vertices;
   if (demand.vertices > mostVertices(room)) throw TooManyVertices(demand);
   result.size_s = sizing.seconds();
@@ -352,8 +353,8 @@ void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* 
                const ItemLoop& loop, GroupResult& result) {
   std::vector<double> size_m;
   if (size != nullptr) {
-    const auto scale = [&](const Point& x) { return domain.projection.scaleAt(x); };
-    size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, scale);
+    const auto measure = [&](const Point& x) { return domain.projection.measureAt(x); };
+    size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, measure, domain.projection.surface());
   }
   result.grid = groupGrid(task.input, task.group, domain, region.mesh, size != nullptr ? &size_m : nullptr, loop);
   result.grid.piece_of = std::move(region.piece_of);

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
+#include "core/size/plane_sizes.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/follow/follow_notes.hpp"
 #include "gis/follow/shore_chains.hpp"
@@ -26,6 +28,24 @@ namespace coastmesh {
 namespace {
 
 constexpr double kNoted = 0.005;  // of the area of the water: so near shores need not be moved for
+
+// Sizes as lengths of a domain's plane: that is where shores are measured.
+class SizesInPlane {
+ public:
+  SizesInPlane(const SizeFunction& size, const Domain& domain) : wanted_(&size) {
+    const Surface surface = domain.projection.surface();
+    if (!surface.isCurved()) return;
+    Box box;
+    for (const Point& p : domain.pslg.points) box.add(p);
+    in_plane_.emplace(size, surface, Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax});
+  }
+
+  const SizeFunction& get() const { return in_plane_ ? *in_plane_ : *wanted_; }
+
+ private:
+  const SizeFunction* wanted_;
+  std::optional<PlaneSizes> in_plane_;
+};
 
 // `before` is what the graph was made of, without its own.
 Domain domainOf(ShoreGraph&& graph, Domain&& before) {
@@ -94,12 +114,14 @@ void evenOut(ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guid
 
 }  // namespace
 
-Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
-                   CleanReport& report, const ShoreGuides& guides) {
+Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOptions& options,
+                   const Coastline& coastline, CleanReport& report, const ShoreGuides& guides) {
   labelSegments(domain.pslg);
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
   const ScaleTable scales(domain.projection, box);
+  const SizesInPlane in_plane(wanted, domain);
+  const SizeFunction& size = in_plane.get();
   const ShoreSizes sizes{size, scales};
   const EditLog log{domain, coastline, report};
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) { log.add(kind, place, water); };
@@ -156,7 +178,8 @@ SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunc
 }
 
 Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
-  ShoreChains chains = chainsOf(takeGraph(domain), size);
+  const SizesInPlane in_plane(size, domain);
+  ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get());
   const EditLog log{domain, coastline, report};
   const ShoreLoss gone = [&](VertexId v) { log.add(EditKind::SimplifiedPoint, chains, v); };
   const ShoreMove moved = [&](VertexId v, const Point&) { log.add(EditKind::MovedPoint, chains, v); };

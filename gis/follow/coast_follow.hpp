@@ -15,9 +15,10 @@ namespace coastmesh {
 // (`shiftShores`). Nothing crosses. Lines inside the water stay as they are, open boundaries keep their corners. What
 // was changed goes to the report, with notes on the largest waters that were cut off, the longest straits that were
 // closed, and what became of `guides`, which come first of all. A graph without labels is labelled first, by its holes.
-// Throws BadPslg where that cannot be.
-Domain followSizes(Domain&& domain, const SizeFunction& size, const FollowOptions& options, const Coastline& coastline,
-                   CleanReport& report, const ShoreGuides& guides = {});
+// Throws BadPslg where that cannot be. Sizes are lengths on the projection's surface, shores are measured in its plane,
+// which is conformal: as long there as the surface's lengths are at the place.
+Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOptions& options,
+                   const Coastline& coastline, CleanReport& report, const ShoreGuides& guides = {});
 
 // By what sizes have become larger, at most: at vertices of shores, and at all others.
 struct SizeGrowth {
