@@ -22,6 +22,7 @@ CutSubmesh cutOut(const MeshState& whole, const Partition& partition, PieceId pi
 
   CutSubmesh cut;
   for (const EdgeRef e : sub.frozen) {
+    if (whole.mesh.twin(e) == kNone) continue;  // frozen in the whole: no side to be joined
     const VertexId a = numbers[whole.mesh.origin(e)], b = numbers[whole.mesh.target(e)];
     cut.edges.push_back({a, b, std::min(e, whole.mesh.twin(e)), whole.mesh.segment(e)});
   }
