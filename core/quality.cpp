@@ -1,6 +1,7 @@
 #include "core/quality.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,6 +12,23 @@ namespace coastmesh {
 
 std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c) {
   return {toDegrees(angleAt(a, b, c)), toDegrees(angleAt(b, c, a)), toDegrees(angleAt(c, a, b))};
+}
+
+std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
+  const SpacePoint ab = b - a, bc = c - b, ca = a - c;
+  const double twice_area = lengthOf(cross(ab, bc));
+  const auto angle = [&](double cosine) { return toDegrees(std::atan2(twice_area, cosine)); };
+  return {angle(-dot(ab, ca)), angle(-dot(ab, bc)), angle(-dot(bc, ca))};
+}
+
+std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Point& c, const Surface& surface) {
+  if (!surface.isCurved()) return anglesDeg(a, b, c);
+  // From the place where the sphere touches the plane.
+  const auto onSphere = [&surface](const Point& p) {
+    const double shrink = surface.shrinkAt(p);
+    return SpacePoint{shrink * p.x, shrink * p.y, -shrink * squaredLength(p) / (2.0 * surface.radius())};
+  };
+  return spaceAnglesDeg(onSphere(a), onSphere(b), onSphere(c));
 }
 
 double signedArea(const Point& a, const Point& b, const Point& c) { return 0.5 * cross(b - a, c - a); }
@@ -27,7 +45,28 @@ void MeshQuality::add(const MeshQuality& other) {
   for (std::size_t i = 0; i < angle_histogram.size(); ++i) angle_histogram[i] += other.angle_histogram[i];
 }
 
-MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, const ItemLoop& loop) {
+namespace {
+
+// What is measured of a triangle.
+struct TriangleMeasure {
+  double area;
+  std::array<double, 3> angles, lengths;
+};
+
+TriangleMeasure measureTriangle(const Point& a, const Point& b, const Point& c) {
+  return {signedArea(a, b, c), anglesDeg(a, b, c), {distance(a, b), distance(b, c), distance(c, a)}};
+}
+
+TriangleMeasure measureTriangle(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
+  return {
+      0.5 * lengthOf(cross(b - a, c - a)), spaceAnglesDeg(a, b, c), {distance(a, b), distance(b, c), distance(c, a)}};
+}
+
+}  // namespace
+
+MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, const ItemLoop& loop,
+                           std::span<const SpacePoint> places) {
+  assert(places.empty() || places.size() == mesh.points.size());
   struct Part {
     MeshQuality quality;
     std::vector<TriId> below;
@@ -38,18 +77,18 @@ MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max
     quality.triangles = last - first;
     for (std::size_t t = first; t < last; ++t) {
       const auto& v = mesh.triangles[t].v;
-      const Point* p[3] = {&mesh.points[v[0]], &mesh.points[v[1]], &mesh.points[v[2]]};
-      quality.area += signedArea(*p[0], *p[1], *p[2]);
-      const std::array<double, 3> angles = anglesDeg(*p[0], *p[1], *p[2]);
+      const TriangleMeasure measured = places.empty()
+                                           ? measureTriangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]])
+                                           : measureTriangle(places[v[0]], places[v[1]], places[v[2]]);
+      quality.area += measured.area;
       double least = 180.0, most = 0.0;
       for (unsigned i = 0; i < 3; ++i) {
-        least = std::min(least, angles[i]);
-        most = std::max(most, angles[i]);
-        const auto bin = static_cast<std::size_t>(angles[i] / 5.0);
+        least = std::min(least, measured.angles[i]);
+        most = std::max(most, measured.angles[i]);
+        const auto bin = static_cast<std::size_t>(measured.angles[i] / 5.0);
         ++quality.angle_histogram[std::min(bin, quality.angle_histogram.size() - 1)];
-        const double length = distance(*p[i], *p[next3(i)]);
-        quality.shortest_edge = std::min(quality.shortest_edge, length);
-        quality.longest_edge = std::max(quality.longest_edge, length);
+        quality.shortest_edge = std::min(quality.shortest_edge, measured.lengths[i]);
+        quality.longest_edge = std::max(quality.longest_edge, measured.lengths[i]);
       }
       quality.min_angle_deg = std::min(quality.min_angle_deg, least);
       quality.max_angle_deg = std::max(quality.max_angle_deg, most);

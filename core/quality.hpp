@@ -3,9 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
+#include "core/space_point.hpp"
+#include "core/surface.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -13,15 +16,19 @@ namespace coastmesh {
 // The three angles of abc in degrees, at a, b and c. REQUIRES: no two corners equal.
 std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c);
 
+// The same of the flat triangle between places in space, and on the sphere that a plane stands for.
+std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);
+std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Point& c, const Surface& surface);
+
 double signedArea(const Point& a, const Point& b, const Point& c);
 
 struct MeshQuality {
   std::uint64_t vertices = 0;  // those that a triangle uses
   std::uint64_t triangles = 0;
-  double area = 0.0;  // plane units squared
+  double area = 0.0;  // plane units squared, or those of space; of flat triangles
   double min_angle_deg = 180.0;
   double max_angle_deg = 0.0;
-  double shortest_edge = std::numeric_limits<double>::infinity();  // plane units
+  double shortest_edge = std::numeric_limits<double>::infinity();  // plane units, or those of space
   double longest_edge = 0.0;
   BoundCounts bounds;  // triangles with an angle below `min_angle_deg` or above `max_angle_deg`
   std::array<std::uint64_t, 36> angle_histogram{};  // all angles of all triangles, in classes of five degrees
@@ -29,8 +36,9 @@ struct MeshQuality {
   void add(const MeshQuality& other);
 };
 
+// Of the flat triangles between `places`, one a point of the mesh, where there are any; else of those of the plane.
 // Input angles are found in the mesh itself: see InputCorners.
 MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg = 180.0,
-                           const ItemLoop& loop = inOrder);
+                           const ItemLoop& loop = inOrder, std::span<const SpacePoint> places = {});
 
 }  // namespace coastmesh

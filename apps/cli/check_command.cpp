@@ -133,8 +133,11 @@ int runCheck(const CheckUsage& usage, Run& run) {
   interrupt.check();
   GridCheckOptions options = usage.check;
   if (!usage.input.files.empty()) options.delaunay = true;
+  InputOptions input = usage.input;
+  chooseSurface(usage.targets, input.surface);
+  options.surface = input.surface;
   const GridCheck check =
-      usage.input.files.empty() ? checkGrid(grid, options) : checkGridAgainst(grid, JobInput(usage.input), options);
+      input.files.empty() ? checkGrid(grid, options) : checkGridAgainst(grid, JobInput(input), options);
   std::vector<DefectRow> rows;
   for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
   for (const Target target : targets) {
@@ -172,6 +175,7 @@ Command declareCheck(CLI::App& root) {
                "leaves them out");
   table.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
   table.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
+  declareSurface(table, usage->input.surface);
   table.flag("--delaunay", usage->check.delaunay,
              "also look for edges that are not Delaunay; always done with --input, without which edges inside the mesh "
              "cannot be known as constraints");

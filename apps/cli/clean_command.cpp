@@ -223,6 +223,7 @@ Command declareClean(CLI::App& root) {
   table.output("-o,--output", usage->output, {.required = true},
                "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
   declareInputOptions(table, usage->input);
+  declareSurface(table, usage->input.surface);
   declarePinches(table, usage->input);
   table.text(
       "--boundary-column", usage->boundary_column, "NAME",

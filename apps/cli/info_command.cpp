@@ -6,7 +6,9 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
+#include "apps/job/check_grid.hpp"
 #include "apps/report/file_info.hpp"
+#include "apps/usage/input_usage.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/format/poly_io.hpp"
@@ -18,6 +20,7 @@ namespace {
 struct InfoUsage {
   MeshFile file;
   bool json = false;
+  SurfaceChoice surface;
 };
 
 // Endings of GIS layers, which may hold a mesh or a coastline: only a look inside can tell.
@@ -52,7 +55,8 @@ std::string describe(const InfoUsage& usage, Run& run) {
     warnOfCrs(usage.file, "a .poly lies in a plane", run);
     return inForm(describePoly(readPoly(path)), usage.json);
   }
-  if (const std::optional<Grid> grid = tryMesh(usage.file, run)) return inForm(describeMesh(*grid), usage.json);
+  if (const std::optional<Grid> grid = tryMesh(usage.file, run))
+    return inForm(describeMesh(*grid, surfaceFor(*grid, usage.surface)), usage.json);
   warnOfCrs(usage.file, "'" + path + "' holds no mesh", run);
   InputOptions options;
   options.files = {path};
@@ -65,6 +69,7 @@ Command declareInfo(CLI::App& root) {
   auto usage = std::make_shared<InfoUsage>();
   OptionTable table = commandOptions("info", "Report what a mesh, a vector file or a .poly holds");
   declareMeshFile(table, "FILE", "mesh, vector file or .poly", usage->file);
+  declareSurface(table, usage->surface);
   table.flag("--json", usage->json, "print it as JSON");
   table.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");
   table.example("coastmesh info lakes.shp", "what there is to mesh");

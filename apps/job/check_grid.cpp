@@ -66,6 +66,7 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
   check.max_angle_deg = std::min(180.0, options.max_angle_deg + kAngleSlackDeg);
   check.delaunay = options.delaunay;
   check.pinches = options.pinches;
+  check.places = piece.places;
   BoundCounts bounds;
   const std::vector<MeshDefect> found = checkMesh(piece.mesh, pslg, check, inOrder, &bounds);
   result.bounds.add(bounds);
@@ -103,9 +104,17 @@ std::optional<std::size_t> groupOf(const Grid& grid, const std::vector<std::uint
 
 }  // namespace
 
+SurfaceKind surfaceFor(const Grid& grid, const SurfaceChoice& choice) {
+  if (!choice.needsEarth() || !grid.crs.isPlane()) return choice.kind;
+  if (choice.where_known) return SurfaceKind::Plane;
+  throw OptionError(std::string("--surface ") + kSurfaceNames[static_cast<std::size_t>(choice.kind)] +
+                    ": the mesh has no CRS, and no place on Earth; name it with --assume-crs");
+}
+
 GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options) {
   GridCheck result;
-  for (const GridPiece& piece : splitGrid(grid)) checkPiece(piece, nullptr, options, result);
+  for (const GridPiece& piece : splitGrid(grid, surfaceFor(grid, options.surface)))
+    checkPiece(piece, nullptr, options, result);
   checkOrientation(grid, result.defects);
   sortByKind(result.defects);
   return result;

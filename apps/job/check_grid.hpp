@@ -21,9 +21,13 @@ struct GridDefect {
 struct GridCheckOptions {
   double min_angle_deg = 0.0;    // degrees; 0 asks nothing
   double max_angle_deg = 180.0;  // degrees; 180 asks nothing
+  SurfaceChoice surface;         // without an input; else the input's counts
   bool delaunay = false;
   bool pinches = false;
 };
+
+// What a grid that was read from a file is measured on. Throws OptionError where it has no place on such a surface.
+SurfaceKind surfaceFor(const Grid& grid, const SurfaceChoice& choice);
 
 struct GridCheck {
   std::vector<GridDefect> defects;

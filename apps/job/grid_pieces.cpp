@@ -83,7 +83,7 @@ std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid) {
   return pieces;
 }
 
-Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles) {
+Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles, SurfaceKind kind) {
   if (grid.crs.isPlane()) return Projection::plane();
   const std::vector<std::uint32_t> nodes = nodesOf(grid, triangles);
   Grid part = partOf(grid, nodes, triangles);
@@ -98,7 +98,7 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
   }
   // A broken grid may have no boundary at all.
   if (outline.features[0].polygons.empty()) outline.features[0].polygons.push_back({part.nodes, {}});
-  return Projection::fitted(outline, {0});
+  return Projection::fitted(outline, {0}, kind);
 }
 
 GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection) {
@@ -114,13 +114,14 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
     markBorders(piece.mesh);
   }
   markLines(grid, piece);
+  piece.places = projection.spacePlaces(piece.mesh.points);
   return piece;
 }
 
-std::vector<GridPiece> splitGrid(const Grid& grid) {
+std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind) {
   std::vector<GridPiece> pieces;
   for (std::vector<std::uint32_t>& triangles : connectedTriangles(grid)) {
-    const Projection projection = fitProjection(grid, triangles);
+    const Projection projection = fitProjection(grid, triangles, kind);
     pieces.push_back(makePiece(grid, std::move(triangles), projection));
   }
   return pieces;

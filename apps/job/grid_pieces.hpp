@@ -14,6 +14,8 @@ struct GridPiece {
   Projection projection = Projection::plane();
   TriMesh
       mesh;  // regions are the grid's `feature_of`, 0 where it has none; constraints: borders between them, and lines
+  // One a point of the mesh, metres; empty where the plane itself rules. What angles, lengths and areas are measured on.
+  std::vector<SpacePoint> places;
   std::vector<std::uint32_t> nodes;      // one a point of the mesh: the grid's node
   std::vector<std::uint32_t> triangles;  // one a triangle of the mesh: the grid's triangle
   std::vector<EdgeConflict> conflicts;   // in points of the mesh
@@ -23,11 +25,12 @@ struct GridPiece {
 std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid);
 
 // A conformal projection fitted to the given triangles, or the identity for a grid without a place on Earth.
-Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles);
+Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles,
+                         SurfaceKind kind = SurfaceKind::Auto);
 
 GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection);
 
 // Every connected piece in a projection of its own, as `mesh` would have chosen it.
-std::vector<GridPiece> splitGrid(const Grid& grid);
+std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind = SurfaceKind::Auto);
 
 }  // namespace coastmesh

@@ -83,6 +83,7 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
 
 JobInput::JobInput(const InputOptions& options) : options_(options) {
   if (options_.pslg) {
+    requireSurface();
     takePlaneGraph(*options_.pslg, "the plane graph given");
     return;
   }
@@ -100,6 +101,7 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
   requireOneFrame(options_);
   coastline_ = readCoastline(sourcesOf(options_), options_.filter, report_);
   if (options_.crs == "plane") forgetImpossibleCrs(coastline_, report_);
+  requireSurface();
   FrameReport framed = frameCoastline(coastline_, options_.frame);
   report_.beyond_frame = framed.beyond_frame;
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
@@ -126,7 +128,35 @@ void JobInput::readPolyFile(const std::string& path) {
   if (options_.crs != "auto" && options_.crs != "plane") {
     throw OptionError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
   }
+  requireSurface();
   takePlaneGraph(readPoly(path), path);
+}
+
+// Where the surface asked for needs a place on Earth and a plane that is fitted.
+void JobInput::requireSurface() {
+  SurfaceChoice& surface = options_.surface;
+  if (!surface.needsEarth()) return;
+  std::string plane;
+  if (options_.pslg || isPolyFile(options_.files.front())) {
+    plane = "a ready plane graph has no place on Earth";
+  } else if (options_.crs == "plane") {
+    plane = "--crs plane takes coordinates as they are";
+  } else if (options_.crs != "auto") {
+    plane = "--crs names the plane to work in, whose own lengths and angles count";
+  } else if (coastline_.crs.isPlane()) {
+    plane = "the input has no CRS, and no place on Earth";
+  }
+  const std::string name = kSurfaceNames[static_cast<std::size_t>(surface.kind)];
+  if (plane.empty()) {
+    if (surface.where_known)
+      report_.notes.push_back(
+          "angles and lengths are those on a sphere, as the target takes latitudes; give --surface "
+          "ellipsoid or plane to have them there");
+  } else if (surface.where_known) {
+    surface.kind = SurfaceKind::Plane;
+  } else {
+    throw OptionError("--surface " + name + ": " + plane + "; leave out one of them");
+  }
 }
 
 void JobInput::takePlaneGraph(Pslg pslg, const std::string& source) {
@@ -177,7 +207,12 @@ std::uint64_t JobInput::digest() const {
 Projection JobInput::projectionOf(std::size_t group) const {
   if (chosen_) return *chosen_;
   if (options_.crs == "plane" || coastline_.crs.isPlane()) return Projection::plane();
-  return Projection::fitted(coastline_, groups_[group]);
+  return Projection::fitted(coastline_, groups_[group], options_.surface.kind);
+}
+
+SurfaceKind JobInput::surfaceOf(const Projection& projection) const {
+  if (!projection.surface().isCurved()) return SurfaceKind::Plane;
+  return options_.surface.kind == SurfaceKind::Sphere ? SurfaceKind::Sphere : SurfaceKind::Ellipsoid;
 }
 
 Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& loop) const {

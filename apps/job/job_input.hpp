@@ -13,6 +13,14 @@
 
 namespace coastmesh {
 
+// What lengths and angles are measured on.
+struct SurfaceChoice {
+  SurfaceKind kind = SurfaceKind::Auto;
+  bool where_known = false;  // where there is no place on Earth, or `crs` is chosen, the plane rules; else misuse
+
+  bool needsEarth() const { return kind == SurfaceKind::Ellipsoid || kind == SurfaceKind::Sphere; }
+};
+
 // What to read, and how it becomes domains of the plane.
 struct InputOptions {
   std::vector<std::string> files;        // vector files, or one .poly
@@ -24,6 +32,7 @@ struct InputOptions {
   std::vector<std::string> weirs;        // files of lines
   std::vector<std::string> regions;      // files of polygons
   std::string crs = "auto";              // the working plane: "auto", "plane" or anything that PROJ knows
+  SurfaceChoice surface;                 // what lengths and angles are measured on
   double snap_m = 0.001;                 // metres, 0 or more
   bool snap_in_plane = false;            // `snap_m` holds for a plane input too, where else nothing is snapped
   double simplify_m = 0.0;               // metres, 0 or more
@@ -47,6 +56,8 @@ class JobInput {
   std::uint64_t digest() const;
   // The working plane of a group; not of a .poly.
   Projection projectionOf(std::size_t group) const;
+  // What lengths and angles of a projection of its are measured on; never Auto.
+  SurfaceKind surfaceOf(const Projection& projection) const;
 
   // Projects and cleans a group. Throws InputError where nothing of it can be meshed. May be called from several
   // threads at once. Throws NothingWanted for one that lies outside of the frame or apart from the water asked for.
@@ -58,6 +69,7 @@ class JobInput {
 
  private:
   void readPolyFile(const std::string& path);
+  void requireSurface();
   void takePlaneGraph(Pslg pslg, const std::string& source);
 
   InputOptions options_;

@@ -16,10 +16,11 @@ void Shortfall::add(Shortfall&& other) {
 }
 
 MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const RefineOptions& options, double slack_deg,
-                        const ItemLoop& loop) {
-  MeshJudgement result{measureQuality(mesh, 0.0, 180.0, loop), {}};
+                        std::span<const SpacePoint> places, const ItemLoop& loop) {
+  MeshJudgement result{measureQuality(mesh, 0.0, 180.0, loop, places), {}};
   const auto judge = [&](double size_max) {
-    return judgeFinished(mesh, options.min_angle_deg, options.max_angle_deg, size_max, slack_deg, loop);
+    return judgeFinished(mesh, options.min_angle_deg, options.max_angle_deg, size_max, slack_deg, loop,
+                         plane.projection.surface(), places);
   };
   BoundJudgement judgement = judge(std::numeric_limits<double>::infinity());
   result.quality.bounds = judgement.counts;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "apps/job/mesh_job_result.hpp"
 #include "core/item_loop.hpp"
 #include "core/quality.hpp"
 #include "core/refine/refine_options.hpp"
+#include "core/space_point.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/projection/projection.hpp"
 
@@ -15,7 +17,7 @@ namespace coastmesh {
 // What a group of features is meshed in.
 struct WorkingPlane {
   Projection projection;
-  double size_max;  // longest edge, plane units; infinite where none is asked
+  double size_max;  // longest edge, units of its surface; infinite where none is asked
 };
 
 struct MeshJudgement {
@@ -24,9 +26,9 @@ struct MeshJudgement {
 };
 
 // A finished mesh and what of it falls short of the bounds of `options` on angles, and of the plane's on lengths.
-// `slack_deg` as in `judgeFinished`.
+// `slack_deg` as in `judgeFinished`; `places` are the plane's in space.
 MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const RefineOptions& options, double slack_deg,
-                        const ItemLoop& loop = inOrder);
+                        std::span<const SpacePoint> places, const ItemLoop& loop = inOrder);
 
 // The plane of a group, and the first of its features in a grid that has the groups one after another.
 struct GroupPlane {

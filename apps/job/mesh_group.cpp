@@ -98,6 +98,7 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
 
 MeshOptions optionsFor(const MeshJob& job, const Domain& domain, const GroupRoom& room) {
   MeshOptions options = job.mesh;
+  options.refine.surface = domain.projection.surface();
   options.refine.max_vertices = room.vertices;
   options.refine.most_in_memory =
       static_cast<std::uint64_t>(std::min(kMostReported, room.memory / kLeastBytesPerVertex));
@@ -185,7 +186,7 @@ void markRegions(const Coastline& coastline, const std::vector<std::size_t>& mem
 // The group's part of the grid. It is given its own features alone, so that the work does not grow with the square of
 // their number.
 Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh,
-               const std::vector<double>* size_m, const ItemLoop& loop) {
+               const std::vector<double>* size_m, std::span<const SpacePoint> places, const ItemLoop& loop) {
   Coastline names;
   names.crs = input.coastline().crs;
   if (!input.isPoly()) {
@@ -203,7 +204,7 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
     });
     markRegions(input.coastline(), members, domain.projection, mesh, names);
   }
-  Grid grid = makeGrid({{&domain, &mesh, size_m}}, names, loop);
+  Grid grid = makeGrid({{&domain, &mesh, size_m, places}}, names, loop);
   grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
   return grid;
 }
@@ -254,6 +255,7 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   result.notes = std::move(clean.notes);
   result.projection = domain.projection.description();
   result.projection_reason = domain.projection.reason();
+  result.surface = task.input.surfaceOf(domain.projection);
   std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain);
   result.input_area_m2 = task.input.area(task.group, domain, loop);
   result.clean_s = stopwatch.seconds();
@@ -337,11 +339,11 @@ class LoopsAfterMeshing {
 };
 
 void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions& options, const TriMesh& mesh,
-                const ItemLoop& loop, GroupResult& result) {
+                std::span<const SpacePoint> places, const ItemLoop& loop, GroupResult& result) {
   const Stopwatch checking;
   requireSound(mesh, domain, task.firstFeature(), loop);
   result.plane = {domain.projection, options.size_max};
-  MeshJudgement judgement = judgeMesh(mesh, *result.plane, options, 0.0, loop);
+  MeshJudgement judgement = judgeMesh(mesh, *result.plane, options, 0.0, places, loop);
   result.quality = judgement.quality;
   result.short_of = std::move(judgement.short_of);
   result.digest = digestOf(mesh, 0, loop);
@@ -350,13 +352,14 @@ void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions
 
 // Takes what is left of the region.
 void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* size, MeshedRegion& region,
-               const ItemLoop& loop, GroupResult& result) {
+               std::span<const SpacePoint> places, const ItemLoop& loop, GroupResult& result) {
   std::vector<double> size_m;
   if (size != nullptr) {
     const auto measure = [&](const Point& x) { return domain.projection.measureAt(x); };
     size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, measure, domain.projection.surface());
   }
-  result.grid = groupGrid(task.input, task.group, domain, region.mesh, size != nullptr ? &size_m : nullptr, loop);
+  result.grid =
+      groupGrid(task.input, task.group, domain, region.mesh, size != nullptr ? &size_m : nullptr, places, loop);
   result.grid.piece_of = std::move(region.piece_of);
 }
 
@@ -368,8 +371,9 @@ void fillGroup(const GroupTask& task, GroupResult& result) {
   options.refine.size = size.get();
   MeshedRegion region = meshStage(task, domain, options, result);
   LoopsAfterMeshing loops(region, task.control);
-  checkStage(task, domain, options.refine, region.mesh, loops.of("check"), result);
-  gridStage(task, domain, size.get(), region, loops.of("grid"), result);
+  const std::vector<SpacePoint> places = domain.projection.spacePlaces(region.mesh.points, loops.of("check"));
+  checkStage(task, domain, options.refine, region.mesh, places, loops.of("check"), result);
+  gridStage(task, domain, size.get(), region, places, loops.of("grid"), result);
   result.log.append(loops.finish());
 }
 

@@ -13,6 +13,7 @@ struct GroupResult {
   std::vector<Edit> edit_places;  // where the job keeps them
   std::string projection;
   std::string projection_reason;
+  SurfaceKind surface = SurfaceKind::Plane;        // that `quality` and `short_of` are measured on
   double least_scale = 1.0, greatest_scale = 1.0;  // plane length over true length, at the vertices
   RefineStats refine;
   Shortfall short_of;

@@ -106,6 +106,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
     result.first_projection = part.projection;
     result.first_projection_reason = part.projection_reason;
   }
+  ++result.surfaces[part.surface];
   result.least_scale = std::min(result.least_scale, part.least_scale);
   result.greatest_scale = std::max(result.greatest_scale, part.greatest_scale);
   result.refine.add(part.refine);
@@ -187,8 +188,9 @@ void measureAgain(const MeshJob& job, const std::vector<GroupPlane>& planes, Mes
   const std::vector<std::vector<std::uint32_t>> triangles = trianglesOfGroups(result.grid, planes);
   for (std::size_t g = 0; g < planes.size(); ++g) {
     if (triangles[g].empty()) continue;
-    const TriMesh mesh = makePiece(result.grid, triangles[g], planes[g].plane.projection).mesh;
-    MeshJudgement judgement = judgeMesh(mesh, planes[g].plane, job.mesh.refine, kAngleSlackDeg);
+    const GridPiece piece = makePiece(result.grid, triangles[g], planes[g].plane.projection);
+    const TriMesh& mesh = piece.mesh;
+    MeshJudgement judgement = judgeMesh(mesh, planes[g].plane, job.mesh.refine, kAngleSlackDeg, piece.places);
     result.quality.add(judgement.quality);
     result.short_of.add(std::move(judgement.short_of));
     result.digest = first ? digestOf(mesh) : combineDigests(result.digest, digestOf(mesh));
@@ -211,6 +213,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   if (control.progress) control.progress("read", 0.0);
   const JobInput input(job.input);
   result.read = input.report();
+  result.read.notes.insert(result.read.notes.begin(), job.notes.begin(), job.notes.end());
   result.crs = input.coastline().crs;
   const SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
   result.seconds.read = whole.seconds();

@@ -20,7 +20,8 @@ struct MeshJob {
   ParallelOptions parallel;
   FinishOptions finish;
   GroupExchange exchange;
-  bool keep_edits = false;  // where what was changed lies, besides how often
+  std::vector<std::string> notes;  // what was chosen for the user, for people
+  bool keep_edits = false;         // where what was changed lies, besides how often
 };
 
 // How a job talks to whoever started it. Either function may be empty; `progress` is called from one thread at a time,

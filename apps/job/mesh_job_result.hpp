@@ -73,6 +73,7 @@ struct MeshJobResult {
   std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
   std::string first_projection;                      // of the first region, with its parameters
   std::string first_projection_reason;
+  std::map<SurfaceKind, std::uint64_t> surfaces;  // how many regions are measured on which
   double least_scale = std::numeric_limits<double>::infinity(), greatest_scale = 0.0;  // plane over true length
   std::uint64_t regions = 0;        // groups of features that were meshed
   std::uint64_t pieces = 0;         // that they were cut into

@@ -80,7 +80,7 @@ void addChain(std::span<const Point> chain, bool closed, ExtentOf& extent, Extre
 
 }  // namespace
 
-MeshInfo describeMesh(const Grid& grid) {
+MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
   MeshInfo info;
   info.crs = nameOf(grid.crs);
   info.nodes = grid.nodes.size();
@@ -95,9 +95,13 @@ MeshInfo describeMesh(const Grid& grid) {
     info.lowest_z = *std::ranges::min_element(grid.z);
     info.highest_z = *std::ranges::max_element(grid.z);
   }
-  for (const GridPiece& piece : splitGrid(grid)) {
+  for (const GridPiece& piece : splitGrid(grid, surface)) {
     ++info.pieces;
-    info.quality.add(measureQuality(piece.mesh, 0.0));
+    info.quality.add(measureQuality(piece.mesh, 0.0, 180.0, inOrder, piece.places));
+    const SurfaceKind curved = surface == SurfaceKind::Sphere ? surface : SurfaceKind::Ellipsoid;
+    const SurfaceKind measured = piece.places.empty() ? SurfaceKind::Plane : curved;
+    const std::string name = kSurfaceNames[static_cast<std::size_t>(measured)];
+    info.surface = info.surface.empty() || info.surface == name ? name : "mixed";
   }
   ExtremeEdges edges(grid.crs);
   for (const auto& [a, b, c] : grid.triangles) {

@@ -30,7 +30,8 @@ struct MeshInfo {
   double lowest_z = 0.0;  // metres
   double highest_z = 0.0;
   double area_m2 = 0.0;
-  MeshQuality quality;  // lengths and areas in it are the working plane's
+  MeshQuality quality;  // lengths and areas in it are the surface's
+  std::string surface;  // that angles are measured on; "mixed" where pieces differ
   StepReport step;      // the shortest edge, on the ellipsoid, and the time step
   double longest_edge_m = 0.0;
   bool plane = false;
@@ -63,7 +64,7 @@ struct PolyInfo {
   double longest_edge = 0.0;
 };
 
-MeshInfo describeMesh(const Grid& grid);
+MeshInfo describeMesh(const Grid& grid, SurfaceKind surface = SurfaceKind::Auto);
 CoastlineInfo describeCoastline(const JobInput& input);
 PolyInfo describePoly(const Pslg& pslg);
 

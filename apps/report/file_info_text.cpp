@@ -63,6 +63,7 @@ std::string toJson(const MeshInfo& info) {
             {"boundaries", info.boundaries},
             {"extent", extentJson(info.extent)},
             {"area_m2", info.area_m2},
+            {"surface", info.surface},
             {"min_angle_deg", info.quality.min_angle_deg},
             {"max_angle_deg", info.quality.max_angle_deg},
             {"shortest_edge_m", info.step.shortest_edge_m},
@@ -114,6 +115,7 @@ std::string toText(const MeshInfo& info) {
   addLine(text, "area            %.10g m2", info.area_m2);
   addLine(text, "edges           %.6g to %.6g m", info.step.shortest_edge_m, info.longest_edge_m);
   text += "step            " + stepText(info.step, info.plane) + "\n";
+  if (info.surface != "plane") text += "measured on     " + info.surface + "\n";
   addLine(text, "smallest angle  %.3f degrees", info.quality.min_angle_deg);
   addLine(text, "largest angle   %.3f degrees", info.quality.max_angle_deg);
   addHistogram(text, info.quality);

@@ -82,11 +82,23 @@ Json turnedSection(const MeshJobResult& result) {
   return {{"count", result.turned}, {"places", std::move(places)}};
 }
 
+// What angles are measured on, where all regions agree, and how many are measured on which.
+Json surfaceSection(const MeshJobResult& result) {
+  const bool one = result.surfaces.size() == 1;
+  const auto nameOf = [](SurfaceKind kind) { return kSurfaceNames[static_cast<std::size_t>(kind)]; };
+  Json regions = Json::object();
+  for (const auto& [kind, count] : result.surfaces) regions[nameOf(kind)] = count;
+  return {{"kind", one ? Json(nameOf(result.surfaces.begin()->first)) : Json(nullptr)},
+          {"radius_m", result.surfaces.contains(SurfaceKind::Sphere) ? Json(kSphereRadius) : Json(nullptr)},
+          {"regions", std::move(regions)}};
+}
+
 Json meshSection(const MeshJobResult& result) {
   const MeshQuality& quality = result.quality;
   const bool any = quality.triangles > 0;
   return {{"vertices", quality.vertices},
           {"triangles", quality.triangles},
+          {"surface", surfaceSection(result)},
           {"area_m2", result.mesh_area_m2},
           {"min_angle_deg", any ? Json(quality.min_angle_deg) : Json(nullptr)},
           {"max_angle_deg", any ? Json(quality.max_angle_deg) : Json(nullptr)},
@@ -190,6 +202,11 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
                 quality.min_angle_deg, quality.max_angle_deg, result.seconds.total, peakMemoryMib());
   std::string text = grouped(quality.vertices) + " vertices, " + grouped(quality.triangles) + " triangles, " +
                      grouped(result.refine.steiner_points) + " Steiner points\n" + figures + "\n";
+  for (const auto& [kind, count] : result.surfaces)
+    if (kind != SurfaceKind::Plane)
+      text += "measured on the " + std::string(kSurfaceNames[static_cast<std::size_t>(kind)]) +
+              (count < result.regions ? ": " + grouped(count) + " of " + grouped(result.regions) + " regions" : "") +
+              "\n";
   if (job.sizes.any())
     text += "about " + grouped(static_cast<std::uint64_t>(std::min(result.estimated_vertices, 1e18))) +
             " vertices were to be expected of these sizes\n";

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "gis/model/target.hpp"
+
 namespace coastmesh {
 
 namespace {
@@ -86,6 +88,22 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
       "--crs", options.crs, "CRS",
       "plane to work in: auto fits a conformal projection, plane takes coordinates as they are, or anything that "
       "PROJ knows");
+}
+
+void declareSurface(OptionTable& table, SurfaceChoice& surface) {
+  table.choice(
+      "--surface", kSurfaceNames.front(), {kSurfaceNames.begin(), kSurfaceNames.end()},
+      [&surface](const std::string& chosen) {
+        surface.kind = static_cast<SurfaceKind>(std::ranges::find(kSurfaceNames, chosen) - kSurfaceNames.begin());
+      },
+      "what lengths and angles are measured on: the plane, flat triangles between places on the ellipsoid, or on the "
+      "sphere of models that take latitudes as they are; auto: the ellipsoid for what is larger than a cap of 30 "
+      "degrees, the sphere with --target fesom or mpas, else the plane");
+}
+
+void chooseSurface(const std::vector<std::string>& targets, SurfaceChoice& surface) {
+  if (surface.kind != SurfaceKind::Auto || !std::ranges::any_of(targetsNamed(targets), isOnSphere)) return;
+  surface = {SurfaceKind::Sphere, true};
 }
 
 void declarePinches(OptionTable& table, const std::string& name, const std::string& help, InputOptions& options) {

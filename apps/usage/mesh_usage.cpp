@@ -7,6 +7,7 @@
 #include "apps/report/mesh_report.hpp"
 #include "apps/usage/finish_usage.hpp"
 #include "apps/usage/input_usage.hpp"
+#include "gis/model/target.hpp"
 
 namespace coastmesh {
 
@@ -18,13 +19,25 @@ Enum named(const char* const (&names)[kCount], const std::string& name) {
   return static_cast<Enum>(std::ranges::find(names, name) - std::begin(names));
 }
 
+// MPAS' cells have no sense where circumcentres lie outside of their triangles.
+void chooseLargestAngle(MeshUsage& usage) {
+  constexpr double kWellCentredDeg = 89.0;
+  const std::vector<Target> targets = targetsNamed(usage.job.finish.targets);
+  if (std::ranges::find(targets, Target::Mpas) == targets.end()) return;
+  if (usage.max_angle_given || usage.job.mesh.refine.goal == QualityGoal::Centred) return;
+  usage.job.mesh.refine.max_angle_deg = kWellCentredDeg;
+  usage.job.notes.push_back("no angle above 89 degrees is asked for, as MPAS needs it; give --max-angle to say else");
+}
+
 }  // namespace
 
 void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
   RefineOptions& refine = usage.job.mesh.refine;
   table.number("--min-angle", refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");
   double& max_angle = refine.max_angle_deg;
-  table.number("--max-angle", max_angle, "DEG", {60.0, 180.0}, "largest angle asked for; 180 sets no bound");
+  table.number("--max-angle", max_angle, "DEG", {60.0, 180.0},
+               "largest angle asked for; 180 sets no bound; 89 with --target mpas where nothing is said",
+               &usage.max_angle_given);
   table.choice("--algorithm", usage.algorithm, {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)},
                "where the points go that mend bad triangles");
   table
@@ -48,6 +61,7 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
           },
           "without sizes or --smooth");
   declareInputOptions(table, usage.job.input);
+  declareSurface(table, usage.job.input.surface);
   declarePinches(table, usage.job.input);
   declareFinishOptions(table, usage.job.finish);
   table.integer(
@@ -67,6 +81,8 @@ void settle(MeshUsage& usage) {
   usage.job.mesh.refine.goal = named<QualityGoal>(kGoalNames, usage.quality);
   if (usage.job.mesh.refine.goal == QualityGoal::Centred)
     usage.job.mesh.refine.max_angle_deg = std::min(usage.job.mesh.refine.max_angle_deg, 90.0);
+  chooseSurface(usage.job.finish.targets, usage.job.input.surface);
+  chooseLargestAngle(usage);
   // The classical algorithms are there to compare with: they insert what their papers say.
   if (!usage.coarsen_given) usage.job.mesh.coarsen = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
   if (!usage.job.finish.boundaries.column.empty()) usage.job.finish.boundaries.inputs = usage.job.input.files;

@@ -16,6 +16,7 @@ struct MeshUsage {
   std::string algorithm = "relocate";
   std::string quality = "shape";
   bool coarsen_given = false;
+  bool max_angle_given = false;
   bool cut = true;
   std::uint64_t threads = 0;
 };

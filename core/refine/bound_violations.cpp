@@ -14,11 +14,24 @@ std::array<Point, 3> cornersOf(const TriMesh& mesh, TriId t) {
   return {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
 }
 
-std::vector<TriId> badTriangles(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop) {
+bool isBadInSpace(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c, const AngleBound& bound) {
+  const auto [low, high] = std::ranges::minmax(spaceAnglesDeg(a, b, c));
+  return low < toDegrees(bound.min_angle) || high > toDegrees(bound.max_angle);
+}
+
+std::vector<TriId> badTriangles(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop,
+                                std::span<const SpacePoint> places = {}) {
+  TriangleBound length = bound;  // alone: angles are those in space
+  static_cast<AngleBound&>(length) = AngleBound(0.0, 180.0);
   return joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<TriId> some;
     for (auto t = static_cast<TriId>(first); t < last; ++t)
-      if (const auto [a, b, c] = cornersOf(mesh, t); isBad(a, b, c, bound)) some.push_back(t);
+      if (const auto [a, b, c] = cornersOf(mesh, t); places.empty()) {
+        if (isBad(a, b, c, bound)) some.push_back(t);
+      } else if (const auto& v = mesh.triangles[t].v;
+                 isBadInSpace(places[v[0]], places[v[1]], places[v[2]], bound) || isBad(a, b, c, length)) {
+        some.push_back(t);
+      }
     return some;
   }));
 }
@@ -43,8 +56,8 @@ std::vector<BoundViolation> findBoundViolations(const TriMesh& mesh, const Refin
 }
 
 BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
-                           const ItemLoop& loop) {
-  const std::vector<TriId> bad = badTriangles(mesh, asked, loop);
+                           const ItemLoop& loop, std::span<const SpacePoint> places) {
+  const std::vector<TriId> bad = badTriangles(mesh, asked, loop, places);
   if (bad.empty()) return {};
   const InputCorners corners(mesh, in_reach, loop);
   BoundJudgement judgement;
@@ -53,18 +66,23 @@ BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, cons
     const Excuse excuse = corners.excuseOf(a, b, c);
     judgement.counts.add(excuse);
     if (excuse != Excuse::None) continue;
-    const auto [low, high] = std::ranges::minmax(anglesDeg(a, b, c));
+    const auto& v = mesh.triangles[t].v;
+    const auto [low, high] =
+        std::ranges::minmax(places.empty() ? surfaceAnglesDeg(a, b, c, asked.surface)
+                                           : spaceAnglesDeg(places[v[0]], places[v[1]], places[v[2]]));
     judgement.unresolved.push_back({(1.0 / 3.0) * (a + b + c), low, high});
   }
   return judgement;
 }
 
 BoundJudgement judgeFinished(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, double size_max,
-                             double slack_deg, const ItemLoop& loop) {
+                             double slack_deg, const ItemLoop& loop, const Surface& surface,
+                             std::span<const SpacePoint> places) {
   // Corners are those of refinement: one of exactly the bound cannot be divided at slightly more.
   const double hair = 2.0 * TriangleBound::kMarginDeg + slack_deg;
-  const TriangleBound asked(std::max(0.0, min_angle_deg - hair), std::min(180.0, max_angle_deg + hair), size_max);
-  return judgeBounds(mesh, asked, TriangleBound(min_angle_deg, max_angle_deg, size_max), loop);
+  TriangleBound asked(std::max(0.0, min_angle_deg - hair), std::min(180.0, max_angle_deg + hair), size_max);
+  asked.surface = surface;
+  return judgeBounds(mesh, asked, TriangleBound(min_angle_deg, max_angle_deg, size_max), loop, places);
 }
 
 }  // namespace coastmesh

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
 #include "core/metric.hpp"
 #include "core/refine/refine_options.hpp"
+#include "core/space_point.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -23,13 +25,15 @@ struct BoundJudgement {
   std::vector<BoundViolation> unresolved;  // what nothing excuses, in order
 };
 
-// All triangles that break `asked`; corners are those of `in_reach`.
+// All triangles that break `asked`, with the angles of flat triangles between `places`, one a point of the mesh, where
+// there are any, else on the bound's surface; lengths are the surface's. Corners are those of `in_reach`, in the plane.
 BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
-                           const ItemLoop& loop = inOrder);
+                           const ItemLoop& loop = inOrder, std::span<const SpacePoint> places = {});
 
 // Of a finished mesh: refinement aims slightly above the bounds, here they themselves count, less `slack_deg` for what
-// rounding made of coordinates. `size_max` in plane units.
+// rounding made of coordinates. `size_max` in units of the surface; places as above.
 BoundJudgement judgeFinished(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, double size_max,
-                             double slack_deg = 0.0, const ItemLoop& loop = inOrder);
+                             double slack_deg = 0.0, const ItemLoop& loop = inOrder, const Surface& surface = {},
+                             std::span<const SpacePoint> places = {});
 
 }  // namespace coastmesh

@@ -59,10 +59,17 @@ void checkTopology(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) 
   });
 }
 
-void checkOrientation(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
+// Seen from outside of a surface that goes round the origin.
+bool isCounterClockwise(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
+  return dot(a, cross(b - a, c - a)) > 0.0;
+}
+
+void checkOrientation(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
   findDefects(mesh.triangles.size(), loop, defects, [&](TriId t, Defects& found) {
     const auto& v = mesh.triangles[t].v;
-    if (orient2d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= 0)
+    const std::span<const SpacePoint> places = options.places;
+    if (options.closed ? !isCounterClockwise(places[v[0]], places[v[1]], places[v[2]])
+                       : orient2d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= 0)
       found.push_back({DefectKind::NotCounterClockwise, centroid(mesh, t), t});
   });
 }
@@ -86,7 +93,12 @@ void checkPinches(const TriMesh& mesh, std::vector<MeshDefect>& defects) {
   }
 }
 
-void checkDelaunay(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
+bool isTurnedOver(const TriMesh& mesh, TriId t) {
+  const auto& v = mesh.triangles[t].v;
+  return orient2d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= 0;
+}
+
+void checkDelaunay(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
   // Coordinates that went through a file and a projection are rounded: then cocircular points need room.
   const bool exact = mesh.input_vertices != 0;
   constexpr double kRoundingRad = 1e-7;
@@ -97,6 +109,7 @@ void checkDelaunay(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) 
       const Point &a = mesh.points[mesh.apex(e)], &b = mesh.points[mesh.origin(e)], &c = mesh.points[mesh.target(e)],
                   &d = mesh.points[mesh.apex(twin)];
       if (inCircle(a, b, c, d) <= 0) continue;
+      if (options.closed && (isTurnedOver(mesh, t) || isTurnedOver(mesh, triOf(twin)))) continue;
       if (!exact && angleAt(a, b, c) + angleAt(d, b, c) < std::numbers::pi + kRoundingRad) continue;
       found.push_back({DefectKind::NotDelaunay, midpoint(b, c), t});
     }
@@ -112,7 +125,7 @@ void checkUnused(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
 BoundCounts checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
   constexpr double kAnySize = std::numeric_limits<double>::infinity();
   const BoundJudgement judgement =
-      judgeFinished(mesh, options.min_angle_deg, options.max_angle_deg, kAnySize, 0.0, loop);
+      judgeFinished(mesh, options.min_angle_deg, options.max_angle_deg, kAnySize, 0.0, loop, {}, options.places);
   for (const BoundViolation& s : judgement.unresolved)
     defects.push_back({DefectKind::AngleBelowBound, s.place, kNone, s.min_angle_deg});
   return judgement.counts;
@@ -128,18 +141,18 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
   counts = {};
   checkTopology(mesh, loop, defects);
   if (!defects.empty()) return defects;  // nothing else can be said of a mesh that does not hold together
-  checkOrientation(mesh, loop, defects);
+  checkOrientation(mesh, options, loop, defects);
   checkUnused(mesh, loop, defects);
   if (options.pinches) checkPinches(mesh, defects);
   if (pslg != nullptr && mesh.input_vertices == 0) {
     TriMesh marked = mesh;
     checkAgainstInputByPlace(marked, *pslg, defects);
-    if (options.delaunay) checkDelaunay(marked, loop, defects);
+    if (options.delaunay) checkDelaunay(marked, options, loop, defects);
     counts = checkBounds(marked, options, loop, defects);
     return defects;
   }
   if (pslg != nullptr) checkAgainstInput(mesh, *pslg, loop, defects);
-  if (options.delaunay) checkDelaunay(mesh, loop, defects);
+  if (options.delaunay) checkDelaunay(mesh, options, loop, defects);
   counts = checkBounds(mesh, options, loop, defects);
   return defects;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/refine/mesh_defect.hpp"
+#include "core/space_point.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
@@ -16,6 +18,10 @@ struct CheckOptions {
   double min_angle_deg = 0.0;    // degrees; 0 asks nothing
   double max_angle_deg = 180.0;  // degrees; 180 asks nothing
   bool delaunay = true;
+  std::span<const SpacePoint> places = {};  // one a point of the mesh, for angles; none: those of the plane
+  // The mesh goes round a sphere, and has `places`: the plane shows one triangle, or a few, from the other side. They
+  // run counter-clockwise in space as all others do, and nothing is asked of circles through their corners.
+  bool closed = false;
   bool pinches = false;  // report pinched vertices; the core allows them where the input has them
 };
 

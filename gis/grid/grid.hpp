@@ -64,7 +64,7 @@ struct Grid {
   std::vector<std::uint32_t> piece_of;                  // empty or one a triangle: the piece that it was refined in
   std::vector<std::uint32_t> part_of;                   // empty or one a triangle: the solver's process, from 0
   std::vector<std::uint32_t> node_part_of;              // empty or one a node, likewise
-  std::vector<double> min_angle_deg;                    // empty or one a triangle, measured in the working plane
+  std::vector<double> min_angle_deg;                    // empty or one a triangle, measured as the mesh was made
   std::vector<double> area_m2;                          // empty or one a triangle, on the ellipsoid
   std::vector<GridFeature> features;
   std::vector<Boundary> boundaries;

@@ -12,6 +12,8 @@ std::string allTargetNames() {
   return all;
 }
 
+bool isOnSphere(Target target) { return target == Target::Fesom || target == Target::Mpas; }
+
 std::vector<Target> targetsNamed(const std::vector<std::string>& names) {
   std::vector<Target> targets;
   for (const std::string& name : names) {

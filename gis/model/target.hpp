@@ -13,6 +13,9 @@ inline constexpr std::array kTargetNames{"adcirc", "schism", "fvcom", "telemac",
 // "adcirc|schism|…"
 std::string allTargetNames();
 
+// Whether the model takes latitudes for those of a sphere.
+bool isOnSphere(Target target);
+
 // The models so named, each once, in the order of Target. Throws OptionError for a name that is none.
 std::vector<Target> targetsNamed(const std::vector<std::string>& names);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 namespace coastmesh {
 
 // What lengths, angles and areas are measured on.
@@ -9,6 +11,8 @@ enum class SurfaceKind {
   Ellipsoid,  // that of the input's CRS
   Sphere,     // the sphere of models that take latitudes for spherical ones
 };
+
+inline constexpr std::array kSurfaceNames{"auto", "plane", "ellipsoid", "sphere"};  // in the order of SurfaceKind
 
 // The radius of that sphere, metres: the mean one of the Earth.
 inline constexpr double kSphereRadius = 6371008.8;

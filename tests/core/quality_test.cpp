@@ -83,6 +83,37 @@ TEST(MeasureQuality, EmptyMesh) {
   EXPECT_EQ(quality.area, 0.0);
 }
 
+// A face of an octahedron.
+TEST(MeasureQuality, InSpaceTheTrianglesThereCount) {
+  const std::vector<SpacePoint> places{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+  const TriMesh mesh = meshOf({{0, 0}, {1, 0}, {0.2, 0.1}}, {{0, 1, 2}});
+  const MeshQuality quality = measureQuality(mesh, 59.9, 60.1, inOrder, places);
+  EXPECT_NEAR(quality.min_angle_deg, 60.0, 1e-12);
+  EXPECT_NEAR(quality.max_angle_deg, 60.0, 1e-12);
+  EXPECT_NEAR(quality.area, 0.25 * std::sqrt(3.0) * 8.0, 1e-12);
+  EXPECT_NEAR(quality.shortest_edge, std::sqrt(8.0), 1e-12);
+  EXPECT_NEAR(quality.longest_edge, std::sqrt(8.0), 1e-12);
+  EXPECT_EQ(quality.bounds.below, 0u);
+  EXPECT_EQ(measureQuality(mesh, 60.1, 180.0, inOrder, places).bounds.below, 1u);
+}
+
+// Of a sphere of radius 1: its places by the formula of the projection.
+TEST(SurfaceAnglesDeg, AreThoseOfChords) {
+  const Surface sphere = Surface::sphere(1.0);
+  const auto onSphere = [](const Point& p) {
+    const double r = p.x * p.x + p.y * p.y;
+    return SpacePoint{4.0 * p.x / (4.0 + r), 4.0 * p.y / (4.0 + r), (4.0 - r) / (4.0 + r)};
+  };
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-3.0, 3.0);
+  for (int round = 0; round < 200; ++round) {
+    const Point a{place(random), place(random)}, b{place(random), place(random)}, c{place(random), place(random)};
+    const auto angles = surfaceAnglesDeg(a, b, c, sphere), flat = spaceAnglesDeg(onSphere(a), onSphere(b), onSphere(c));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(angles[i], flat[i], 1e-9);
+    EXPECT_EQ(surfaceAnglesDeg(a, b, c, {}), anglesDeg(a, b, c));
+  }
+}
+
 TEST(MeasureQuality, HistogramClassesOfFiveDegrees) {
   // 46.3, 43.7 and 90.0, by a hair on the safe side of the class's limit.
   const double at = toRadians(92.6);

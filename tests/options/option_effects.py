@@ -102,6 +102,11 @@ def write_inputs(folder):
     # A diagonal that is not Delaunay.
     put("plain.2dm", "MESH2D\nE3T 1 1 2 3 1\nE3T 2 1 3 4 1\nND 1 0 0 0\nND 2 200 -90 0\nND 3 400 0 0\nND 4 200 90 0\n")
     put("degrees.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 10 60 0\nND 2 10.2 60 0\nND 3 10.1 60.0866 0\n")
+    # Larger than a cap of 30 degrees: its least angle is 39.8 degrees in the plane, 38.1 on the ellipsoid.
+    rim = [(32, 9), (13, 30), (-10, 28), (-33, 5), (-25, -22), (3, -33), (28, -18)]
+    put("great.2dm", "MESH2D\n" + "".join(f"E3T {i} 1 {i + 1} {i % 7 + 2} 1\n" for i in range(1, 8)) +
+        "".join(f"ND {i} {x} {y} 0\n" for i, (x, y) in enumerate([(0, 0), *rim], 1)))
+    put("great.prj", WGS84)
     slope = ascii_raster(-87.52, 41.58, 60, 60, 0.001, lambda x, y: -5 - 0.7 * x - 3 * ((x // 7 + y // 5) % 2))
     put("dem.asc", slope)
     put("part.asc", ascii_raster(-87.52, 41.58, 30, 60, 0.001, lambda x, y: -5 - 0.7 * x))
@@ -133,6 +138,7 @@ def cases():
         "--simplify": Case("300"),
         "--min-island-area": Case("1e9"),
         "--crs": Case("EPSG:6933"),
+        "--surface": Case("ellipsoid"),
     }
     finish = {
         "--bathymetry": Case("dem.asc"),
@@ -205,6 +211,7 @@ def cases():
         "--time-step": Case("1000", extra=["--target", "adcirc"], input="deep.nc"),
         "--min-angle": Case("50"),
         "--max-angle": Case("65"),
+        "--surface": Case("plane", extra=["--min-angle", "39"], input="great.2dm", because="only angles hang on it"),
         "--delaunay": Case(input="plain.2dm"),
         "--pinches": Case(input="hourglass.nc"),
         "--input-pinches": Case("open", input="hourglass.geojson", mesh=True),
@@ -213,6 +220,8 @@ def cases():
         "--quiet": Case(),
     }
     for name, case in region.items():
+        if name == "--surface":  # counts without an input too
+            continue
         extra = [*case.extra, *(["--min-angle", "33"] if name == "--crs" else [])]
         check[name] = Case(case.value, extra=extra, input=case.input or "lake.geojson", mesh=True)
     convert = {**finish, **common,
@@ -224,6 +233,7 @@ def cases():
     convert["--target"] = Case("adcirc", input="hourglass.nc")
     clean = {**region,
              "--crs": Case("EPSG:6933", extra=["--output", "out.poly"], because="a layer is in the input's CRS"),
+             "--surface": Case("ellipsoid", extra=["--output", "out.poly"], because="a layer is in the input's CRS"),
              "--boundary-column": Case("other"),
              "--config": Case("angle.toml"), "--pinches": Case("open", input="hourglass.geojson"),
              "--overwrite": Case(exists=["out.gpkg"]), "--output": Case("other.gpkg"),
@@ -232,7 +242,7 @@ def cases():
             "--bbox": Case("-87.49,41.60,-87.48,41.61"),
             "--color": Case("angle"), "--edges": Case(name="--no-edges"), "--min-angle": Case("50"),
             "--view": Case("orthographic=-87,41"), "--degrees": Case(), "--overwrite": Case(exists=["out.svg"]), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
-    info = {"--config": Case("angle.toml"), "--json": Case(), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
+    info = {"--config": Case("angle.toml"), "--surface": Case("plane", input="great.2dm"), "--json": Case(), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
     partition = {**common, "--output": Case("more.prop"), "--format": Case("gmsh"), "--quiet": Case(),
                  "--report": Case("report2.json"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     gather = {"--config": Case("angle.toml"), "--output": Case("more.2dm"), "--format": Case("2dm"),

@@ -240,6 +240,54 @@ TEST(CheckMesh, EdgeThatIsNotDelaunay) {
   EXPECT_EQ(kindsIn(checkMesh(flipped, nullptr, {.delaunay = false})), Kinds{});
 }
 
+// An octahedron in a stereographic plane whose pole lies in one of its faces, which it shows from the other side.
+struct ClosedSample {
+  TriMesh mesh;
+  std::vector<SpacePoint> places;
+};
+
+ClosedSample octahedron(bool turned = false) {
+  const SpacePoint w = (1.0 / std::sqrt(1.3 * 1.3 + 1.1 * 1.1 + 1.0)) * SpacePoint{1.3, 1.1, 1.0};
+  const SpacePoint u = (1.0 / std::hypot(w.x, w.y)) * SpacePoint{-w.y, w.x, 0.0};
+  const SpacePoint v = cross(u, w);  // the plane is seen from without, from the pole's opposite
+  ClosedSample sample;
+  std::vector<Point> points;
+  for (const SpacePoint& p : {SpacePoint{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
+    sample.places.push_back(p);
+    const double shrink = 2.0 / (1.0 - dot(p, w));
+    points.push_back({shrink * dot(p, u), shrink * dot(p, v)});
+  }
+  std::vector<std::array<VertexId, 3>> faces;
+  for (const VertexId x : {0u, 1u})
+    for (const VertexId y : {2u, 3u})
+      for (const VertexId z : {4u, 5u}) {
+        const bool even = (x + y + z) % 2 == 0;
+        faces.push_back(even ? std::array<VertexId, 3>{x, y, z} : std::array<VertexId, 3>{x, z, y});
+      }
+  if (turned)
+    for (auto& face : faces) std::swap(face[0], face[1]);
+  sample.mesh = meshOf(points, faces);
+  return sample;
+}
+
+TEST(CheckMesh, ClosedMeshes) {
+  const ClosedSample sample = octahedron();
+  CheckOptions options{.min_angle_deg = 59.999, .max_angle_deg = 60.001};
+  options.places = sample.places;
+  options.closed = true;
+  EXPECT_EQ(describe(checkMesh(sample.mesh, nullptr, options)), "");
+  options.min_angle_deg = 60.001;
+  EXPECT_EQ(checkMesh(sample.mesh, nullptr, options).size(), 8u);
+  options = {.places = sample.places};
+  const auto open = checkMesh(sample.mesh, nullptr, options);
+  EXPECT_EQ(std::ranges::count(open, DefectKind::NotCounterClockwise, &MeshDefect::kind), 1);
+  const ClosedSample turned = octahedron(true);
+  options.places = turned.places;
+  options.closed = true;
+  options.delaunay = false;
+  EXPECT_EQ(checkMesh(turned.mesh, nullptr, options).size(), 8u);
+}
+
 TEST(CheckMesh, AngleBeyondTheBound) {
   const Sample sample = sampleOf(squareWithHole());
   EXPECT_EQ(kindsIn(sample, {.min_angle_deg = 30.0}), Kinds{});
