@@ -14,7 +14,7 @@ struct GridPiece {
   Projection projection = Projection::plane();
   TriMesh
       mesh;  // regions are the grid's `feature_of`, 0 where it has none; constraints: borders between them, and lines
-  // One a point of the mesh, metres; empty where the plane itself rules. What angles, lengths and areas are measured on.
+  // One a point of the mesh, metres, for angles, lengths and areas; empty where the plane itself rules.
   std::vector<SpacePoint> places;
   std::vector<std::uint32_t> nodes;      // one a point of the mesh: the grid's node
   std::vector<std::uint32_t> triangles;  // one a triangle of the mesh: the grid's triangle

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "core/quality.hpp"
 
@@ -15,6 +16,7 @@ std::array<Point, 3> cornersOf(const TriMesh& mesh, TriId t) {
 }
 
 bool isBadInSpace(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c, const AngleBound& bound) {
+  if (bound.min_angle <= 0.0 && bound.max_angle >= std::numbers::pi) return false;
   const auto [low, high] = std::ranges::minmax(spaceAnglesDeg(a, b, c));
   return low < toDegrees(bound.min_angle) || high > toDegrees(bound.max_angle);
 }
