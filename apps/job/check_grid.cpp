@@ -53,6 +53,10 @@ bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
   return mesh.twin(e) != kNone && delaunayExcess(mesh, e) > kAngleSlackDeg;
 }
 
+bool isClosed(const TriMesh& mesh) {
+  return std::ranges::none_of(mesh.triangles, [](const Triangle& t) { return std::ranges::count(t.adj, kNone) > 0; });
+}
+
 void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options, GridCheck& result) {
   std::vector<GridDefect>& defects = result.defects;
   const auto inverse = [&piece](const Point& place) { return piece.projection.inverse(place); };
@@ -67,6 +71,7 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
   check.delaunay = options.delaunay;
   check.pinches = options.pinches;
   check.places = piece.places;
+  check.closed = !piece.places.empty() && isClosed(piece.mesh);
   BoundCounts bounds;
   const std::vector<MeshDefect> found = checkMesh(piece.mesh, pslg, check, inOrder, &bounds);
   result.bounds.add(bounds);

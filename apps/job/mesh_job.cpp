@@ -180,23 +180,35 @@ std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
 
 namespace {
 
-// After repairs: the grid as it is now, each group in the plane that it was made in.
-void measureAgain(const MeshJob& job, const std::vector<GroupPlane>& planes, MeshJobResult& result) {
+// The grid as it is now, each group in the plane that it was made in. The digest stays that of the mesh where nothing
+// but nodes of the frame moved.
+void measureAgain(const MeshJob& job, const std::vector<GroupPlane>& planes, bool is_repaired, MeshJobResult& result) {
   result.quality = {};
-  result.short_before_repairs = std::exchange(result.short_of, {}).count;
+  result.short_of = {};
   bool first = true;
   const std::vector<std::vector<std::uint32_t>> triangles = trianglesOfGroups(result.grid, planes);
   for (std::size_t g = 0; g < planes.size(); ++g) {
     if (triangles[g].empty()) continue;
     const GridPiece piece = makePiece(result.grid, triangles[g], planes[g].plane.projection);
-    const TriMesh& mesh = piece.mesh;
-    MeshJudgement judgement = judgeMesh(mesh, planes[g].plane, job.mesh.refine, kAngleSlackDeg, piece.places);
+    MeshJudgement judgement = judgeMesh(piece.mesh, planes[g].plane, job.mesh.refine, kAngleSlackDeg, piece.places);
     result.quality.add(judgement.quality);
     result.short_of.add(std::move(judgement.short_of));
-    result.digest = first ? digestOf(mesh) : combineDigests(result.digest, digestOf(mesh));
+    if (is_repaired) {
+      const std::uint64_t digest = digestOf(piece.mesh);
+      result.digest = first ? digest : combineDigests(result.digest, digest);
+    }
     first = false;
+    if (piece.places.empty() || result.grid.min_angle_deg.empty()) continue;
+    for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
+      const auto& [a, b, c] = piece.mesh.triangles[t].v;
+      result.grid.min_angle_deg[piece.triangles[t]] =
+          std::ranges::min(spaceAnglesDeg(piece.places[a], piece.places[b], piece.places[c]));
+    }
   }
-  result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+}
+
+bool isMeasuredOnEarth(const MeshJobResult& result) {
+  return std::ranges::any_of(result.surfaces, [](const auto& each) { return each.first != SurfaceKind::Plane; });
 }
 
 // In the coordinates that are written: what is right in the working plane need not be so there.
@@ -246,8 +258,9 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
     GroupResult part = exchange.take ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, memory}, inner);
     if (exchange.keep) exchange.keep(g, part);
-    // Planes are looked at again after repairs only.
-    if (exchange.take && part.plane && mends && !input.isPoly()) part.plane->projection = input.projectionOf(g);
+    // Planes are looked at again after repairs only, and where nodes of a frame were moved on the Earth.
+    const bool again = mends || part.surface != SurfaceKind::Plane;
+    if (exchange.take && part.plane && again && !input.isPoly()) part.plane->projection = input.projectionOf(g);
     merge.add(g, std::move(part));
     progress.report(g, 1.0);
   });
@@ -255,7 +268,9 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.grid.crs = result.crs;
   Recorder recorder;
   const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});
-  if (!input.isPoly()) keepInFrame(result.grid, input.coastline(), loop);
+  const std::size_t moved = input.isPoly() ? 0 : keepInFrame(result.grid, input.coastline(), loop);
+  // In the plane it is what was made there that counts; on the Earth, where every node lies.
+  if (moved > 0 && isMeasuredOnEarth(result)) measureAgain(job, merge.planes(), false, result);
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   result.log.append(recorder.finish("grid"));
   FinishOptions finish = job.finish;
@@ -267,7 +282,11 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
     result.finish = finishGrid(result.grid, finish, inner);
-    if (!result.finish.repairs.repairs.empty()) measureAgain(job, merge.planes(), result);
+    if (!result.finish.repairs.repairs.empty()) {
+      result.short_before_repairs = result.short_of.count;
+      measureAgain(job, merge.planes(), true, result);
+      result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+    }
     result.seconds.finish = finishing.seconds();
     result.log.addAlone("finish", result.seconds.finish);
     recorder.finish();

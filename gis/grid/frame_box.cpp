@@ -13,8 +13,8 @@
 
 namespace coastmesh {
 
-void keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& loop) {
-  if (!coastline.framed_by_box) return;
+std::size_t keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& loop) {
+  if (!coastline.framed_by_box) return 0;
   Box box;
   bool in_parts = false;
   for (const Feature& feature : coastline.features) {
@@ -32,7 +32,7 @@ void keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& loop) {
           if (!(inBox(grid.nodes[n]) == grid.nodes[n])) some.push_back(static_cast<std::uint32_t>(n));
         return some;
       }));
-  if (outside.empty()) return;
+  if (outside.empty()) return 0;
   std::vector<std::uint8_t> moves(grid.nodes.size(), 0);
   std::vector<Point> before;
   for (const std::uint32_t n : outside) {
@@ -65,17 +65,19 @@ void keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& loop) {
       }
     }
   }
+  const auto moved = static_cast<std::size_t>(std::ranges::count(moves, std::uint8_t{1}));
   std::vector<std::array<std::uint32_t, 3>> corners;
   for (const std::size_t t : changed) corners.push_back(grid.triangles[t]);
   if (!grid.area_m2.empty() && !corners.empty()) {
     const std::vector<double> areas = triangleAreas(grid.nodes, corners, grid.crs);
     for (std::size_t k = 0; k < changed.size(); ++k) grid.area_m2[changed[k]] = areas[k];
   }
-  if (grid.min_angle_deg.empty()) return;
+  if (grid.min_angle_deg.empty()) return moved;
   for (const std::size_t t : changed) {
     const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
     grid.min_angle_deg[t] = std::ranges::min(anglesDeg(p[0], p[1], p[2]));
   }
+  return moved;
 }
 
 }  // namespace coastmesh

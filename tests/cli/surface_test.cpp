@@ -114,6 +114,18 @@ TEST_F(SurfaceRuns, FiguresAreThoseOfFlatTrianglesOnTheEarth) {
   }
 }
 
+// Nodes on parallels of a frame are moved onto them once the mesh is made.
+TEST_F(SurfaceRuns, WithinABoxFiguresAreThoseOfTheFile) {
+  const std::string island = layer("island.geojson", {{{0, 0}, {6, 2}, {3, 9}, {-4, 7}}});
+  for (const std::string size : {"300000", "600000"}) {
+    const ProgramRun run = mesh(island, {"--domain", "outside", "--bbox=-65,-50,60,60", "--size", size});
+    ASSERT_EQ(run.code, 0) << run.errors << run.output;
+    const Angles angles = anglesIn(readText(file("m.2dm")), false);
+    EXPECT_NEAR(reported()["mesh"]["min_angle_deg"].get<double>(), angles.least, 1e-6);
+    EXPECT_NEAR(reported()["mesh"]["max_angle_deg"].get<double>(), angles.most, 1e-6);
+  }
+}
+
 // What lies within the cap stays in the plane, with its bytes, unless it is asked for.
 TEST_F(SurfaceRuns, SmallInputsStayInThePlane) {
   const std::string bay = layer("bay.geojson", kBay);
