@@ -12,7 +12,9 @@ namespace {
 OptionTable declareOptions(MeshRunUsage& usage) {
   OptionTable table = commandOptions("mesh", "Mesh the polygons and closed lines of vector files, or a .poly");
   table.arguments(kInputs, usage.mesh.job.input.files,
-                  "vector files that GDAL reads ('-': standard input), or one .poly");
+                  "vector files that GDAL reads ('-': standard input), or one .poly; none need be given for "
+                  "--domain globe",
+                  [usage = &usage.mesh.job.input] { return usage->frame.side == DomainSide::Globe; });
   declareMeshes(table, usage, true);
   declareMeshOptions(table, usage.mesh);
   table.option("--mark-pieces")

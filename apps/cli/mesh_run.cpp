@@ -94,7 +94,8 @@ std::optional<int> doneBefore(const MeshRunUsage& usage, const Run& run, const G
 
 OptionTable meshJobOptions(MeshUsage& usage) {
   OptionTable table("mesh", "");
-  table.arguments(kInputs, usage.job.input.files, "");
+  table.arguments(kInputs, usage.job.input.files, "",
+                  [&usage] { return usage.job.input.frame.side == DomainSide::Globe; });
   declareMeshOptions(table, usage);
   return table;
 }

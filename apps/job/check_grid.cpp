@@ -10,6 +10,7 @@
 #include "apps/job/grid_pieces.hpp"
 #include "core/point_hash.hpp"
 #include "core/quality.hpp"
+#include "core/sphere/close_sphere.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/ground_orientation.hpp"
@@ -51,10 +52,6 @@ EdgeRef edgeAt(const TriMesh& mesh, TriId t, const Point& place) {
 bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
   const EdgeRef e = edgeAt(mesh, defect.triangle, defect.place);
   return mesh.twin(e) != kNone && delaunayExcess(mesh, e) > kAngleSlackDeg;
-}
-
-bool isClosed(const TriMesh& mesh) {
-  return std::ranges::none_of(mesh.triangles, [](const Triangle& t) { return std::ranges::count(t.adj, kNone) > 0; });
 }
 
 void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options, GridCheck& result) {

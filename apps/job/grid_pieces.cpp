@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "core/metric.hpp"
+#include "core/sphere/close_sphere.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/geometry/union_find.hpp"
 #include "gis/grid/grid_lines.hpp"
@@ -95,6 +97,13 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
   for (const auto& loop : boundaryLoops(linked)) {
     Polygon& polygon = outline.features[0].polygons.emplace_back();
     for (VertexId v : loop) polygon.outer.push_back(part.nodes[v]);
+  }
+  if (conflicts.empty() && isClosed(linked)) {
+    // Beyond the plane lies what is opposite to a place: of the first triangle, and of no symmetry.
+    const auto& [a, b, c] = part.triangles.front();
+    outline.features[0].points.push_back(0.5 * part.nodes[a] + 0.3 * part.nodes[b] + 0.2 * part.nodes[c]);
+    outline.rest = 0;
+    return Projection::fitted(outline, {0}, kind);
   }
   // A broken grid may have no boundary at all.
   if (outline.features[0].polygons.empty()) outline.features[0].polygons.push_back({part.nodes, {}});

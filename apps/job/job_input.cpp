@@ -36,6 +36,13 @@ Crs parseWorkingCrs(const std::string& text) {
 }
 
 void requireOneFrame(const InputOptions& options) {
+  if (options.frame.side == DomainSide::Globe) {
+    if (options.frame.box || !options.clip.empty() || options.frame.water_at)
+      throw OptionError("--domain globe has no frame: leave out --bbox, --clip and --water-at");
+    if (options.surface.kind == SurfaceKind::Plane)
+      throw OptionError("--domain globe is on no plane: leave out --surface plane");
+    if (options.crs != "auto") throw OptionError("--domain globe is on no plane: leave out --crs");
+  }
   if (options.frame.box && !options.clip.empty())
     throw OptionError("--bbox and --clip both bound the domain: give one of them");
   if (options.frame.side == DomainSide::Outside && !options.frame.box && options.clip.empty() &&
@@ -92,14 +99,22 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
       throw OptionError("'" + file + "' is a ready plane graph and cannot be joined with other inputs; mesh it alone");
     }
   }
-  if (isPolyFile(options_.files.front())) {
+  if (!options_.files.empty() && isPolyFile(options_.files.front())) {
     readPolyFile(options_.files.front());
     return;
   }
   std::optional<Crs> working;
   if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
   requireOneFrame(options_);
-  coastline_ = readCoastline(sourcesOf(options_), options_.filter, report_);
+  const bool globe = options_.frame.side == DomainSide::Globe;
+  if (const std::vector<Source> sources = sourcesOf(options_); globe && sources.empty()) {
+    coastline_.crs = wgs84();
+  } else {
+    coastline_ = readCoastline(sources, options_.filter, report_);
+  }
+  if (globe && !coastline_.crs.geographic)
+    throw InputError("--domain globe takes longitudes and latitudes, and the input is in " +
+                     (coastline_.crs.isPlane() ? std::string("a plane without a CRS") : nameOf(coastline_.crs)));
   if (options_.crs == "plane") forgetImpossibleCrs(coastline_, report_);
   requireSurface();
   FrameReport framed = frameCoastline(coastline_, options_.frame);
@@ -137,7 +152,7 @@ void JobInput::requireSurface() {
   SurfaceChoice& surface = options_.surface;
   if (!surface.needsEarth()) return;
   std::string plane;
-  if (options_.pslg || isPolyFile(options_.files.front())) {
+  if (options_.pslg || (!options_.files.empty() && isPolyFile(options_.files.front()))) {
     plane = "a ready plane graph has no place on Earth";
   } else if (options_.crs == "plane") {
     plane = "--crs plane takes coordinates as they are";
@@ -234,6 +249,7 @@ std::optional<double> JobInput::area(std::size_t group) const {
 
 std::optional<double> JobInput::area(std::size_t group, const Domain& domain, const ItemLoop& loop) const {
   if (poly_) return std::nullopt;
+  if (domain.closed()) return geodesicArea(domain, coastline_.crs);
   const auto plain = [&](std::size_t member) {
     const FeatureUse use = coastline_.features[member].use;
     return use != FeatureUse::Frame && use != FeatureUse::Coast;

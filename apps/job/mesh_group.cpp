@@ -15,6 +15,7 @@
 #include "core/delaunay.hpp"
 #include "core/refine/check.hpp"
 #include "core/size/estimate_vertices.hpp"
+#include "core/sphere/close_sphere.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
@@ -22,6 +23,7 @@
 #include "gis/format/poly_io.hpp"
 #include "gis/geometry/chain_index.hpp"
 #include "gis/model/make_grid.hpp"
+#include "gis/size/globe_start.hpp"
 #include "gis/size/guide_lines.hpp"
 #include "gis/size/node_sizes.hpp"
 #include "gis/size/size_choice.hpp"
@@ -32,6 +34,7 @@ namespace coastmesh {
 namespace {
 
 Point centreOf(const Pslg& pslg) {
+  if (pslg.points.empty()) return {};  // of a whole globe
   Point low = pslg.points.front();
   Point high = low;
   for (const Point& p : pslg.points) {
@@ -46,6 +49,7 @@ std::pair<double, double> scaleRange(const Domain& domain) {
   constexpr std::size_t kLeastSample = 16, kMostSample = 1024, kPointsForOne = 16;
   const std::size_t count = domain.pslg.points.size();
   double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  if (count == 0) return {domain.projection.scaleAt({}), domain.projection.scaleAt({})};
   const std::size_t step =
       std::max<std::size_t>(1, count / std::clamp(count / kPointsForOne, kLeastSample, kMostSample));
   for (std::size_t i = 0; i < count; i += step) {
@@ -131,8 +135,12 @@ std::string dumpRegion(const Pslg& pslg, std::uint64_t digest) {
   return path.string();
 }
 
-void requireSound(const TriMesh& mesh, const Domain& domain, const Feature& first, const ItemLoop& loop) {
-  const std::vector<MeshDefect> defects = checkMesh(mesh, &domain.pslg, CheckOptions{}, loop);
+void requireSound(const TriMesh& mesh, const Domain& domain, std::span<const SpacePoint> places, const Feature& first,
+                  const ItemLoop& loop) {
+  CheckOptions options;
+  if (domain.closed()) options.places = places, options.closed = true;
+  std::vector<MeshDefect> defects = checkMesh(mesh, &domain.pslg, options, loop);
+  if (domain.closed() && !isClosed(mesh)) defects.push_back({DefectKind::BrokenTopology, {}});
   if (defects.empty()) return;
   const MeshDefect& defect = defects.front();
   throw BadMesh("the mesh of " + featureText(first) + " has " + std::to_string(defects.size()) +
@@ -263,6 +271,21 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   return domain;
 }
 
+// The sizes of a whole globe: where one length is asked for everywhere no map of them is needed.
+std::unique_ptr<SizeFunction> globeSizes(const GroupTask& task, const Domain& domain, const ItemLoop& loop,
+                                         VertexDemand& demand) {
+  const SizeOptions& wanted = task.job.sizes;
+  if (!isUniform(wanted)) {
+    DomainSizes sized = makeSizeFunction(wanted, task.sizes, withRing(domain, wanted), mostVertices(task.room), loop);
+    demand = std::move(sized.demand);
+    return std::move(sized.function);
+  }
+  const double length = std::min(std::max(wanted.size_m, wanted.least_m), wanted.most_m);
+  const double area = geodesicArea(domain, task.input.coastline().crs);
+  demand = {2.0 / std::sqrt(3.0) * area / length / length, domain.projection.inverse({}), length, "--size"};
+  return std::make_unique<ConstantSize>(length);
+}
+
 // The sizes of a domain, which is made as coarse as they are where that is asked for; null where none are.
 std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, GroupResult& result) {
   const auto& [job, input, sizes, group, room, control] = task;
@@ -270,6 +293,15 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   Recorder recorder;
   const Stopwatch sizing;
   const ItemLoop loop = recorder.loop("size", control);
+  if (domain.closed()) {
+    VertexDemand demand;
+    std::unique_ptr<SizeFunction> made = globeSizes(task, domain, loop, demand);
+    result.estimated_vertices = demand.vertices;
+    if (demand.vertices > mostVertices(room)) throw TooManyVertices(demand);
+    result.size_s = sizing.seconds();
+    result.log.append(recorder.finish());
+    return made;
+  }
   const SizeOptions wanted = job.sizes.choose ? chooseSizes(job.sizes, sizes, domain, loop) : job.sizes;
   if (job.sizes.choose)
     result.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(wanted) +
@@ -341,7 +373,7 @@ class LoopsAfterMeshing {
 void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions& options, const TriMesh& mesh,
                 std::span<const SpacePoint> places, const ItemLoop& loop, GroupResult& result) {
   const Stopwatch checking;
-  requireSound(mesh, domain, task.firstFeature(), loop);
+  requireSound(mesh, domain, places, task.firstFeature(), loop);
   result.plane = {domain.projection, options.size_max};
   MeshJudgement judgement = judgeMesh(mesh, *result.plane, options, 0.0, places, loop);
   result.quality = judgement.quality;
@@ -363,12 +395,22 @@ void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* 
   result.grid.piece_of = std::move(region.piece_of);
 }
 
+// What a mesh of the whole globe begins with.
+void startGlobe(const GroupTask& task, const Domain& domain, const SizeFunction* size, MeshOptions& options) {
+  Recorder recorder;
+  GlobeStart start = globeStart(domain, task.job.sizes, size, recorder.loop("lattice", task.control));
+  options.cap = std::move(start.cap);
+  options.cap_region = domain.beyond;
+  options.seeds = std::move(start.seeds);
+}
+
 void fillGroup(const GroupTask& task, GroupResult& result) {
   Domain domain = cleanStage(task, result);
   requireMemory(task.job, domain, task.room, result.input_area_m2);
   MeshOptions options = optionsFor(task.job, domain, task.room);
   const std::unique_ptr<SizeFunction> size = sizeStage(task, domain, result);
   options.refine.size = size.get();
+  if (domain.closed()) startGlobe(task, domain, size.get(), options);
   MeshedRegion region = meshStage(task, domain, options, result);
   LoopsAfterMeshing loops(region, task.control);
   const std::vector<SpacePoint> places = domain.projection.spacePlaces(region.mesh.points, loops.of("check"));

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "apps/job/grid_pieces.hpp"
+#include "core/sphere/close_sphere.hpp"
 #include "gis/crs/geodesy.hpp"
 
 namespace coastmesh {
@@ -98,6 +99,8 @@ MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
   for (const GridPiece& piece : splitGrid(grid, surface)) {
     ++info.pieces;
     info.quality.add(measureQuality(piece.mesh, 0.0, 180.0, inOrder, piece.places));
+    info.closed = info.closed && isClosed(piece.mesh);
+    info.euler += eulerNumber(piece.mesh);
     const SurfaceKind curved = surface == SurfaceKind::Sphere ? surface : SurfaceKind::Ellipsoid;
     const SurfaceKind measured = piece.places.empty() ? SurfaceKind::Plane : curved;
     const std::string name = kSurfaceNames[static_cast<std::size_t>(measured)];

@@ -30,9 +30,11 @@ struct MeshInfo {
   double lowest_z = 0.0;  // metres
   double highest_z = 0.0;
   double area_m2 = 0.0;
-  MeshQuality quality;  // lengths and areas in it are the surface's
-  std::string surface;  // that angles are measured on; "mixed" where pieces differ
-  StepReport step;      // the shortest edge, on the ellipsoid, and the time step
+  MeshQuality quality;     // lengths and areas in it are the surface's
+  std::string surface;     // that angles are measured on; "mixed" where pieces differ
+  bool closed = true;      // no edge has one triangle alone
+  std::int64_t euler = 0;  // nodes less edges, and triangles: 2 for each piece that is all of a globe
+  StepReport step;         // the shortest edge, on the ellipsoid, and the time step
   double longest_edge_m = 0.0;
   bool plane = false;
 };

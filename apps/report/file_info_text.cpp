@@ -64,6 +64,8 @@ std::string toJson(const MeshInfo& info) {
             {"extent", extentJson(info.extent)},
             {"area_m2", info.area_m2},
             {"surface", info.surface},
+            {"closed", info.closed},
+            {"euler", info.euler},
             {"min_angle_deg", info.quality.min_angle_deg},
             {"max_angle_deg", info.quality.max_angle_deg},
             {"shortest_edge_m", info.step.shortest_edge_m},
@@ -116,6 +118,7 @@ std::string toText(const MeshInfo& info) {
   addLine(text, "edges           %.6g to %.6g m", info.step.shortest_edge_m, info.longest_edge_m);
   text += "step            " + stepText(info.step, info.plane) + "\n";
   if (info.surface != "plane") text += "measured on     " + info.surface + "\n";
+  if (info.closed) text += "closed          nodes - edges + triangles = " + std::to_string(info.euler) + "\n";
   addLine(text, "smallest angle  %.3f degrees", info.quality.min_angle_deg);
   addLine(text, "largest angle   %.3f degrees", info.quality.max_angle_deg);
   addHistogram(text, info.quality);

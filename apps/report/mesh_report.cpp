@@ -93,12 +93,23 @@ Json surfaceSection(const MeshJobResult& result) {
           {"regions", std::move(regions)}};
 }
 
+// Nodes less edges, and triangles: 2 of a closed globe.
+std::int64_t eulerNumber(const MeshJobResult& result) {
+  std::size_t on_boundary = 0;
+  for (const Boundary& boundary : result.grid.boundaries)
+    on_boundary += boundary.closed ? boundary.nodes.size() : boundary.nodes.size() - 1;
+  const std::size_t triangles = result.grid.triangles.size();
+  return static_cast<std::int64_t>(result.grid.nodes.size()) - static_cast<std::int64_t>((triangles + on_boundary) / 2);
+}
+
 Json meshSection(const MeshJobResult& result) {
   const MeshQuality& quality = result.quality;
   const bool any = quality.triangles > 0;
   return {{"vertices", quality.vertices},
           {"triangles", quality.triangles},
           {"surface", surfaceSection(result)},
+          {"closed", any && result.grid.boundaries.empty()},
+          {"euler", eulerNumber(result)},
           {"area_m2", result.mesh_area_m2},
           {"min_angle_deg", any ? Json(quality.min_angle_deg) : Json(nullptr)},
           {"max_angle_deg", any ? Json(quality.max_angle_deg) : Json(nullptr)},

@@ -50,16 +50,18 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
   FrameOptions& frame = options.frame;
   table
       .choice(
-          "--domain", "auto", {"auto", "inside", "outside"},
+          "--domain", "auto", {"auto", "inside", "outside", "globe"},
           [&frame](const std::string& chosen) {
             frame.side = chosen == "inside"    ? DomainSide::Inside
                          : chosen == "outside" ? DomainSide::Outside
+                         : chosen == "globe"   ? DomainSide::Globe
                                                : DomainSide::Auto;
           },
           "what is meshed: the inside of polygons, or the water outside of land polygons, as far as --bbox or "
-          "--clip; auto: "
+          "--clip; or the whole globe, closed, with polygons and the rest as regions, and without INPUT too; auto: "
           "inside polygons, and beside lines within a frame on the side of the water")
-      .needs({"--bbox", "--clip"})
+      .needs([&frame, &options] { return frame.side == DomainSide::Globe || frame.box || !options.clip.empty(); },
+             "without --bbox or --clip")
       .ignoredWith({"--water-at"});
   table.numbers(
       "--bbox", "W,S,E,N", false, [&frame](const std::vector<double>& sides) { return storeBox(sides, frame.box); },

@@ -1,6 +1,7 @@
 #include "apps/usage/mesh_usage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -74,9 +75,24 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
                 "threads to work on, 0 for all cores; never changes the result");
 }
 
+namespace {
+
+// A whole globe without input is nothing but its sizes.
+void requireGlobe(const InputOptions& input, const SizeOptions& sizes) {
+  if (input.frame.side != DomainSide::Globe) return;
+  const bool empty = input.files.empty() && input.constraints.empty() && input.weirs.empty() && input.regions.empty();
+  if (empty && !sizes.any() && !std::isfinite(sizes.most_m))
+    throw OptionError("--domain globe: without INPUT and --constraints a size has to be asked for, such as --size");
+  if (sizes.coast == CoastDetail::Follow)
+    throw OptionError("--domain globe keeps coasts as they are: leave out --coast follow");
+}
+
+}  // namespace
+
 void settle(MeshUsage& usage) {
   const bool framed = usage.job.input.frame.box.has_value() || !usage.job.input.clip.empty();
   settleSizing(usage.sizing, usage.job.finish.depth, framed && !usage.job.finish.targets.empty(), usage.job.sizes);
+  requireGlobe(usage.job.input, usage.job.sizes);
   usage.job.mesh.refine.algorithm = named<Algorithm>(kAlgorithmNames, usage.algorithm);
   usage.job.mesh.refine.goal = named<QualityGoal>(kGoalNames, usage.quality);
   if (usage.job.mesh.refine.goal == QualityGoal::Centred)

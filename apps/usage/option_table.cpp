@@ -86,6 +86,7 @@ struct OptionTable::Impl {
     std::size_t numbers = 0;  // of OptionKind::Numbers
     OptionValue initial;
     std::vector<OptionValue> given;
+    std::function<bool()> spared;      // whether it need not be given; empty: it must where it is required
     bool reads = false;                // names files to read
     std::optional<OutputKind> writes;  // names files to write
   };
@@ -232,8 +233,10 @@ void OptionTable::argument(const std::string& name, std::string& value, const st
   };
 }
 
-void OptionTable::arguments(const std::string& name, std::vector<std::string>& values, const std::string& help) {
+void OptionTable::arguments(const std::string& name, std::vector<std::string>& values, const std::string& help,
+                            const std::function<bool()>& spared) {
   Impl::Declared& added = impl_->addArgument(name, help);
+  added.spared = spared;
   added.entry.multiple = true;
   added.store = [&values](const OptionValue& given) {
     values.push_back(std::get<std::string>(given));
@@ -460,8 +463,10 @@ const std::vector<OptionValue>& OptionTable::given(const std::string& name) cons
 
 std::vector<std::string> OptionTable::missing() const {
   std::vector<std::string> names;
-  for (const auto& option : impl_->all)
-    if (option->entry.required && option->given.empty()) names.push_back(option->entry.name);
+  for (const auto& option : impl_->all) {
+    const bool spared = option->spared && option->spared();
+    if (option->entry.required && option->given.empty() && !spared) names.push_back(option->entry.name);
+  }
   return names;
 }
 

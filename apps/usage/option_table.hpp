@@ -60,7 +60,9 @@ class OptionTable {
 
   // Arguments known by their place. Names are as the help shows them: "INPUT".
   void argument(const std::string& name, std::string& value, const std::string& help);
-  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
+  // `spared`, where there is one, says once all is set whether none need be given.
+  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help,
+                 const std::function<bool()>& spared = {});
   // One that is a whole number, and no file.
   void integerArgument(const std::string& name, std::uint64_t& value, std::uint64_t low, std::uint64_t high,
                        const std::string& help);

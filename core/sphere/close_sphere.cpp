@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/links.hpp"
-#include "core/sphere/sphere_place.hpp"
 
 namespace coastmesh {
 
@@ -68,12 +67,18 @@ void closeSphere(TriMesh& mesh, VertexId first, const SphereCap& cap) {
   assert(findBrokenLink(mesh.triangles) == kNone);
 }
 
-bool facesOutwards(const Point& a, const Point& b, const Point& c, const Surface& surface) {
-  constexpr double kFlattest = 1e-6;
-  const SpacePoint p = placeOnSphere(a, surface), q = placeOnSphere(b, surface), r = placeOnSphere(c, surface);
-  const SpacePoint pq = q - p, qr = r - q, rp = p - r;
-  const double longest = std::max({dot(pq, pq), dot(qr, qr), dot(rp, rp)});
-  return dot(cross(pq, qr), p + q + r) > 3.0 * kFlattest * longest;
+bool isClosed(const TriMesh& mesh) {
+  return !mesh.triangles.empty() && std::ranges::none_of(mesh.triangles, [](const Triangle& t) {
+    return t.adj[0] == kNone || t.adj[1] == kNone || t.adj[2] == kNone;
+  });
+}
+
+std::int64_t eulerNumber(const TriMesh& mesh) {
+  const std::vector<std::uint8_t> used = usedVertices(mesh);
+  std::int64_t halves = 0;  // of edges; one with one triangle alone is two
+  for (const Triangle& t : mesh.triangles)
+    for (const EdgeRef twin : t.adj) halves += twin == kNone ? 2 : 1;
+  return std::ranges::count(used, std::uint8_t{1}) - halves / 2 + static_cast<std::int64_t>(mesh.triangles.size());
 }
 
 }  // namespace coastmesh

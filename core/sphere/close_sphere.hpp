@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/point.hpp"
@@ -32,9 +33,10 @@ void freezeRing(TriMesh& mesh, VertexId first, const SphereCap& cap);
 // counter-clockwise on the sphere. REQUIRES: as above, and edges as `freezeRing` left them.
 void closeSphere(TriMesh& mesh, VertexId first, const SphereCap& cap);
 
-// Whether a triangle's corners go round counter-clockwise as seen from outside of the sphere: what `orient2d` says of
-// triangles that do not hold what lies beyond all of the plane. Nearly exact: false where its height is less than a
-// millionth of its longest edge.
-bool facesOutwards(const Point& a, const Point& b, const Point& c, const Surface& surface);
+// Whether no edge has one triangle alone.
+bool isClosed(const TriMesh& mesh);
+
+// Vertices that triangles use, less edges, and triangles: 2 of all of a sphere.
+std::int64_t eulerNumber(const TriMesh& mesh);
 
 }  // namespace coastmesh

@@ -76,7 +76,7 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
   const NodedEdges edges = nodeChains(chains, coastline, projection, report, loop);
   LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report, loop);
   if (options.pinches == Pinches::Keep) reportPinches(chains.vertices, labelled.segments, coastline, report);
-  refuseEmpty(coastline, members, labelled.segments);
+  if (!coastline.rest) refuseEmpty(coastline, members, labelled.segments);
   keepFramedEdits(coastline, members, edits_before, report);
   const Resolution& resolution = chains.resolution;
   if (options.dissolve) {
@@ -90,7 +90,10 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
     labelled.segments =
         openPinches(chains.vertices, std::move(labelled.segments), coastline, projection, resolution, report);
   }
-  return domainOf(chains.vertices, std::move(labelled), projection, resolution);
+  const RegionId beyond = labelled.beyond;
+  Domain domain = domainOf(chains.vertices, std::move(labelled), projection, resolution);
+  if (coastline.rest) domain.rest = static_cast<RegionId>(*coastline.rest), domain.beyond = beyond;
+  return domain;
 }
 
 }  // namespace coastmesh

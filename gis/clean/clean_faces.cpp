@@ -42,6 +42,7 @@ class Labeller {
         projection_(projection),
         dissolve_(dissolve),
         report_(report),
+        rest_(coastline.rest ? static_cast<RegionId>(*coastline.rest) : kOutside),
         ends_(listEdges()),
         map_(chains.vertices.plane, ends_, loop) {
     for (const CleanChain& chain : chains.chains) {
@@ -57,6 +58,7 @@ class Labeller {
     reportMisplacedRings();
     LabelledEdges result;
     if (dissolve_) result.traces = dissolve();
+    result.beyond = label(PlanarMap::kOuterFace);
     result.segments = keepEdges(result.lines);
     result.points = keepPoints(result.segments);
     return result;
@@ -139,7 +141,8 @@ class Labeller {
     }
     if (chains_.land) return holderOf(face, FeatureUse::Land) == kOutside ? frame : kOutside;
     const RegionId area = holderOf(face, FeatureUse::Area);
-    return area == kOutside || one_.empty() ? area : one_.at(static_cast<std::uint32_t>(area));
+    if (area == kOutside) return rest_;
+    return one_.empty() ? area : one_.at(static_cast<std::uint32_t>(area));
   }
 
   // Makes features that share an edge one; the vertices of those edges.
@@ -158,7 +161,7 @@ class Labeller {
     UnionFind sets(features.size());
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       const RegionId left = label(map_.faceOf(2 * e)), right = label(map_.faceOf(2 * e + 1));
-      if (left == right || left == kOutside || right == kOutside) continue;
+      if (left == right || left == rest_ || right == rest_) continue;
       sets.unite(numberOf(left), numberOf(right));
       report_.add(EditKind::DissolvedEdge, inputOf(ends_[e].first),
                   fidOf(static_cast<std::uint32_t>(std::max(left, right))));
@@ -335,6 +338,7 @@ class Labeller {
   CleanReport& report_;
   std::uint32_t first_coast_ = kNone;
   std::vector<MapEdge> edges_;
+  RegionId rest_;  // what lies in no feature
   std::vector<std::pair<VertexId, VertexId>> ends_;
   PlanarMap map_;
   std::vector<FeatureSet> holders_;

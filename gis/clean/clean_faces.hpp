@@ -14,6 +14,7 @@ struct LabelledEdges {
   std::vector<VertexId> points;
   std::vector<VertexId> traces;   // vertices of edges that were dissolved, ascending
   std::vector<DomainLine> lines;  // what the tags refer to
+  RegionId beyond = kOutside;     // the label of what goes on beyond all edges
 };
 
 // Labels the faces between noded edges: a face belongs to the first feature that holds it by the even-odd rule, within

@@ -27,6 +27,11 @@ struct Domain {
   Projection projection = Projection::plane();
   std::vector<DomainLine> lines{};  // what tags of segments refer to: see segment_tags.hpp
   Resolution resolution;            // what changes the domain further has to keep
+  // Of a whole globe, where no side of a segment lies outside: what no feature holds, and what holds the place beyond
+  // all of the plane.
+  RegionId rest = kOutside, beyond = kOutside;
+
+  bool closed() const { return rest != kOutside; }
 };
 
 }  // namespace coastmesh

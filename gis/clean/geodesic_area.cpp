@@ -1,6 +1,7 @@
 #include "gis/clean/geodesic_area.hpp"
 
 #include <GeographicLib/Accumulator.hpp>
+#include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/Math.hpp>
 #include <GeographicLib/PolygonArea.hpp>
 #include <algorithm>
@@ -159,6 +160,7 @@ class AreaSum {
 }  // namespace
 
 double geodesicArea(const Domain& domain, const Crs& crs) {
+  if (domain.closed()) return GeographicLib::Geodesic(crs.semi_major_m, crs.flattening).EllipsoidArea();
   const std::vector<Point>& points = domain.input_points;
   std::optional<GeographicMap> to_geographic;
   std::vector<LonLat> places;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -53,6 +54,8 @@ struct Coastline {
   Crs crs;
   std::optional<Point> water_at;  // a place in the water: what crosses no shore from there is meshed, and nothing else
   bool framed_by_box = false;     // its Frame was given as a box
+  // All of the globe is meshed: the feature, without any shape, that holds what no other holds.
+  std::optional<std::size_t> rest;
 };
 
 }  // namespace coastmesh

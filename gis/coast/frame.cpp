@@ -256,6 +256,13 @@ void chooseUses(Coastline& coastline, const FrameOptions& options, FrameReport& 
 
 FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   FrameReport report;
+  if (options.side == DomainSide::Globe) {
+    Feature& rest = coastline.features.emplace_back();
+    rest.fid = -1;
+    rest.source = "the rest of the globe";
+    coastline.rest = coastline.features.size() - 1;
+    return report;
+  }
   if (options.box) {
     refuseOddBox(*options.box, coastline.crs);
     const double turn = turnOf(boundsOf(coastline, false));

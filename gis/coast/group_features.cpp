@@ -198,7 +198,7 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline) 
   const auto& features = coastline.features;
   std::vector<Box> boxes(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) boxes[i] = boundsOf(features[i]);
-  if (isFramedWater(coastline)) {
+  if (isFramedWater(coastline) || coastline.rest) {
     std::vector<std::size_t> all(features.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     return {all};

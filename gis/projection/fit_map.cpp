@@ -363,4 +363,8 @@ FittedMap fitMap(const std::vector<LonLat>& places, const std::vector<RingGroup>
   return chooseMap(places, groups, ellipsoid, kind);
 }
 
+FittedMap mapOfEmptyGlobe(const Ellipsoid& ellipsoid) {
+  return because(stereographic({17.3, 40.9}, ellipsoid, true), "nothing lies on the globe");
+}
+
 }  // namespace coastmesh

@@ -33,4 +33,7 @@ struct RingGroup {
 FittedMap fitMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid,
                  SurfaceKind kind = SurfaceKind::Plane);
 
+// Stereographic, for a globe with nothing on it: no place is special, so the centre is any.
+FittedMap mapOfEmptyGlobe(const Ellipsoid& ellipsoid);
+
 }  // namespace coastmesh

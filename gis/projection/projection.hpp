@@ -27,7 +27,8 @@ class Projection {
   // A conformal projection fitted to the extent of `features[members]`, on the ellipsoid of `crs`: transverse Mercator,
   // Lambert conformal conic, polar or oblique stereographic. Crosses the antimeridian and the poles unharmed. The plane
   // for a plane. Throws InputError for a point that is no place on Earth and for a group that leaves no land out.
-  // Where `kind` asks for a surface the projection is stereographic, and `surface` says which sphere it is of.
+  // Where `kind` asks for a surface the projection is stereographic, and `surface` says which sphere it is of. So it is
+  // for a whole globe, whatever `kind` says: away from a place that lies far from all features, and in none.
   static Projection fitted(const Coastline& coastline, const std::vector<std::size_t>& members,
                            SurfaceKind kind = SurfaceKind::Plane);
   // The same for each of many groups; what they have in common is done once.

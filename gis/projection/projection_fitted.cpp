@@ -67,21 +67,23 @@ bool hasFramedWater(const Coastline& coastline, const std::vector<std::size_t>& 
   });
 }
 
-// Calls `act(feature, chain)` for every ring and line of the members that shape the domain.
+// Calls `act(feature, chain)` for every ring and line of the members that shape the domain; of a whole globe for all
+// that lies on it.
 template <typename Act>
 void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& members, Act&& act) {
-  const bool with_frame = hasFramedWater(coastline, members);
+  const bool with_frame = hasFramedWater(coastline, members), globe = coastline.rest.has_value();
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
     const bool guest = feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
                        feature.use == FeatureUse::Region || feature.use == FeatureUse::Open ||
                        (feature.use == FeatureUse::Frame && !with_frame);
-    if (guest) continue;
+    if (guest && !globe) continue;
     for (const Polygon& polygon : feature.polygons) {
       act(feature, polygon.outer, true);
       for (const Ring& hole : polygon.holes) act(feature, hole, true);
     }
     for (const auto& line : feature.lines) act(feature, line, false);
+    if (globe && !feature.points.empty()) act(feature, feature.points, false);
   }
 }
 
@@ -110,7 +112,7 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
       east = std::max(east, place.lon);
       places.push_back(place);
     }
-    if (!is_ring) return;
+    if (!is_ring || (coastline.rest && feature.use != FeatureUse::Area)) return;
     const bool is_whole = feature.use == FeatureUse::Land || feature.use == FeatureUse::Area;
     if (is_whole && std::exchange(last, &feature) != &feature) groups.push_back({{}, feature.use == FeatureUse::Land});
     std::vector<const Ring*>& rings = (is_whole ? groups.back() : groups.front()).rings;
@@ -128,12 +130,15 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
       addProjected(std::move(ring));
     }
   });
-  if (places.empty()) throw InputError("the features hold no point");
+  if (places.empty() && !coastline.rest) throw InputError("the features hold no point");
   const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
   const Ellipsoid ellipsoid = kind == SurfaceKind::Sphere
                                   ? Ellipsoid{kSphereRadius, 0.0}
                                   : Ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
-  return std::make_shared<Fitted>(to_geographic, fitMap(places, groups, ellipsoid, kind), ellipsoid, middle);
+  FittedMap map = places.empty()   ? mapOfEmptyGlobe(ellipsoid)
+                  : coastline.rest ? fitMap(places, groups, ellipsoid, SurfaceKind::Ellipsoid)
+                                   : fitMap(places, groups, ellipsoid, kind);
+  return std::make_shared<Fitted>(to_geographic, std::move(map), ellipsoid, middle);
 }
 
 }  // namespace

@@ -19,11 +19,11 @@ struct RawLayer {
   FeatureUse use = FeatureUse::Area;
   std::optional<Crs> crs;              // none: the file does not say
   std::vector<Feature> features;       // those with polygons
-  std::vector<Feature> line_features;  // those with lines: name and attributes
+  std::vector<Feature> line_features;  // those with lines or points: name and attributes
   std::vector<Line> lines;
   Box bounds;
 
-  bool empty() const { return features.empty() && lines.empty(); }
+  bool empty() const { return features.empty() && line_features.empty(); }
 };
 
 }  // namespace coastmesh

@@ -240,6 +240,13 @@ VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, con
           std::min(std::ranges::min(sizes), demand.size) / projection.measureAt(place), source.optionAt(place)};
 }
 
+Pslg boundaryOf(const Box& box) {
+  Pslg pslg;
+  pslg.points = {{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}};
+  for (VertexId i = 0; i < 4; ++i) pslg.segments.push_back({i, (i + 1) % 4, 0, 0, kOutside});
+  return pslg;
+}
+
 }  // namespace
 
 TooManyVertices::TooManyVertices(VertexDemand d)
@@ -277,7 +284,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   const Surface& surface = table->surface();
 
   const SizeBox root{middle, 0.505 * extent};
-  const DomainMask mask(domain.pslg, root, surface);
+  const DomainMask mask(domain.closed() ? boundaryOf(box) : domain.pslg, root, surface);
   ComposedSizes source(options, measure, mask, loop);
   const double reach = reachOn(surface, extent, root), reach_m = reach / measure(middle);
   const double most_m = std::min(options.most_m, options.size_m);

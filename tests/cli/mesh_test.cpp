@@ -90,9 +90,9 @@ TEST_F(MeshRun, ReportHasItsKeys) {
   EXPECT_EQ(keysOf(json["refine"]["by_type"]), (std::set<std::string>{"I", "II", "III", "IV"}));
   EXPECT_EQ(keysOf(json["refine"]["unresolved"]), (std::set<std::string>{"count", "places"}));
   EXPECT_EQ(keysOf(json["mesh"]),
-            (std::set<std::string>{"vertices", "triangles", "surface", "area_m2", "min_angle_deg", "max_angle_deg",
-                                   "below_bound", "below_bound_explained", "excused", "unresolved", "angle_histogram",
-                                   "turned", "digest"}));
+            (std::set<std::string>{"vertices", "triangles", "surface", "closed", "euler", "area_m2", "min_angle_deg",
+                                   "max_angle_deg", "below_bound", "below_bound_explained", "excused", "unresolved",
+                                   "angle_histogram", "turned", "digest"}));
   EXPECT_EQ(keysOf(json["time_s"]),
             (std::set<std::string>{"read", "clean", "size", "triangulate", "refine", "coarsen", "shrink", "optimise",
                                    "fit", "stitch", "check", "finish", "write", "total"}));

@@ -142,6 +142,13 @@ class GuideTest(unittest.TestCase):
         self.assertIn("open", info["boundaries"])
         self.assertIn("island", info["boundaries"])
 
+    def test_globe(self):
+        folder, ran = self.run_page("globe.md")
+        self.assertGreaterEqual(ran, 3)
+        self.assertTrue(os.path.exists(os.path.join(folder.path, "globe.png")))
+        info = json.loads(folder.run("coastmesh info --json even.nc"))
+        self.assertAlmostEqual(info["area_m2"] / 5.10065621724e14, 1.0, 9)
+
     def test_batch(self):
         folder, ran = self.run_page("batch.md")
         self.assertGreaterEqual(ran, 3)

@@ -1,0 +1,115 @@
+#include "gis/size/globe_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "core/sphere/sphere_lattice.hpp"
+#include "core/sphere/sphere_place.hpp"
+#include "gis/error.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Distances as shares of the radius.
+constexpr double kFewPlaces = 0.5;    // between places of a lattice that is there for a beginning alone
+constexpr double kLargestRing = 0.9;  // from the place beyond the plane to the corners round it
+constexpr double kRingForSizes = 0.003;
+// Of the way to the nearest point of the input: the ring and good triangles round it have room.
+constexpr double kShareOfClearance = 0.35;
+// Places of a lattice keep this share of its edges from the input.
+constexpr double kClearance = 0.6;
+// Under a longest edge the lattice's own have to be shorter than that by what they differ.
+constexpr double kBelowLongest = 0.87;
+// Lengths down to this share of the longest get the lattice for that.
+constexpr double kSameLength = 0.87;
+
+// Along a chord, from the place beyond the plane to the nearest of the input.
+double clearanceOf(const Domain& domain, const Surface& surface) {
+  const Point apex = sphereCap(surface, std::vector<Point>{}).apex;
+  double nearest = 2.0 * surface.radius();
+  for (const Point& x : domain.pslg.points) nearest = std::min(nearest, surface.chord(apex, x));
+  return nearest;
+}
+
+double largestRing(const Domain& domain, const Surface& surface) {
+  return std::min(kLargestRing * surface.radius(), kShareOfClearance * clearanceOf(domain, surface));
+}
+
+void requireNumbers(double length, const Surface& surface) {
+  if (length >= kLeastLatticeEdge * surface.radius()) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "edges of %.3g m all over the globe take more vertices than can be numbered: ask for %.3g m or more",
+                length, kLeastLatticeEdge * surface.radius());
+  throw InputError(text);
+}
+
+std::vector<Point> ringOf(const std::vector<SpacePoint>& places, const Surface& surface) {
+  std::vector<Point> ring;
+  for (std::size_t i = kLatticePole; i < kLatticePole + kLatticeRing; ++i) ring.push_back(planeOf(places[i], surface));
+  return ring;
+}
+
+}  // namespace
+
+bool isUniform(const SizeOptions& options) {
+  SizeOptions others = options;
+  others.size_m = kInfinity;
+  return options.size_m < kInfinity && !others.any() && options.time_step_s == 0.0;
+}
+
+Domain withRing(const Domain& domain, const SizeOptions& options) {
+  const Surface surface = domain.projection.surface();
+  const double length = std::min({kRingForSizes * surface.radius(), options.size_m, options.most_m, options.shore_m,
+                                  largestRing(domain, surface)});
+  Domain all = domain;
+  constexpr unsigned kCorners = 6;
+  const SphereCap cap = sphereCap(surface, length, kCorners);
+  for (const Point& x : cap.ring) {
+    all.pslg.points.push_back(x);
+    all.input_points.push_back(domain.projection.inverse(x));
+  }
+  const auto side = [&](RegionId region) { return region == domain.rest ? domain.rest : kOutside; };
+  for (Segment& s : all.pslg.segments) s.left = side(s.left), s.right = side(s.right);
+  return all;
+}
+
+GlobeStart globeStart(const Domain& domain, const SizeOptions& options, const SizeFunction* size,
+                      const ItemLoop& loop) {
+  const Surface surface = domain.projection.surface();
+  const double radius = surface.radius(), largest = largestRing(domain, surface);
+  const double longest = kBelowLongest * options.most_m;
+  const bool uniform = size == nullptr ? std::isfinite(longest) : isUniform(options);
+  const double wanted = size == nullptr ? longest : size->most();
+  const bool has_lattice = std::isfinite(wanted) && wanted < kFewPlaces * radius;
+  if (has_lattice) requireNumbers(wanted, surface);
+
+  GlobeStart start;
+  const double edge = has_lattice || uniform ? wanted : kFewPlaces * radius;
+  const std::vector<SpacePoint> places = placesOf(sphereLattice(edge / radius), loop);
+  SphereCap of_lattice = sphereCap(surface, ringOf(places, surface));
+  // The ring of the lattice has the best triangles round it, where it is no larger or smaller than wanted.
+  if ((uniform || size == nullptr) && surface.chord(of_lattice.apex, of_lattice.ring.front()) <= largest) {
+    start.cap = std::move(of_lattice);
+  } else {
+    constexpr unsigned kCorners = 6;
+    const double there = size != nullptr ? size->at(of_lattice.apex) : wanted;
+    start.cap = sphereCap(surface, std::min(there, largest), kCorners);
+  }
+  start.seeds = clearPlaces(places, domain.pslg, start.cap.ring, surface, kClearance * edge, loop);
+  if (size == nullptr || uniform) return start;
+  if (has_lattice) std::erase_if(start.seeds, [&](const Point& x) { return size->at(x) < kSameLength * wanted; });
+  constexpr std::size_t kFewest = 12;
+  if (start.seeds.size() >= kFewest) return start;
+  const std::vector<SpacePoint> few = placesOf(sphereLattice(kFewPlaces), loop);
+  start.seeds = clearPlaces(few, domain.pslg, start.cap.ring, surface, kClearance * kFewPlaces * radius, loop);
+  return start;
+}
+
+}  // namespace coastmesh
