@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -12,6 +14,7 @@
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/optimise.hpp"
 #include "core/refine/vertex_notes.hpp"
+#include "core/size/plane_sizes.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/rounds.hpp"
 
@@ -38,13 +41,41 @@ int optimiseSweeps(const MeshOptions& options) {
   return options.refine.size != nullptr && options.coarsen ? kOptimiseSweeps : 0;
 }
 
+// The box of a mesh.
+std::pair<Point, Point> extentOf(const TriMesh& mesh) {
+  Point low = mesh.points.front(), high = low;
+  for (const Point& p : mesh.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return {low, high};
+}
+
+// A longest edge on the surface as one in the plane: right where the surface is longest, and a little shorter
+// elsewhere; none where it would be much shorter somewhere.
+double longestInPlane(const RefineOptions& options, const Point& low, const Point& high) {
+  constexpr double kAlike = 0.98;
+  const auto farOf = [](double from, double to) { return std::max(std::abs(from), std::abs(to)); };
+  const auto nearOf = [](double from, double to) { return std::max({from, -to, 0.0}); };
+  const double least = options.surface.shrinkAt({farOf(low.x, high.x), farOf(low.y, high.y)});
+  const double most = options.surface.shrinkAt({nearOf(low.x, high.x), nearOf(low.y, high.y)});
+  return least < kAlike * most ? std::numeric_limits<double>::infinity() : options.size_max / most;
+}
+
 // Where lengths rule, most vertices are known beforehand. Algorithms for comparison stay as they were published.
 std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
-  if (options.algorithm != Algorithm::Relocate || options.surface.isCurved()) return {};
+  if (options.algorithm != Algorithm::Relocate) return {};
   // Twice as many triangles, and four names for the edges of each.
   const std::uint64_t most = std::min({options.max_vertices, options.most_in_memory, std::uint64_t{kNone / 16}});
   const std::uint64_t left = most - std::min<std::uint64_t>(most, mesh.points.size());
-  return layLattices(mesh, {options.size_max, options.size, options.min_angle_deg, options.max_angle_deg, left}, loop);
+  LatticeWishes wishes{options.size_max, options.size, options.min_angle_deg, options.max_angle_deg, left};
+  if (!options.surface.isCurved() || mesh.points.empty()) return layLattices(mesh, wishes, loop);
+  const auto [low, high] = extentOf(mesh);
+  wishes.size_max = longestInPlane(options, low, high);
+  if (options.size == nullptr) return layLattices(mesh, wishes, loop);
+  const PlaneSizes in_plane(*options.size, options.surface, low, high);
+  wishes.size = &in_plane;
+  return layLattices(mesh, wishes, loop);
 }
 
 // The PSLG of what is to be meshed: with the ring of a cap round it.

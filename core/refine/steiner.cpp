@@ -1,7 +1,9 @@
 #include "core/refine/steiner.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace coastmesh {
 
@@ -26,12 +28,24 @@ double petalRadius(double length, double circumradius, double wanted, const Tria
 }
 
 // The petal of an edge on a sphere is a cap: a plane section through the edge sees it under one angle. In the frame at
-// one end, where the edge has this length, it is a disk that sees it under another, with this sine; 0 where the cap
-// would be larger than a half of the sphere.
-double sineInFrame(double sine, double length, const Surface& surface) {
+// one end, where the edge has this length, it is a disk that sees it under another, with the sine that this returns; 0
+// where the cap would be larger than a half of the sphere. The angle is larger by what the surface's margin asks of the
+// longest edge that a triangle in the petal can have, which is its diameter: else every point on the petal's boundary
+// made a bad triangle.
+double sineInFrame(double sine, double length, const AngleBound& angles, const Surface& surface) {
   if (!surface.isCurved()) return sine;
+  const double stricter = sine + angles.cos_min * surface.margin * length / sine;
   const double squared_tangent = surface.curvature * length * length;  // of half the arc
-  return std::sqrt(std::max(0.0, sine * sine * (1.0 + squared_tangent) - squared_tangent));
+  return std::sqrt(std::max(0.0, stricter * stricter * (1.0 + squared_tangent) - squared_tangent));
+}
+
+// What two places' squared clearances may differ by where they count as the same, and one is taken by chance: as
+// rounding has it between the places of a lattice in the plane. On a sphere one side would always win, and with it
+// what is refined at the lattice's edge would spread through all of it.
+double evenAt(const Point& place) {
+  constexpr double kSame = 1e-5;
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(place.x) ^ std::bit_cast<std::uint64_t>(place.y);
+  return (bits >> 8 & 1) != 0 ? 1.0 + kSame : 1.0 - kSame;
 }
 
 // Far more Voronoi edges than a petal has; a bound for meshes that rounding has bent.
@@ -69,8 +83,8 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   const Point centre = 0.5 * q + 0.5 * kInverseRootOfThree * Point{-q.y, q.x};
   const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(frame.absolute(centre));
   const double circumradius = std::sqrt(squaredLength(own));
-  const double radius =
-      petalRadius(length, circumradius, wanted, bound_, sineInFrame(sin_place_, length, bound_.surface), bad_angle);
+  const double radius = petalRadius(length, circumradius, wanted, bound_,
+                                    sineInFrame(sin_place_, length, bound_, bound_.surface), bad_angle);
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
   // Type I where the circumcentre lies outside the petal; both are on the bisector of pq.
   if (dot(normal, own) > height + radius) {
@@ -84,7 +98,8 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
     const Point middle = 0.5 * q + height * normal;  // of the petal
     const double squared_radius = radius * radius;
     const auto offer = [&](const Point& place, SteinerType type, TriId near, double squared_clearance) {
-      if (squared_clearance > best.squared_clearance) best = {place, type, near, squared_clearance};
+      const double even = frame.isCurved() ? evenAt(place) : 1.0;
+      if (squared_clearance > even * best.squared_clearance) best = {place, type, near, squared_clearance};
     };
     steps_.clear();
     steps_.push_back({edgeRef(t, prev3(apex)), own});
