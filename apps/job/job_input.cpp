@@ -122,6 +122,20 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
   if (working) chosen_ = Projection::to(coastline_.crs, *working);
   groups_ = groupFeatures(coastline_);
+  bendEdges();
+}
+
+void JobInput::bendEdges() {
+  if (options_.edges == EdgeLine::Plane) return;
+  if (options_.crs == "plane" || coastline_.crs.isPlane())
+    throw OptionError(std::string("--edges ") + kEdgeLineNames[static_cast<std::size_t>(options_.edges)] +
+                      ": in a plane without a place on Earth edges are straight; leave it out");
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    count += coastmesh::bendEdges(coastline_, groups_[g], projectionOf(g), options_.edges, options_.edge_tolerance_m);
+  report_.notes.push_back(std::to_string(count) + " points were put on edges that would else leave their " +
+                          (options_.edges == EdgeLine::LonLat ? "straight lines" : "geodesics") +
+                          " by more than --edge-tolerance");
 }
 
 void JobInput::readPolyFile(const std::string& path) {
@@ -143,6 +157,8 @@ void JobInput::readPolyFile(const std::string& path) {
   if (options_.crs != "auto" && options_.crs != "plane") {
     throw OptionError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
   }
+  if (options_.edges != EdgeLine::Plane)
+    throw OptionError("'" + path + "' has straight edges in a plane; leave out --edges");
   requireSurface();
   takePlaneGraph(readPoly(path), path);
 }

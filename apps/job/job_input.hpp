@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gis/clean/bend_edges.hpp"
 #include "gis/clean/clean.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/frame.hpp"
@@ -33,6 +34,8 @@ struct InputOptions {
   std::vector<std::string> regions;      // files of polygons
   std::string crs = "auto";              // the working plane: "auto", "plane" or anything that PROJ knows
   SurfaceChoice surface;                 // what lengths and angles are measured on
+  EdgeLine edges = EdgeLine::Plane;      // what an edge between two points stands for
+  double edge_tolerance_m = 100.0;       // how far from that it may lie, metres, above 0
   double snap_m = 0.001;                 // metres, 0 or more
   bool snap_in_plane = false;            // `snap_m` holds for a plane input too, where else nothing is snapped
   double simplify_m = 0.0;               // metres, 0 or more
@@ -70,6 +73,7 @@ class JobInput {
  private:
   void readPolyFile(const std::string& path);
   void requireSurface();
+  void bendEdges();
   void takePlaneGraph(Pslg pslg, const std::string& source);
 
   InputOptions options_;

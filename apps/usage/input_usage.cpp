@@ -85,6 +85,17 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
                "points nearer than this become one; in a plane only where it is given", &options.snap_in_plane);
   table.number("--simplify", options.simplify_m, "M", kNotNegative,
                "how far the simplified shore may lie from the input");
+  table.choice(
+      "--edges", kEdgeLineNames.front(), {kEdgeLineNames.begin(), kEdgeLineNames.end()},
+      [&options](const std::string& chosen) {
+        options.edges = static_cast<EdgeLine>(std::ranges::find(kEdgeLineNames, chosen) - kEdgeLineNames.begin());
+      },
+      "what an edge between two points of the input is: a straight line in the working plane, in the input's "
+      "longitudes and latitudes (or x and y), or a geodesic; long edges get points on it");
+  table
+      .number("--edge-tolerance", options.edge_tolerance_m, "M", {0.001, std::numeric_limits<double>::infinity()},
+              "how far edges may lie from these lines")
+      .needs({"--edges"});
   table.number("--min-island-area", options.min_island_area_m2, "M2", kNotNegative, "fill islands smaller than this");
   table.text(
       "--crs", options.crs, "CRS",

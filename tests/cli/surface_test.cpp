@@ -203,6 +203,35 @@ TEST_F(SurfaceRuns, ModelsThatTakeLatitudesAsSphericalGetTheirSphere) {
   EXPECT_EQ(reported()["mesh"]["surface"]["kind"], "plane");
 }
 
+// An island's long edges, as lines of longitudes and latitudes: nodes between their ends lie on them.
+TEST_F(SurfaceRuns, EdgesOfTheInputAreTheLinesAskedFor) {
+  const std::string bay = layer("bay.geojson", {{{0, 50}, {12, 50}, {12, 56}, {0, 56}}});
+  const auto furthestOff = [&](const std::vector<std::string>& options) {
+    const ProgramRun run = mesh(bay, options);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    std::istringstream lines(readText(file("m.2dm")));
+    double most = 0.0;
+    for (std::string line, card; std::getline(lines, line);) {
+      std::istringstream words(line);
+      double number = 0.0, lon = 0.0, lat = 0.0;
+      if (words >> card >> number >> lon >> lat; card == "ND" && std::abs(lat - 50.0) < 0.2)
+        most = std::max(most, std::abs(lat - 50.0) * 111200.0);
+    }
+    return most;
+  };
+  EXPECT_GT(furthestOff({"--size", "50000"}), 10000.0);
+  EXPECT_LT(furthestOff({"--size", "50000", "--edges", "lonlat", "--edge-tolerance", "500"}), 501.0);
+  EXPECT_THAT(mesh(bay, {"--edges", "geodesic"}).output, HasSubstr(" points were put on edges that would else leave"));
+  const std::string poly = write("a.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
+  for (const auto& words : {std::vector<std::string>{poly}, {bay, "--crs", "plane"}}) {
+    std::vector<std::string> options(words.begin() + 1, words.end());
+    options.insert(options.end(), {"--edges", "geodesic"});
+    const ProgramRun run = mesh(words.front(), options);
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.errors, HasSubstr("--edges"));
+  }
+}
+
 TEST_F(SurfaceRuns, SurfacesThatThePlaneHasNotAreMisuse) {
   const std::string bay = layer("bay.geojson", kBay);
   const std::string poly = write("a.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");

@@ -107,6 +107,7 @@ def write_inputs(folder):
     put("great.2dm", "MESH2D\n" + "".join(f"E3T {i} 1 {i + 1} {i % 7 + 2} 1\n" for i in range(1, 8)) +
         "".join(f"ND {i} {x} {y} 0\n" for i, (x, y) in enumerate([(0, 0), *rim], 1)))
     put("great.prj", WGS84)
+    put("wide.geojson", collection(feature("Polygon", [[[-94, 40], [-80, 40], [-80, 45], [-94, 45], [-94, 40]]])))
     slope = ascii_raster(-87.52, 41.58, 60, 60, 0.001, lambda x, y: -5 - 0.7 * x - 3 * ((x // 7 + y // 5) % 2))
     put("dem.asc", slope)
     put("part.asc", ascii_raster(-87.52, 41.58, 30, 60, 0.001, lambda x, y: -5 - 0.7 * x))
@@ -139,6 +140,8 @@ def cases():
         "--min-island-area": Case("1e9"),
         "--crs": Case("EPSG:6933"),
         "--surface": Case("ellipsoid"),
+        "--edges": Case("lonlat", input="wide.geojson"),
+        "--edge-tolerance": Case("10000", extra=["--edges", "lonlat"], input="wide.geojson"),
     }
     finish = {
         "--bathymetry": Case("dem.asc"),
@@ -233,7 +236,8 @@ def cases():
     convert["--target"] = Case("adcirc", input="hourglass.nc")
     clean = {**region,
              "--crs": Case("EPSG:6933", extra=["--output", "out.poly"], because="a layer is in the input's CRS"),
-             "--surface": Case("ellipsoid", extra=["--output", "out.poly"], because="a layer is in the input's CRS"),
+             "--surface": Case("ellipsoid", extra=["--output", "out.poly"], input="wide.geojson",
+                               because="a layer is in the input's CRS"),
              "--boundary-column": Case("other"),
              "--config": Case("angle.toml"), "--pinches": Case("open", input="hourglass.geojson"),
              "--overwrite": Case(exists=["out.gpkg"]), "--output": Case("other.gpkg"),

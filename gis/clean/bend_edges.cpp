@@ -1,0 +1,136 @@
+#include "gis/clean/bend_edges.hpp"
+
+#include <GeographicLib/Geodesic.hpp>
+#include <GeographicLib/GeodesicLine.hpp>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include "core/metric.hpp"
+#include "gis/crs/geographic_map.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr int kMostHalvings = 12;
+
+// The place at a share of the way along an edge's line.
+using Line = std::function<Point(double)>;
+
+// Longitudes the shorter way; those past the end of the turn that both ends lie in come back at its beginning.
+Line lonLatLine(const Point& a, const Point& b, bool geographic) {
+  const double east = geographic ? std::remainder(b.x - a.x, 360.0) : b.x - a.x;
+  const auto [low, high] = std::minmax(a.x, b.x);
+  const bool goes_over = geographic && high - low > 180.0;
+  const double west = low >= 0.0 && high > 180.0 ? 0.0 : -180.0;
+  return [=](double t) {
+    Point p{a.x + t * east, a.y + t * (b.y - a.y)};
+    if (goes_over && p.x > west + 360.0) p.x -= 360.0;
+    if (goes_over && p.x < west) p.x += 360.0;
+    return p;
+  };
+}
+
+class Bender {
+ public:
+  Bender(const Coastline& coastline, const Projection& projection, EdgeLine line, double tolerance_m)
+      : projection_(projection),
+        to_geographic_(coastline.crs),
+        geodesic_(coastline.crs.semi_major_m, coastline.crs.flattening),
+        geographic_(coastline.crs.geographic),
+        line_(line),
+        tolerance_m_(tolerance_m) {}
+
+  std::size_t count() const { return count_; }
+
+  void bend(std::vector<Point>& chain, bool closed) {
+    if (chain.size() < 2) return;
+    std::vector<Point> bent;
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      bent.push_back(chain[i]);
+      if (i + 1 < chain.size() || closed) addBetween(chain[i], chain[(i + 1) % chain.size()], bent);
+    }
+    count_ += bent.size() - chain.size();
+    chain = std::move(bent);
+  }
+
+ private:
+  Line lineOf(const Point& a, const Point& b) const {
+    if (line_ == EdgeLine::LonLat) return lonLatLine(a, b, geographic_);
+    const LonLat from = to_geographic_.forward(a), to = to_geographic_.forward(b);
+    const GeographicLib::GeodesicLine way = geodesic_.InverseLine(from.lat, from.lon, to.lat, to.lon);
+    const Point low{std::min(a.x, b.x), 0.0}, high{std::max(a.x, b.x), 0.0};
+    return [=, this](double t) {
+      LonLat place;
+      way.Position(t * way.Distance(), place.lat, place.lon);
+      // In the turn of the ends.
+      if (place.lon < low.x - 180.0) place.lon += 360.0;
+      if (place.lon > high.x + 180.0) place.lon -= 360.0;
+      return to_geographic_.inverse(place);
+    };
+  }
+
+  // The same points from either end.
+  void addBetween(const Point& a, const Point& b, std::vector<Point>& bent) {
+    if (a == b || (geographic_ && std::abs(a.y) == 90.0 && a.y == b.y)) return;  // a pole is a place
+    const bool in_order = std::tie(a.x, a.y) < std::tie(b.x, b.y);
+    const Point &from = in_order ? a : b, &to = in_order ? b : a;
+    const std::size_t before = bent.size();
+    halve(lineOf(from, to), 0.0, projection_.forward(from), 1.0, projection_.forward(to), 0, bent);
+    if (!in_order) std::reverse(bent.begin() + static_cast<std::ptrdiff_t>(before), bent.end());
+  }
+
+  // In the order of the way, between its shares t and u, whose places in the plane are p and q.
+  void halve(const Line& line, double t, const Point& p, double u, const Point& q, int halvings,
+             std::vector<Point>& bent) {
+    if (halvings == kMostHalvings || isStraight(line, t, p, u, q)) return;
+    const double middle = 0.5 * (t + u);
+    const Point place = line(middle), in_plane = projection_.forward(place);
+    halve(line, t, p, middle, in_plane, halvings + 1, bent);
+    bent.push_back(place);
+    halve(line, middle, in_plane, u, q, halvings + 1, bent);
+  }
+
+  // A line that bends to both sides may cross its chord in the middle. What has no place in the plane is left alone.
+  bool isStraight(const Line& line, double t, const Point& p, double u, const Point& q) const {
+    if (!(distance(p, q) > tolerance_m_ * projection_.scaleAt(midpoint(p, q)))) return true;
+    for (const double share : {0.25, 0.5, 0.75}) {
+      const Point x = projection_.forward(line(t + share * (u - t)));
+      const double off = std::sqrt(squaredDistanceToSegment(x, p, q));
+      if (off > tolerance_m_ * projection_.scaleAt(x)) return false;
+    }
+    return true;
+  }
+
+  const Projection& projection_;
+  GeographicMap to_geographic_;
+  GeographicLib::Geodesic geodesic_;
+  bool geographic_;
+  EdgeLine line_;
+  double tolerance_m_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+std::size_t bendEdges(Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
+                      EdgeLine line, double tolerance_m) {
+  assert(!coastline.crs.isPlane() && tolerance_m > 0.0);
+  if (line == EdgeLine::Plane) return 0;
+  Bender bender(coastline, projection, line, tolerance_m);
+  for (const std::size_t member : members) {
+    Feature& feature = coastline.features[member];
+    if (feature.use == FeatureUse::Frame || !feature.vertex_order.empty()) continue;
+    for (Polygon& polygon : feature.polygons) {
+      bender.bend(polygon.outer, true);
+      for (Ring& hole : polygon.holes) bender.bend(hole, true);
+    }
+    for (auto& chain : feature.lines) bender.bend(chain, false);
+  }
+  return bender.count();
+}
+
+}  // namespace coastmesh
