@@ -59,18 +59,24 @@ void checkTopology(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) 
   });
 }
 
-// Seen from outside of a surface that goes round the origin.
-bool isCounterClockwise(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
-  return dot(a, cross(b - a, c - a)) > 0.0;
+// As seen from outside of a surface that goes round the origin: the height over the longest edge, above 0 where the
+// corners run counter-clockwise.
+double heightOutside(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
+  const SpacePoint ab = b - a, ac = c - a, bc = c - b;
+  return dot(a, cross(ab, ac)) / (lengthOf(a) * std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)}));
 }
 
 void checkOrientation(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
+  // In space rounding turns slivers; in the plane the test is exact.
+  constexpr double kSliver = 1e-5;
   findDefects(mesh.triangles.size(), loop, defects, [&](TriId t, Defects& found) {
     const auto& v = mesh.triangles[t].v;
     const std::span<const SpacePoint> places = options.places;
-    if (options.closed ? !isCounterClockwise(places[v[0]], places[v[1]], places[v[2]])
-                       : orient2d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= 0)
-      found.push_back({DefectKind::NotCounterClockwise, centroid(mesh, t), t});
+    const double height = options.closed ? heightOutside(places[v[0]], places[v[1]], places[v[2]]) : 0.0;
+    const bool is_right = std::abs(height) > kSliver
+                              ? height > 0.0
+                              : orient2d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) > 0;
+    if (!is_right) found.push_back({DefectKind::NotCounterClockwise, centroid(mesh, t), t});
   });
 }
 
