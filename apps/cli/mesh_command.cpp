@@ -34,6 +34,8 @@ OptionTable declareOptions(MeshRunUsage& usage) {
                 "a sea for ADCIRC: angles of 35 degrees and more, no edge longer than 5 km");
   table.example("coastmesh mesh lakes.gpkg -o lakes.msh --min-island-area 10000 --report lakes.json",
                 "many lakes for Gmsh's readers, islands below a hectare filled, with a report for scripts");
+  table.example("coastmesh mesh --domain globe --size 200000 -o globe.nc",
+                "all of the Earth, closed: no pole and no meridian is special");
   table.example("coastmesh mesh lakes.gpkg --shard 3/7 -o lakes-3.shard --skip-existing",
                 "the third of seven shares of many lakes, for coastmesh gather");
   return table;
