@@ -102,6 +102,45 @@ double smallTriangleArea(const Vector& u, const Vector& v, const Vector& w, doub
   return projected * (1.0 + curvature * (dot(uv, uv) + dot(uw, uw) + dot(vw, vw)) * 5.0 / 72.0);
 }
 
+constexpr double kMediumEdge = 60000.0;  // metres
+
+// The square of a geodesic's length from that of its chord: an arc of the normal section's curvature at its middle, by
+// Euler's formula. What is left out is below 1e-11 for 60 km.
+double squaredArc(const Vector& p, const Vector& q, double a, double e2) {
+  const Vector chord = q - p;
+  const Vector normal{p[0] + q[0], p[1] + q[1], (p[2] + q[2]) / (1.0 - e2)};
+  const double to_axis2 = normal[0] * normal[0] + normal[1] * normal[1], norm2 = to_axis2 + normal[2] * normal[2];
+  const double t = 1.0 - e2 * normal[2] * normal[2] / norm2;
+  const double across = a / std::sqrt(t), along = across * (1.0 - e2) / t;  // radii of curvature
+  const double squared = dot(chord, chord);
+  const double east = chord[1] * normal[0] - chord[0] * normal[1];
+  const double east2 = to_axis2 > 0.0 && squared > 0.0 ? east * east / (to_axis2 * squared) : 0.0;
+  const double curvature = (1.0 - east2) / along + east2 / across;
+  const double x = squared * curvature * curvature;
+  return squared * (1.0 + x * (1.0 / 12.0 + x / 90.0));
+}
+
+// Area of a triangle with edges below `kMediumEdge`: that of the plane triangle with geodesics' lengths for sides,
+// times 1 + K sum l^2 / 24, with the Gaussian curvature K at the centroid (Gauss, Disquisitiones generales circa
+// superficies curvas, 1827, Section 29). The plane triangle's comes from the flat one by the change of its sides.
+double mediumTriangleArea(const Vector& u, const Vector& v, const Vector& w, double a, double e2) {
+  const Vector uv = v - u, uw = w - u, vw = w - v;
+  const Vector across = cross(uv, uw);
+  const Vector normal{u[0] + v[0] + w[0], u[1] + v[1] + w[1], (u[2] + v[2] + w[2]) / (1.0 - e2)};
+  const double twice = std::sqrt(dot(across, across));
+  if (twice == 0.0) return 0.0;
+  const double sin2_lat = normal[2] * normal[2] / dot(normal, normal);
+  const double t = 1.0 - e2 * sin2_lat;
+  const double curvature = t * t / (a * a * (1.0 - e2));
+  const double uv2 = squaredArc(u, v, a, e2), uw2 = squaredArc(u, w, a, e2), vw2 = squaredArc(v, w, a, e2);
+  // Of the area by the square of a side: a quarter of the cotangent of the angle opposite.
+  const double more =
+      (dot(uv, uw) * (vw2 - dot(vw, vw)) - dot(uv, vw) * (uw2 - dot(uw, uw)) + dot(uw, vw) * (uv2 - dot(uv, uv))) /
+      (4.0 * twice);
+  const double area = (0.5 * twice + more) * (1.0 + curvature * (uv2 + uw2 + vw2) / 24.0);
+  return dot(across, normal) < 0.0 ? -area : area;
+}
+
 }  // namespace
 
 bool isOnEarth(const LonLat& place) { return std::abs(place.lon) <= 540.0 && std::abs(place.lat) <= 90.0; }
@@ -137,6 +176,10 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
     const double longest = std::sqrt(std::max({dot(v - u, v - u), dot(w - u, w - u), dot(w - v, w - v)}));
     if (longest < kSmallEdge) {
       areas[t] = smallTriangleArea(u, v, w, geodetic.a, e2);
+      return;
+    }
+    if (longest < kMediumEdge) {
+      areas[t] = mediumTriangleArea(u, v, w, geodetic.a, e2);
       return;
     }
     GeographicLib::PolygonArea polygon(geodesic);
