@@ -16,12 +16,28 @@ double areaOn(const Surface& surface, const Point& a, const Point& b, const Poin
   return 0.25 * std::sqrt(std::max(0.0, 4.0 * la * lb - across * across));
 }
 
+namespace {
+
+// Whether a triangle is more than half of the sphere: its corners lie on the far rim of it, as near to one another as
+// they may be. The plane shows none but long edges of one.
+bool goesRound(const Point& a, const Point& b, const Point& c, double wa, double wb, double wc,
+               const Surface& surface) {
+  const double longest = std::max({squaredDistance(b, c), squaredDistance(c, a), squaredDistance(a, b)});
+  if (64.0 * surface.curvature * longest < 1.0) return false;
+  // From the sphere's middle, heights in radii and the rest in plane units.
+  const double ha = 2.0 * wa - 1.0, hb = 2.0 * wb - 1.0, hc = 2.0 * wc - 1.0;
+  return ha * wb * wc * cross(b, c) + hb * wc * wa * cross(c, a) + hc * wa * wb * cross(a, b) <= 0.0;
+}
+
+}  // namespace
+
 // By the law of cosines: lengths of chords are known to rounding, however short they are.
 bool isBadOnSphere(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
   const Surface& surface = bound.surface;
   const double wa = surface.shrinkAt(a), wb = surface.shrinkAt(b), wc = surface.shrinkAt(c);
   const double la = squaredDistance(b, c) * wb * wc, lb = squaredDistance(c, a) * wc * wa,
                lc = squaredDistance(a, b) * wa * wb;
+  if (goesRound(a, b, c, wa, wb, wc, surface)) return true;
   const double longest = std::max({la, lb, lc}), shortest = std::min({la, lb, lc});
   const double slack = surface.margin * std::sqrt(longest);
   const double twice_at_least =

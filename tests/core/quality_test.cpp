@@ -114,6 +114,24 @@ TEST(SurfaceAnglesDeg, AreThoseOfChords) {
   }
 }
 
+// Three places round the middle of the plane, and the same three at its far rim: as near to one another, but between
+// them lies all the rest of the sphere.
+TEST(IsBad, WhatIsMoreThanHalfOfTheSphere) {
+  TriangleBound bound(33.0, 180.0, std::numeric_limits<double>::infinity());
+  bound.surface = Surface::sphere(1.0);
+  const auto corner = [](double radius, int i) {
+    return Point{radius * std::cos(toRadians(120.0 * i)), radius * std::sin(toRadians(120.0 * i))};
+  };
+  // A place at the distance r from the origin is as far from the rim as 4 / r is from the origin.
+  for (const double radius : {0.01, 0.1, 1.0, 1.9}) {
+    EXPECT_FALSE(isBad(corner(radius, 0), corner(radius, 1), corner(radius, 2), bound)) << radius;
+    EXPECT_TRUE(isBad(corner(4.0 / radius, 0), corner(4.0 / radius, 1), corner(4.0 / radius, 2), bound)) << radius;
+  }
+  // Small ones far from the origin are not meant.
+  const Point far{400.0, 300.0};
+  EXPECT_FALSE(isBad(far, far + Point{10.0, 0.0}, far + Point{5.0, 8.7}, bound));
+}
+
 TEST(MeasureQuality, HistogramClassesOfFiveDegrees) {
   // 46.3, 43.7 and 90.0, by a hair on the safe side of the class's limit.
   const double at = toRadians(92.6);

@@ -82,7 +82,10 @@ TEST_F(OnTheSphere, BadIsWhatTheFlatTriangleInSpaceIs) {
   bound.surface = kSphere;
   int bad = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Point a = somewhere(), b = near(a, 1200.0), c = near(a, 1200.0);
+    const Point a = somewhere();
+    Point b = near(a, 1200.0), c = near(a, 1200.0);
+    // As triangles run, seen from outside.
+    if (const Frame at_a(kSphere, a); cross(at_a.relative(b), at_a.relative(c)) < 0.0) std::swap(b, c);
     const auto angles = anglesInSpace(a, b, c);
     const double least = std::ranges::min(angles), most = std::ranges::max(angles);
     const double longest = std::max(
