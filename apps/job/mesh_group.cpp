@@ -355,16 +355,19 @@ MeshedRegion meshStage(const GroupTask& task, const Domain& domain, const MeshOp
   return region;
 }
 
-// The loop of a stage after meshing; regions that were not cut are too small for threads.
+// The loop of a stage after meshing; small regions go without threads. A large one need not have been cut: the lattice
+// of a whole globe is made as it is.
 class LoopsAfterMeshing {
  public:
   LoopsAfterMeshing(const MeshedRegion& region, const RunControl& control)
-      : large_(region.pieces > 1), control_(control) {}
+      : large_(region.pieces > 1 || region.mesh.triangles.size() >= kLarge), control_(control) {}
 
   ItemLoop of(std::string_view stage) { return large_ ? recorder_.loop(stage, control_) : ItemLoop(inOrder); }
   WorkLog finish() { return recorder_.finish(); }
 
  private:
+  static constexpr std::size_t kLarge = 60000;
+
   bool large_;
   const RunControl& control_;
   Recorder recorder_;
