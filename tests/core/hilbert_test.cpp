@@ -74,18 +74,20 @@ TEST(HilbertIndices, KeepNeighboursNear) {
 }
 
 TEST(HilbertOrder, IsTheOrderOfTheIndicesAndKeepsThatOfEqualOnes) {
-  std::mt19937_64 random(2);
-  std::vector<Point> points;
-  for (int i = 0; i < 3000; ++i) {
-    const double x = uniform(random, 0.0, 1.0);
-    points.push_back({x, uniform(random, 0.0, 1.0)});
-    if (i % 7 == 0) points.push_back(points.back());
+  for (const int count : {1, 2, 20, 440, 450, 3000}) {  // with every seventh twice: on either side of 512, and at it
+    std::mt19937_64 random(2);
+    std::vector<Point> points;
+    for (int i = 0; i < count; ++i) {
+      const double x = uniform(random, 0.0, 1.0);
+      points.push_back({x, uniform(random, 0.0, 1.0)});
+      if (i % 7 == 0) points.push_back(points.back());
+    }
+    const std::vector<std::uint32_t> indices = hilbertIndices(points);
+    std::vector<std::uint32_t> expected(points.size());
+    std::iota(expected.begin(), expected.end(), 0u);
+    std::ranges::stable_sort(expected, {}, [&](std::uint32_t i) { return indices[i]; });
+    EXPECT_EQ(hilbertOrder(points), expected) << count;
   }
-  const std::vector<std::uint32_t> indices = hilbertIndices(points);
-  std::vector<std::uint32_t> expected(points.size());
-  std::iota(expected.begin(), expected.end(), 0u);
-  std::ranges::stable_sort(expected, {}, [&](std::uint32_t i) { return indices[i]; });
-  EXPECT_EQ(hilbertOrder(points), expected);
   EXPECT_TRUE(hilbertOrder({}).empty());
 }
 
