@@ -9,6 +9,7 @@
 
 #include "gis/coast/clip_chains.hpp"
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/turned_rings.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -56,12 +57,27 @@ void refuseOddBox(const Box& box, const Crs& crs) {
   }
 }
 
+// Polygons of a frame are read like any others: their coordinates may be none of the CRS.
+void refuseOddFrames(const Coastline& coastline) {
+  for (const Feature& feature : coastline.features) {
+    if (feature.use != FeatureUse::Frame || !coastline.crs.geographic) continue;
+    const Box box = boundsOf(feature);
+    if (box.empty() || (box.ymin >= -90 && box.ymax <= 90 && box.xmin >= -540 && box.xmax <= 540)) continue;
+    throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the frame reaches from " +
+                     inWords(box) + " (west, south, east, north), but the input is in degrees (" +
+                     nameOf(coastline.crs) + "): give its CRS in the file");
+  }
+}
+
 // How many straight pieces an edge of a frame is made of, so that it is the same line in the working plane as in the
 // input's CRS: areas then agree to some 2e-7, and along a parallel it turns by 2 degrees at most from piece to piece.
 int piecesOf(const Point& a, const Point& b, bool geographic) {
   constexpr double kLongest = 0.15, kLongestInPlane = 15'000, kMostTurn = 2;  // degrees of arc, metres, degrees
+  constexpr double kMostInPlane = 4096;                                       // more than once round the Earth
   const double dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y);
-  if (!geographic) return std::max(1, static_cast<int>(std::ceil(std::hypot(dx, dy) / kLongestInPlane)));
+  if (!geographic) {
+    return static_cast<int>(std::clamp(std::ceil(std::hypot(dx, dy) / kLongestInPlane), 1.0, kMostInPlane));
+  }
   if (a.y == b.y && std::abs(a.y) == 90) return 1;  // a pole is a point
   const double middle = (a.y + b.y) / 2 * GeographicLib::Math::degree();
   const double arc = std::hypot(dx * std::cos(middle), dy), turn = dx * std::abs(std::sin(middle));
@@ -124,9 +140,11 @@ struct Extent {
   Interval y{0, 0};
 };
 
+// By how much of their extent frames are grown, on each side, before what lies beyond is cut off.
+constexpr double kMargin = 0.1;
+
 // The frames' extents, grown a little.
 Extent extentOfFrames(const Coastline& coastline, double turn) {
-  constexpr double kMargin = 0.1;
   const bool geographic = coastline.crs.geographic;
   const Box all = boundsOf(coastline, true);
   const double margin = kMargin * std::max(all.ymax - all.ymin, 1e-300);
@@ -162,13 +180,62 @@ Extent extentOfFrames(const Coastline& coastline, double turn) {
   return extent;
 }
 
-std::vector<ClipBox> clipBoxes(const Extent& extent, bool geographic) {
+// The longest piece along the side of a box that in the working plane strays from it by half of `margin` at most: all
+// in degrees. A parallel at latitude p has the geodesic curvature tan p, and a meridian may be as bent as the plane is
+// large; a chord strays by an eighth of its length's square times the curvature. The turn's 2^-3, 2^-4, ... part.
+double longestPiece(double margin, double latitude, bool along_parallel) {
+  constexpr double kLongest = 45, kShortest = 0.02;
+  const double degree = GeographicLib::Math::degree();
+  const double c = std::max(std::cos(latitude * degree), 1e-3), s = std::abs(std::sin(latitude * degree));
+  const double longest = along_parallel ? std::sqrt(4 * margin * degree / (c * (c + s))) / degree
+                                        : std::sqrt(4 * margin * degree * c) / degree;
+  double piece = kLongest;
+  while (piece > longest && piece > kShortest) piece /= 2;
+  return piece;
+}
+
+// The clip of a geographic box, whose sides are cut into pieces; those along meridians if `meridians`.
+ClipBox geographicClip(const Box& box, bool meridians) {
+  constexpr double kMarginOfAll = kMargin / (1 + 2 * kMargin);
+  ClipBox clip{box};
+  const double latitude = std::min(std::max(std::abs(box.ymin), std::abs(box.ymax)), 90.0);
+  const double margin = kMarginOfAll * (box.ymax - box.ymin);
+  clip.piece_x = std::min(longestPiece(margin, box.ymin, true), longestPiece(margin, box.ymax, true));
+  if (meridians) {
+    clip.piece_y = longestPiece(kMarginOfAll * (box.xmax - box.xmin), latitude, false);
+  }
+  return clip;
+}
+
+std::vector<ClipBox> clipBoxes(const Extent& extent, bool geographic, double turn) {
   std::vector<ClipBox> clips;
   for (const Interval& x : extent.x) {
     const Box box{x.from, extent.y.from, x.to, extent.y.to};
-    clips.push_back({box, 0});
-    if (!geographic) continue;
-    for (const double shift : {-kTurn, kTurn}) clips.push_back({box, shift});
+    if (!geographic) {
+      clips.push_back({box});
+      continue;
+    }
+    // Along the end of the data's turn, what is cut off goes on within the frame, by the same points on both sides.
+    ClipBox clip = geographicClip(box, box.xmin > turn && box.xmax < turn + kTurn);
+    for (const double shift : {0.0, -kTurn, kTurn}) {
+      clip.shift = shift;
+      clips.push_back(clip);
+    }
+  }
+  return clips;
+}
+
+// For chains that go on past the end of the data's turn: boxes that do so too.
+std::vector<ClipBox> turnedClipBoxes(const Extent& extent, double turn) {
+  std::vector<Interval> joined = extent.x;
+  if (joined.size() > 1 && joined.front().from == turn && joined.back().to == turn + kTurn) {
+    joined.back().to = joined.front().to + kTurn;
+    joined.erase(joined.begin());
+  }
+  std::vector<ClipBox> clips;
+  for (Interval x : joined) {
+    if (x.to - x.from >= kTurn) x = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    clips.push_back(geographicClip({x.from, extent.y.from, x.to, extent.y.to}, true));
   }
   return clips;
 }
@@ -182,17 +249,53 @@ bool meets(const Box& box, const ClipBox& clip) {
 
 bool within(const Box& box, const ClipBox& clip) { return clip.shift == 0 && clip.box.contains(box); }
 
+struct Clips {
+  std::vector<ClipBox> plain, turned;
+  double west = 0;  // where the data's turn begins
+};
+
+// What of a polygon whose longitudes jump lies near the frame. Sides follow from even and odd: any outer ring may have
+// the holes.
+void clipTurnedPolygon(const Polygon& polygon, const Clips& clips, std::vector<Polygon>& kept) {
+  const auto partsOf = [&](const Ring& ring) {
+    std::vector<Ring> parts;
+    for (const ClipBox& clip : clips.turned) {
+      std::ranges::move(clipTurnedRing(ring, clip, clips.west), std::back_inserter(parts));
+      if (!parts.empty() && parts.front() == ring) break;
+    }
+    return parts;
+  };
+  const std::size_t first = kept.size();
+  for (Ring& part : partsOf(polygon.outer)) kept.push_back({std::move(part), {}});
+  for (const Ring& hole : polygon.holes) {
+    for (Ring& part : partsOf(hole)) {
+      if (kept.size() == first) kept.emplace_back();
+      kept[first].holes.push_back(std::move(part));
+    }
+  }
+}
+
+bool jumps(const Polygon& polygon) {
+  return longitudesJump(polygon.outer) || std::ranges::any_of(polygon.holes, longitudesJump);
+}
+
+bool jumps(const std::vector<Point>& line) { return turnsOf(line, false).any; }
+
 // What of a feature lies near the frame.
-void clipFeature(Feature& feature, const std::vector<ClipBox>& clips) {
+void clipFeature(Feature& feature, const Clips& clips) {
   const Box bounds = boundsOf(feature);
-  if (std::ranges::any_of(clips, [&](const ClipBox& clip) { return within(bounds, clip); })) return;
+  if (std::ranges::any_of(clips.plain, [&](const ClipBox& clip) { return within(bounds, clip); })) return;
+  const bool may_jump = !clips.turned.empty() && bounds.xmax - bounds.xmin > kTurn / 2;
+  const auto polygon_jumps = [&](const Polygon& polygon) { return may_jump && jumps(polygon); };
+  const auto line_jumps = [&](const std::vector<Point>& line) { return may_jump && jumps(line); };
   Feature kept = feature;
   kept.polygons.clear();
   kept.lines.clear();
   kept.points.clear();
-  for (const ClipBox& clip : clips) {
+  for (const ClipBox& clip : clips.plain) {
     if (!meets(bounds, clip)) continue;
     for (const Polygon& polygon : feature.polygons) {
+      if (polygon_jumps(polygon)) continue;
       Polygon part;
       part.outer = clipRing(polygon.outer, clip);
       for (const Ring& hole : polygon.holes) {
@@ -201,9 +304,20 @@ void clipFeature(Feature& feature, const std::vector<ClipBox>& clips) {
       }
       if (!part.outer.empty() || !part.holes.empty()) kept.polygons.push_back(std::move(part));
     }
-    for (const auto& line : feature.lines) std::ranges::move(clipLine(line, clip), std::back_inserter(kept.lines));
+    for (const auto& line : feature.lines) {
+      if (!line_jumps(line)) std::ranges::move(clipLine(line, clip), std::back_inserter(kept.lines));
+    }
     for (const Point& p : feature.points) {
       if (clip.box.contains({p.x + clip.shift, p.y, p.x + clip.shift, p.y})) kept.points.push_back(p);
+    }
+  }
+  for (const Polygon& polygon : feature.polygons) {
+    if (polygon_jumps(polygon)) clipTurnedPolygon(polygon, clips, kept.polygons);
+  }
+  for (const auto& line : feature.lines) {
+    if (!line_jumps(line)) continue;
+    for (const ClipBox& clip : clips.turned) {
+      std::ranges::move(clipTurnedLine(line, clip, clips.west), std::back_inserter(kept.lines));
     }
   }
   feature = std::move(kept);
@@ -215,7 +329,9 @@ bool holdsNothing(const Feature& feature) {
 }
 
 void clipToFrame(Coastline& coastline, double turn, FrameReport& report) {
-  const std::vector<ClipBox> clips = clipBoxes(extentOfFrames(coastline, turn), coastline.crs.geographic);
+  const Extent extent = extentOfFrames(coastline, turn);
+  Clips clips{clipBoxes(extent, coastline.crs.geographic, turn), {}, turn};
+  if (coastline.crs.geographic) clips.turned = turnedClipBoxes(extent, turn);
   for (Feature& feature : coastline.features) {
     if (feature.use != FeatureUse::Frame) clipFeature(feature, clips);
   }
@@ -278,6 +394,7 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
         "--domain outside: water outside of land has to end somewhere: give --bbox W,S,E,N or --clip FILE");
   }
   if (!framed) return report;
+  refuseOddFrames(coastline);
   for (Feature& feature : coastline.features) {
     if (feature.use == FeatureUse::Frame) cutLongEdges(feature, coastline.crs.geographic);
   }

@@ -232,6 +232,63 @@ TEST(Frame, AcrossTheAntimeridian) {
   }
 }
 
+// With many points, so that edges are the same lines on every map.
+Ring along(const Ring& ring) {
+  Ring fine;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    for (int k = 0; k < 400; ++k) fine.push_back({a.x + (b.x - a.x) * k / 400, a.y + (b.y - a.y) * k / 400});
+  }
+  return fine;
+}
+
+// A land whose ring jumps at the antimeridian and reaches far beyond the box: it holds what the same land cut there
+// does, within boxes on either side of the map and across its end, and nothing at the latitudes where it jumps.
+TEST(Frame, LandThatJumpsIsCutOffLikeAnyOther) {
+  Ring jumping = along({{100, 55}, {190, 62}, {188, 70}, {150, 68}, {100, 75}});
+  for (Point& p : jumping) p.x -= p.x > 180 ? 360 : 0;
+  const Coastline whole = coastlineOf({polygonFeature(1, jumping)}, wgs84());
+  const Coastline cut = coastlineOf(
+      {polygonFeature(1, along({{100, 55}, {180, 55 + 7 * 8.0 / 9}, {180, 68 + 2 * 30.0 / 38}, {150, 68}, {100, 75}})),
+       polygonFeature(2, along({{-180, 55 + 7 * 8.0 / 9}, {-170, 62}, {-172, 70}, {-180, 68 + 2 * 30.0 / 38}}))},
+      wgs84());
+  for (const Box& box : {Box{0, 60, 50, 72}, Box{-60, 56, -20, 74}, Box{160, 58, -160, 72}, Box{-178, 58, -150, 71},
+                         Box{140, 50, 175, 69}, Box{-180, 60, 180, 80}}) {
+    const FrameOptions options = boxOf(box.xmin, box.ymin, box.xmax, box.ymax, DomainSide::Outside);
+    Coastline with_islet = whole, cut_with_islet = cut;  // some land lies in every box
+    const Feature islet = polygonFeature(9, square(box.xmin + 0.5, box.ymax - 0.2, 0.1));
+    with_islet.features.push_back(islet);
+    cut_with_islet.features.push_back(islet);
+    const Framed framed = frame(with_islet, options), expected = frame(cut_with_islet, options);
+    EXPECT_NEAR(framed.area() / expected.area(), 1, 1e-5) << box.xmin;
+    EXPECT_NEAR(framed.openLength() / expected.openLength(), 1, 1e-3) << box.xmin;
+    EXPECT_EQ(framed.domains.size(), expected.domains.size()) << box.xmin;
+  }
+}
+
+// Land that is cut off far along a parallel beyond the frame: no straight line of the plane is left of that.
+TEST(Frame, WhatIsCutOffStaysBeyondTheFrame) {
+  const Coastline coastline = coastlineOf(
+      {polygonFeature(1, {{0, 30}, {120, 30}, {120, 61}, {0, 61}}), polygonFeature(2, square(-100, 70, 1))}, wgs84());
+  const Framed framed = frame(coastline, boxOf(-180, 65, 180, 90, DomainSide::Outside));
+  const Framed islet = frame(coastlineOf({polygonFeature(2, square(-100, 70, 1))}, wgs84()),
+                             boxOf(-180, 65, 180, 90, DomainSide::Outside));
+  ASSERT_EQ(framed.domains.size(), 1u);
+  EXPECT_NEAR(framed.area() / islet.area(), 1, 1e-9);
+  EXPECT_NEAR(framed.openLength() / islet.openLength(), 1, 1e-9);
+  // The same where the land reaches into it.
+  const Coastline large = coastlineOf({polygonFeature(1, along({{0, 30}, {120, 30}, {120, 70}, {0, 70}}))}, wgs84());
+  const Framed sea = frame(large, boxOf(-180, 65, 180, 80, DomainSide::Outside));
+  EXPECT_NEAR(sea.area() / (zone(65, 80, 360) - zone(65, 70, 120)), 1, 1e-4);
+}
+
+TEST(Frame, PolygonsThatAreNoDegreesAreRefused) {
+  Coastline coastline = coastlineOf({polygonFeature(1, square(1, 1, 2))}, wgs84());
+  coastline.features.push_back(polygonFeature(0, square(0, 0, 22'600'000)));
+  coastline.features.back().use = FeatureUse::Frame;
+  EXPECT_NE(refusalOf(coastline, {}).find("give its CRS"), std::string::npos);
+}
+
 // Round a pole, and the whole globe: nothing is left of the frame's boundary but what lies in water.
 TEST(Frame, RoundThePoleAndTheGlobe) {
   const Ring antarctica{{-180, -90}, {-180, -78}, {-90, -72}, {0, -70}, {90, -66}, {180, -78}, {180, -90}};

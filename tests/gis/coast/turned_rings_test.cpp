@@ -44,5 +44,68 @@ TEST(TurnedRings, RoundAPole) {
   }
 }
 
+// A small island on the antimeridian with an edge from one end of the map to the other, begun at any point, either way
+// round, with a point on the meridian written either way: never a band round the Earth.
+TEST(TurnedRings, AnEdgeFromEndToEndBesideAJumpHasNoLength) {
+  const std::vector<Ring> islands{
+      {{-180, -16.49}, {180, -16.54}, {179.985, -16.542}, {179.985, -16.523}},
+      {{180, -16.49}, {-180, -16.54}, {-179.985, -16.542}, {-179.985, -16.523}},
+      {{180, -16.49}, {-180, -16.54}, {179.985, -16.542}, {179.985, -16.523}},
+      {{-179.9, -16.49}, {-180, -16.50}, {180, -16.54}, {179.985, -16.542}, {179.985, -16.45}},
+      {{-180, -16.4}, {180, -16.45}, {-180, -16.5}, {180, -16.54}, {179.985, -16.542}, {179.985, -16.39}}};
+  for (Ring ring : islands) {
+    for (std::size_t first = 0; first < ring.size(); ++first) {
+      std::ranges::rotate(ring, ring.begin() + 1);
+      for (int way = 0; way < 2; ++way) {
+        std::ranges::reverse(ring);
+        EXPECT_TRUE(longitudesJump(ring));
+        EXPECT_EQ(turnsOf(ring, true).round, 0);
+        for (const double x : {-179.0, -90.0, 0.0, 100.0, 179.0}) {
+          EXPECT_EQ(locate(ring, {x, -16.52}), Location::Outside) << x;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(locate(islands[0], {179.99, -16.53}), Location::Inside);
+  EXPECT_EQ(locate(islands[1], {-179.99, -16.53}), Location::Inside);
+}
+
+TEST(TurnedRings, AnEdgeFromEndToEndIsOneOfTheMapWhereNothingElseJumps) {
+  const Ring band{{-180, -60}, {180, -60}, {180, -85}, {-180, -85}};
+  EXPECT_FALSE(longitudesJump(band));
+  EXPECT_EQ(turnedRings(band), std::vector<Ring>{band});
+}
+
+// Where the jumps alone close the ring, an edge from end to end is not one of them.
+TEST(TurnedRings, AnEdgeFromEndToEndDoesNotKeepARingFromClosing) {
+  const Ring ring{{170, 0}, {-170, 0}, {-170, 5}, {-180, 5}, {180, 9}, {-180, 10}, {170, 10}};
+  EXPECT_EQ(turnsOf(ring, true).round, 0);
+  const Ring odd{{170, 0}, {-170, 0}, {-170, 10}, {170, 10}, {-180, 5}, {180, 5}};
+  EXPECT_EQ(turnsOf(odd, true).round, 0);
+}
+
+TEST(TurnedRings, RoundAPoleWithAPointOnTheMeridianTwice) {
+  for (const double sign : {-1.0, 1.0}) {
+    Ring ring{{180, sign * 80}};
+    for (int lon = 160; lon >= -160; lon -= 20) ring.push_back({static_cast<double>(lon), sign * 75});
+    ring.push_back({-180, sign * 80});  // and an edge from end to end back to the first
+    EXPECT_FALSE(longitudesJump(ring));
+    ring.back() = {-179, sign * 79};
+    EXPECT_EQ(turnsOf(ring, true).round, -1);
+    EXPECT_EQ(poleWithin(ring), sign * 90);
+    for (const double x : {-179.5, 0.0, 170.0}) EXPECT_EQ(locate(ring, {x, sign * 85}), Location::Inside) << x;
+    for (const double x : {-179.5, 0.0, 170.0}) EXPECT_EQ(locate(ring, {x, sign * 70}), Location::Outside) << x;
+  }
+}
+
+TEST(TurnedRings, LinesDoNotClose) {
+  const std::vector<Point> line{{170, 0}, {-170, 1}, {-160, 2}};
+  const Turns turns = turnsOf(line, false);
+  EXPECT_TRUE(turns.any);
+  EXPECT_EQ(turns.of, (std::vector<int>{0, 1, 1}));
+  EXPECT_EQ(turns.round, 0);
+  EXPECT_FALSE(turnsOf({{170, 0}, {-10, 0}, {-170, 0}}, false).any);
+}
+
 }  // namespace
 }  // namespace coastmesh
