@@ -68,14 +68,16 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, CleanReport& report,
+void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, double snap_m, CleanReport& report,
                  const ItemLoop& loop) {
   std::vector<TouchChain> touching;
   touching.reserve(chains.size());
   for (InputChain& chain : chains) {
     touching.push_back({&chain.points, chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole});
   }
-  for (const Touch& touch : insertTouchingPoints(touching, coastline.crs.geographic ? 180 : kNoLimit, loop)) {
+  const double tolerance = std::max(0.0, snap_m) / metresPerUnit(coastline.crs);
+  const double widest = coastline.crs.geographic ? 180 : kNoLimit;
+  for (const Touch& touch : insertTouchingPoints(touching, tolerance, widest, loop)) {
     if (coastline.features[chains[touch.chain].feature].use == FeatureUse::Frame) continue;
     report.add(EditKind::OverlappingEdge, touch.place, coastline.features[chains[touch.chain].feature].fid);
   }
@@ -258,7 +260,7 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   for (InputChain& chain : input) {
     if (chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole) rings.push_back(&chain.points);
   }
-  if (!projection.isIdentity()) keepTouches(input, coastline, report, loop);
+  if (!projection.isIdentity()) keepTouches(input, coastline, options.snap_m, report, loop);
   const std::optional<Seam> seam = healSeam(rings, coastline.crs, projection);
   std::size_t count = 0;
   for (const InputChain& chain : input) count += chain.points.size();

@@ -28,7 +28,8 @@ struct Insertion {
 
 class Toucher {
  public:
-  Toucher(const std::vector<TouchChain>& chains, double widest) : widest_(widest) {
+  Toucher(const std::vector<TouchChain>& chains, double tolerance, double widest)
+      : tolerance_(tolerance), widest_(widest) {
     std::size_t count = 0;
     for (const TouchChain& chain : chains) count += chain.points->size();
     ends_.reserve(count);
@@ -39,6 +40,10 @@ class Toucher {
       for (std::size_t i = 0; i + 1 < points.size(); ++i) ends_.push_back({points[i], points[i + 1]});
       if (chain.closed && !points.empty()) ends_.push_back({points.back(), points.front()});
     }
+    double largest = 0;
+    for (const auto& [a, b] : ends_) largest = std::max({largest, std::abs(a.x), std::abs(a.y)});
+    // A point put on an edge is rounded by half a unit in the last place, and so are both ends of the edge.
+    tolerance_ = std::max(tolerance_, std::ldexp(largest, -51));
   }
 
   std::vector<Insertion> find(const ItemLoop& loop) {
@@ -47,7 +52,7 @@ class Toucher {
     const EdgeRuns runs(ends_.size(), box_of);
     const auto findIn = [&](std::size_t first, std::size_t last) {
       std::vector<Insertion> found;
-      runs.visitPairs(first, last, 0, box_of, all, [&](std::uint32_t e, std::uint32_t f) {
+      runs.visitPairs(first, last, tolerance_, box_of, all, [&](std::uint32_t e, std::uint32_t f) {
         test(e, ends_[f].a, found);
         test(e, ends_[f].b, found);
         test(f, ends_[e].a, found);
@@ -75,21 +80,26 @@ class Toucher {
   void test(std::uint32_t e, const Point& p, std::vector<Insertion>& found) const {
     const auto& [a, b] = ends_[e];
     const Box box = Box::of(a, b);
-    if (!box.meets({p.x, p.y, p.x, p.y}) || p == a || p == b || box.xmax - box.xmin > widest_ || orient2d(a, b, p) != 0)
+    if (!box.grownBy(tolerance_).meets({p.x, p.y, p.x, p.y}) || p == a || p == b || box.xmax - box.xmin > widest_)
       return;
+    const double dx = b.x - a.x, dy = b.y - a.y, wx = p.x - a.x, wy = p.y - a.y, length = std::sqrt(dx * dx + dy * dy);
+    const double along = wx * dx + wy * dy, most = tolerance_ * length;
+    const bool near = along > most && along < length * length - most && std::abs(wx * dy - wy * dx) <= most;
+    if (!near && !(box.meets({p.x, p.y, p.x, p.y}) && orient2d(a, b, p) == 0)) return;
     const bool by_x = box.xmax - box.xmin >= box.ymax - box.ymin;
     found.push_back({edgeOf(e), by_x ? std::abs(p.x - a.x) : std::abs(p.y - a.y), p});
   }
 
-  double widest_;
+  double tolerance_, widest_;
   std::vector<std::uint32_t> first_edge_;  // by chain
   std::vector<Ends> ends_;
 };
 
 }  // namespace
 
-std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains, double widest, const ItemLoop& loop) {
-  const std::vector<Insertion> insertions = Toucher(chains, widest).find(loop);
+std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains, double tolerance, double widest,
+                                        const ItemLoop& loop) {
+  const std::vector<Insertion> insertions = Toucher(chains, tolerance, widest).find(loop);
   std::vector<Touch> touches;
   for (auto first = insertions.begin(); first != insertions.end();) {
     const std::uint32_t chain = first->edge.chain;

@@ -21,11 +21,12 @@ struct Touch {
   Point place;
 };
 
-// Points that lie exactly on an edge of another chain, or of their own, become points of that edge as well: what
-// touches in the input's coordinates (polygons cut along a grid of longitudes, say) must touch in the working plane
-// too, where its edges run a little differently. Edges wider than `widest` are left alone: longitudes that jump from
-// one end of the map to the other do not run between them.
-std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains,
+// Points that lie on an edge of another chain, or of their own, become points of that edge as well: what touches in the
+// input's coordinates (polygons cut along a grid of longitudes, say) must touch in the working plane too, where its
+// edges run a little differently. On an edge lies what is no further from it than `tolerance`, 0 or more, or than
+// coordinates are rounded, in the coordinates' own unit; what is as near to one of its ends is left to snapping. Edges
+// wider than `widest` are left alone: longitudes that jump from one end of the map to the other do not run between.
+std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains, double tolerance,
                                         double widest = std::numeric_limits<double>::infinity(),
                                         const ItemLoop& loop = inOrder);
 
