@@ -1,14 +1,9 @@
 #include "gis/file/gpkg_index.hpp"
 
-#include <ogrsf_frmts.h>
-
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 namespace coastmesh {
@@ -18,11 +13,8 @@ namespace {
 // bits each, then the cells: a row or a child as 64 bits, and least x, greatest x, least y, greatest y as 32-bit floats
 // rounded outwards; all big-endian ("The SQLite R*Tree Module", and its shadow tables _node, _rowid and _parent).
 constexpr std::size_t kHeaderBytes = 4, kCellBytes = 24;
-
-struct Cell {
-  std::int64_t id = 0;
-  std::array<float, 4> box{};
-};
+constexpr std::size_t kCells = (GeoPackageIndex::kNodeBytes - kHeaderBytes) / kCellBytes;
+constexpr std::uint64_t kRoot = 1;
 
 float roundedDown(double value) {
   const auto nearest = static_cast<float>(value);
@@ -34,138 +26,156 @@ float roundedUp(double value) {
   return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
 }
 
-Cell unite(std::int64_t id, std::span<const Cell> cells) {
-  Cell all{id, cells.front().box};
-  for (const Cell& cell : cells)
-    for (std::size_t i = 0; i < 4; ++i)
-      all.box[i] = i % 2 == 0 ? std::min(all.box[i], cell.box[i]) : std::max(all.box[i], cell.box[i]);
-  return all;
+// A row by a coordinate: an order of unsigned numbers is that of the coordinate as a float, then of the rows.
+std::uint64_t keyOf(double coordinate, std::uint32_t row) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(coordinate));
+  const std::uint32_t ordered = (bits >> 31) != 0 ? ~bits : bits | 0x80000000u;
+  return std::uint64_t{ordered} << 32 | row;
 }
+std::uint32_t rowOf(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
 
-void appendHex(std::string& sql, std::uint64_t value, int bytes) {
-  constexpr char kHex[] = "0123456789ABCDEF";
-  for (int shift = 8 * bytes - 4; shift >= 0; shift -= 4) sql += kHex[value >> shift & 15];
-}
-
-void appendNode(std::string& sql, std::size_t depth, std::span<const Cell> cells, std::size_t node_bytes) {
-  sql += "X'";
-  appendHex(sql, depth, 2);
-  appendHex(sql, cells.size(), 2);
-  for (const Cell& cell : cells) {
-    appendHex(sql, std::bit_cast<std::uint64_t>(cell.id), 8);
-    for (const float side : cell.box) appendHex(sql, std::bit_cast<std::uint32_t>(side), 4);
+// By stretches, then by merging two and two of them.
+void sortKeys(std::vector<std::uint64_t>& keys, const ItemLoop& loop) {
+  constexpr std::size_t kStretch = 65536;
+  const auto at = [&keys](std::size_t i) {
+    return keys.begin() + static_cast<std::ptrdiff_t>(std::min(i, keys.size()));
+  };
+  loop((keys.size() + kStretch - 1) / kStretch,
+       [&](std::size_t s) { std::sort(at(s * kStretch), at((s + 1) * kStretch)); });
+  std::vector<std::uint64_t> merged(keys.size() > kStretch ? keys.size() : 0);
+  for (std::size_t width = kStretch; width < keys.size(); width *= 2) {
+    loop((keys.size() + 2 * width - 1) / (2 * width), [&](std::size_t pair) {
+      const std::size_t first = pair * 2 * width;
+      std::merge(at(first), at(first + width), at(first + width), at(first + 2 * width),
+                 merged.begin() + static_cast<std::ptrdiff_t>(first));
+    });
+    keys.swap(merged);
   }
-  sql.append(2 * (node_bytes - kHeaderBytes - cells.size() * kCellBytes), '0');
-  sql += '\'';
 }
 
 // Sort-tile-recursive order (Leutenegger, Lopez & Edgington 1997): slices of x, each sorted by y, so that consecutive
-// entries make compact nodes. Sums of sides stand for middles.
-void sortIntoTiles(std::vector<IndexEntry>& entries, std::size_t per_node) {
-  const auto by = [](double Point::*side) {
-    return [side](const IndexEntry& a, const IndexEntry& b) {
-      const double first = a.low.*side + a.high.*side, second = b.low.*side + b.high.*side;
-      return first < second || (first == second && a.fid < b.fid);
-    };
-  };
-  const double nodes = std::ceil(static_cast<double>(entries.size()) / static_cast<double>(per_node));
-  const std::size_t slice = static_cast<std::size_t>(std::ceil(std::sqrt(nodes))) * per_node;
-  std::ranges::sort(entries, by(&Point::x));
-  for (std::size_t at = 0; at < entries.size(); at += slice)
-    std::sort(entries.begin() + static_cast<std::ptrdiff_t>(at),
-              entries.begin() + static_cast<std::ptrdiff_t>(std::min(at + slice, entries.size())), by(&Point::y));
+// rows make compact nodes. Sums of sides stand for middles.
+std::vector<std::uint32_t> tileOrder(std::uint32_t rows, const std::function<IndexBox(std::uint32_t)>& box,
+                                     const ItemLoop& loop) {
+  std::vector<std::uint64_t> keys(rows);
+  forEachByStretches(loop, rows, [&](std::size_t i) {
+    const auto row = static_cast<std::uint32_t>(i);
+    const IndexBox of = box(row);
+    keys[i] = keyOf(of.low.x + of.high.x, row);
+  });
+  sortKeys(keys, loop);
+  const double nodes = std::ceil(static_cast<double>(rows) / static_cast<double>(kCells));
+  const std::size_t slice = static_cast<std::size_t>(std::ceil(std::sqrt(nodes))) * kCells;
+  std::vector<std::uint32_t> order(rows);
+  loop((rows + slice - 1) / slice, [&](std::size_t s) {
+    const std::size_t first = s * slice, last = std::min<std::size_t>(rows, first + slice);
+    for (std::size_t i = first; i < last; ++i) {
+      const IndexBox of = box(rowOf(keys[i]));
+      keys[i] = keyOf(of.low.y + of.high.y, rowOf(keys[i]));
+    }
+    std::sort(keys.begin() + static_cast<std::ptrdiff_t>(first), keys.begin() + static_cast<std::ptrdiff_t>(last));
+    for (std::size_t i = first; i < last; ++i) order[i] = rowOf(keys[i]);
+  });
+  return order;
 }
-
-// Rows of one table, sent many at once.
-class RowBatch {
- public:
-  explicit RowBatch(const std::string& table) : start_("INSERT INTO \"" + table + "\" VALUES ") {}
-
-  std::string& next() {
-    sql_ += sql_.empty() ? start_ : ",";
-    return sql_;
-  }
-  bool isFull() const { return sql_.size() > 250'000; }  // bytes; SQLite takes a million at least
-  std::string take() { return std::exchange(sql_, {}); }
-
- private:
-  std::string start_;
-  std::string sql_;
-};
 
 }  // namespace
 
-GeoPackageIndex::GeoPackageIndex(GDALDataset& dataset, const std::string& layer, const std::string& geometry_column)
-    : dataset_(dataset), layer_(layer), column_(geometry_column), index_("rtree_" + layer + "_" + geometry_column) {}
-
-bool GeoPackageIndex::run(const std::string& sql) {
-  if (sql.empty()) return true;
-  CPLErrorReset();
-  if (OGRLayer* const result = dataset_.ExecuteSQL(sql.c_str(), nullptr, nullptr)) dataset_.ReleaseResultSet(result);
-  return CPLGetLastErrorType() < CE_Failure;
-}
-
-std::string GeoPackageIndex::ask(const std::string& sql) {
-  OGRLayer* const result = dataset_.ExecuteSQL(sql.c_str(), nullptr, nullptr);
-  if (result == nullptr) return {};
-  const OGRFeatureUniquePtr row(result->GetNextFeature());
-  std::string value = row && row->GetFieldCount() > 0 ? row->GetFieldAsString(0) : "";
-  dataset_.ReleaseResultSet(result);
-  return value;
-}
-
-bool GeoPackageIndex::create() {
-  if (ask("SELECT CreateSpatialIndex('" + layer_ + "', '" + column_ + "')") != "1") return false;
-  const std::string trigger = index_ + "_insert";
-  insert_trigger_ = ask("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = '" + trigger + "'");
-  return !insert_trigger_.empty() && run("DROP TRIGGER \"" + trigger + "\"");
-}
-
-bool GeoPackageIndex::fill(std::vector<IndexEntry> entries) {
-  const std::string length = ask("SELECT length(data) FROM \"" + index_ + "_node\" WHERE nodeno = 1");
-  std::size_t node_bytes = 0;
-  std::from_chars(length.data(), length.data() + length.size(), node_bytes);
-  if (node_bytes < kHeaderBytes + 2 * kCellBytes) return false;
-  const std::size_t per_node = (node_bytes - kHeaderBytes) / kCellBytes;
-
-  sortIntoTiles(entries, per_node);
-  std::vector<Cell> cells;
-  cells.reserve(entries.size());
-  for (const IndexEntry& entry : entries)
-    cells.push_back(
-        {entry.fid,
-         {roundedDown(entry.low.x), roundedUp(entry.high.x), roundedDown(entry.low.y), roundedUp(entry.high.y)}});
-
-  // Node 1 is the root; the others are numbered from the leaves up.
-  RowBatch nodes(index_ + "_node"), rows(index_ + "_rowid"), parents(index_ + "_parent");
-  std::int64_t last_node = 1;
-  std::size_t depth = 0;
-  const auto noteWhere = [&](std::span<const Cell> children, std::int64_t node) {
-    RowBatch& batch = depth == 0 ? rows : parents;
-    for (const Cell& child : children)
-      batch.next() += "(" + std::to_string(child.id) + "," + std::to_string(node) + ")";
-    return !batch.isFull() || run(batch.take());
+GeoPackageIndex::GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std::uint32_t)> box, const ItemLoop& loop)
+    : box_(std::move(box)) {
+  if (rows == 0) return;
+  order_ = tileOrder(rows, box_, loop);
+  place_.resize(rows);
+  forEachByStretches(loop, rows, [&](std::size_t i) { place_[order_[i]] = static_cast<std::uint32_t>(i); });
+  const auto unite = [](std::int64_t id, const std::vector<Cell>& cells) {
+    Cell all{id, cells.front().box};
+    for (const Cell& cell : cells)
+      for (std::size_t i = 0; i < 4; ++i)
+        all.box[i] = i % 2 == 0 ? std::min(all.box[i], cell.box[i]) : std::max(all.box[i], cell.box[i]);
+    return all;
   };
-  for (; cells.size() > per_node; ++depth) {
-    std::vector<Cell> above;
-    for (std::size_t at = 0; at < cells.size(); at += per_node) {
-      const std::span<const Cell> children = std::span(cells).subspan(at, std::min(per_node, cells.size() - at));
-      const std::int64_t node = ++last_node;
-      std::string& sql = nodes.next();
-      sql += "(" + std::to_string(node) + ",";
-      appendNode(sql, 0, children, node_bytes);
-      sql += ")";
-      if (nodes.isFull() && !run(nodes.take())) return false;
-      if (!noteWhere(children, node)) return false;
-      above.push_back(unite(node, children));
-    }
-    cells = std::move(above);
+  // Node 1 is the root; the others are numbered from the leaves up.
+  std::uint64_t next = kRoot + 1;
+  for (std::size_t below = rows;;) {
+    const std::size_t count = (below + kCells - 1) / kCells, level = levels_.size();
+    levels_.push_back({count == 1 ? kRoot : next, std::vector<Cell>(count)});
+    if (count == 1) break;
+    Level& made = levels_.back();
+    constexpr std::size_t kWorthAStretch = 64;
+    forStretches(
+        loop, count,
+        [&](std::size_t first, std::size_t last) {
+          for (std::size_t i = first; i < last; ++i)
+            made.nodes[i] = unite(static_cast<std::int64_t>(made.first + i), cellsOf(level, i));
+        },
+        kWorthAStretch);
+    next += count;
+    below = count;
   }
-  if (!noteWhere(cells, 1)) return false;
-  std::string root = "UPDATE \"" + index_ + "_node\" SET data = ";
-  appendNode(root, depth, cells, node_bytes);
-  return run(root + " WHERE nodeno = 1") && run(nodes.take()) && run(rows.take()) && run(parents.take()) &&
-         run(insert_trigger_);
+}
+
+std::uint64_t GeoPackageIndex::countOfNodes() const {
+  std::uint64_t count = 0;
+  for (const Level& level : levels_) count += level.nodes.size();
+  return count;
+}
+
+std::size_t GeoPackageIndex::levelOf(std::uint64_t node) const {
+  if (node == kRoot) return levels_.size() - 1;
+  std::size_t level = 0;
+  while (node >= levels_[level].first + levels_[level].nodes.size()) ++level;
+  return level;
+}
+
+GeoPackageIndex::Cell GeoPackageIndex::cellOf(std::uint32_t row) const {
+  const IndexBox box = box_(row);
+  return {std::int64_t{row} + 1,
+          {roundedDown(box.low.x), roundedUp(box.high.x), roundedDown(box.low.y), roundedUp(box.high.y)}};
+}
+
+// What the i-th node of a level holds.
+std::vector<GeoPackageIndex::Cell> GeoPackageIndex::cellsOf(std::size_t level, std::uint64_t i) const {
+  std::vector<Cell> cells;
+  cells.reserve(kCells);
+  const std::size_t below = level == 0 ? order_.size() : levels_[level - 1].nodes.size();
+  for (std::size_t k = i * kCells; k < std::min<std::size_t>(below, (i + 1) * kCells); ++k)
+    cells.push_back(level == 0 ? cellOf(order_[k]) : levels_[level - 1].nodes[k]);
+  return cells;
+}
+
+std::array<std::byte, GeoPackageIndex::kNodeBytes> GeoPackageIndex::bytesOf(std::uint64_t node) const {
+  const std::size_t level = levelOf(node);
+  const std::vector<Cell> cells = cellsOf(level, node - levels_[level].first);
+  std::array<std::byte, kNodeBytes> bytes{};
+  std::byte* at = putBigEndian(bytes.data(), node == kRoot ? level : 0, 2);
+  at = putBigEndian(at, cells.size(), 2);
+  for (const Cell& cell : cells) {
+    at = putBigEndian(at, std::bit_cast<std::uint64_t>(cell.id), 8);
+    for (const float side : cell.box) at = putBigEndian(at, std::bit_cast<std::uint32_t>(side), 4);
+  }
+  return bytes;
+}
+
+std::uint64_t GeoPackageIndex::parentOf(std::uint64_t node) const {
+  const std::size_t level = levelOf(node);
+  return levels_[level + 1].first + (node - levels_[level].first) / kCells;
+}
+
+void GeoPackageIndex::addTables(const Roots& roots, std::vector<SqliteTable>& tables) const {
+  if (order_.empty()) return;
+  tables.push_back({roots.nodes, countOfNodes(), 1, [this](std::uint64_t i, SqliteRow& row) {
+                      const std::array<std::byte, kNodeBytes> bytes = bytesOf(i + 1);
+                      row.null();
+                      std::ranges::copy(bytes, row.blob(bytes.size()).begin());
+                    }});
+  tables.push_back({roots.rows, order_.size(), 1, [this](std::uint64_t i, SqliteRow& row) {
+                      row.null();
+                      row.whole(static_cast<std::int64_t>(levels_[0].first + place_[i] / kCells));
+                    }});
+  tables.push_back({roots.parents, countOfNodes() - 1, 2, [this](std::uint64_t i, SqliteRow& row) {
+                      row.null();
+                      row.whole(static_cast<std::int64_t>(parentOf(i + 2)));
+                    }});
 }
 
 }  // namespace coastmesh

@@ -1,42 +1,59 @@
 #pragma once
 
-#include <gdal_priv.h>
-
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <string>
+#include <functional>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/point.hpp"
+#include "gis/file/sqlite_pages.hpp"
 
 namespace coastmesh {
 
-// The box of a feature.
-struct IndexEntry {
-  std::int64_t fid = 0;
+struct IndexBox {
   Point low;
   Point high;
 };
 
-// The spatial index of a GeoPackage's layer, made whole from all boxes at once: entering rows one by one, as OGR before
-// 3.7 does, takes five times as long as writing the features. Between construction, with the layer empty, and `fill`,
-// with all features in it, the index knows none of them. Both return false where SQLite fails, whose message GDAL
-// gives.
+// The spatial index of a GeoPackage's layer, made whole from all boxes at once, as the three tables behind SQLite's
+// R*Tree: entering rows one by one, as OGR before 3.7 does, takes five times as long as writing the features.
 class GeoPackageIndex {
  public:
-  GeoPackageIndex(GDALDataset& dataset, const std::string& layer, const std::string& geometry_column);
+  // The page that each table begins in.
+  struct Roots {
+    std::uint64_t nodes = 0, rows = 0, parents = 0;
+  };
+  // Bytes of a node of a tree in a file with pages of 4096.
+  static constexpr std::size_t kNodeBytes = 1228;
 
-  bool create();
-  bool fill(std::vector<IndexEntry> entries);
+  // `box` of each row below `rows`, which has the fid row + 1; from several threads at the same time.
+  GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std::uint32_t row)> box, const ItemLoop& loop);
+
+  // REQUIRES: this outlives what is added, and stays where it is.
+  void addTables(const Roots& roots, std::vector<SqliteTable>& tables) const;
 
  private:
-  bool run(const std::string& sql);
-  std::string ask(const std::string& sql);  // the first value of the first row; empty where there is none
+  struct Cell {
+    std::int64_t id = 0;
+    std::array<float, 4> box{};
+  };
+  struct Level {
+    std::uint64_t first = 0;  // the number of its first node; others follow it
+    std::vector<Cell> nodes;  // as the level above has them
+  };
 
-  GDALDataset& dataset_;
-  std::string layer_;
-  std::string column_;
-  std::string index_;           // the name of its table
-  std::string insert_trigger_;  // the SQL that makes it
+  std::size_t levelOf(std::uint64_t node) const;
+  std::uint64_t countOfNodes() const;
+  Cell cellOf(std::uint32_t row) const;
+  std::vector<Cell> cellsOf(std::size_t level, std::uint64_t i) const;
+  std::array<std::byte, kNodeBytes> bytesOf(std::uint64_t node) const;
+  std::uint64_t parentOf(std::uint64_t node) const;
+
+  std::function<IndexBox(std::uint32_t)> box_;
+  std::vector<std::uint32_t> order_, place_;  // rows as the leaves have them, and where among them each row is
+  std::vector<Level> levels_;                 // from the leaves to the root
 };
 
 }  // namespace coastmesh

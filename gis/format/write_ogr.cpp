@@ -1,8 +1,5 @@
 #include "gis/format/write_ogr.hpp"
 
-#include <gdal_priv.h>
-#include <ogrsf_frmts.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,61 +8,21 @@
 #include <memory>
 #include <optional>
 
-#include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
-#include "gis/file/gpkg_index.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/format/grid_formats.hpp"
-#include "gis/format/grid_layers.hpp"
+#include "gis/format/ogr_layer.hpp"
 #include "gis/format/read_ogr_grid.hpp"
-#include "gis/grid/map_parts.hpp"
 
 namespace coastmesh {
 namespace {
 
 // The date that formats note inside: the same input has to give the same bytes.
-// Which GeoPackageIndex mends; it goes with the last such GDAL.
-constexpr bool kOgrIndexesSlowly = GDAL_VERSION_NUM < GDAL_COMPUTE_VERSION(3, 7, 0);
-
-constexpr const char* kGeoPackageDate = "2000-01-01T00:00:00.000Z";
 constexpr const char* kTableDate = "2000-01-01";
 
 constexpr std::size_t kLongestTableText = 254;  // bytes, of a .dbf
 
-struct Writer {
-  const char* driver;
-  std::vector<const char*> layer_options;
-  bool table_types = false;         // flags and texts as a .dbf has them
-  const char* plane_wkt = nullptr;  // what a plane is called; null: nothing
-  bool hides_failures = false;      // OGR does not report when the disk is full
-};
-
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
-
-[[noreturn]] void fail(const std::string& path, const OgrErrors& errors) {
-  throw OutputError("cannot write '" + path + "'" + (errors.text().empty() ? "" : ": " + errors.text()));
-}
-
-DatasetPtr create(const Writer& writer, const std::string& path, const OgrErrors& errors) {
-  GDALAllRegister();
-  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(writer.driver);
-  if (driver == nullptr) throw OutputError("cannot write '" + path + "': this GDAL has no driver " + writer.driver);
-  DatasetPtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  if (!dataset) fail(path, errors);
-  return dataset;
-}
-
-// What is left in GDAL's buffers is written now; only the collected messages say whether it went well.
-void close(DatasetPtr dataset, const std::string& path, const OgrErrors& errors) {
-  dataset->FlushCache(true);
-  dataset.reset();
-  if (errors.failed()) fail(path, errors);
-}
-
-bool createField(OGRLayer& target, const LayerColumn& column, const Writer& writer) {
+bool createField(OGRLayer& target, const LayerColumn& column, const OgrWriter& writer) {
   OGRFieldDefn field(column.name.c_str(), OFTString);
   if (std::holds_alternative<LayerColumn::Flag>(column.value)) {
     field.SetType(OFTInteger);
@@ -103,15 +60,6 @@ void setField(OGRFeature& feature, int index, const LayerColumn& column, std::si
       feature.SetField(index, scratch.c_str());
   }
 }
-
-// A layer of polygons on the map; where some are cut, all may have several parts.
-struct MapOfLayer {
-  MapCutter cutter;
-  bool has_parts = false;
-
-  MapOfLayer(const Grid& grid, const GridLayer& layer)
-      : cutter(grid), has_parts(layer.shape == GridLayer::Shape::Polygon && cutter.cutsAny()) {}
-};
 
 // One geometry for all rows of a layer, so that a row costs no allocation.
 class ShapeCursor {
@@ -186,7 +134,28 @@ class ShapeCursor {
   std::vector<std::uint32_t> nodes_;
 };
 
-OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const Writer& writer, const Grid& grid,
+}  // namespace
+
+void failToWrite(const std::string& path, const OgrErrors& errors) {
+  throw OutputError("cannot write '" + path + "'" + (errors.text().empty() ? "" : ": " + errors.text()));
+}
+
+DatasetPtr createDataset(const OgrWriter& writer, const std::string& path, const OgrErrors& errors) {
+  GDALAllRegister();
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(writer.driver);
+  if (driver == nullptr) throw OutputError("cannot write '" + path + "': this GDAL has no driver " + writer.driver);
+  DatasetPtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  if (!dataset) failToWrite(path, errors);
+  return dataset;
+}
+
+void closeDataset(DatasetPtr dataset, const std::string& path, const OgrErrors& errors) {
+  dataset->FlushCache(true);
+  dataset.reset();
+  if (errors.failed()) failToWrite(path, errors);
+}
+
+OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const OgrWriter& writer, const Grid& grid,
                       const GridLayer& layer, const std::string& name, const OgrErrors& errors) {
   std::optional<OGRSpatialReference> srs;
   if (!grid.crs.isPlane()) {
@@ -198,9 +167,9 @@ OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const Write
   options.push_back(nullptr);
   OGRLayer* const target = dataset.CreateLayer(name.c_str(), srs ? &*srs : nullptr, ShapeCursor::typeOf(grid, layer),
                                                const_cast<char**>(options.data()));
-  if (target == nullptr) fail(path, errors);
+  if (target == nullptr) failToWrite(path, errors);
   for (const LayerColumn& column : layer.columns)
-    if (!createField(*target, column, writer)) fail(path, errors);
+    if (!createField(*target, column, writer)) failToWrite(path, errors);
   return *target;
 }
 
@@ -214,34 +183,11 @@ void writeFeatures(OGRLayer& target, const std::string& path, const Grid& grid, 
     for (std::size_t c = 0; c < layer.columns.size(); ++c)
       setField(feature, static_cast<int>(c), layer.columns[c], row, scratch);
     feature.SetGeometry(&shapes.at(row));
-    if (target.CreateFeature(&feature) != OGRERR_NONE) fail(path, errors);
+    if (target.CreateFeature(&feature) != OGRERR_NONE) failToWrite(path, errors);
   }
 }
 
-// The boxes of the layer's rows, which have the fids 1, 2, ...
-std::vector<IndexEntry> boxesOf(const Grid& grid, const GridLayer& layer) {
-  std::vector<IndexEntry> boxes(layer.rows);
-  const MapOfLayer map(grid, layer);
-  std::vector<std::uint32_t> nodes;
-  std::vector<Point> places;
-  for (std::size_t row = 0; row < layer.rows; ++row) {
-    layer.shapeOf(row, nodes);
-    places.clear();
-    if (map.has_parts && map.cutter.cuts({nodes[0], nodes[1], nodes[2]})) {
-      for (const MapCutter::Ring& ring : map.cutter.partsOf({nodes[0], nodes[1], nodes[2]}))
-        places.insert(places.end(), ring.begin(), ring.end());
-    } else {
-      for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
-    }
-    IndexEntry& box = boxes[row];
-    box = {static_cast<std::int64_t>(row) + 1, places[0], places[0]};
-    for (const Point& p : places) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
-  }
-  return boxes;
-}
+namespace {
 
 [[noreturn]] void failIncomplete(const std::string& path) {
   throw OutputError("cannot write '" + path + "': the file came out incomplete; is the disk full?");
@@ -273,16 +219,16 @@ void requireComplete(const std::string& path, std::size_t rows, const OgrErrors&
   if (found != rows || errors.failed()) failIncomplete(path);
 }
 
-void writeLayerFiles(const Writer& writer, const Grid& grid, const std::vector<GridLayer>& layers,
+void writeLayerFiles(const OgrWriter& writer, const Grid& grid, const std::vector<GridLayer>& layers,
                      const std::string& path) {
   for (const GridLayer& layer : layers) {
     const std::string layer_path = pathOfLayer(path, layer.name);
     const OgrErrors errors;
-    DatasetPtr dataset = create(writer, layer_path, errors);
+    DatasetPtr dataset = createDataset(writer, layer_path, errors);
     const std::string name = std::filesystem::path(layer_path).stem().string();
     writeFeatures(createLayer(*dataset, layer_path, writer, grid, layer, name, errors), layer_path, grid, layer,
                   errors);
-    close(std::move(dataset), layer_path, errors);
+    closeDataset(std::move(dataset), layer_path, errors);
     if (writer.hides_failures) requireComplete(layer_path, layer.rows, errors);
     if (writer.table_types && !isWholeTable(withEnding(layer_path, ".dbf"), layer.rows)) failIncomplete(layer_path);
   }
@@ -296,34 +242,6 @@ std::uint64_t tableBytes(const GridLayer& layer) {
 }
 
 }  // namespace
-
-void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop&) {
-  const OgrErrors errors;
-  const OgrOption date("OGR_CURRENT_DATE", kGeoPackageDate);
-  // The file only gets its name once it is whole, so nothing is gained by a journal or by waiting for the disk.
-  const OgrOption journal("OGR_SQLITE_JOURNAL", "OFF");
-  const OgrOption synchronous("OGR_SQLITE_SYNCHRONOUS", "OFF");
-  // Said in this way or OGR calls it an undefined geographic CRS.
-  const Writer writer{"GPKG",
-                      {kOgrIndexesSlowly ? "SPATIAL_INDEX=NO" : "SPATIAL_INDEX=YES"},
-                      false,
-                      "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
-  DatasetPtr dataset = create(writer, path, errors);
-  if (dataset->StartTransaction() != OGRERR_NONE) fail(path, errors);
-  for (const GridLayer& layer : layersOf(grid)) {
-    OGRLayer& target = createLayer(*dataset, path, writer, grid, layer, layer.name, errors);
-    if (!kOgrIndexesSlowly) {
-      writeFeatures(target, path, grid, layer, errors);
-      continue;
-    }
-    GeoPackageIndex index(*dataset, layer.name, target.GetGeometryColumn());
-    if (!index.create()) fail(path, errors);
-    writeFeatures(target, path, grid, layer, errors);
-    if (!index.fill(boxesOf(grid, layer))) fail(path, errors);
-  }
-  if (dataset->CommitTransaction() != OGRERR_NONE) fail(path, errors);
-  close(std::move(dataset), path, errors);
-}
 
 void writeShapefile(const Grid& grid, const std::string& path, const ItemLoop&) {
   requireZ(grid, path);
@@ -349,11 +267,6 @@ void requireShapefileSize(const std::string& path, std::uint64_t rows, std::uint
 
 namespace {
 
-// SQLite would play a log that an older file of the name left into the new one.
-OutputFiles geoPackageFiles(const std::string& path) {
-  return {{path}, {path + "-wal", path + "-shm", path + "-journal"}, {}};
-}
-
 OutputFiles shapefileFiles(const std::string& path) {
   OutputFiles files;
   for (const std::string& layer : layerFiles(path).targets) {
@@ -367,12 +280,6 @@ OutputFiles shapefileFiles(const std::string& path) {
 }
 
 }  // namespace
-
-FormatRecord geoPackageFormat() {
-  return {
-      {"gpkg", {".gpkg"}, "GeoPackage with layers of triangles, nodes, boundaries and lines", true, true, kLayerParts},
-      {writeGeoPackage, readOgrGrid, geoPackageFiles}};
-}
 
 FormatRecord shapefileFormat() {
   return {{"shp", {".shp"}, "Shapefile, three or four sets of files", true, true, kLayerParts},

@@ -1,4 +1,4 @@
-#include "gis/format/nodes_by_place.hpp"
+#include "gis/grid/nodes_by_place.hpp"
 
 #include <algorithm>
 #include <map>

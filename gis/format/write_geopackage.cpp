@@ -1,0 +1,340 @@
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "gis/error.hpp"
+#include "gis/file/gpkg_index.hpp"
+#include "gis/file/sqlite_pages.hpp"
+#include "gis/format/grid_formats.hpp"
+#include "gis/format/ogr_layer.hpp"
+#include "gis/format/read_ogr_grid.hpp"
+#include "gis/format/write_ogr.hpp"
+
+namespace coastmesh {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "geometries say that they are so");
+
+// The date that the file notes inside: the same input has to give the same bytes.
+constexpr const char* kDate = "2000-01-01T00:00:00.000Z";
+
+// Little-endian bytes one after another.
+class ByteCursor {
+ public:
+  explicit ByteCursor(std::span<std::byte> to) : at_(to.data()) {}
+
+  template <typename T>
+  void put(T value) {
+    std::memcpy(at_, &value, sizeof value);
+    at_ += sizeof value;
+  }
+  void put(const Point& p) { put(p.x), put(p.y); }
+
+ private:
+  std::byte* at_;
+};
+
+IndexBox boxOf(std::span<const Point> places) {
+  IndexBox box{places[0], places[0]};
+  for (const Point& p : places) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
+
+// "GP", version 0, what follows, and the CRS; then a box where the geometry is no point.
+constexpr std::size_t kHeaderBytes = 8, kBoxBytes = 32;
+void putHeader(ByteCursor& bytes, std::int32_t srs_id, const std::optional<IndexBox>& box) {
+  constexpr std::uint8_t kLittleEndian = 1, kWithBox = 2;
+  for (const char c : {'G', 'P', '\0'}) bytes.put(c);
+  bytes.put(static_cast<std::uint8_t>(box ? kLittleEndian | kWithBox : kLittleEndian));
+  bytes.put(srs_id);
+  if (!box) return;
+  for (const double side : {box->low.x, box->high.x, box->low.y, box->high.y}) bytes.put(side);
+}
+
+// The rows of a layer of triangles or of nodes, as OGR would have SQLite write them.
+class LayerRows {
+ public:
+  // REQUIRES: both outlive it.
+  LayerRows(const Grid& grid, const GridLayer& layer) : grid_(grid), layer_(layer), map_(grid, layer) {}
+
+  void make(std::size_t row, std::int32_t srs_id, SqliteRow& to) const {
+    to.null();  // the fid
+    if (layer_.shape == GridLayer::Shape::Point)
+      putPoint(row, srs_id, to);
+    else if (map_.has_parts)
+      putParts(map_.cutter.partsOf(grid_.triangles[row]), srs_id, to);
+    else
+      putTriangle(row, srs_id, to);
+    for (const LayerColumn& column : layer_.columns) putValue(column, row, to);
+  }
+
+  IndexBox box(std::size_t row) const {
+    if (layer_.shape == GridLayer::Shape::Point) return boxOf({&grid_.nodes[row], 1});
+    const std::array<std::uint32_t, 3>& corners = grid_.triangles[row];
+    if (!map_.has_parts || !map_.cutter.cuts(corners)) return boxOf(cornersOf(row));
+    return boxOfParts(map_.cutter.partsOf(corners));
+  }
+
+  // Whether no row is too large to be made so.
+  bool areSmall() const {
+    constexpr std::size_t kGeometry = 1500, kNumber = 10;  // of what is cut at the end of longitudes and at a pole
+    std::size_t bytes = kGeometry;
+    for (const LayerColumn& column : layer_.columns) bytes += kNumber + column.longest;
+    return bytes <= kLargestSqliteRow;
+  }
+
+ private:
+  static constexpr std::uint8_t kLittleEndian = 1;
+  static constexpr std::uint32_t kPoint = 1, kPointZ = 1001, kPolygon = 3, kMultiPolygon = 6;
+  static constexpr std::size_t kShapeBytes = 1 + 4, kPlaceBytes = 16;
+
+  std::array<Point, 3> cornersOf(std::size_t row) const {
+    const auto& [a, b, c] = grid_.triangles[row];
+    return {grid_.nodes[a], grid_.nodes[b], grid_.nodes[c]};
+  }
+
+  static IndexBox boxOfParts(const std::vector<MapCutter::Ring>& parts) {
+    std::vector<Point> places;
+    for (const MapCutter::Ring& ring : parts) places.insert(places.end(), ring.begin(), ring.end());
+    return boxOf(places);
+  }
+
+  void putPoint(std::size_t row, std::int32_t srs_id, SqliteRow& to) const {
+    const bool has_z = !grid_.z.empty();
+    ByteCursor bytes(to.blob(kHeaderBytes + kShapeBytes + kPlaceBytes + (has_z ? sizeof(double) : 0)));
+    putHeader(bytes, srs_id, std::nullopt);
+    bytes.put(kLittleEndian);
+    bytes.put(has_z ? kPointZ : kPoint);
+    bytes.put(grid_.nodes[row]);
+    if (has_z) bytes.put(grid_.z[row]);
+  }
+
+  static std::size_t polygonBytes(std::size_t corners) { return kShapeBytes + 4 + 4 + (corners + 1) * kPlaceBytes; }
+
+  static void putPolygon(std::span<const Point> ring, ByteCursor& bytes) {
+    bytes.put(kLittleEndian);
+    bytes.put(kPolygon);
+    bytes.put(std::uint32_t{1});  // its rings
+    bytes.put(static_cast<std::uint32_t>(ring.size() + 1));
+    for (const Point& p : ring) bytes.put(p);
+    bytes.put(ring[0]);
+  }
+
+  void putTriangle(std::size_t row, std::int32_t srs_id, SqliteRow& to) const {
+    const std::array<Point, 3> corners = cornersOf(row);
+    ByteCursor bytes(to.blob(kHeaderBytes + kBoxBytes + polygonBytes(corners.size())));
+    putHeader(bytes, srs_id, boxOf(corners));
+    putPolygon(corners, bytes);
+  }
+
+  static void putParts(const std::vector<MapCutter::Ring>& parts, std::int32_t srs_id, SqliteRow& to) {
+    std::size_t size = kHeaderBytes + kBoxBytes + kShapeBytes + 4;
+    for (const MapCutter::Ring& ring : parts) size += polygonBytes(ring.size());
+    ByteCursor bytes(to.blob(size));
+    putHeader(bytes, srs_id, boxOfParts(parts));
+    bytes.put(kLittleEndian);
+    bytes.put(kMultiPolygon);
+    bytes.put(static_cast<std::uint32_t>(parts.size()));
+    for (const MapCutter::Ring& ring : parts) putPolygon(ring, bytes);
+  }
+
+  static void putValue(const LayerColumn& column, std::size_t row, SqliteRow& to) {
+    if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
+      to.whole((*flag)(row) ? 1 : 0);
+    } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
+      if (const std::optional<std::int64_t> value = (*whole)(row))
+        to.whole(*value);
+      else
+        to.null();
+    } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
+      if (const double value = (*real)(row); std::isnan(value))
+        to.null();
+      else
+        to.real(value);
+    } else if (const std::string_view text = std::get<LayerColumn::Text>(column.value)(row); text.empty()) {
+      to.null();
+    } else {
+      to.text(text);
+    }
+  }
+
+  const Grid& grid_;
+  const GridLayer& layer_;
+  MapOfLayer map_;
+};
+
+// What a file is asked and told by SQL.
+class Sql {
+ public:
+  Sql(GDALDataset& dataset, const std::string& path, const OgrErrors& errors)
+      : dataset_(dataset), path_(path), errors_(errors) {}
+
+  void run(const std::string& sql) {
+    CPLErrorReset();
+    if (OGRLayer* const result = dataset_.ExecuteSQL(sql.c_str(), nullptr, nullptr)) dataset_.ReleaseResultSet(result);
+    if (CPLGetLastErrorType() >= CE_Failure) failToWrite(path_, errors_);
+  }
+
+  // The first value of the first row.
+  std::string ask(const std::string& sql) {
+    OGRLayer* const result = dataset_.ExecuteSQL(sql.c_str(), nullptr, nullptr);
+    if (result == nullptr) failToWrite(path_, errors_);
+    const OGRFeatureUniquePtr row(result->GetNextFeature());
+    std::string value = row && row->GetFieldCount() > 0 ? row->GetFieldAsString(0) : "";
+    dataset_.ReleaseResultSet(result);
+    if (value.empty()) failToWrite(path_, errors_);
+    return value;
+  }
+
+  std::uint64_t askNumber(const std::string& sql) {
+    const std::string text = ask(sql);
+    std::uint64_t number = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), number).ec != std::errc()) failToWrite(path_, errors_);
+    return number;
+  }
+
+  std::uint64_t rootOf(const std::string& table) {
+    return askNumber("SELECT rootpage FROM sqlite_master WHERE type = 'table' AND name = '" + table + "'");
+  }
+
+ private:
+  GDALDataset& dataset_;
+  const std::string& path_;
+  const OgrErrors& errors_;
+};
+
+std::string indexOf(const GridLayer& layer) { return "rtree_" + layer.name + "_geom"; }
+
+// The layer as OGR makes it, with an index that knows none of its features; those too that OGR is to write.
+void createLayerWithIndex(GDALDataset& dataset, const std::string& path, const OgrWriter& writer, const Grid& grid,
+                          const GridLayer& layer, bool with_features, const OgrErrors& errors) {
+  OGRLayer& target = createLayer(dataset, path, writer, grid, layer, layer.name, errors);
+  Sql sql(dataset, path, errors);
+  if (sql.ask("SELECT CreateSpatialIndex('" + layer.name + "', '" + target.GetGeometryColumn() + "')") != "1")
+    failToWrite(path, errors);
+  if (!with_features) return;
+  // Features do not go into the index one by one.
+  const std::string trigger = indexOf(layer) + "_insert";
+  const std::string made = sql.ask("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = '" + trigger + "'");
+  sql.run("DROP TRIGGER \"" + trigger + "\"");
+  writeFeatures(target, path, grid, layer, errors);
+  sql.run(made);
+}
+
+// What SQLite and OGR note of a layer's rows while they enter them. The box as a geometry's, so that no bit of it is
+// lost between numbers and text.
+void noteRows(Sql& sql, const GridLayer& layer, const IndexBox& box) {
+  std::array<std::byte, kHeaderBytes + kBoxBytes> bytes{};
+  ByteCursor cursor(bytes);
+  putHeader(cursor, 0, box);
+  std::string blob = "X'";
+  constexpr char kHex[] = "0123456789ABCDEF";
+  for (const std::byte b : bytes) {
+    blob += kHex[std::to_integer<unsigned>(b) >> 4];
+    blob += kHex[std::to_integer<unsigned>(b) & 15];
+  }
+  blob += '\'';
+  const std::string name = "'" + layer.name + "'", rows = std::to_string(layer.rows);
+  sql.run("INSERT INTO sqlite_sequence (name, seq) VALUES (" + name + ", " + rows + ")");
+  sql.run("UPDATE gpkg_ogr_contents SET feature_count = " + rows + " WHERE table_name = " + name);
+  sql.run("UPDATE gpkg_contents SET min_x = ST_MinX(" + blob + "), min_y = ST_MinY(" + blob + "), max_x = ST_MaxX(" +
+          blob + "), max_y = ST_MaxY(" + blob + ") WHERE table_name = " + name);
+}
+
+IndexBox boxOfAll(std::size_t rows, const std::function<IndexBox(std::uint32_t)>& box, const ItemLoop& loop) {
+  std::vector<Point> ends;
+  for (const IndexBox& some : overStretches(loop, rows, [&](std::size_t first, std::size_t last) {
+         IndexBox all = box(static_cast<std::uint32_t>(first));
+         for (std::size_t i = first; i < last; ++i) {
+           const IndexBox own = box(static_cast<std::uint32_t>(i));
+           all = boxOf(std::array{all.low, all.high, own.low, own.high});
+         }
+         return all;
+       }))
+    ends.insert(ends.end(), {some.low, some.high});
+  return boxOf(ends);
+}
+
+}  // namespace
+
+// OGR makes the file, its tables and what is short; rows of triangles and nodes, and the indices of all layers, are
+// made by all threads and put behind that.
+void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& loop) {
+  const OgrErrors errors;
+  const OgrOption date("OGR_CURRENT_DATE", kDate);
+  // The file only gets its name once it is whole, so nothing is gained by a journal or by waiting for the disk.
+  const OgrOption journal("OGR_SQLITE_JOURNAL", "OFF");
+  const OgrOption synchronous("OGR_SQLITE_SYNCHRONOUS", "OFF");
+  // Said in this way or OGR calls it an undefined geographic CRS.
+  const OgrWriter writer{"GPKG", {"SPATIAL_INDEX=NO"}, false, "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
+  const std::vector<GridLayer> layers = layersOf(grid);
+  std::vector<std::unique_ptr<LayerRows>> rows_of;  // null: OGR writes them
+  for (const GridLayer& layer : layers) {
+    const bool many = layer.shape != GridLayer::Shape::Line && layer.rows > 0;
+    std::unique_ptr<LayerRows> rows = many ? std::make_unique<LayerRows>(grid, layer) : nullptr;
+    rows_of.push_back(rows && rows->areSmall() ? std::move(rows) : nullptr);
+  }
+
+  DatasetPtr dataset = createDataset(writer, path, errors);
+  if (dataset->StartTransaction() != OGRERR_NONE) failToWrite(path, errors);
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    createLayerWithIndex(*dataset, path, writer, grid, layers[i], rows_of[i] == nullptr, errors);
+  if (dataset->CommitTransaction() != OGRERR_NONE) failToWrite(path, errors);
+  closeDataset(std::move(dataset), path, errors);
+
+  dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+  if (!dataset) failToWrite(path, errors);
+  Sql sql(*dataset, path, errors);
+  std::vector<SqliteTable> tables;
+  std::vector<std::unique_ptr<GeoPackageIndex>> indices;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const GridLayer& layer = layers[i];
+    std::function<IndexBox(std::uint32_t)> box = [&grid, &layer](std::uint32_t row) {
+      std::vector<std::uint32_t> nodes;
+      layer.shapeOf(row, nodes);
+      std::vector<Point> places;
+      for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
+      return boxOf(places);
+    };
+    if (const LayerRows* const rows = rows_of[i].get()) {
+      box = [rows](std::uint32_t row) { return rows->box(row); };
+      const auto srs_id = static_cast<std::int32_t>(
+          std::stoll(sql.ask("SELECT srs_id FROM gpkg_geometry_columns WHERE table_name = '" + layer.name + "'")));
+      tables.push_back({sql.rootOf(layer.name), layer.rows, 1,
+                        [rows, srs_id](std::uint64_t row, SqliteRow& to) { rows->make(row, srs_id, to); }});
+      noteRows(sql, layer, boxOfAll(layer.rows, box, loop));
+    }
+    const std::string index = indexOf(layer);
+    if (sql.askNumber("SELECT length(data) FROM \"" + index + "_node\" WHERE nodeno = 1") !=
+        GeoPackageIndex::kNodeBytes)
+      throw OutputError("cannot write '" + path + "': SQLite made an index of another kind than was expected");
+    indices.push_back(std::make_unique<GeoPackageIndex>(static_cast<std::uint32_t>(layer.rows), std::move(box), loop));
+    indices.back()->addTables(
+        {sql.rootOf(index + "_node"), sql.rootOf(index + "_rowid"), sql.rootOf(index + "_parent")}, tables);
+  }
+  closeDataset(std::move(dataset), path, errors);
+  writeSqliteTables(path, tables, loop);
+}
+
+namespace {
+
+// SQLite would play a log that an older file of the name left into the new one.
+OutputFiles geoPackageFiles(const std::string& path) {
+  return {{path}, {path + "-wal", path + "-shm", path + "-journal"}, {}};
+}
+
+}  // namespace
+
+FormatRecord geoPackageFormat() {
+  return {
+      {"gpkg", {".gpkg"}, "GeoPackage with layers of triangles, nodes, boundaries and lines", true, true, kLayerParts},
+      {writeGeoPackage, readOgrGrid, geoPackageFiles}};
+}
+
+}  // namespace coastmesh
