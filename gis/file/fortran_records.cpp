@@ -40,21 +40,30 @@ void FortranWriter::text(std::string_view value) {
 }
 
 void FortranWriter::integers(std::span<const std::int32_t> values) {
-  length(values.size_bytes());
-  for (const std::int32_t value : values) {
-    const std::uint32_t bits = swapped(static_cast<std::uint32_t>(value));
-    file_.raw(&bits, sizeof(bits));
-  }
-  length(values.size_bytes());
+  integers(inOrder, values.size(), [values](std::size_t i) { return values[i]; });
 }
 
 void FortranWriter::doubles(std::span<const double> values) {
-  length(values.size_bytes());
-  for (const double value : values) {
-    const std::uint64_t bits = swapped(std::bit_cast<std::uint64_t>(value));
-    file_.raw(&bits, sizeof(bits));
-  }
-  length(values.size_bytes());
+  doubles(inOrder, values.size(), [values](std::size_t i) { return values[i]; });
+}
+
+void FortranWriter::integers(const ItemLoop& loop, std::size_t count,
+                             const std::function<std::int32_t(std::size_t)>& value) {
+  length(count * sizeof(std::uint32_t));
+  file_.rows(loop, count, [&value](TextBlock& block, std::size_t i) {
+    const std::uint32_t bits = swapped(static_cast<std::uint32_t>(value(i)));
+    block.raw(&bits, sizeof(bits));
+  });
+  length(count * sizeof(std::uint32_t));
+}
+
+void FortranWriter::doubles(const ItemLoop& loop, std::size_t count, const std::function<double(std::size_t)>& value) {
+  length(count * sizeof(std::uint64_t));
+  file_.rows(loop, count, [&value](TextBlock& block, std::size_t i) {
+    const std::uint64_t bits = swapped(std::bit_cast<std::uint64_t>(value(i)));
+    block.raw(&bits, sizeof(bits));
+  });
+  length(count * sizeof(std::uint64_t));
 }
 
 FortranReader::FortranReader(const std::string& path) : path_(path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ class FortranWriter {
   void text(std::string_view value);
   void integers(std::span<const std::int32_t> values);
   void doubles(std::span<const double> values);
+  // The same of `value(i)` for every i below `count`, made by the threads of `loop`.
+  void integers(const ItemLoop& loop, std::size_t count, const std::function<std::int32_t(std::size_t)>& value);
+  void doubles(const ItemLoop& loop, std::size_t count, const std::function<double(std::size_t)>& value);
   void close() { file_.close(); }
 
  private:

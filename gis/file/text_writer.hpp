@@ -26,6 +26,9 @@ class TextBlock {
     return number(value);
   }
 
+  // Bytes as they are.
+  void raw(const void* bytes, std::size_t size) { *this << std::string_view(static_cast<const char*>(bytes), size); }
+
   std::string_view text() const { return {bytes_.data(), used_}; }
   void clear() { used_ = 0; }  // keeps its memory
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
 #include "gis/crs/geographic_map.hpp"
 #include "gis/file/prj_file.hpp"
@@ -38,31 +39,33 @@ std::vector<std::uint32_t> openNodes(const Grid& grid) {
   return nodes;
 }
 
-std::vector<double> latitudes(const Grid& grid) {
-  std::vector<double> out(grid.nodes.size(), 0.0);
-  if (grid.crs.isPlane()) return out;
-  const GeographicMap map(grid.crs);
-  std::ranges::transform(grid.nodes, out.begin(), [&](const Point& p) { return map.forward(p).lat; });
-  return out;
+// What a file says of each node.
+using NodeValue = std::function<double(std::size_t node)>;
+
+NodeValue latitudesOf(const Grid& grid) {
+  if (grid.crs.isPlane()) return [](std::size_t) { return 0.0; };
+  return [&grid, map = GeographicMap(grid.crs)](std::size_t i) { return map.forward(grid.nodes[i]).lat; };
 }
 
-void writeNodeFile(const Grid& grid, const std::vector<double>& values, const std::string& path) {
+void writeNodeFile(const Grid& grid, const NodeValue& value, const std::string& path, const ItemLoop& loop) {
   TextWriter file(path);
   file << "Node Number = " << grid.nodes.size() << '\n';
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
-    file << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << values[i] << '\n';
+  file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
+    text << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << value(i) << '\n';
+  });
   file.close();
 }
 
-void writeCells(const Grid& grid, const std::vector<double>& depths, const std::string& path) {
+void writeCells(const Grid& grid, const NodeValue& depth, const std::string& path, const ItemLoop& loop) {
   TextWriter file(path);
   file << "Node Number = " << grid.nodes.size() << "\nCell Number = " << grid.triangles.size() << '\n';
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
-    file << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << " 1\n";
-  }
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
-    file << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << depths[i] << '\n';
+    text << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << " 1\n";
+  });
+  file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
+    text << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' ' << depth(i) << '\n';
+  });
   file.close();
 }
 
@@ -70,13 +73,12 @@ void writeCells(const Grid& grid, const std::vector<double>& depths, const std::
 // boundaries, type 1) and `lake_cor.dat` (latitudes; 0, which is no rotation, in a plane), with the CRS in a .prj.
 // `path` is the first of them; without "_grd.dat" at its end it gives the name of the set. Rivers are shore here: FVCOM
 // has them in its namelist. Throws OutputError, also where a depth is unknown.
-void writeFvcom(const Grid& grid, const std::string& path, const ItemLoop&) {
+void writeFvcom(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
-  std::vector<double> depths(grid.nodes.size(), 0.0);
-  std::ranges::transform(grid.z, depths.begin(), [](double z) { return 0.0 - z; });
-  writeCells(grid, depths, fileOfSet(path, "grd"));
-  writeNodeFile(grid, depths, fileOfSet(path, "dep"));
-  writeNodeFile(grid, latitudes(grid), fileOfSet(path, "cor"));
+  const NodeValue depth = [&grid](std::size_t i) { return grid.z.empty() ? 0.0 : 0.0 - grid.z[i]; };
+  writeCells(grid, depth, fileOfSet(path, "grd"), loop);
+  writeNodeFile(grid, depth, fileOfSet(path, "dep"), loop);
+  writeNodeFile(grid, latitudesOf(grid), fileOfSet(path, "cor"), loop);
   const std::vector<std::uint32_t> open = openNodes(grid);
   TextWriter file(fileOfSet(path, "obc"));
   file << "OBC Node Number = " << open.size() << '\n';

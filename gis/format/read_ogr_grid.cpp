@@ -19,11 +19,11 @@
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_layers.hpp"
-#include "gis/grid/nodes_by_place.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/map_parts.hpp"
+#include "gis/grid/nodes_by_place.hpp"
 #include "gis/grid/wind_triangles.hpp"
 
 namespace coastmesh {

@@ -20,7 +20,7 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
   gr3.close();
   if (grid.crs.isPlane()) return;
   TextWriter ll(withEnding(path, ".ll"));
-  writeFort14(ll, grid, geographicNodes(grid), Fort14Kind::Schism, loop);
+  writeFort14(ll, grid, geographicNodes(grid, loop), Fort14Kind::Schism, loop);
   ll.close();
   writePrjBeside(path, grid.crs);
 }

@@ -173,7 +173,7 @@ std::string padded(std::string_view text, std::size_t width) {
   return out;
 }
 
-void writeGeometry(const Grid& grid, const BoundaryNodes& boundary, const std::string& path) {
+void writeGeometry(const Grid& grid, const BoundaryNodes& boundary, const std::string& path, const ItemLoop& loop) {
   FortranWriter file(path);
   file.text(padded(grid.title, 72) + "SERAFIND");
   file.integers(std::array<std::int32_t, 2>{1, 0});
@@ -181,22 +181,15 @@ void writeGeometry(const Grid& grid, const BoundaryNodes& boundary, const std::s
   file.integers(std::array<std::int32_t, 10>{1});
   const auto nodes = static_cast<std::int32_t>(grid.nodes.size());
   file.integers(std::array{static_cast<std::int32_t>(grid.triangles.size()), nodes, 3, 1});
-  std::vector<std::int32_t> numbers;
-  numbers.reserve(3 * grid.triangles.size());
-  for (const auto& corners : grid.triangles)
-    for (const std::uint32_t node : corners) numbers.push_back(static_cast<std::int32_t>(node) + 1);
-  file.integers(numbers);
-  numbers.assign(grid.nodes.size(), 0);
-  for (std::size_t i = 0; i < boundary.nodes.size(); ++i) numbers[boundary.nodes[i]] = static_cast<std::int32_t>(i) + 1;
-  file.integers(numbers);
-  std::vector<double> values(grid.nodes.size());
-  std::ranges::transform(grid.nodes, values.begin(), &Point::x);
-  file.doubles(values);
-  std::ranges::transform(grid.nodes, values.begin(), &Point::y);
-  file.doubles(values);
+  file.integers(loop, 3 * grid.triangles.size(),
+                [&](std::size_t i) { return static_cast<std::int32_t>(grid.triangles[i / 3][i % 3]) + 1; });
+  Ranks ranks(grid.nodes.size(), 0);
+  for (std::size_t i = 0; i < boundary.nodes.size(); ++i) ranks[boundary.nodes[i]] = static_cast<std::int32_t>(i) + 1;
+  file.integers(loop, ranks.size(), [&](std::size_t i) { return ranks[i]; });
+  file.doubles(loop, grid.nodes.size(), [&](std::size_t i) { return grid.nodes[i].x; });
+  file.doubles(loop, grid.nodes.size(), [&](std::size_t i) { return grid.nodes[i].y; });
   file.doubles(std::array{0.0});  // the time
-  std::ranges::fill(values, 0.0);
-  file.doubles(grid.z.empty() ? values : grid.z);
+  file.doubles(loop, grid.nodes.size(), [&](std::size_t i) { return grid.z.empty() ? 0.0 : grid.z[i]; });
   file.close();
 }
 
@@ -219,10 +212,10 @@ void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
 // boundaries levels (5 4 4), rivers discharges (4 5 5). The file has codes for nodes only: the shore of a single edge
 // between two openings becomes open with them. Throws OutputError, also where a z is unknown or the mesh touches
 // itself in a node.
-void writeTelemac(const Grid& grid, const std::string& path, const ItemLoop&) {
+void writeTelemac(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const BoundaryNodes boundary = boundaryNodesOf(grid, path);
-  writeGeometry(grid, boundary, path);
+  writeGeometry(grid, boundary, path, loop);
   writeConditions(boundary, withEnding(path, ".cli"));
   writePrjBeside(path, grid.crs);
 }

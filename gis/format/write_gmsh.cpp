@@ -85,12 +85,13 @@ void writePhysicalNames(TextWriter& file, const Grid& grid, const Layout& layout
   file << "$EndPhysicalNames\n";
 }
 
-void writeNodeData(TextWriter& file, const Grid& grid) {
+void writeNodeData(TextWriter& file, const Grid& grid, const ItemLoop& loop) {
   if (grid.z.empty()) return;
   const auto known = std::ranges::count_if(grid.z, [](double z) { return !std::isnan(z); });
   file << "$NodeData\n1\n\"z\"\n1\n0\n3\n0\n1\n" << known << '\n';
-  for (std::size_t i = 0; i < grid.z.size(); ++i)
-    if (!std::isnan(grid.z[i])) file << i + 1 << ' ' << grid.z[i] << '\n';
+  file.rows(loop, grid.z.size(), [&](TextBlock& text, std::size_t i) {
+    if (!std::isnan(grid.z[i])) text << i + 1 << ' ' << grid.z[i] << '\n';
+  });
   file << "$EndNodeData\n";
 }
 
@@ -350,7 +351,7 @@ void writeGmsh(const Grid& grid, const std::string& path, const ItemLoop& loop) 
   writePartitionedEntities(file, grid, layout, lines, blocks);
   writeNodes(file, grid, lines, blocks, loop);
   writeElements(file, grid, lines, blocks, loop);
-  writeNodeData(file, grid);
+  writeNodeData(file, grid, loop);
   file.close();
   writePrjBeside(path, grid.crs);
 }
@@ -370,14 +371,14 @@ void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop
     for (const auto& [from, to] : layout.curves[c].edges)
       file << ++tag << ' ' << kLine << " 2 " << layout.curves[c].group << ' ' << c + 1 << ' ' << from + 1 << ' '
            << to + 1 << '\n';
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
     const std::size_t surface = layout.surfaceTag(surfaceOf(grid, t));
-    file << ++tag << ' ' << kTriangle << " 2 " << surface << ' ' << surface << ' ' << a + 1 << ' ' << b + 1 << ' '
+    text << tag + t + 1 << ' ' << kTriangle << " 2 " << surface << ' ' << surface << ' ' << a + 1 << ' ' << b + 1 << ' '
          << c + 1 << '\n';
-  }
+  });
   file << "$EndElements\n";
-  writeNodeData(file, grid);
+  writeNodeData(file, grid, loop);
   file.close();
   writePrjBeside(path, grid.crs);
 }

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_writer.hpp"
@@ -37,6 +39,17 @@ class Appendix {
     const std::uint64_t bytes = values.size() * sizeof(T);
     file_.raw(&bytes, sizeof(bytes));
     file_.raw(values.data(), bytes);
+  }
+
+  // An array of `value(i)` for every i below `count`: numbers or arrays of these, made by the threads of `loop`.
+  template <typename Value>
+  void write(const ItemLoop& loop, std::size_t count, const Value& value) {
+    const std::uint64_t bytes = count * sizeof(value(std::size_t{0}));
+    file_.raw(&bytes, sizeof(bytes));
+    file_.rows(loop, count, [&value](TextBlock& block, std::size_t i) {
+      const auto one = value(i);
+      block.raw(&one, sizeof(one));
+    });
   }
 
  private:
@@ -120,10 +133,11 @@ struct FieldArrays {
 
 // Where nodes lie in space, and longitudes and latitudes besides where these are not the first two coordinates.
 struct VtuPlaces {
-  std::vector<double> coordinates, longitudes, latitudes;
+  std::function<std::array<double, 3>(std::size_t node)> place;
+  std::function<LonLat(std::size_t node)> geographic;  // null: it is what the place says
 };
 
-void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& path) {
+void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& path, const ItemLoop& loop) {
   const std::uint64_t nodes = grid.nodes.size(), cells = grid.triangles.size();
   TextWriter file(path);
   Appendix appendix(file);
@@ -145,7 +159,7 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
   appendix.declare("UInt8", "types", 1, cells);
   file << "</Cells>\n<PointData>\n";
   if (!grid.z.empty()) appendix.declare("Float64", "z", 1, nodes * 8);
-  if (!places.longitudes.empty()) {
+  if (places.geographic) {
     appendix.declare("Float64", kVtuLongitude, 1, nodes * 8);
     appendix.declare("Float64", kVtuLatitude, 1, nodes * 8);
   }
@@ -157,33 +171,25 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
   file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 
   fields.write(appendix);
-  appendix.write(places.coordinates);
-  std::vector<std::int64_t> connectivity, offsets, fids;
-  connectivity.reserve(3 * cells);
-  offsets.reserve(cells);
-  for (const auto& corners : grid.triangles) {
-    connectivity.insert(connectivity.end(), corners.begin(), corners.end());
-    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-  }
-  appendix.write(connectivity);
-  appendix.write(offsets);
-  appendix.write(std::vector<std::uint8_t>(cells, kVtkTriangle));
+  appendix.write(loop, nodes, places.place);
+  appendix.write(loop, cells, [&](std::size_t t) {
+    const auto& [a, b, c] = grid.triangles[t];
+    return std::array<std::int64_t, 3>{a, b, c};
+  });
+  appendix.write(loop, cells, [](std::size_t t) { return 3 * (static_cast<std::int64_t>(t) + 1); });
+  appendix.write(loop, cells, [](std::size_t) { return kVtkTriangle; });
   if (!grid.z.empty()) appendix.write(grid.z);
-  if (!places.longitudes.empty()) {
-    appendix.write(places.longitudes);
-    appendix.write(places.latitudes);
+  if (places.geographic) {
+    appendix.write(loop, nodes, [&](std::size_t i) { return places.geographic(i).lon; });
+    appendix.write(loop, nodes, [&](std::size_t i) { return places.geographic(i).lat; });
   }
   if (!grid.min_angle_deg.empty()) appendix.write(grid.min_angle_deg);
   if (!grid.area_m2.empty()) appendix.write(grid.area_m2);
-  if (!grid.feature_of.empty()) {
-    for (const std::uint32_t feature : grid.feature_of) fids.push_back(grid.features[feature].fid);
-    appendix.write(fids);
-  }
+  if (!grid.feature_of.empty())
+    appendix.write(loop, cells, [&](std::size_t t) { return std::int64_t{grid.features[grid.feature_of[t]].fid}; });
   if (!regions.empty()) {
     const std::vector<int> numbers = regionNumbers(grid, regions);
-    std::vector<std::int64_t> region_of;
-    for (const std::uint32_t feature : grid.feature_of) region_of.push_back(numbers[feature]);
-    appendix.write(region_of);
+    appendix.write(loop, cells, [&](std::size_t t) { return std::int64_t{numbers[grid.feature_of[t]]}; });
   }
   file << "\n</AppendedData>\n</VTKFile>\n";
   file.close();
@@ -191,25 +197,23 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
 
 // VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z as node data, smallest
 // angle, area and source fid as cell data. VTK has no word for a CRS. Throws OutputError.
-void writeVtu(const Grid& grid, const std::string& path, const ItemLoop&) {
-  VtuPlaces places;
-  places.coordinates.reserve(3 * grid.nodes.size());
-  for (const Point& p : grid.nodes) places.coordinates.insert(places.coordinates.end(), {p.x, p.y, 0.0});
-  writeFile(grid, places, path);
+void writeVtu(const Grid& grid, const std::string& path, const ItemLoop& loop) {
+  const auto place = [&grid](std::size_t i) { return std::array<double, 3>{grid.nodes[i].x, grid.nodes[i].y, 0.0}; };
+  writeFile(grid, {place, nullptr}, path, loop);
   writePrjBeside(path, grid.crs);
 }
 
 // The same on a globe: nodes in metres from the middle of a sphere, latitudes as they are, and longitudes and latitudes
 // as node data. Throws OutputError, also for a mesh in a plane.
-void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop&) {
+void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   constexpr double kRadiusM = 6371220.0;
-  VtuPlaces places;
-  for (const Point& place : requireGeographicNodes(grid, path, "a globe")) {
-    for (const double x : onSphere(asLonLat(place))) places.coordinates.push_back(kRadiusM * x);
-    places.longitudes.push_back(place.x);
-    places.latitudes.push_back(place.y);
-  }
-  writeFile(grid, places, path);
+  const std::vector<Point> nodes = requireGeographicNodes(grid, path, "a globe", loop);
+  const auto place = [&nodes](std::size_t i) {
+    std::array<double, 3> at = onSphere(asLonLat(nodes[i]));
+    for (double& x : at) x *= kRadiusM;
+    return at;
+  };
+  writeFile(grid, {place, [&nodes](std::size_t i) { return asLonLat(nodes[i]); }}, path, loop);
   if (grid.crs.geographic) writePrjBeside(path, grid.crs);
 }
 

@@ -57,7 +57,7 @@ std::vector<int> levelDepths() {
 // unknown and for a mesh in a plane.
 void writeFesom(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
-  const std::vector<Point> places = requireGeographicNodes(grid, path, "FESOM2");
+  const std::vector<Point> places = requireGeographicNodes(grid, path, "FESOM2", loop);
   const std::vector<NodeTag> tags = tagsOf(grid);
   TextWriter nodes(fileOfSet(path, "nod2d"));
   nodes << places.size() << '\n';
