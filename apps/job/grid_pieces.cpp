@@ -1,12 +1,15 @@
 #include "apps/job/grid_pieces.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
 #include "core/metric.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "gis/coast/coastline.hpp"
+#include "gis/coast/feature_names.hpp"
+#include "gis/error.hpp"
 #include "gis/geometry/union_find.hpp"
 #include "gis/grid/grid_lines.hpp"
 
@@ -123,6 +126,12 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
     markBorders(piece.mesh);
   }
   markLines(grid, piece);
+  for (std::size_t i = 0; i < piece.nodes.size(); ++i) {
+    const Point& place = piece.mesh.points[i];
+    if (std::isfinite(place.x) && std::isfinite(place.y)) continue;
+    throw InputError("the node at " + placeInWords(grid.nodes[piece.nodes[i]]) +
+                     " lies beyond every plane that shows the mesh: its triangles overlap, or hold the whole Earth");
+  }
   piece.places = projection.spacePlaces(piece.mesh.points);
   return piece;
 }

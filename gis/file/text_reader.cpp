@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 #include "core/ids.hpp"
@@ -87,6 +88,7 @@ std::int64_t TextReader::integer() {
   const std::string_view text = word();
   std::int64_t value = 0;
   if (!parse(text, value)) fail("a whole number is expected, not \"" + std::string(text) + "\"");
+  if (value == std::numeric_limits<std::int64_t>::min()) fail(std::string(text) + " is too large a number");
   return value;
 }
 

@@ -22,8 +22,8 @@ class TextReader {
   bool hasWord();           // whether there is another word in the line
   std::string_view word();  // the next word of the line; empty at its end
   double number();          // the next word as a finite number
-  std::int64_t integer();
-  std::uint64_t count();  // an integer that is not negative
+  std::int64_t integer();   // one whose negative is one as well
+  std::uint64_t count();    // an integer that is not negative
 
   [[noreturn]] void fail(const std::string& what) const;
   const std::string& path() const { return path_; }

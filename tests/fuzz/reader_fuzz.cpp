@@ -1,0 +1,60 @@
+// libFuzzer target: bytes become the files of a reader, which `--reader=NAME` says; see reader_cases.hpp.
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "tests/fuzz/reader_cases.hpp"
+
+namespace {
+
+const coastmesh::ReaderCase* g_reader = nullptr;
+
+// A folder of this process in memory, removed at its end.
+class Folder {
+ public:
+  Folder() : path_("/dev/shm/coastmesh_fuzz_" + std::to_string(getpid())) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  constexpr const char* kOption = "--reader=";
+  for (int i = 1; i < *argc; ++i) {
+    if (std::strncmp((*argv)[i], kOption, std::strlen(kOption)) != 0) continue;
+    g_reader = &coastmesh::readerCase((*argv)[i] + std::strlen(kOption));
+  }
+  if (g_reader == nullptr) {
+    std::fprintf(stderr, "--reader=NAME is missing, one of");
+    for (const auto& reader : coastmesh::readerCases()) std::fprintf(stderr, " %s", std::string(reader.name).c_str());
+    std::fprintf(stderr, "\n");
+    std::exit(2);
+  }
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Folder folder;
+  try {
+    coastmesh::runReader(*g_reader, {data, size}, folder.path());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    std::abort();
+  }
+  return 0;
+}
