@@ -18,6 +18,7 @@
 #include "core/sphere/close_sphere.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "gis/format/poly_io.hpp"
@@ -191,10 +192,10 @@ void markRegions(const Coastline& coastline, const std::vector<std::size_t>& mem
   }
 }
 
-// The group's part of the grid. It is given its own features alone, so that the work does not grow with the square of
-// their number.
-Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh& mesh,
-               const std::vector<double>* size_m, std::span<const SpacePoint> places, const ItemLoop& loop) {
+// The group's part of the grid, for which the mesh is used up: no more memory is ever taken than while both are there.
+// It is given its own features alone, so that the work does not grow with the square of their number.
+Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh mesh, std::vector<double> size_m,
+               std::vector<SpacePoint> places, const ItemLoop& loop) {
   Coastline names;
   names.crs = input.coastline().crs;
   if (!input.isPoly()) {
@@ -212,7 +213,11 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
     });
     markRegions(input.coastline(), members, domain.projection, mesh, names);
   }
-  Grid grid = makeGrid({{&domain, &mesh, size_m, places}}, names, loop);
+  Grid grid = makeGridWithoutAreas({{&domain, &mesh, size_m.empty() ? nullptr : &size_m, places}}, names, loop);
+  mesh = {};
+  size_m = {};
+  places = {};
+  grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);
   grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
   return grid;
 }
@@ -387,14 +392,14 @@ void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions
 
 // Takes what is left of the region.
 void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* size, MeshedRegion& region,
-               std::span<const SpacePoint> places, const ItemLoop& loop, GroupResult& result) {
+               std::vector<SpacePoint> places, const ItemLoop& loop, GroupResult& result) {
   std::vector<double> size_m;
   if (size != nullptr) {
     const auto measure = [&](const Point& x) { return domain.projection.measureAt(x); };
     size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, measure, domain.projection.surface());
   }
   result.grid =
-      groupGrid(task.input, task.group, domain, region.mesh, size != nullptr ? &size_m : nullptr, places, loop);
+      groupGrid(task.input, task.group, domain, std::move(region.mesh), std::move(size_m), std::move(places), loop);
   result.grid.piece_of = std::move(region.piece_of);
 }
 
@@ -416,9 +421,9 @@ void fillGroup(const GroupTask& task, GroupResult& result) {
   if (domain.closed()) startGlobe(task, domain, size.get(), options);
   MeshedRegion region = meshStage(task, domain, options, result);
   LoopsAfterMeshing loops(region, task.control);
-  const std::vector<SpacePoint> places = domain.projection.spacePlaces(region.mesh.points, loops.of("check"));
+  std::vector<SpacePoint> places = domain.projection.spacePlaces(region.mesh.points, loops.of("check"));
   checkStage(task, domain, options.refine, region.mesh, places, loops.of("check"), result);
-  gridStage(task, domain, size.get(), region, places, loops.of("grid"), result);
+  gridStage(task, domain, size.get(), region, std::move(places), loops.of("grid"), result);
   result.log.append(loops.finish());
 }
 

@@ -182,6 +182,12 @@ std::vector<Boundary> splitLoop(Boundary&& loop, const std::vector<NodePair>& op
 }  // namespace
 
 Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop) {
+  Grid grid = makeGridWithoutAreas(parts, coastline, loop);
+  grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);
+  return grid;
+}
+
+Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop) {
   Grid grid;
   grid.crs = coastline.crs;
   std::size_t triangle_count = 0, point_count = 0;
@@ -213,7 +219,6 @@ Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline
       }
     }
   }
-  grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);
   return grid;
 }
 

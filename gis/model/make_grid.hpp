@@ -21,5 +21,8 @@ struct MeshedDomain {
   std::span<const SpacePoint> places = {};      // likewise, for angles; empty: those of the plane
 };
 Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop = inOrder);
+// The same for who gives back the meshes before areas are worked out, which takes memory of its own.
+Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
+                          const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh
