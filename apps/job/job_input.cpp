@@ -88,7 +88,7 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
 
 }  // namespace
 
-JobInput::JobInput(const InputOptions& options) : options_(options) {
+JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_(options) {
   if (options_.pslg) {
     requireSurface();
     takePlaneGraph(*options_.pslg, "the plane graph given");
@@ -121,7 +121,7 @@ JobInput::JobInput(const InputOptions& options) : options_(options) {
   report_.beyond_frame = framed.beyond_frame;
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
   if (working) chosen_ = Projection::to(coastline_.crs, *working);
-  groups_ = groupFeatures(coastline_);
+  groups_ = groupFeatures(coastline_, loop);
   bendEdges();
 }
 

@@ -47,7 +47,8 @@ struct InputOptions {
 // An input that was read and split into groups of features, each of which is meshed apart. A .poly is one group.
 class JobInput {
  public:
-  explicit JobInput(const InputOptions& options);  // reads; throws OptionError, InputError
+  // Reads, with the threads of `loop`; throws OptionError, InputError.
+  explicit JobInput(const InputOptions& options, const ItemLoop& loop = inOrder);
 
   const Coastline& coastline() const { return coastline_; }
   const ReadReport& report() const { return report_; }

@@ -223,13 +223,14 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const Stopwatch whole;
   MeshJobResult result;
   if (control.progress) control.progress("read", 0.0);
-  const JobInput input(job.input);
+  Recorder reading;
+  const JobInput input(job.input, reading.loop("read", RunControl{control.cancelled, {}}));
   result.read = input.report();
   result.read.notes.insert(result.read.notes.begin(), job.notes.begin(), job.notes.end());
   result.crs = input.coastline().crs;
   const SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
   result.seconds.read = whole.seconds();
-  result.log.addAlone("read", result.seconds.read);
+  result.log.append(reading.finish("read"));
   if (control.cancelled && control.cancelled()) throw Cancelled();
   if (control.progress) control.progress("read", 1.0);
 

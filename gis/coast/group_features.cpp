@@ -4,6 +4,7 @@
 #include <memory>
 #include <numeric>
 
+#include "core/hilbert.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/geometry/chain_index.hpp"
 #include "gis/geometry/union_find.hpp"
@@ -18,15 +19,31 @@ struct FeatureIndex {
   ChainIndex lines{ChainIndex::Kind::OpenLines};
 
   explicit FeatureIndex(const Feature& feature) {
-    for (const Polygon& polygon : feature.polygons) {
-      rings.add(polygon.outer);
-      for (const Ring& hole : polygon.holes) rings.add(hole);
-    }
+    for (const Ring* ring : ringsOf(feature)) rings.add(*ring);
     for (const auto& line : feature.lines) lines.add(line);
     rings.build();
     lines.build();
   }
   std::size_t edgeCount() const { return rings.edgeCount() + lines.edgeCount(); }
+
+ private:
+  // Many of them so that neighbours follow one another: files have islands of an ocean in an order that makes nodes of
+  // a tree as wide as the world, all of which a search would have to enter.
+  static std::vector<const Ring*> ringsOf(const Feature& feature) {
+    std::vector<const Ring*> all;
+    for (const Polygon& polygon : feature.polygons) {
+      all.push_back(&polygon.outer);
+      for (const Ring& hole : polygon.holes) all.push_back(&hole);
+    }
+    std::erase_if(all, [](const Ring* ring) { return ring->empty(); });
+    constexpr std::size_t kMany = 16;
+    if (all.size() < kMany) return all;
+    std::vector<Point> places;
+    for (const Ring* ring : all) places.push_back(ring->front());
+    std::vector<const Ring*> ordered;
+    for (const std::uint32_t i : hilbertOrder(places)) ordered.push_back(all[i]);
+    return ordered;
+  }
 };
 
 // True iff an edge of `a` and one of `b` share a point.
@@ -44,10 +61,14 @@ bool edgesMeet(const ChainIndex& a, const ChainIndex& b) {
 // True iff a chain of `chains` lies inside `rings`. REQUIRES: no edge of the two meets another.
 bool liesIn(const ChainIndex& chains, const ChainIndex& rings) {
   if (rings.edgeCount() == 0) return false;
-  for (std::size_t chain = 0; chain < chains.chainCount(); ++chain) {
-    if (rings.locate(chains.chainStart(chain)) == Location::Inside) return true;
-  }
-  return false;
+  bool lies = false;
+  // An ocean has tens of thousands of rings, and thousands of lakes beside it: only what begins near is looked at.
+  chains.visit(rings.bounds(), [&](std::uint32_t edge) {
+    const Point& start = chains.start(edge);
+    const bool is_first = &start == &chains.chainStart(chains.chainOf(edge));
+    lies = lies || (is_first && rings.locate(start) == Location::Inside);
+  });
+  return lies;
 }
 
 // True iff `small` and `large` touch, cross, or one holds a part of the other.
@@ -190,42 +211,105 @@ std::vector<std::vector<std::size_t>> setsOf(UnionFind& sets, const Coastline& c
   return groups;
 }
 
+// Two features whose boxes meet.
+struct Pair {
+  std::uint32_t a, b;
+};
+
+// Unites features that belong together. What is not yet known of pairs is worked out by all threads, some at a time:
+// pairs that others have united meanwhile need not be looked at.
+class Uniting {
+ public:
+  Uniting(const std::vector<Feature>& features, const ItemLoop& loop, UnionFind& sets)
+      : features_(features), loop_(loop), sets_(sets), kept_(features.size()) {}
+
+  void unite(const std::vector<Pair>& pairs) {
+    keepLarge(pairs);
+    constexpr std::size_t kAtOnce = 65536, kWorthAStretch = 64;
+    for (std::size_t at = 0; at < pairs.size(); at += kAtOnce) {
+      std::vector<Pair> open;
+      for (std::size_t i = at; i < std::min(pairs.size(), at + kAtOnce); ++i)
+        if (sets_.find(pairs[i].a) != sets_.find(pairs[i].b)) open.push_back(pairs[i]);
+      const auto look = [&](std::size_t first, std::size_t last) {
+        std::vector<Pair> together;
+        for (std::size_t i = first; i < last; ++i)
+          if (belongTogether(open[i])) together.push_back(open[i]);
+        return together;
+      };
+      for (const Pair& pair : joined(overStretches(loop_, open.size(), look, kWorthAStretch)))
+        sets_.unite(pair.a, pair.b);
+    }
+  }
+
+ private:
+  // Indices of features of this many edges are kept; those of smaller ones are made when needed.
+  static constexpr std::size_t kLarge = 64;
+
+  static std::size_t edgesOf(const Feature& feature) {
+    std::size_t edges = 0;
+    for (const Polygon& polygon : feature.polygons) {
+      edges += polygon.outer.size();
+      for (const Ring& hole : polygon.holes) edges += hole.size();
+    }
+    for (const auto& line : feature.lines) edges += line.size();
+    return edges;
+  }
+
+  void keepLarge(const std::vector<Pair>& pairs) {
+    std::vector<std::uint32_t> large;
+    std::vector<bool> seen(features_.size(), false);
+    for (const Pair& pair : pairs)
+      for (const std::uint32_t f : {pair.a, pair.b}) {
+        if (seen[f]) continue;
+        seen[f] = true;
+        if (edgesOf(features_[f]) >= kLarge) large.push_back(f);
+      }
+    loop_(large.size(), [&](std::size_t i) { kept_[large[i]] = std::make_unique<FeatureIndex>(features_[large[i]]); });
+  }
+
+  bool belongTogether(const Pair& pair) const {
+    std::unique_ptr<FeatureIndex> made_a, made_b;
+    const auto indexOf = [&](std::uint32_t f, std::unique_ptr<FeatureIndex>& made) -> const FeatureIndex& {
+      if (kept_[f]) return *kept_[f];
+      made = std::make_unique<FeatureIndex>(features_[f]);
+      return *made;
+    };
+    const FeatureIndex& a = indexOf(pair.a, made_a);
+    const FeatureIndex& b = indexOf(pair.b, made_b);
+    const bool a_smaller = a.edgeCount() <= b.edgeCount();
+    return coastmesh::belongTogether(a_smaller ? a : b, a_smaller ? b : a);
+  }
+
+  const std::vector<Feature>& features_;
+  const ItemLoop& loop_;
+  UnionFind& sets_;
+  std::vector<std::unique_ptr<FeatureIndex>> kept_;
+};
+
 }  // namespace
 
-std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline) {
-  // Indices of features of this many edges are kept; those of smaller ones are made when needed.
-  constexpr std::size_t kLarge = 64;
+std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline, const ItemLoop& loop) {
   const auto& features = coastline.features;
   std::vector<Box> boxes(features.size());
-  for (std::size_t i = 0; i < features.size(); ++i) boxes[i] = boundsOf(features[i]);
+  forEachByStretches(loop, features.size(), [&](std::size_t i) { boxes[i] = boundsOf(features[i]); });
   if (isFramedWater(coastline) || coastline.rest) {
     std::vector<std::size_t> all(features.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     return {all};
   }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-
   UnionFind sets(features.size());
-  std::vector<std::unique_ptr<FeatureIndex>> kept(features.size());
-  for (std::uint32_t i = 0; i < features.size(); ++i) {
-    if (isGuest(features[i])) continue;
-    std::unique_ptr<FeatureIndex> own;
-    const auto indexOf = [&](std::size_t f, std::unique_ptr<FeatureIndex>& scratch) -> const FeatureIndex& {
-      if (kept[f]) return *kept[f];
-      if (!scratch) scratch = std::make_unique<FeatureIndex>(features[f]);
-      if (scratch->edgeCount() < kLarge) return *scratch;
-      kept[f] = std::move(scratch);
-      return *kept[f];
-    };
-    tree.visit(boxes[i], [&](std::uint32_t j) {
-      if (j <= i || isGuest(features[j]) || sets.find(i) == sets.find(j)) return;
-      std::unique_ptr<FeatureIndex> other;
-      const FeatureIndex& a = indexOf(i, own);
-      const FeatureIndex& b = indexOf(j, other);
-      const bool a_smaller = a.edgeCount() <= b.edgeCount();
-      if (belongTogether(a_smaller ? a : b, a_smaller ? b : a)) sets.unite(i, j);
-    });
-  }
+  Uniting(features, loop, sets)
+      .unite(joined(overStretches(loop, features.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<Pair> pairs;
+        for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
+          if (isGuest(features[i])) continue;
+          tree.visit(boxes[i], [&](std::uint32_t j) {
+            if (j > i && !isGuest(features[j])) pairs.push_back({i, j});
+          });
+        }
+        return pairs;
+      })));
   uniteAcrossCut(coastline, boxes, sets);
   std::vector<std::vector<std::size_t>> groups = setsOf(sets, coastline);
   addGuests(coastline, boxes, groups);

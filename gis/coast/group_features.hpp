@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/coast/coastline.hpp"
 
 namespace coastmesh {
@@ -12,6 +13,6 @@ namespace coastmesh {
 // that their extent meets. All of a whole globe is one group. Every feature is in one group; members ascend, groups are
 // ordered by their first member. Longitudes are taken as given, but where they span exactly 360 degrees, the first and
 // the last meridian are one. Cost O(n log n) for features that lie apart.
-std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline);
+std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh
