@@ -10,6 +10,7 @@
 
 #include "apps/cli/exit_codes.hpp"
 #include "apps/cli/interrupt.hpp"
+#include "apps/cli/last_resort.hpp"
 #include "apps/cli/program.hpp"
 #include "apps/usage/command_line.hpp"
 #include "core/delaunay.hpp"
@@ -44,8 +45,7 @@ bool flushOutput(std::string& why) {
 }
 
 // The only place where errors become messages and exit codes.
-int guardedMain(int argc, char** argv) {
-  Interrupt interrupt;
+int guardedMain(int argc, char** argv, Interrupt& interrupt) {
   std::string why;
   try {
     int code = kExitDone;
@@ -68,8 +68,7 @@ int guardedMain(int argc, char** argv) {
     if (!interrupt.requested() && !flushOutput(why)) return fail(kExitOutput, why);
     return fail(kExitInterrupted, "interrupted");
   } catch (const std::bad_alloc&) {
-    return fail(kExitInput,
-                "this takes more memory than there is; mesh the input in parts, or ask for larger triangles");
+    return fail(kExitInput, kNoMemory);
   } catch (const std::exception& error) {
     return fail(kExitBug, std::string("this is a bug of coastmesh, please report it: ") + error.what());
   }
@@ -79,5 +78,9 @@ int guardedMain(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   holdStandardStreams();
-  return guardedMain(argc, argv);
+  Interrupt interrupt;
+  const LastResort last_resort(interrupt);
+  const int code = guardedMain(argc, argv, interrupt);
+  finishedWith(code);
+  return code;
 }

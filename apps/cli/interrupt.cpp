@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <new>
 
 #include "apps/cli/exit_codes.hpp"
 #include "core/run_control.hpp"
@@ -53,12 +54,22 @@ void Interrupt::check() const {
 
 void Interrupt::guard(const std::filesystem::path& folder) {
   const std::lock_guard lock(mutex_);
-  guarded_.insert(std::filesystem::absolute(folder));
+  guarded_.emplace(folder, std::filesystem::absolute(folder));
 }
 
-void Interrupt::release(const std::filesystem::path& folder) {
+void Interrupt::release(const std::filesystem::path& folder) noexcept {
   const std::lock_guard lock(mutex_);
-  guarded_.erase(std::filesystem::absolute(folder));
+  guarded_.erase(folder);
+}
+
+// Whoever holds the lock may be the one that cannot go on.
+void Interrupt::removeGuarded() noexcept {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  try {
+    emptyGuarded();
+  } catch (const std::bad_alloc&) {
+    return;
+  }
 }
 
 void Interrupt::close() {
@@ -83,13 +94,17 @@ void Interrupt::watch() {
 
 // The caller holds `mutex_`, so no folder comes under guard any more. A thread that is still writing may put another
 // file into a folder that is being emptied: hence the tries. Once a folder is gone nothing can be made in it.
-void Interrupt::endProcess() {
-  for (const std::filesystem::path& folder : guarded_) {
+void Interrupt::emptyGuarded() {
+  for (const auto& [given, folder] : guarded_) {
     std::error_code error;
     for (int i = 0; i < kRemovalTries && std::filesystem::exists(folder, error); ++i) {
       std::filesystem::remove_all(folder, error);
     }
   }
+}
+
+void Interrupt::endProcess() {
+  emptyGuarded();
   constexpr char kMessage[] = "coastmesh: error: interrupted\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
   _exit(kExitInterrupted);

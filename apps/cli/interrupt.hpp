@@ -3,8 +3,8 @@
 #include <atomic>
 #include <condition_variable>
 #include <filesystem>
+#include <map>
 #include <mutex>
-#include <set>
 #include <thread>
 
 namespace coastmesh {
@@ -26,7 +26,9 @@ class Interrupt {
 
   // `folder` holds nothing but files that are not finished; it goes if the watcher has to end the process.
   void guard(const std::filesystem::path& folder);
-  void release(const std::filesystem::path& folder);
+  void release(const std::filesystem::path& folder) noexcept;
+  // At an end that nothing can be done about any more: removes the folders under guard.
+  void removeGuarded() noexcept;
 
   // The point of no return, before finished files are moved to their places: a signal that comes later changes nothing.
   // Throws Cancelled where one came before.
@@ -34,14 +36,15 @@ class Interrupt {
 
  private:
   void watch();
-  void endProcess();
+  [[noreturn]] void endProcess();
+  void emptyGuarded();
 
   std::atomic<bool> requested_{false};
   std::mutex mutex_;
   std::condition_variable ended_changed_;
   bool ended_ = false;
   bool closed_ = false;
-  std::set<std::filesystem::path> guarded_;
+  std::map<std::filesystem::path, std::filesystem::path> guarded_;  // as given, and from the root
   std::thread watcher_;
 };
 

@@ -43,6 +43,15 @@ std::string reasonOf(const std::vector<Refusal>& refusals) {
   return "none of the " + std::to_string(refusals.size()) + " parts of the input can be meshed";
 }
 
+std::string summaryOf(const MeshRunUsage& usage, const MeshJob& job, const MeshJobResult& result) {
+  std::string text = meshSummary(job, result);
+  for (const std::string& note : result.read.notes) text += note + "\n";
+  for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
+  if (!usage.edits.empty()) text += "wrote " + usage.edits + "\n";
+  if (!usage.report.empty()) text += "wrote " + usage.report + "\n";
+  return text;
+}
+
 // Gives what files cannot hold of the mesh, or hold and the mesh has not, having warned of it.
 std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, ProgressDisplay& display, Run& run,
                                     const ItemLoop& loop) {
@@ -198,6 +207,9 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   result.seconds.write = secondsSince(write_start);
   result.seconds.total = secondsSince(start);
   outputs.writeReport(meshReport(job, result, threadsAsked(job.parallel), run.warnings));
+  // Before the outputs come into place: nothing that may fail comes after.
+  const bool silent = usage.quiet || usage.progress == "json" || usage.report == "-";
+  const std::string summary = any && !silent ? summaryOf(usage, job, result) : "";
   outputs.commit();
   // Other shards may have what this one has not.
   if (!any && to_shard) {
@@ -216,14 +228,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
 
   display.show("done", 1.0);
   display.clear();
-  if (!usage.quiet && usage.progress != "json" && usage.report != "-") {
-    std::string text = meshSummary(job, result);
-    for (const std::string& note : result.read.notes) text += note + "\n";
-    for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
-    if (!usage.edits.empty()) text += "wrote " + usage.edits + "\n";
-    if (!usage.report.empty()) text += "wrote " + usage.report + "\n";
-    std::fputs(text.c_str(), stdout);
-  }
+  std::fputs(summary.c_str(), stdout);
   return code;
 }
 

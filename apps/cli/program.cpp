@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/cli/commands.hpp"
+#include "apps/cli/last_resort.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/usage/usage_pages.hpp"
 #include "gis/error.hpp"
@@ -123,7 +124,9 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     for (const auto& [option, path] : command.line.options().inputs()) run.inputs.push_back(path);
     for (const std::string& sentence : former_names) run.warn(sentence);
     for (const std::string& sentence : command.line.options().withoutEffect()) run.warn(sentence);
-    return command.run(run);
+    const int code = command.run(run);
+    finishedWith(code);
+    return code;
   }
   throw std::logic_error("a command was parsed that was never declared");
 }

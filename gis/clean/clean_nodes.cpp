@@ -68,9 +68,9 @@ class Noder {
     for (int round = 0; round < kMostRounds; ++round) {
       if (!splitOnce(round)) return {std::move(uses_), std::move(crossed_)};
     }
-    const Point place = chains_.vertices.input[edges_[splits_.front().edge].low];
-    throw InputError("feature " + std::to_string(fidOf(splits_.front().edge)) + ": the edges near " +
-                     std::to_string(place.x) + ", " + std::to_string(place.y) +
+    const Feature& feature = coastline_.features[last_split_.feature];
+    throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the edges near " +
+                     std::to_string(last_split_.place.x) + ", " + std::to_string(last_split_.place.y) +
                      " cannot be untangled: simplify the feature there, or give a larger snap distance");
   }
 
@@ -156,6 +156,10 @@ class Noder {
     if (splits_.empty() && crossings_.empty()) return false;
     if (round == 0) reportSplits();
     if (!crossings_.empty()) putCrossings(tolerance, round == 0);
+    if (!splits_.empty()) {
+      const Edge& first = edges_[splits_.front().edge];
+      last_split_ = {featureOf(uses_[first.first_use]), chains_.vertices.input[first.low]};
+    }
     apply();
     return true;
   }
@@ -367,6 +371,10 @@ class Noder {
   std::vector<Split> splits_;
   std::vector<Crossing> crossings_;
   std::vector<char> crossed_;
+  struct {
+    std::uint32_t feature = 0;
+    Point place;
+  } last_split_;  // for the error where rounds come to no end
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cpl_error.h>
 
 #include <cassert>
+#include <exception>
 #include <memory>
 #include <string_view>
 
@@ -20,6 +21,7 @@ OgrErrors::~OgrErrors() { CPLPopErrorHandler(); }
 
 void OgrErrors::collect(int severity, int, const char* message) {
   auto* self = static_cast<OgrErrors*>(CPLGetErrorHandlerUserData());
+  if (severity == CE_Fatal) std::terminate();  // GDAL would end the process: there is no memory
   if (severity < CE_Warning) return;
   // GDAL may quote all of a file or of a statement.
   constexpr std::size_t kLongest = 300;

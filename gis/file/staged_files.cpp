@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <new>
 #include <ranges>
 #include <utility>
 #include <vector>
@@ -86,6 +87,19 @@ void flushToDisk(const fs::path& path, const fs::path& target) {
   if (failure != 0 && failure != EINVAL) failToWrite(target, std::strerror(failure));
 }
 
+// Tries it once more where there is no memory for it: what is left over is hidden.
+void removeQuietly(const std::string& folder) noexcept {
+  for (int i = 0; i < 2; ++i) {
+    try {
+      std::error_code ignored;
+      fs::remove_all(folder, ignored);
+      return;
+    } catch (const std::bad_alloc&) {
+      continue;
+    }
+  }
+}
+
 // Renames that can be taken back.
 class Moves {
  public:
@@ -124,10 +138,12 @@ class Moves {
 
  private:
   void rename(const fs::path& from, const fs::path& to, const fs::path& target) {
+    done_.emplace_back(from, to);  // first: what was renamed without a note of it could not be taken back
     std::error_code error;
     fs::rename(from, to, error);
-    if (error) failToWrite(target, error.message());
-    done_.emplace_back(from, to);
+    if (!error) return;
+    done_.pop_back();
+    failToWrite(target, error.message());
   }
 
   std::vector<std::pair<fs::path, fs::path>> done_;
@@ -153,9 +169,7 @@ StagedFiles::StagedFiles(std::string path, OutputFiles files, bool overwrite)
 }
 
 StagedFiles::~StagedFiles() {
-  if (staging_folder_.empty()) return;
-  std::error_code ignored;  // a destructor cannot report
-  fs::remove_all(staging_folder_, ignored);
+  if (!staging_folder_.empty()) removeQuietly(staging_folder_);  // a destructor cannot report
 }
 
 StagedFiles::StagedFiles(StagedFiles&& other) noexcept
@@ -254,8 +268,8 @@ void commitTogether(std::span<StagedFiles* const> outputs) {
     throw;
   }
   for (StagedFiles* output : outputs) {
-    std::error_code ignored;  // what is left over is hidden, and all is in place
-    fs::remove_all(std::exchange(output->staging_folder_, {}), ignored);
+    removeQuietly(output->staging_folder_);  // all is in place
+    output->staging_folder_.clear();
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "gis/error.hpp"
 #include "gis/file/netcdf_file.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_chains.hpp"
@@ -33,6 +34,14 @@ std::pair<std::string, std::string> coordinateNames(const NetcdfReader& file, co
   return {first, second};
 }
 
+Crs crsOf(const NetcdfReader& file, const std::string& variable, const std::string& text) {
+  try {
+    return parseCrs(text);
+  } catch (const InputError& error) {
+    file.fail("\"" + variable + "\": " + error.what());
+  }
+}
+
 Crs readCrs(const NetcdfReader& file, const std::string& x) {
   constexpr std::string_view kNoCode = "EPSG:0";  // D-FlowFM's word for none
   std::string variable = file.text(x, "grid_mapping");
@@ -41,10 +50,10 @@ Crs readCrs(const NetcdfReader& file, const std::string& x) {
   if (file.hasVariable(variable)) {
     for (const char* name : {"EPSG_code", "crs_wkt", "spatial_ref", "wkt"}) {
       const std::string text = file.text(variable, name);
-      if (!text.empty() && text != kNoCode) return parseCrs(text);
+      if (!text.empty() && text != kNoCode) return crsOf(file, variable, text);
     }
     const double epsg = file.number(variable, "epsg").value_or(0.0);
-    if (epsg > 0.0 && epsg < 1e9) return parseCrs("EPSG:" + std::to_string(std::lround(epsg)));
+    if (epsg > 0.0 && epsg < 1e9) return crsOf(file, variable, "EPSG:" + std::to_string(std::lround(epsg)));
   }
   const bool longitudes = file.text(x, "standard_name") == "longitude" || file.text(x, "units").starts_with("degree");
   return longitudes ? wgs84() : Crs{};

@@ -4,6 +4,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "gis/coast/turned_rings.hpp"
@@ -130,7 +131,11 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
       addProjected(std::move(ring));
     }
   });
-  if (places.empty() && !coastline.rest) throw InputError("the features hold no point");
+  if (places.empty() && !coastline.rest) {
+    const Feature* const first = members.empty() ? nullptr : &coastline.features[members.front()];
+    throw InputError((first ? first->source + ", feature " + std::to_string(first->fid) : std::string("the input")) +
+                     ": holds no point");
+  }
   const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
   const Ellipsoid ellipsoid = kind == SurfaceKind::Sphere
                                   ? Ellipsoid{kSphereRadius, 0.0}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "apps/cli/interrupt.hpp"
+
+namespace coastmesh {
+
+// Where an error cannot be thrown (memory lacks while another error is on its way, or in a library that ends the
+// process then): what is half written goes, and the exit code says what happened. One at a time.
+class LastResort {
+ public:
+  explicit LastResort(Interrupt& interrupt);  // which has to stay as long
+  ~LastResort();
+  LastResort(const LastResort&) = delete;
+  LastResort& operator=(const LastResort&) = delete;
+};
+
+// All is done, and the process is about to end with this code: memory that lacks after that changes nothing.
+void finishedWith(int code);
+
+inline constexpr const char* kNoMemory =
+    "this takes more memory than there is; mesh the input in parts, or ask for larger triangles";
+
+}  // namespace coastmesh
