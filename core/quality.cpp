@@ -17,8 +17,19 @@ std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c) 
 std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
   const SpacePoint ab = b - a, bc = c - b, ca = a - c;
   const double twice_area = lengthOf(cross(ab, bc));
-  const auto angle = [&](double cosine) { return toDegrees(std::atan2(twice_area, cosine)); };
-  return {angle(-dot(ab, ca)), angle(-dot(ab, bc)), angle(-dot(bc, ca))};
+  const std::array<double, 3> cosines{-dot(ab, ca), -dot(ab, bc), -dot(bc, ca)};
+  const auto largest = static_cast<std::size_t>(std::ranges::min_element(cosines) - cosines.begin());
+  std::array<double, 3> angles{};
+  double left = 180.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (i != largest) left -= angles[i] = toDegrees(std::atan2(twice_area, cosines[i]));
+  angles[largest] = left;
+  return angles;
+}
+
+double leastSpaceAngleDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
+  const SpacePoint ab = b - a, bc = c - b, ca = a - c;
+  return toDegrees(std::atan2(lengthOf(cross(ab, bc)), std::max({-dot(ab, ca), -dot(ab, bc), -dot(bc, ca)})));
 }
 
 std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Point& c, const Surface& surface) {

@@ -18,6 +18,7 @@ std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c);
 
 // The same of the flat triangle between places in space, and on the sphere that a plane stands for.
 std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);
+double leastSpaceAngleDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);
 std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Point& c, const Surface& surface);
 
 double signedArea(const Point& a, const Point& b, const Point& c);

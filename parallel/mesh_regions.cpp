@@ -240,13 +240,18 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   region.seconds.stitch = watch.lap();
 }
 
-// Whether a lattice is all that there is to be: nothing of the input, and no triangle that falls short.
-bool isDone(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options) {
-  if (!pslg.points.empty()) return false;
-  const TriangleBound bound = boundOf(options);
-  return std::ranges::none_of(mesh.triangles, [&](const Triangle& t) {
-    return isBad(mesh.point(t.v[0]), mesh.point(t.v[1]), mesh.point(t.v[2]), bound);
-  });
+// Makes the lattice the result, but for its regions; where it falls short of a bound, its vertices are seeds.
+bool takeLattice(MeshedRegion& region, MeshOptions& options, const ItemLoop& loop) {
+  TriMesh& lattice = options.lattice;
+  if (lattice.triangles.empty()) return false;
+  if (trianglesInViolation(lattice, options.refine, nullptr, loop).empty()) {
+    region.mesh = std::move(lattice);
+    return true;
+  }
+  options.seeds.assign(lattice.points.begin() + static_cast<std::ptrdiff_t>(options.cap.ring.size()),
+                       lattice.points.end() - 1);
+  lattice = {};
+  return false;
 }
 
 void closeRegion(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
@@ -268,22 +273,24 @@ void closeRegion(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opti
 
 }  // namespace
 
-MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
+MeshedRegion meshRegion(const Pslg& pslg, MeshOptions options, const RunControl& control) {
   requireInRange(options.refine);
   MeshedRegion region;
   Stopwatch watch;
   Recorder recorder;
   const bool closed = !options.cap.empty();
-  if (closed && pslg.points.empty() && !options.seeds.empty())
-    region.mesh = triangulateInRing(pslg, options, options.seeds);
-  const bool done = closed && !region.mesh.points.empty() && isDone(region.mesh, pslg, options.refine);
+  const bool done = takeLattice(region, options, recorder.loop("lattice", control));
   if (!done) region.mesh = closed ? triangulateInRing(pslg, options, {}) : constrainedDelaunay(pslg);
   region.seconds.triangulate = watch.lap();
   region.log.append(recorder.finish("triangulate"));
   const bool cut = !done && !options.one_piece && expectedTriangles(region.mesh, options.refine) >= kWorthCutting;
   if (!done) (cut ? meshInPieces : meshWhole)(region, pslg, options, control);
   if (options.mark_pieces && !cut) region.piece_of.assign(region.mesh.triangles.size(), 0);
-  if (closed) closeRegion(region, pslg, options, control);
+  if (done) {
+    region.mesh.regions.assign(region.mesh.triangles.size(), options.cap_region);
+  } else if (closed) {
+    closeRegion(region, pslg, options, control);
+  }
   region.stats.steiner_points = region.mesh.points.size() - region.mesh.input_vertices;
   return region;
 }

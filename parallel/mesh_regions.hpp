@@ -24,6 +24,9 @@ struct MeshOptions {
   SphereCap cap;
   RegionId cap_region = 0;   // that the cap lies in
   std::vector<Point> seeds;  // vertices to begin with, clear of the input and within the ring
+  // In place of seeds, where there is no input: a closed mesh that keeps the lengths wanted, and is the result where it
+  // keeps the bounds on angles. The ring's corners are its first vertices, the apex is the last.
+  TriMesh lattice;
 };
 
 // Seconds by the clock of each stage, one after another; several threads may share in a stage.
@@ -48,6 +51,6 @@ struct MeshedRegion {
 // Triangulates, refines and coarsens one region; a large one is cut into pieces for that. A closed mesh has the
 // vertices of the PSLG first, as any other, and no edge with one triangle alone. Throws BadPslg, Cancelled, and
 // std::invalid_argument for options beyond their ranges.
-MeshedRegion meshRegion(const Pslg& pslg, const MeshOptions& options, const RunControl& control = {});
+MeshedRegion meshRegion(const Pslg& pslg, MeshOptions options, const RunControl& control = {});
 
 }  // namespace coastmesh

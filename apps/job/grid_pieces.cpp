@@ -132,7 +132,7 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
     throw InputError("the node at " + placeInWords(grid.nodes[piece.nodes[i]]) +
                      " lies beyond every plane that shows the mesh: its triangles overlap, or hold the whole Earth");
   }
-  piece.places = projection.spacePlaces(piece.mesh.points);
+  piece.places = projection.groundPlaces(piece.mesh.points).space;
   return piece;
 }
 

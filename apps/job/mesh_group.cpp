@@ -195,7 +195,7 @@ void markRegions(const Coastline& coastline, const std::vector<std::size_t>& mem
 // The group's part of the grid, for which the mesh is used up: no more memory is ever taken than while both are there.
 // It is given its own features alone, so that the work does not grow with the square of their number.
 Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh mesh, std::vector<double> size_m,
-               std::vector<SpacePoint> places, const ItemLoop& loop) {
+               GroundPlaces ground, const ItemLoop& loop) {
   Coastline names;
   names.crs = input.coastline().crs;
   if (!input.isPoly()) {
@@ -213,10 +213,11 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
     });
     markRegions(input.coastline(), members, domain.projection, mesh, names);
   }
-  Grid grid = makeGridWithoutAreas({{&domain, &mesh, size_m.empty() ? nullptr : &size_m, places}}, names, loop);
+  Grid grid = makeGridWithoutAreas(
+      {{&domain, &mesh, size_m.empty() ? nullptr : &size_m, ground.empty() ? nullptr : &ground}}, names, loop);
   mesh = {};
   size_m = {};
-  places = {};
+  ground = {};
   grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);
   grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
   return grid;
@@ -339,14 +340,15 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   return std::move(sized.function);
 }
 
-MeshedRegion meshStage(const GroupTask& task, const Domain& domain, const MeshOptions& options, GroupResult& result) {
+MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&& options, GroupResult& result) {
   MeshedRegion region;
+  const std::uint64_t most = options.refine.most_in_memory;
   try {
-    region = meshRegion(domain.pslg, options, task.control);
+    region = meshRegion(domain.pslg, std::move(options), task.control);
   } catch (const OutOfRoom& error) {
     result.refusal_place = domain.projection.inverse(error.place);
     throw InputError(featureText(task.firstFeature()) + ": the bounds on angles and lengths take more than " +
-                     amount("%.2g", static_cast<double>(options.refine.most_in_memory)) +
+                     amount("%.2g", static_cast<double>(most)) +
                      " vertices, which is all that there is memory for, the last of them near " +
                      pointText(*result.refusal_place) +
                      ": mend shores there that all but coincide (--snap, --simplify), ask for less, or give "
@@ -392,14 +394,16 @@ void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions
 
 // Takes what is left of the region.
 void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* size, MeshedRegion& region,
-               std::vector<SpacePoint> places, const ItemLoop& loop, GroupResult& result) {
+               GroundPlaces ground, const ItemLoop& loop, GroupResult& result) {
   std::vector<double> size_m;
   if (size != nullptr) {
-    const auto measure = [&](const Point& x) { return domain.projection.measureAt(x); };
-    size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, measure, domain.projection.surface());
+    const auto measure = [&](VertexId v) {
+      return ground.empty() ? domain.projection.measureAt(region.mesh.points[v]) : ground.measure[v];
+    };
+    size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, measure, domain.projection.surface(), loop);
   }
   result.grid =
-      groupGrid(task.input, task.group, domain, std::move(region.mesh), std::move(size_m), std::move(places), loop);
+      groupGrid(task.input, task.group, domain, std::move(region.mesh), std::move(size_m), std::move(ground), loop);
   result.grid.piece_of = std::move(region.piece_of);
 }
 
@@ -410,6 +414,7 @@ void startGlobe(const GroupTask& task, const Domain& domain, const SizeFunction*
   options.cap = std::move(start.cap);
   options.cap_region = domain.beyond;
   options.seeds = std::move(start.seeds);
+  options.lattice = std::move(start.lattice);
 }
 
 void fillGroup(const GroupTask& task, GroupResult& result) {
@@ -419,11 +424,12 @@ void fillGroup(const GroupTask& task, GroupResult& result) {
   const std::unique_ptr<SizeFunction> size = sizeStage(task, domain, result);
   options.refine.size = size.get();
   if (domain.closed()) startGlobe(task, domain, size.get(), options);
-  MeshedRegion region = meshStage(task, domain, options, result);
+  const RefineOptions asked = options.refine;
+  MeshedRegion region = meshStage(task, domain, std::move(options), result);
   LoopsAfterMeshing loops(region, task.control);
-  std::vector<SpacePoint> places = domain.projection.spacePlaces(region.mesh.points, loops.of("check"));
-  checkStage(task, domain, options.refine, region.mesh, places, loops.of("check"), result);
-  gridStage(task, domain, size.get(), region, std::move(places), loops.of("grid"), result);
+  GroundPlaces ground = domain.projection.groundPlaces(region.mesh.points, loops.of("check"));
+  checkStage(task, domain, asked, region.mesh, ground.space, loops.of("check"), result);
+  gridStage(task, domain, size.get(), region, std::move(ground), loops.of("grid"), result);
   result.log.append(loops.finish());
 }
 

@@ -150,7 +150,7 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
   checkOrientation(mesh, options, loop, defects);
   checkUnused(mesh, loop, defects);
   if (options.pinches) checkPinches(mesh, defects);
-  if (pslg != nullptr && mesh.input_vertices == 0) {
+  if (pslg != nullptr && mesh.input_vertices == 0 && !pslg->points.empty()) {
     TriMesh marked = mesh;
     checkAgainstInputByPlace(marked, *pslg, defects);
     if (options.delaunay) checkDelaunay(marked, options, loop, defects);

@@ -224,14 +224,15 @@ void checkAgainstInputByPlace(TriMesh& mesh, const Pslg& pslg, std::vector<MeshD
                             : labelsTellAll(pslg) ? expectFromLabels(pslg)
                                                   : expectFromTriangulation(pslg);
   std::unordered_map<Point, VertexId, PointHash> at;
-  for (VertexId v = 0; v < mesh.points.size(); ++v) at.emplace(mesh.points[v], v);
+  at.reserve(pslg.points.size());
+  for (const Point& x : pslg.points) at.emplace(x, kNone);
+  for (VertexId v = 0; v < mesh.points.size(); ++v)
+    if (const auto found = at.find(mesh.points[v]); found != at.end() && found->second == kNone) found->second = v;
   std::vector<VertexId> vertex(pslg.points.size(), kNone);
   for (VertexId v = 0; v < pslg.points.size(); ++v) {
     if (!expected.vertices[v]) continue;
-    const auto found = at.find(pslg.points[v]);
-    if (found != at.end()) {
-      vertex[v] = found->second;
-    } else {
+    vertex[v] = at.find(pslg.points[v])->second;
+    if (vertex[v] == kNone) {
       defects.push_back({DefectKind::MissingVertex, pslg.points[v]});
     }
   }

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <utility>
 
-#include "core/predicates.hpp"
+#include "core/links.hpp"
+#include "core/sphere/close_sphere.hpp"
 #include "core/sphere/sphere_place.hpp"
 
 namespace coastmesh {
@@ -35,13 +38,14 @@ std::array<SpacePoint, 12> icosahedron() {
   return corners;
 }
 
-using Numbers = std::array<std::size_t, 3>;
+using Numbers = std::array<unsigned, 3>;
+constexpr std::size_t kFaces = 20;
 
 // Counter-clockwise as seen from outside.
-std::array<Numbers, 20> faces() {
-  std::array<Numbers, 20> faces{};
-  for (std::size_t i = 0; i < 5; ++i) {
-    const std::size_t next = (i + 1) % 5;
+std::array<Numbers, kFaces> faces() {
+  std::array<Numbers, kFaces> faces{};
+  for (unsigned i = 0; i < 5; ++i) {
+    const unsigned next = (i + 1) % 5;
     faces[i] = {0, 1 + next, 1 + i};
     faces[5 + i] = {1 + i, 1 + next, 6 + i};
     faces[10 + i] = {1 + next, 6 + next, 6 + i};
@@ -87,75 +91,132 @@ void addAlong(const SphereLattice& lattice, const SpacePoint& from, const SpaceP
   }
 }
 
-// Cells of space that are as wide as a clearance: what is nearer than that lies in a cell or one beside it.
-class Cells {
- public:
-  explicit Cells(double width) : per_unit_(1.0 / width) {}
+// All places: the icosahedron's corners, those along its edges, and those in its faces, row by row.
+std::vector<SpacePoint> placesInOrder(const SphereLattice& lattice, const ItemLoop& loop) {
+  const std::array<SpacePoint, 12> corners = icosahedron();
+  std::vector<SpacePoint> places;
+  reserveOn(loop, places, static_cast<std::size_t>(lattice.vertices()));
+  places.assign(corners.begin(), corners.end());
+  const std::array<Numbers, kFaces> all = faces();
+  for (const Numbers& face : all)
+    for (unsigned i = 0; i < 3; ++i)
+      if (const unsigned from = face[i], to = face[next3(i)]; from < to)
+        addAlong(lattice, corners[from], corners[to], places);
+  std::vector<std::vector<SpacePoint>> inside(all.size());
+  loop(all.size(), [&](std::size_t f) {
+    addInside(lattice, {corners[all[f][0]], corners[all[f][1]], corners[all[f][2]]}, inside[f]);
+  });
+  for (const std::vector<SpacePoint>& some : inside) places.insert(places.end(), some.begin(), some.end());
+  assert(static_cast<std::int64_t>(places.size()) == lattice.vertices());
+  return places;
+}
 
-  std::uint64_t of(const SpacePoint& p, int dx = 0, int dy = 0, int dz = 0) const {
-    return along(p.x, dx) << 42 | along(p.y, dy) << 21 | along(p.z, dz);
+// Counter-clockwise in the plane.
+std::array<std::size_t, kLatticeRing> neighboursOfPole(const std::vector<SpacePoint>& places) {
+  std::array<std::size_t, kLatticeRing> ring{};
+  std::iota(ring.begin(), ring.end(), kLatticePole);
+  const auto height = [&](std::size_t i) { return places[i].z; };
+  std::ranges::sort(ring, {}, height);
+  for (std::size_t i = kLatticePole + kLatticeRing; i < places.size(); ++i) {
+    if (places[i].z >= height(ring.back())) continue;
+    ring.back() = i;
+    std::ranges::sort(ring, {}, height);
+  }
+  std::ranges::sort(ring, {}, [&](std::size_t i) { return std::atan2(places[i].y, places[i].x); });
+  return ring;
+}
+
+// The number of each place in a mesh: the neighbours of the pole come first, the pole is the last.
+std::vector<VertexId> numbersInMesh(const std::vector<SpacePoint>& places) {
+  std::vector<VertexId> numbers(places.size(), kNone);
+  numbers[0] = static_cast<VertexId>(places.size() - 1);
+  VertexId next = 0;
+  for (const std::size_t i : neighboursOfPole(places)) numbers[i] = next++;
+  for (VertexId& number : numbers)
+    if (number == kNone) number = next++;
+  return numbers;
+}
+
+// The triangles of a lattice without turns, whose faces are cut into h rows. In a face, place (a, b) is a steps from
+// the first corner towards the second and b towards the third.
+class LatticeFaces {
+ public:
+  explicit LatticeFaces(std::int64_t h) : h_(static_cast<std::uint32_t>(h)), corners_(faces()) {
+    std::uint32_t known = 0;
+    for (const Numbers& face : corners_)
+      for (unsigned i = 0; i < 3; ++i)
+        if (face[i] < face[next3(i)]) edge_[face[i]][face[next3(i)]] = edge_[face[next3(i)]][face[i]] = known++;
   }
 
- private:
-  // From 1 on, so that the cells beside it have numbers too.
-  std::uint64_t along(double x, int step) const {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>((x + 1.0) * per_unit_) + 2 + step);
-  }
-  double per_unit_;
-};
-
-struct Sample {
-  std::uint64_t cell;
-  SpacePoint place;
-};
-
-// Places on the sphere of radius 1, cell by cell.
-class Samples {
- public:
-  explicit Samples(double clearance) : cells_(clearance), squared_(clearance * clearance) {}
-
-  void add(const SpacePoint& p) { samples_.push_back({cells_.of(p), p}); }
-  void sort() { std::ranges::sort(samples_, {}, &Sample::cell); }
-  bool isNear(const SpacePoint& p) const {
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        // Three cells in a row.
-        const auto first = std::ranges::lower_bound(samples_, cells_.of(p, dx, dy, -1), {}, &Sample::cell);
-        const std::uint64_t last = cells_.of(p, dx, dy, 1);
-        for (auto s = first; s != samples_.end() && s->cell <= last; ++s) {
-          const SpacePoint apart = s->place - p;
-          if (dot(apart, apart) < squared_) return true;
-        }
+  // Makes the triangles of a face, and what links them to one another.
+  void fill(std::size_t f, std::span<const VertexId> numbers, std::span<Triangle> triangles) const {
+    const auto vertex = [&](std::uint32_t a, std::uint32_t b) { return numbers[placeAt(f, a, b)]; };
+    for (std::uint32_t b = 0; b < h_; ++b) {
+      for (std::uint32_t a = 0; a + b < h_; ++a) {
+        triangles[up(f, a, b)] = unlinked({vertex(a, b), vertex(a + 1, b), vertex(a, b + 1)});
+        if (a + b + 1 < h_)
+          triangles[down(f, a, b)] = unlinked({vertex(a + 1, b), vertex(a + 1, b + 1), vertex(a, b + 1)});
       }
     }
-    return false;
+    for (std::uint32_t b = 0; b + 1 < h_; ++b) {
+      for (std::uint32_t a = 0; a + b + 1 < h_; ++a) {
+        const TriId t = down(f, a, b);
+        setTwins(triangles, edgeRef(t, 0), edgeRef(up(f, a, b + 1), 2));
+        setTwins(triangles, edgeRef(t, 1), edgeRef(up(f, a, b), 0));
+        setTwins(triangles, edgeRef(t, 2), edgeRef(up(f, a + 1, b), 1));
+      }
+    }
+  }
+
+  // Links each face to those beside it.
+  void join(std::span<Triangle> triangles) const {
+    std::array<std::vector<EdgeRef>, kEdges> before;
+    for (std::size_t f = 0; f < kFaces; ++f) {
+      for (unsigned side = 0; side < 3; ++side) {
+        std::vector<EdgeRef> along = edgesAlong(f, side);
+        const std::size_t from = corners_[f][next3(side)], to = corners_[f][prev3(side)];
+        if (from > to) std::ranges::reverse(along);
+        std::vector<EdgeRef>& other = before[edge_[from][to]];
+        for (std::size_t i = 0; i < other.size(); ++i) setTwins(triangles, along[i], other[i]);
+        other = std::move(along);
+      }
+    }
   }
 
  private:
-  Cells cells_;
-  double squared_;
-  std::vector<Sample> samples_;
-};
+  static constexpr std::size_t kCorners = 12, kEdges = 30;
 
-// The points between a and b that lie `step` apart or less on the sphere, by halves.
-void addBetween(const Point& a, const Point& b, const Surface& surface, double step, int depth, Samples& samples) {
-  constexpr int kMostHalvings = 40;
-  const Point middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
-  const SpacePoint p = placeOnSphere(a, surface), q = placeOnSphere(b, surface), m = placeOnSphere(middle, surface);
-  if (depth == kMostHalvings || (distance(p, m) <= step && distance(m, q) <= step)) {
-    samples.add(m);
-    return;
+  TriId up(std::size_t f, std::uint32_t a, std::uint32_t b) const {
+    return static_cast<TriId>(f) * h_ * h_ + 2 * h_ * b - b * b + 2 * a;
   }
-  samples.add(m);
-  addBetween(a, middle, surface, step, depth + 1, samples);
-  addBetween(middle, b, surface, step, depth + 1, samples);
-}
+  TriId down(std::size_t f, std::uint32_t a, std::uint32_t b) const { return up(f, a, b) + 1; }
 
-bool liesWithin(const Point& x, std::span<const Point> ring) {
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    if (orient2d(ring[i], ring[i + 1 == ring.size() ? 0 : i + 1], x) <= 0) return false;
-  return true;
-}
+  // As `placesInOrder` has them.
+  std::size_t placeAt(std::size_t f, std::uint32_t a, std::uint32_t b) const {
+    const Numbers& corner = corners_[f];
+    if (b == 0) return placeAlong(corner[0], corner[1], a);
+    if (a == 0) return placeAlong(corner[0], corner[2], b);
+    if (a + b == h_) return placeAlong(corner[1], corner[2], b);
+    const std::size_t h = h_, rows = b - 1;
+    return kCorners + kEdges * (h - 1) + f * ((h - 1) * (h - 2) / 2) + rows * (h - 1) - rows * (rows + 1) / 2 + a - 1;
+  }
+  std::size_t placeAlong(std::size_t from, std::size_t to, std::uint32_t step) const {
+    if (step == 0) return from;
+    if (step == h_) return to;
+    return kCorners + std::size_t{edge_[from][to]} * (h_ - 1) + (from < to ? step : h_ - step) - 1;
+  }
+  // From the corner after a side's opposite one to that before it.
+  std::vector<EdgeRef> edgesAlong(std::size_t f, unsigned side) const {
+    std::vector<EdgeRef> along;
+    for (std::uint32_t i = 0; i < h_; ++i)
+      along.push_back(edgeRef(side == 0 ? up(f, h_ - 1 - i, i) : side == 1 ? up(f, 0, h_ - 1 - i) : up(f, i, 0), side));
+    return along;
+  }
+
+  std::uint32_t h_;
+  std::array<Numbers, kFaces> corners_;
+  std::array<std::array<std::uint32_t, kCorners>, kCorners> edge_{};
+};
 
 }  // namespace
 
@@ -178,46 +239,33 @@ SphereLattice sphereLattice(double edge) {
 }
 
 std::vector<SpacePoint> placesOf(const SphereLattice& lattice, const ItemLoop& loop) {
-  const std::array<SpacePoint, 12> corners = icosahedron();
-  std::vector<SpacePoint> places(corners.begin(), corners.end());
-  const std::array<Numbers, 20> all = faces();
-  for (const Numbers& face : all)
-    for (std::size_t i = 0; i < 3; ++i)
-      if (const std::size_t from = face[i], to = face[(i + 1) % 3]; from < to)
-        addAlong(lattice, corners[from], corners[to], places);
-  std::vector<std::vector<SpacePoint>> inside(all.size());
-  loop(all.size(), [&](std::size_t f) {
-    addInside(lattice, {corners[all[f][0]], corners[all[f][1]], corners[all[f][2]]}, inside[f]);
-  });
-  reserveOn(loop, places, static_cast<std::size_t>(lattice.vertices()));
-  for (const std::vector<SpacePoint>& some : inside) places.insert(places.end(), some.begin(), some.end());
-  assert(static_cast<std::int64_t>(places.size()) == lattice.vertices());
-  // The neighbours of the pole to the front.
-  const auto ring = places.begin() + kLatticePole, rest = ring + kLatticeRing;
-  std::ranges::nth_element(ring, rest - 1, places.end(), {}, &SpacePoint::z);
-  std::ranges::sort(ring, rest, {}, [](const SpacePoint& p) { return std::atan2(p.y, p.x); });
+  const std::vector<SpacePoint> in_order = placesInOrder(lattice, loop);
+  const std::vector<VertexId> numbers = numbersInMesh(in_order);
+  std::vector<SpacePoint> places;
+  reserveOn(loop, places, in_order.size());
+  places.resize(in_order.size());
+  places[0] = in_order[0];
+  for (std::size_t i = 1; i < in_order.size(); ++i) places[kLatticePole + numbers[i]] = in_order[i];
   return places;
 }
 
-std::vector<Point> clearPlaces(std::span<const SpacePoint> places, const Pslg& pslg, std::span<const Point> ring,
-                               const Surface& surface, double clearance, const ItemLoop& loop) {
-  constexpr double kStep = 0.5;  // between samples of a segment, as a share of the clearance
-  const double width = clearance / surface.radius();
-  Samples samples(width);
-  for (const Point& x : ring) samples.add(placeOnSphere(x, surface));
-  for (const Point& x : pslg.points) samples.add(placeOnSphere(x, surface));
-  for (const Segment& s : pslg.segments)
-    addBetween(pslg.points[s.a], pslg.points[s.b], surface, kStep * width, 0, samples);
-  samples.sort();
-  return joined(overStretches(loop, places.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<Point> clear;
-    for (std::size_t i = first; i < last; ++i) {
-      if (places[i].z <= -1.0) continue;
-      const Point x = planeOf(places[i], surface);
-      if (liesWithin(x, ring) && !samples.isNear(places[i])) clear.push_back(x);
-    }
-    return clear;
-  }));
+TriMesh meshOf(const SphereLattice& lattice, const Surface& surface, const ItemLoop& loop) {
+  assert(lattice.k == 0 && lattice.h > 1);
+  const std::vector<SpacePoint> places = placesInOrder(lattice, loop);
+  const std::vector<VertexId> numbers = numbersInMesh(places);
+  TriMesh mesh;
+  reserveOn(loop, mesh.points, places.size());
+  mesh.points.resize(places.size());
+  forEachByStretches(loop, places.size(), [&](std::size_t i) {
+    mesh.points[numbers[i]] = i == 0 ? sphereCap(surface, std::vector<Point>{}).apex : planeOf(places[i], surface);
+  });
+  const LatticeFaces faces(lattice.h);
+  reserveOn(loop, mesh.triangles, static_cast<std::size_t>(lattice.triangles()));
+  mesh.triangles.resize(static_cast<std::size_t>(lattice.triangles()));
+  loop(kFaces, [&](std::size_t f) { faces.fill(f, numbers, mesh.triangles); });
+  faces.join(mesh.triangles);
+  assert(findBrokenLink(mesh.triangles) == kNone);
+  return mesh;
 }
 
 }  // namespace coastmesh

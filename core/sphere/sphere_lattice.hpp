@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
-#include "core/pslg.hpp"
 #include "core/space_point.hpp"
 #include "core/surface.hpp"
+#include "core/tri_mesh.hpp"
 
 namespace coastmesh {
 
@@ -38,10 +37,9 @@ inline constexpr std::size_t kLatticePole = 1, kLatticeRing = 5;
 // 49 to 77 degrees; without turns 54 to 72.
 std::vector<SpacePoint> placesOf(const SphereLattice& lattice, const ItemLoop& loop = inOrder);
 
-// Those of some places, in the plane, that lie within a convex ring and are nowhere nearer to one of its corners, to a
-// segment or to a point of `pslg` than the clearance, a length on the surface. REQUIRES: the surface is curved, the
-// ring counter-clockwise round the origin, the clearance above 0.
-std::vector<Point> clearPlaces(std::span<const SpacePoint> places, const Pslg& pslg, std::span<const Point> ring,
-                               const Surface& surface, double clearance, const ItemLoop& loop = inOrder);
+// The closed mesh of one without turns, in the plane of a curved surface: its vertices in the same order but for the
+// pole, which is the last, as far from the origin as a `SphereCap` has it. Without regions; nothing is input. REQUIRES:
+// k = 0, h > 1, and no more triangles than have numbers.
+TriMesh meshOf(const SphereLattice& lattice, const Surface& surface, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -52,16 +52,15 @@ std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic
     if (v < mesh.input_vertices) {
       node = domain.input_points[v];
     } else {
-      node = domain.projection.inverse(mesh.points[v]);
+      node = part.ground != nullptr ? part.ground->input[v] : domain.projection.inverse(mesh.points[v]);
       if (shifts) node.x = range.bring(node.x);
     }
   });
   return index_of;
 }
 
-void appendTriangles(const TriMesh& mesh, std::span<const SpacePoint> places,
-                     const std::vector<std::uint32_t>& index_of, const std::vector<std::uint32_t>& feature_index,
-                     const ItemLoop& loop, Grid& grid) {
+void appendTriangles(const TriMesh& mesh, const GroundPlaces* ground, const std::vector<std::uint32_t>& index_of,
+                     const std::vector<std::uint32_t>& feature_index, const ItemLoop& loop, Grid& grid) {
   const std::size_t before = grid.triangles.size(), after = before + mesh.triangles.size();
   grid.triangles.resize(after);
   if (!feature_index.empty()) grid.feature_of.resize(after);
@@ -70,9 +69,9 @@ void appendTriangles(const TriMesh& mesh, std::span<const SpacePoint> places,
     const auto& [a, b, c] = mesh.triangles[t].v;
     grid.triangles[before + t] = {index_of[a], index_of[b], index_of[c]};
     if (!feature_index.empty()) grid.feature_of[before + t] = feature_index[static_cast<std::size_t>(mesh.regions[t])];
-    grid.min_angle_deg[before + t] =
-        std::ranges::min(places.empty() ? anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c])
-                                        : spaceAnglesDeg(places[a], places[b], places[c]));
+    grid.min_angle_deg[before + t] = ground == nullptr
+                                         ? std::ranges::min(anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c]))
+                                         : leastSpaceAngleDeg(ground->space[a], ground->space[b], ground->space[c]);
   });
 }
 
@@ -207,7 +206,7 @@ Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastlin
       for (std::size_t v = 0; v < index_of.size(); ++v)
         if (index_of[v] != kNone) grid.size_m[index_of[v]] = (*part.size_m)[v];
     }
-    appendTriangles(*part.mesh, part.places, index_of, feature_index, loop, grid);
+    appendTriangles(*part.mesh, part.ground, index_of, feature_index, loop, grid);
     appendLines(*part.domain, *part.mesh, index_of, grid.lines);
     const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh, loop);
     for (Boundary& whole : findBoundaries(*part.mesh, loop)) {

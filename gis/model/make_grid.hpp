@@ -1,14 +1,13 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "core/item_loop.hpp"
-#include "core/space_point.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/clean/domain.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/projection/projection.hpp"
 
 namespace coastmesh {
 
@@ -18,7 +17,7 @@ struct MeshedDomain {
   const Domain* domain = nullptr;
   const TriMesh* mesh = nullptr;
   const std::vector<double>* size_m = nullptr;  // one a vertex of the mesh; null where no lengths were asked for
-  std::span<const SpacePoint> places = {};      // likewise, for angles; empty: those of the plane
+  const GroundPlaces* ground = nullptr;         // likewise, for angles and coordinates; null: those of the plane
 };
 Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop = inOrder);
 // The same for who gives back the meshes before areas are worked out, which takes memory of its own.

@@ -82,7 +82,9 @@ class ObliqueStereographic final : public ConformalMap {
         meridian_(centre.lon),
         centre_(onSphere(centre.lat)),
         diameter_(2 * ellipsoid.a / centre_.scale),
-        a_(ellipsoid.a) {}
+        a_(ellipsoid.a) {
+    Math::sincosd(meridian_, sin_meridian_, cos_meridian_);
+  }
 
   Point forward(const LonLat& place) const override {
     const OnSphere at = onSphere(place.lat);
@@ -94,16 +96,21 @@ class ObliqueStereographic final : public ConformalMap {
     return {diameter_ * east / (1 + up), diameter_ * north / (1 + up)};
   }
 
-  LonLat inverse(const Point& plane) const override {
-    const double x = plane.x / diameter_, y = plane.y / diameter_;
-    const double q = x * x + y * y;
-    const double east = 2 * x / (1 + q), north = 2 * y / (1 + q), up = (1 - q) / (1 + q);
-    const double to_meridian = up * centre_.cos - north * centre_.sin;
-    const double to_pole = up * centre_.sin + north * centre_.cos;
-    const double to_axis = std::hypot(to_meridian, east);
-    if (to_axis == 0) return {Math::AngNormalize(meridian_), to_pole > 0 ? 90.0 : -90.0};
-    const double lat = Math::atand(Math::tauf(to_pole / to_axis, es_));
-    return {Math::AngNormalize(meridian_ + Math::atan2d(east, to_meridian)), lat};
+  LonLat inverse(const Point& plane) const override { return inverseByTangent(plane).place; }
+  OnGround onGround(const Point& plane) const override {
+    const ByTangent at = inverseByTangent(plane);
+    const double polar = a_ * std::sqrt(1 - e2_);
+    constexpr double kAtPole = 1e-100;  // less than any rounding
+    if (at.to_axis < kAtPole) return {at.place, {0, 0, at.place.lat > 0 ? polar : -polar}, scaleAt(plane)};
+    const double cos_lat = 1 / std::sqrt(1 + at.tangent * at.tangent), sin_lat = cos_lat * at.tangent;
+    const double flatter = std::sqrt(1 - e2_ * sin_lat * sin_lat);
+    // Radii over the sphere's distance to the axis: of the ellipsoid's parallel, and its north.
+    const double parallel = a_ * cos_lat / (flatter * at.to_axis);
+    const double x = parallel * at.to_meridian, y = parallel * at.east;
+    return {at.place,
+            {x * cos_meridian_ - y * sin_meridian_, x * sin_meridian_ + y * cos_meridian_,
+             a_ * (1 - e2_) * sin_lat / flatter},
+            diameter_ * (1 + at.squared) / (2 * parallel)};
   }
 
   double scaleAt(const Point& plane) const override {
@@ -124,6 +131,31 @@ class ObliqueStereographic final : public ConformalMap {
     double sin, cos, scale;
   };
 
+  // A place, with what finding it made known: the tangent of its latitude, its distance to the axis of the sphere of
+  // radius 1 in two directions and as a whole, and the squared distance to the plane's origin in diameters. At a pole
+  // the distance to the axis is 0 and the tangent is not given.
+  struct ByTangent {
+    LonLat place;
+    double tangent, to_meridian, east, to_axis, squared;
+  };
+
+  ByTangent inverseByTangent(const Point& plane) const {
+    const double x = plane.x / diameter_, y = plane.y / diameter_;
+    const double q = x * x + y * y;
+    const double east = 2 * x / (1 + q), north = 2 * y / (1 + q), up = (1 - q) / (1 + q);
+    const double to_meridian = up * centre_.cos - north * centre_.sin;
+    const double to_pole = up * centre_.sin + north * centre_.cos;
+    const double to_axis = std::hypot(to_meridian, east);
+    if (to_axis == 0) return {{Math::AngNormalize(meridian_), to_pole > 0 ? 90.0 : -90.0}, 0, 0, 0, 0, q};
+    const double tangent = Math::tauf(to_pole / to_axis, es_);
+    return {{Math::AngNormalize(meridian_ + Math::atan2d(east, to_meridian)), Math::atand(tangent)},
+            tangent,
+            to_meridian,
+            east,
+            to_axis,
+            q};
+  }
+
   OnSphere onSphere(double lat) const {
     const double tau = Math::tand(Math::LatFix(lat)), tau_conformal = Math::taupf(tau, es_);
     const double secant = std::hypot(1.0, tau), secant_conformal = std::hypot(1.0, tau_conformal);
@@ -137,6 +169,7 @@ class ObliqueStereographic final : public ConformalMap {
   OnSphere centre_;
   double diameter_;
   double a_;
+  double sin_meridian_ = 0, cos_meridian_ = 1;
 };
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "core/point.hpp"
+#include "core/space_point.hpp"
 #include "core/surface.hpp"
 #include "gis/crs/lon_lat.hpp"
 
@@ -25,6 +27,14 @@ class ConformalMap {
   virtual double scaleAt(const Point& plane) const = 0;  // plane length over length on the ellipsoid
   // The sphere that it is a stereographic map of; flat where there is none.
   virtual Surface sphere() const { return {}; }
+  // `inverse`, `scaleAt` and the place in space, metres from the middle of the ellipsoid, in one, which costs little
+  // more than the first; but for that to a few units of the last place. REQUIRES: sphere().isCurved()
+  struct OnGround {
+    LonLat place;
+    SpacePoint space;
+    double scale = 1.0;
+  };
+  virtual OnGround onGround(const Point&) const { throw std::logic_error("a map of no sphere"); }
   // The one place that lies beyond all of the plane, where the map shows all others, to a thousandth of a degree.
   virtual std::optional<LonLat> infinity() const { return std::nullopt; }
 };

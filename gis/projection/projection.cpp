@@ -27,10 +27,18 @@ Surface Projection::surface() const { return impl_->surface(); }
 double Projection::measureAt(const Point& plane) const {
   return impl_->scaleAt(plane) * impl_->surface().shrinkAt(plane);
 }
-std::vector<SpacePoint> Projection::spacePlaces(std::span<const Point> plane, const ItemLoop& loop) const {
-  if (!surface().isCurved()) return {};
-  std::vector<SpacePoint> places(plane.size());
-  forEachByStretches(loop, plane.size(), [&](std::size_t i) { places[i] = impl_->spaceAt(plane[i]); });
+GroundPlaces Projection::groundPlaces(std::span<const Point> plane, const ItemLoop& loop) const {
+  GroundPlaces places;
+  if (!surface().isCurved()) return places;
+  const auto makeRoom = [&](auto& items) {
+    reserveOn(loop, items, plane.size());
+    items.resize(plane.size());
+  };
+  makeRoom(places.input), makeRoom(places.space), makeRoom(places.measure);
+  forEachByStretches(loop, plane.size(), [&](std::size_t i) {
+    const GroundPlace at = impl_->groundAt(plane[i]);
+    places.input[i] = at.input, places.space[i] = at.space, places.measure[i] = at.measure;
+  });
   return places;
 }
 std::optional<Point> Projection::infinity() const { return impl_->infinity(); }

@@ -18,6 +18,15 @@ namespace coastmesh {
 
 struct ProjectionMap;  // what stands behind a Projection: see projection_map.hpp
 
+// Places of a plane that stands for the Earth, one item each.
+struct GroundPlaces {
+  std::vector<Point> input;       // as `Projection::inverse`
+  std::vector<SpacePoint> space;  // metres from the middle of the ellipsoid
+  std::vector<double> measure;    // as `Projection::measureAt`, to a few units of the last place
+
+  bool empty() const { return space.empty(); }
+};
+
 // A map between the input's coordinates and the working plane, in metres where the input lies on Earth. Conformal
 // unless the user chose a CRS that is not. Cheap to copy; usable from several threads at once.
 class Projection {
@@ -47,8 +56,8 @@ class Projection {
   // Length on that surface over length on the ellipsoid at a place of the plane: near 1 on a sphere, `scaleAt` in the
   // plane.
   double measureAt(const Point& plane) const;
-  // Places of the plane in space, metres from the middle of the ellipsoid; empty where the plane itself rules.
-  std::vector<SpacePoint> spacePlaces(std::span<const Point> plane, const ItemLoop& loop = inOrder) const;
+  // Places of the plane on the ground; empty where the plane itself rules.
+  GroundPlaces groundPlaces(std::span<const Point> plane, const ItemLoop& loop = inOrder) const;
   // The place, in the input's CRS, that lies beyond all of the plane, for maps that show all others.
   std::optional<Point> infinity() const;
   bool isIdentity() const;                 // of `plane()`

@@ -1,4 +1,3 @@
-#include <GeographicLib/Geocentric.hpp>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -21,31 +20,20 @@ namespace {
 
 class Fitted final : public ProjectionMap {
  public:
-  Fitted(GeographicMap to_geographic, FittedMap fitted, const Ellipsoid& ellipsoid, double middle_longitude)
-      : to_geographic_(std::move(to_geographic)),
-        map_(std::move(fitted.map)),
-        in_space_(ellipsoid.a, ellipsoid.f),
-        middle_(middle_longitude) {
+  Fitted(GeographicMap to_geographic, FittedMap fitted, double middle_longitude)
+      : to_geographic_(std::move(to_geographic)), map_(std::move(fitted.map)), middle_(middle_longitude) {
     if (fitted.is_surface) surface_ = map_->sphere();
     description = std::move(fitted.description);
     reason = std::move(fitted.reason);
   }
 
   Point forward(const Point& input) const override { return map_->forward(to_geographic_.forward(input)); }
-  Point inverse(const Point& plane) const override {
-    LonLat place = map_->inverse(plane);
-    // As the input has it: the same turn round the globe.
-    if (place.lon < middle_ - 180) place.lon += 360;
-    if (place.lon > middle_ + 180) place.lon -= 360;
-    return to_geographic_.inverse(place);
-  }
+  Point inverse(const Point& plane) const override { return asInput(map_->inverse(plane)); }
   double scaleAt(const Point& plane) const override { return map_->scaleAt(plane); }
   Surface surface() const override { return surface_; }
-  SpacePoint spaceAt(const Point& plane) const override {
-    const LonLat place = map_->inverse(plane);
-    SpacePoint in_space;
-    in_space_.Forward(place.lat, place.lon, 0.0, in_space.x, in_space.y, in_space.z);
-    return in_space;
+  GroundPlace groundAt(const Point& plane) const override {
+    const auto [place, space, scale] = map_->onGround(plane);
+    return {asInput(place), space, scale * surface_.shrinkAt(plane)};
   }
   std::optional<Point> infinity() const override {
     const std::optional<LonLat> beyond = to_geographic_.isIdentity() ? map_->infinity() : std::nullopt;
@@ -54,9 +42,15 @@ class Fitted final : public ProjectionMap {
   }
 
  private:
+  // The same turn round the globe as the input.
+  Point asInput(LonLat place) const {
+    if (place.lon < middle_ - 180) place.lon += 360;
+    if (place.lon > middle_ + 180) place.lon -= 360;
+    return to_geographic_.inverse(place);
+  }
+
   GeographicMap to_geographic_;
   std::unique_ptr<ConformalMap> map_;
-  GeographicLib::Geocentric in_space_;
   Surface surface_;
   double middle_;
 };
@@ -143,7 +137,7 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
   FittedMap map = places.empty()   ? mapOfEmptyGlobe(ellipsoid)
                   : coastline.rest ? fitMap(places, groups, ellipsoid, SurfaceKind::Ellipsoid)
                                    : fitMap(places, groups, ellipsoid, kind);
-  return std::make_shared<Fitted>(to_geographic, std::move(map), ellipsoid, middle);
+  return std::make_shared<Fitted>(to_geographic, std::move(map), middle);
 }
 
 }  // namespace

@@ -9,6 +9,13 @@
 
 namespace coastmesh {
 
+// A place of the plane as `GroundPlaces` has it.
+struct GroundPlace {
+  Point input;
+  SpacePoint space;
+  double measure;
+};
+
 // What stands behind a Projection.
 struct ProjectionMap {
   virtual ~ProjectionMap() = default;
@@ -17,7 +24,9 @@ struct ProjectionMap {
   virtual double scaleAt(const Point& plane) const = 0;
   virtual std::optional<Point> infinity() const { return std::nullopt; }
   virtual Surface surface() const { return {}; }
-  virtual SpacePoint spaceAt(const Point& plane) const { return {plane.x, plane.y, 0.0}; }
+  virtual GroundPlace groundAt(const Point& plane) const {
+    return {inverse(plane), {plane.x, plane.y, 0.0}, scaleAt(plane)};
+  }
   virtual bool isIdentity() const { return false; }
   virtual bool mayTear() const { return false; }
   std::string description, reason;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/sphere/clear_places.hpp"
 #include "core/sphere/sphere_lattice.hpp"
 #include "core/sphere/sphere_place.hpp"
 #include "gis/error.hpp"
@@ -50,6 +51,11 @@ void requireNumbers(double length, const Surface& surface) {
   throw InputError(text);
 }
 
+// A lattice without turns is all that there is, where its lengths are.
+bool isAll(const SphereLattice& lattice, const Domain& domain) {
+  return lattice.k == 0 && lattice.h > 1 && domain.pslg.points.empty();
+}
+
 std::vector<Point> ringOf(const std::vector<SpacePoint>& places, const Surface& surface) {
   std::vector<Point> ring;
   for (std::size_t i = kLatticePole; i < kLatticePole + kLatticeRing; ++i) ring.push_back(planeOf(places[i], surface));
@@ -92,7 +98,14 @@ GlobeStart globeStart(const Domain& domain, const SizeOptions& options, const Si
 
   GlobeStart start;
   const double edge = has_lattice || uniform ? wanted : kFewPlaces * radius;
-  const std::vector<SpacePoint> places = placesOf(sphereLattice(edge / radius), loop);
+  const SphereLattice lattice = sphereLattice(edge / radius);
+  if (has_lattice && uniform && isAll(lattice, domain)) {
+    start.lattice = meshOf(lattice, surface, loop);
+    start.cap = sphereCap(
+        surface, std::vector<Point>(start.lattice.points.begin(), start.lattice.points.begin() + kLatticeRing));
+    return start;
+  }
+  const std::vector<SpacePoint> places = placesOf(lattice, loop);
   SphereCap of_lattice = sphereCap(surface, ringOf(places, surface));
   // The ring of the lattice has the best triangles round it, where it is no larger or smaller than wanted.
   if ((uniform || size == nullptr) && surface.chord(of_lattice.apex, of_lattice.ring.front()) <= largest) {

@@ -6,6 +6,7 @@
 #include "core/point.hpp"
 #include "core/size_function.hpp"
 #include "core/sphere/close_sphere.hpp"
+#include "core/tri_mesh.hpp"
 #include "gis/clean/domain.hpp"
 #include "gis/size/size_source.hpp"
 
@@ -15,6 +16,7 @@ namespace coastmesh {
 struct GlobeStart {
   SphereCap cap;             // round the place that lies beyond all of the plane
   std::vector<Point> seeds;  // vertices clear of the input
+  TriMesh lattice;           // in place of seeds, where it is all that there is: see MeshOptions
 };
 
 // Whether one length is asked for, everywhere.

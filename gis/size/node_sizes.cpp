@@ -25,27 +25,34 @@ Neighbours neighboursIn(const TriMesh& mesh) {
 }  // namespace
 
 std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double gradation,
-                              const std::function<double(const Point&)>& measure, const Surface& surface) {
+                              const std::function<double(VertexId)>& measure, const Surface& surface,
+                              const ItemLoop& loop) {
   // Slightly less, since others round the lengths that they measure otherwise.
   constexpr double kHair = 1.0 - 1e-6;
   std::vector<double> sizes(mesh.points.size()), measures(mesh.points.size());
-  for (VertexId v = 0; v < sizes.size(); ++v) {
-    measures[v] = measure(mesh.points[v]);
+  forEachByStretches(loop, sizes.size(), [&](std::size_t i) {
+    const auto v = static_cast<VertexId>(i);
+    measures[v] = measure(v);
     sizes[v] = size.at(mesh.points[v]) / measures[v];
-  }
+  });
   const auto allowed = [&](VertexId from, VertexId to) {
     const double length = surface.chord(mesh.points[from], mesh.points[to]);
     const double metres = length / std::max(measures[from], measures[to]);
     return sizes[from] + kHair * gradation * metres;
   };
   using Entry = std::pair<double, VertexId>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& v = mesh.triangles[t].v;
-    for (unsigned i = 0; i < 3; ++i)
-      for (const VertexId to : {v[next3(i)], v[prev3(i)]})
-        if (allowed(v[i], to) < sizes[to]) queue.push({sizes[v[i]], v[i]});
-  }
+  const std::vector<Entry> first_entries =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<Entry> some;
+        for (std::size_t t = first; t < last; ++t) {
+          const auto& v = mesh.triangles[t].v;
+          for (unsigned i = 0; i < 3; ++i)
+            for (const VertexId to : {v[next3(i)], v[prev3(i)]})
+              if (sizes[v[i]] < sizes[to] && allowed(v[i], to) < sizes[to]) some.push_back({sizes[v[i]], v[i]});
+        }
+        return some;
+      }));
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>(), first_entries);
   if (queue.empty()) return sizes;
   const Neighbours neighbours = neighboursIn(mesh);
   while (!queue.empty()) {

@@ -8,6 +8,7 @@
 
 #include "core/links.hpp"
 #include "core/metric.hpp"
+#include "core/sphere/clear_places.hpp"
 #include "core/sphere/sphere_lattice.hpp"
 #include "core/sphere/sphere_place.hpp"
 #include "parallel/mesh_regions.hpp"
@@ -85,6 +86,27 @@ TEST(ClosedMesh, AnEmptyGlobeIsTheLattice) {
   const Figures figures = measure(region.mesh, 5e5);
   EXPECT_GT(figures.least_angle, 49.0);
   EXPECT_EQ(figures.area_near_size, figures.area);
+}
+
+TEST(ClosedMesh, ALatticeIsTheResultWhereItKeepsTheBounds) {
+  const Pslg nothing;
+  MeshOptions options = latticeOptions(nothing, 5e5);
+  options.seeds.clear();
+  options.cap_region = 2;
+  options.lattice = meshOf({20, 0}, kEarth);
+  options.cap =
+      sphereCap(kEarth, std::vector<Point>(options.lattice.points.begin(), options.lattice.points.begin() + 5));
+  const MeshedRegion taken = meshRegion(nothing, options);
+  expectClosed(taken.mesh);
+  EXPECT_EQ(digestOf(taken.mesh), digestOf(options.lattice));
+  EXPECT_TRUE(std::ranges::all_of(taken.mesh.regions, [](RegionId r) { return r == 2; }));
+  // It has triangles with 72 degrees.
+  options.refine.max_angle_deg = 71.0;
+  options.refine.min_angle_deg = 30.0;
+  const MeshedRegion refined = meshRegion(nothing, options);
+  expectClosed(refined.mesh);
+  EXPECT_NE(digestOf(refined.mesh), digestOf(options.lattice));
+  EXPECT_GE(refined.mesh.points.size(), 12u);
 }
 
 TEST(ClosedMesh, CoastsAreEdgesBetweenRegions) {

@@ -6,9 +6,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
+#include "core/sphere/clear_places.hpp"
 #include "core/sphere/sphere_place.hpp"
 #include "tests/support/closed_lattice.hpp"
 
@@ -55,6 +58,27 @@ TEST(SphereLattice, ItsPlacesAreTheVerticesOfEvenTrianglesRoundTheWholeSphere) {
     EXPECT_EQ(degrees[6], static_cast<int>(mesh.points.size()) - 12);
     EXPECT_GT(least, lattice.k == 0 ? 53.9 : 49.0) << lattice.h << " " << lattice.k;
     EXPECT_LT(longest / shortest, 1.25) << lattice.h << " " << lattice.k;
+  }
+}
+
+TEST(SphereLattice, ItsMeshHasTheTrianglesOfADelaunayTriangulation) {
+  const Surface surface = Surface::sphere(1.0);
+  for (const std::int64_t h : {2, 3, 7, 20}) {
+    const TriMesh mesh = meshOf({h, 0}, surface), other = closedLattice({h, 0}, surface);
+    EXPECT_EQ(findBrokenLink(mesh.triangles), kNone);
+    ASSERT_EQ(mesh.points, other.points) << h;
+    // From the least corner on.
+    const auto cornersOf = [](const TriMesh& of) {
+      std::vector<std::array<VertexId, 3>> all;
+      for (const Triangle& t : of.triangles) {
+        std::array<VertexId, 3> v = t.v;
+        std::ranges::rotate(v, std::ranges::min_element(v));
+        all.push_back(v);
+      }
+      std::ranges::sort(all);
+      return all;
+    };
+    EXPECT_EQ(cornersOf(mesh), cornersOf(other)) << h;
   }
 }
 

@@ -610,7 +610,7 @@ TEST(NodeSizes, NoTwoNeighboursDifferMore) {
   TriMesh mesh = constrainedDelaunay(pslg);
   refine(mesh, pslg, {.min_angle_deg = 30.0, .size = &size});
   constexpr double kGradation = 0.2, kScale = 2.0;
-  const std::vector<double> sizes = nodeSizes(mesh, size, kGradation, [](const Point&) { return kScale; });
+  const std::vector<double> sizes = nodeSizes(mesh, size, kGradation, [](VertexId) { return kScale; });
   ASSERT_EQ(sizes.size(), mesh.points.size());
   bool lowered = false;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {

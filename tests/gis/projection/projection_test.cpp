@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/Geodesic.hpp>
 #include <cmath>
 #include <thread>
@@ -200,6 +201,30 @@ TEST(Fitted, ToGroupsOfTheirOwn) {
   ASSERT_EQ(projections.size(), 2u);
   EXPECT_EQ(projections[0].description(), Projection::fitted(coastline, {0}).description());
   EXPECT_EQ(projections[1].description(), Projection::fitted(coastline, {1}).description());
+}
+
+TEST(Fitted, PlacesOnTheGroundAreThoseOfTheEllipsoid) {
+  for (const bool north : {true, false}) {
+    const Coastline coastline =
+        coastlineOf({polygonFeature(1, graticuleRing(20, 80, north ? 35 : -75, north ? 75 : -35))}, wgs84());
+    const Projection projection = Projection::fitted(coastline, {0}, SurfaceKind::Ellipsoid);
+    ASSERT_TRUE(projection.surface().isCurved());
+    std::vector<Point> plane{{0, 0}};
+    for (const double latitude : {-90.0, -89.9999, -60.0, -1e-7, 0.0, 33.0, 89.5, 90.0})
+      for (const double longitude : {-180.0, -91.0, 0.0, 47.0, 170.0})
+        plane.push_back(projection.forward({longitude, latitude}));
+    const GroundPlaces ground = projection.groundPlaces(plane);
+    const auto& earth = GeographicLib::Geocentric::WGS84();
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      const Point input = projection.inverse(plane[i]);
+      EXPECT_EQ(ground.input[i], input);
+      SpacePoint space;
+      earth.Forward(input.y, input.x, 0.0, space.x, space.y, space.z);
+      EXPECT_LT(distance(ground.space[i], space), 1e-8) << input.x << " " << input.y;
+      EXPECT_NEAR(ground.measure[i], projection.measureAt(plane[i]), 1e-13) << input.x << " " << input.y;
+    }
+  }
+  EXPECT_TRUE(fit(graticuleRing(1, 2, 3, 4)).groundPlaces(std::vector<Point>{{0, 0}}).empty());
 }
 
 TEST(Fitted, SameFromSeveralThreads) {

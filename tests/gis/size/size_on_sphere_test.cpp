@@ -316,7 +316,7 @@ TEST_F(OceanPlanet, NodesSizesAreMetres) {
   const Domain sea = domain();
   const TriMesh mesh = constrainedDelaunay(sea.pslg);
   // Of one size; and too steep ones, brought down along edges by their length on the ground.
-  const auto measure = [&](const Point& x) { return projection_.measureAt(x); };
+  const auto measure = [&](VertexId v) { return projection_.measureAt(mesh.points[v]); };
   for (const double s : nodeSizes(mesh, ConstantSize(1e5), 0.2, measure, surface_)) EXPECT_NEAR(s, 1e5, 500.0);
   class Steep final : public SizeFunction {
    public:
