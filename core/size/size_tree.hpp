@@ -17,6 +17,8 @@ namespace coastmesh {
 struct SizeRange {
   double low = 0.0;
   double high = 0.0;
+  // What `sample` says of the middle of the box, where finding the bounds found that; else NaN.
+  double at_centre = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Where wanted lengths come from: asked for many places at once, so that whoever computes them can share the work out.

@@ -20,6 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Where the least size in a cell is known to be less than that at its corners, sides and centre by this factor,
 // something small lies between them. Bounds of what grows with a distance are off by less.
 constexpr double kHidden = 1.5;
+constexpr double kUnasked = -1.0;
 constexpr int kLevels = 24;
 constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // of the root's side: a leaf of the last level has a centre
 // Vertices of equilateral triangles with edges of length 1, on an area of 1.
@@ -62,13 +63,17 @@ class SizeTreeBuilder {
  private:
   // Of a cell's vertices those that it always has.
   static constexpr std::array<unsigned, 5> kOwn = {0, 2, 4, 6, 8};
+  static constexpr std::size_t kCentre = 2;  // of these
   static constexpr std::array<unsigned, 4> kMiddles = {1, 3, 5, 7};
 
   double unit() const { return tree_.side_ / kUnits; }
   SizeBox boxOf(std::uint32_t c) const {
     const Square& s = squares_[c];
-    const double half = 0.5 * unit() * s.side();
-    return {tree_.origin_ + Point{unit() * s.x + half, unit() * s.y + half}, half};
+    const std::uint32_t half = s.side() / 2;
+    return {placeOf({s.x + half, s.y + half}), unit() * half};
+  }
+  Point placeOf(const SizePlaces::Place& place) const {
+    return tree_.origin_ + Point{unit() * place.x, unit() * place.y};
   }
   // On the surface, of a cell's longest side; at most.
   double sideOf(const SizeBox& box) const { return 2.0 * box.half * shrinkIn(options_.surface, box).high; }
@@ -198,8 +203,9 @@ class SizeTreeBuilder {
     std::vector<SizeBox> boxes;
     std::vector<SizeRange> ranges;
     std::vector<std::uint32_t> unsure;
-    std::vector<double> lows;  // of the unsure ones
-    Demand settled;            // by cells that stay as they are
+    std::vector<SizeRange> unsure_ranges;
+    std::vector<Demand> demands;
+    Demand settled;  // by cells that stay as they are
     bool too_much = false;
     for (int level = 0; level < kLevels; ++level) {
       const auto end = static_cast<std::uint32_t>(tree_.cells_.size());
@@ -218,28 +224,30 @@ class SizeTreeBuilder {
       ranges.resize(boxes.size());
       source_.bound(boxes, ranges);
       Demand pending = settled;
-      for (std::size_t k = 0; k < wanted.size(); ++k) pending.add(demandOf(wanted[k], ranges[k]));
+      demands.resize(wanted.size());
+      forEachByStretches(loop_, wanted.size(), [&](std::size_t k) { demands[k] = demandOf(wanted[k], ranges[k]); });
+      for (const Demand& demand : demands) pending.add(demand);
       // A few cells more cost nothing and make the estimate better.
       constexpr std::uint32_t kFewCells = 20'000;
       too_much |= isSurelyTooMuch(pending.likely) || pending.least > options_.most_vertices;
       if (too_much && end >= kFewCells) return abandon(pending);
       unsure.clear();
-      lows.clear();
+      unsure_ranges.clear();
       for (std::size_t k = 0; k < wanted.size() && !isFull(); ++k) {
-        const auto [low, high] = ranges[k];
+        const double low = ranges[k].low, high = ranges[k].high;
         if (!(high > low * (1.0 + options_.tolerance))) continue;
         const double side = sideOf(boxes[k]);
         if (side > options_.coarsest * low || isStretched(boxes[k], kGradedStretch)) {
           split(wanted[k]);
         } else if (side > options_.finest * low) {
           unsure.push_back(wanted[k]);
-          lows.push_back(low);
+          unsure_ranges.push_back(ranges[k]);
         }
       }
-      splitWhereBent(unsure, lows);
+      splitWhereBent(unsure, unsure_ranges);
       if (!tree_.complete_) return abandon(pending);
       for (std::size_t k = 0; k < wanted.size(); ++k)
-        if (tree_.cells_[wanted[k]].is_leaf) settled.add(demandOf(wanted[k], ranges[k]));
+        if (tree_.cells_[wanted[k]].is_leaf) settled.add(demands[k]);
       first = end;
     }
     if (too_much) abandon(settled);
@@ -247,10 +255,12 @@ class SizeTreeBuilder {
 
   // Splits cells whose centre or sides differ from what the corners give, or that hold something much smaller than all
   // of these.
-  void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<double>& lows) {
+  void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<SizeRange>& ranges) {
     std::vector<std::array<std::uint32_t, 4>> middles(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k) {
       addOwnVertices(cells[k]);
+      if (!std::isnan(ranges[k].at_centre))
+        told_.push_back({own_vertices_[known_[cells[k]]][kCentre], ranges[k].at_centre});
       for (std::size_t i = 0; i < kMiddles.size(); ++i) middles[k][i] = vertices_.add(vertexOf(cells[k], kMiddles[i]));
     }
     sample();
@@ -263,7 +273,7 @@ class SizeTreeBuilder {
       off = 0.5 * std::max({off, std::abs(0.5 * (v[0] + v[2]) - v[1]), std::abs(0.5 * (v[0] + v[6]) - v[3]),
                             std::abs(0.5 * (v[2] + v[8]) - v[5]), std::abs(0.5 * (v[6] + v[8]) - v[7])});
       const double least = std::ranges::min(v), side = sideOf(boxOf(cells[k]));
-      if (least > kHidden * lows[k]) return true;
+      if (least > kHidden * ranges[k].low) return true;
       return std::isfinite(off) ? off * side > options_.tolerance * least * least : std::isfinite(least);
     };
     const std::vector<std::uint32_t> bent =
@@ -289,16 +299,22 @@ class SizeTreeBuilder {
     }
   }
 
-  // Asks for the sizes at vertices that are new.
+  // Asks for the sizes at vertices that are new, save where bounds have told them.
   void sample() {
     const std::size_t known = sizes_.own.size();
-    std::vector<Point> places(vertices_.size() - known);
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const auto [x, y] = vertices_[static_cast<std::uint32_t>(known + k)];
-      places[k] = tree_.origin_ + Point{unit() * x, unit() * y};
+    sizes_.own.resize(vertices_.size(), kUnasked);
+    for (const auto& [v, size] : told_) sizes_.own[v] = size;
+    told_.clear();
+    std::vector<std::uint32_t> asked;
+    std::vector<Point> places;
+    for (auto v = static_cast<std::uint32_t>(known); v < vertices_.size(); ++v) {
+      if (sizes_.own[v] != kUnasked) continue;
+      asked.push_back(v);
+      places.push_back(placeOf(vertices_[v]));
     }
-    sizes_.own.resize(vertices_.size());
-    source_.sample(places, std::span(sizes_.own).subspan(known));
+    std::vector<double> sizes(places.size());
+    source_.sample(places, sizes);
+    for (std::size_t k = 0; k < asked.size(); ++k) sizes_.own[asked[k]] = sizes[k];
   }
 
   // The cell that holds the unit square with this lower left corner, no deeper than `level`.
@@ -524,6 +540,11 @@ class SizeTreeBuilder {
   std::vector<std::array<std::uint32_t, 5>> own_vertices_;  // numbers, in the order of kOwn
   SizePlaces vertices_;                                     // in units; some are of cells that were split
   GradedSizes sizes_;                                       // at the vertices
+  struct Told {
+    std::uint32_t vertex;
+    double size;
+  };
+  std::vector<Told> told_;  // sizes that bounds have told since `sample`
   std::vector<std::uint32_t> leaf_cells_;
   std::vector<LeafVertices> leaf_vertices_;
   std::vector<char> is_wanted_;  // leaves

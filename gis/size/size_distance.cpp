@@ -17,6 +17,18 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Two numbers that are worked on at once: what compilers make of plain loops is one after another, with branches.
+using Pair = double __attribute__((vector_size(16)));
+constexpr Pair kNoPair = {0.0, 0.0}, kOnePair = {1.0, 1.0};
+
+Pair pairOf(double number) { return Pair{number, number}; }
+template <std::size_t kCount>
+Pair pairAt(const std::array<double, kCount>& numbers, std::size_t k) {
+  return Pair{numbers[k], numbers[k + 1]};
+}
+Pair greaterOf(const Pair& a, const Pair& b) { return a > b ? a : b; }
+Pair lessOf(const Pair& a, const Pair& b) { return a < b ? a : b; }
+
 }  // namespace
 
 // Lengths are those of the plane, on a sphere those of chords.
@@ -54,8 +66,17 @@ DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(
     const SizedLine& line = lines[i];
     const Point along = line.b - line.a;
     const double square = squaredLength(along);
-    add(lines_.size(), {Box::of(line.a, line.b), line.size_m, line.rate});
-    lines_.push_back({line.a, along, square > 0.0 ? 1.0 / square : 0.0, line.size_m, line.rate});
+    add(count_, {Box::of(line.a, line.b), line.size_m, line.rate});
+    const std::size_t k = count_++ % kFanout;
+    if (k == 0) {
+      Lines& none = lines_.emplace_back();
+      for (auto* of : {&none.x, &none.y, &none.size_m}) of->fill(kInfinity);
+    }
+    Lines& all = lines_.back();
+    all.x[k] = line.a.x, all.y[k] = line.a.y;
+    all.along_x[k] = along.x, all.along_y[k] = along.y;
+    all.inverse_square[k] = square > 0.0 ? 1.0 / square : 0.0;
+    all.size_m[k] = line.size_m, all.rate[k] = line.rate;
   }
   do {
     level_begin_.push_back(groups_.size());
@@ -81,7 +102,8 @@ DistanceField::DistanceField(std::vector<SizedLine> lines, std::function<double(
 
 void DistanceField::limitRate(double rate) {
   most_rate_ = std::min(most_rate_, rate);
-  for (Line& line : lines_) line.rate = std::min(line.rate, rate);
+  for (Lines& lines : lines_)
+    for (double& each : lines.rate) each = std::min(each, rate);
   for (Group& group : groups_)
     for (double& least : group.rate) least = std::min(least, rate);
 }
@@ -89,16 +111,17 @@ void DistanceField::limitRate(double rate) {
 // The square of the chord from x to the place on a line at the share t is n(t) / q(t) times the shrink at x. n is the
 // square of the plane's length, q the inverse of the shrink there, both quadratic in t. At one of its derivative's two
 // roots it is the least on the whole line; where that lies beyond the ends, at one of these.
-double DistanceField::squaredChordTo(const Line& line, const Search& search) const {
+double DistanceField::squaredChordTo(const Lines& lines, std::size_t i, const Search& search) const {
   const double k = surface_.curvature;
-  const Point off = line.a - search.x;
-  const double n0 = squaredLength(off), n1 = dot(off, line.along), n2 = squaredLength(line.along);
-  const double q0 = 1.0 + k * squaredLength(line.a), q1 = k * dot(line.a, line.along), q2 = k * n2;
+  const Point start{lines.x[i], lines.y[i]}, along{lines.along_x[i], lines.along_y[i]};
+  const Point off = start - search.x;
+  const double n0 = squaredLength(off), n1 = dot(off, along), n2 = squaredLength(along);
+  const double q0 = 1.0 + k * squaredLength(start), q1 = k * dot(start, along), q2 = k * n2;
   const double a = n2 * q1 - n1 * q2, b = n2 * q0 - n0 * q2, c = n1 * q0 - n0 * q1;
   const double root = std::sqrt(std::max(b * b - 4.0 * a * c, 0.0));
   // Where the derivative, a t² + b t + c, rises through 0.
   const double share = b > 0.0 ? -2.0 * c / (b + root) : (root - b) / (2.0 * a);
-  const auto at = [&](double t) { return squaredLength(off + t * line.along) / (q0 + t * (2.0 * q1 + t * q2)); };
+  const auto at = [&](double t) { return squaredLength(off + t * along) / (q0 + t * (2.0 * q1 + t * q2)); };
   double least = std::min(at(0.0), at(1.0));
   if (share > 0.0 && share < 1.0) least = std::min(least, at(share));
   return least * search.shrink;
@@ -106,37 +129,74 @@ double DistanceField::squaredChordTo(const Line& line, const Search& search) con
 
 template <bool kAlike, bool kCurved>
 void DistanceField::measure(std::uint32_t i, Search& search) const {
-  const Line& line = lines_[i];
+  const Lines& lines = lines_[i / kFanout];
+  const std::size_t k = i % kFanout;
   double square;
   if constexpr (kCurved) {
-    square = squaredChordTo(line, search);
+    square = squaredChordTo(lines, k, search);
   } else {
-    const Point to = search.x - line.a;
-    const double share = std::min(std::max(dot(to, line.along) * line.inverse_square, 0.0), 1.0);
-    square = squaredLength(to - share * line.along);
+    const Point to = search.x - Point{lines.x[k], lines.y[k]}, along{lines.along_x[k], lines.along_y[k]};
+    const double share = std::min(std::max(dot(to, along) * lines.inverse_square[k], 0.0), 1.0);
+    square = squaredLength(to - share * along);
   }
+  take<kAlike, kCurved>(i, square, search);
+}
+
+template <bool kAlike, bool kCurved>
+void DistanceField::take(std::uint32_t i, double square, Search& search) const {
+  const Lines& lines = lines_[i / kFanout];
+  const std::size_t k = i % kFanout;
   const auto metres = [&] {
     const double length = std::sqrt(square);
     return (kCurved ? arcOfChord(surface_, length) : length) * search.per_metre;
   };
-  const double value = kAlike ? square : line.size_m + line.rate * metres();
+  const double value = kAlike ? square : lines.size_m[k] + lines.rate[k] * metres();
   if (value < search.best) {
     search.best = value;
     search.nearest = i;
   }
 }
 
+// Of a node of the lowest level.
+template <bool kAlike, bool kCurved>
+void DistanceField::measureAll(std::size_t node, Search& search) const {
+  const std::size_t first = node * kFanout, count = std::min(count_ - first, kFanout);
+  if constexpr (kCurved) {
+    for (std::size_t k = 0; k < count; ++k) measure<kAlike, kCurved>(static_cast<std::uint32_t>(first + k), search);
+    return;
+  }
+  // As `measure` does it.
+  const Lines& lines = lines_[node];
+  const Pair x = pairOf(search.x.x), y = pairOf(search.x.y);
+  std::array<double, kFanout> square;
+  for (std::size_t k = 0; k < kFanout; k += 2) {
+    const Pair to_x = x - pairAt(lines.x, k), to_y = y - pairAt(lines.y, k);
+    const Pair along_x = pairAt(lines.along_x, k), along_y = pairAt(lines.along_y, k);
+    const Pair way = (to_x * along_x + to_y * along_y) * pairAt(lines.inverse_square, k);
+    const Pair share = lessOf(greaterOf(way, kNoPair), kOnePair);
+    const Pair off_x = to_x - share * along_x, off_y = to_y - share * along_y;
+    const Pair squares = off_x * off_x + off_y * off_y;
+    square[k] = squares[0], square[k + 1] = squares[1];
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    take<kAlike, kCurved>(static_cast<std::uint32_t>(first + k), square[k], search);
+}
+
 template <bool kAlike, bool kCurved>
 void DistanceField::descend(std::size_t level, std::size_t number, Search& search) const {
   const Group& group = groups_[level_begin_[level] + number];
   std::array<double, kFanout> off;
-  for (std::size_t k = 0; k < kFanout; ++k) {
-    const double dx = std::max(std::max(group.xmin[k] - search.x.x, search.x.x - group.xmax[k]), 0.0);
-    const double dy = std::max(std::max(group.ymin[k] - search.x.y, search.x.y - group.ymax[k]), 0.0);
-    off[k] = dx * dx + dy * dy;
-    if constexpr (kCurved) off[k] *= search.shrink * group.shrink[k];
-    if constexpr (!kAlike) off[k] = group.size_m[k] + group.rate[k] * std::sqrt(off[k]) * search.per_metre;
+  const Pair x = pairOf(search.x.x), y = pairOf(search.x.y);
+  for (std::size_t k = 0; k < kFanout; k += 2) {
+    const Pair dx = greaterOf(greaterOf(pairAt(group.xmin, k) - x, x - pairAt(group.xmax, k)), kNoPair);
+    const Pair dy = greaterOf(greaterOf(pairAt(group.ymin, k) - y, y - pairAt(group.ymax, k)), kNoPair);
+    Pair squares = dx * dx + dy * dy;
+    if constexpr (kCurved) squares *= pairOf(search.shrink) * pairAt(group.shrink, k);
+    off[k] = squares[0], off[k + 1] = squares[1];
   }
+  if constexpr (!kAlike)
+    for (std::size_t k = 0; k < kFanout; ++k)
+      off[k] = group.size_m[k] + group.rate[k] * std::sqrt(off[k]) * search.per_metre;
   // The most promising first; mostly few are left.
   std::array<std::uint8_t, kFanout> order;
   std::size_t count = 0;
@@ -152,9 +212,7 @@ void DistanceField::descend(std::size_t level, std::size_t number, Search& searc
     if (level > 0) {
       descend<kAlike, kCurved>(level - 1, node, search);
     } else {
-      const std::size_t end = std::min(lines_.size(), (node + 1) * kFanout);
-      for (std::size_t line = node * kFanout; line < end; ++line)
-        measure<kAlike, kCurved>(static_cast<std::uint32_t>(line), search);
+      measureAll<kAlike, kCurved>(node, search);
     }
   }
 }
@@ -176,16 +234,15 @@ double DistanceField::sizeAt(const Point& x, double scale, double most_m, std::u
     run.operator()<false>();
     return search.best;
   }
-  const Line& line = lines_.front();
-  if (!(most_m > line.size_m) || line.rate == 0.0) return std::min(most_m, line.size_m);
-  const double reach = (most_m - line.size_m) / line.rate * measure_here;
+  const double size_m = lines_.front().size_m[0], rate = lines_.front().rate[0];
+  if (!(most_m > size_m) || rate == 0.0) return std::min(most_m, size_m);
+  const double reach = (most_m - size_m) / rate * measure_here;
   const double straight = chordOfArc(surface_, reach);
   const bool all_round = curved && reach >= std::numbers::pi * surface_.radius();
   search.best = all_round ? kInfinity : straight * straight;
   run.operator()<true>();
-  return search.nearest == kNone
-             ? most_m
-             : line.size_m + line.rate * arcOfChord(surface_, std::sqrt(search.best)) * search.per_metre;
+  return search.nearest == kNone ? most_m
+                                 : size_m + rate * arcOfChord(surface_, std::sqrt(search.best)) * search.per_metre;
 }
 
 void DistanceField::sample(std::span<const Point> places, std::span<double> sizes) const {
@@ -201,7 +258,7 @@ void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> r
     const double shrinks = shrinkIn(surface_, boxes[i]).high / surface_.shrinkAt(boxes[i].centre);
     const double reach = most_rate_ * std::sqrt(2.0) * boxes[i].half / scale * shrinks * 1.01;
     const double size = sizeAt(boxes[i].centre, scale, most_m_ + reach, nearest);
-    ranges[i] = {std::max(least_size_m_, size - reach), size + reach};
+    ranges[i] = {std::max(least_size_m_, size - reach), size + reach, std::min(size, most_m_)};
   }
 }
 

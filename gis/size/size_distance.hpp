@@ -40,10 +40,10 @@ class DistanceField final : public SizeField {
 
  private:
   static constexpr std::size_t kFanout = 8;
-  struct Line {
-    Point a, along;               // `along` to the other end
-    double inverse_square = 0.0;  // of its length; 0 for a point
-    double size_m = 0.0, rate = 0.0;
+  // So many lines: their first ends, what leads on to the others, the inverse squares of their lengths (0 for points).
+  // Those that are not there have ends infinitely far away.
+  struct Lines {
+    std::array<double, kFanout> x, y, along_x, along_y, inverse_square, size_m, rate;
   };
   // The boxes of so many nodes of the level below; those that are not there lie infinitely far away.
   struct Group {
@@ -57,11 +57,17 @@ class DistanceField final : public SizeField {
   double sizeAt(const Point& x, double scale, double most_m, std::uint32_t& nearest) const;
   template <bool kAlike, bool kCurved>
   void measure(std::uint32_t line, Search& search) const;
+  // With the square of its distance.
+  template <bool kAlike, bool kCurved>
+  void take(std::uint32_t line, double square, Search& search) const;
+  template <bool kAlike, bool kCurved>
+  void measureAll(std::size_t node, Search& search) const;
   template <bool kAlike, bool kCurved>
   void descend(std::size_t level, std::size_t group, Search& search) const;
-  double squaredChordTo(const Line& line, const Search& search) const;
+  double squaredChordTo(const Lines& lines, std::size_t k, const Search& search) const;
 
-  std::vector<Line> lines_;    // along Hilbert's curve
+  std::size_t count_ = 0;      // of lines
+  std::vector<Lines> lines_;   // along Hilbert's curve
   std::vector<Group> groups_;  // level after level; of the first level's the nodes are `kFanout` lines in a row
   std::vector<std::size_t> level_begin_;
   bool alike_ = true;  // all lines have the same size and rate: squares of distances do

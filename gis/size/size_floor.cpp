@@ -16,6 +16,7 @@ namespace coastmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTolerance = 0.05;            // relative: a square whose sizes differ by less is not steep
 constexpr std::size_t kMostNodes = 4'000'000;  // past that squares are kept as large as they are
 
@@ -67,7 +68,7 @@ void SizeFloor::build(const DomainMask& mask, const ItemLoop& loop) {
     std::vector<std::pair<std::uint32_t, SizeBox>> next;
     for (std::size_t i = 0; i < level.size(); ++i) {
       const auto& [node, box] = level[i];
-      const auto& [low, high] = ranges[i];
+      const double low = ranges[i].low, high = ranges[i].high;
       // Where the field ends is a cliff as well, wherever it lies: what is beyond would be graded down into the domain.
       if (high < kInfinity && !mask.meets(box)) continue;
       if (high <= least_m_) continue;
@@ -133,7 +134,8 @@ void SizeFloor::bound(std::span<const SizeBox> boxes, std::span<SizeRange> range
   field_->bound(boxes, ranges);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const SizeBox& box = boxes[i];
-    auto& [low, high] = ranges[i];
+    auto& [low, high, at_centre] = ranges[i];
+    at_centre = kUnknown;
     const bool none = low == kInfinity, part = !none && high == kInfinity;
     const double change = rate_ * std::numbers::sqrt2 * box.half * shrinkIn(surface_, box).high / measureAt(box.centre);
     low = steepMost({box.centre, 0.0}, change + (none || part ? 0.0 : low)) - change;
@@ -143,7 +145,7 @@ void SizeFloor::bound(std::span<const SizeBox> boxes, std::span<SizeRange> range
   std::vector<SizeRange> from(boxes.size());
   distances_->bound(boxes, from);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    auto& [low, high] = ranges[i];
+    double &low = ranges[i].low, &high = ranges[i].high;
     low = std::max(low, factor_ * low - from[i].high);
     high = std::max(high, factor_ * high - from[i].low);
   }

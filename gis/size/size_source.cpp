@@ -22,6 +22,7 @@ namespace coastmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // Several fields as one source, in lengths on the surface that the plane stands for.
 class ComposedSizes final : public SizeSource {
@@ -99,7 +100,7 @@ class ComposedSizes final : public SizeSource {
       const auto here = boxes.subspan(first, last - first);
       const auto out = ranges.subspan(first, last - first);
       std::vector<SizeRange> own(here.size());
-      std::ranges::fill(out, SizeRange{options_.size_m, options_.size_m});
+      std::ranges::fill(out, SizeRange{options_.size_m, options_.size_m, options_.size_m});
       std::vector<SizeBox> asked;
       std::vector<std::size_t> which;
       for (const auto& field : fields_) {
@@ -113,14 +114,18 @@ class ComposedSizes final : public SizeSource {
         field->bound(asked, std::span(own).first(asked.size()));
         for (std::size_t k = 0; k < which.size(); ++k) {
           SizeRange& range = out[which[k]];
-          range = {std::min(range.low, own[k].low), std::min(range.high, own[k].high)};
+          const double a = range.at_centre, b = own[k].at_centre;
+          range = {std::min(range.low, own[k].low), std::min(range.high, own[k].high),
+                   std::isnan(a) || std::isnan(b) ? kUnknown : std::min(a, b)};
         }
       }
-      std::ranges::fill(own, SizeRange{0.0, 0.0});
+      std::ranges::fill(own, SizeRange{0.0, 0.0, 0.0});
       if (floor_) floor_->bound(here, own);
       for (std::size_t i = 0; i < out.size(); ++i) {
         const double measure = measure_(here[i].centre);
-        out[i] = {bounded(out[i].low, own[i].low) * measure, bounded(out[i].high, own[i].high) * measure};
+        const bool known = !std::isnan(out[i].at_centre) && !std::isnan(own[i].at_centre);
+        out[i] = {bounded(out[i].low, own[i].low) * measure, bounded(out[i].high, own[i].high) * measure,
+                  known ? bounded(out[i].at_centre, own[i].at_centre) * measure : kUnknown};
       }
     });
   }
