@@ -228,14 +228,14 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
 // replaced.
 template <typename MakeSizes>
 Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
-                   const ShoreGuides& guides, const Coastline& coastline, CleanReport& report) {
+                   const ShoreGuides& guides, const Coastline& coastline, CleanReport& report, const ItemLoop& loop) {
   constexpr double kSame = 1.05, kSameAtShores = 1.15;  // between the places that they are known at sizes are off
-  Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides);
+  Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides, loop);
   DomainSizes again = makeSizes(followed, SizeAccuracy::Fine);
   const SizeGrowth growth = growthOf(followed.pslg, *sized.function, *again.function);
   if (growth.shore > kSameAtShores) {
     report = {};
-    followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides);
+    followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides, loop);
   } else if (growth.elsewhere > kSame) {
     followed = coarsenFurther(std::move(followed), *again.function, coastline, report);
   }
@@ -323,7 +323,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     const ShoreGuides guides{projected(sizes.passages, domain.projection),
                              projected(sizes.barriers, domain.projection)};
     CleanReport coarser;
-    domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), coarser);
+    domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), coarser, loop);
     std::ranges::move(coarser.notes, std::back_inserter(result.notes));
     std::ranges::move(coarser.warnings, std::back_inserter(result.warnings));
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];

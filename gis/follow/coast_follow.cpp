@@ -96,7 +96,7 @@ void addGain(const ShoreChains& chains, VertexId v, const Point* x, const ScaleT
 
 // `thinShores`, and then `sampleShores`.
 void evenOut(ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, const FollowOptions& options,
-             const EditLog& log, WaterAreas& gained) {
+             const EditLog& log, WaterAreas& gained, const ItemLoop& loop) {
   const BoxTree lines = guides.tree();
   ShoreChains chains = chainsOf(std::move(graph), sizes.wanted);
   const auto dropped = [&](VertexId v, double area) {
@@ -104,18 +104,19 @@ void evenOut(ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guid
     log.add(EditKind::SmallIsland, chains, v);
     gained[chains.leaving[v].left] += area / scale / scale;
   };
-  thinShores(chains, {lines, options.channel_min < 1.0, dropped}, [&](VertexId v) {
+  const ShoreLoss gone = [&](VertexId v) {
     log.add(EditKind::SimplifiedPoint, chains, v);
     addGain(chains, v, nullptr, sizes.scale, gained);
-  });
+  };
+  thinShores(chains, {lines, options.channel_min < 1.0, dropped}, gone, loop);
   graph = graphOf(std::move(chains));
-  sampleShores(graph, sizes.wanted, lines);
+  sampleShores(graph, sizes.wanted, lines, loop);
 }
 
 }  // namespace
 
 Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOptions& options,
-                   const Coastline& coastline, CleanReport& report, const ShoreGuides& guides) {
+                   const Coastline& coastline, CleanReport& report, const ShoreGuides& guides, const ItemLoop& loop) {
   labelSegments(domain.pslg);
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
@@ -127,8 +128,8 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) { log.add(kind, place, water); };
   ShoreGraph graph = takeGraph(domain);
   ShoreStart start;
-  evenOut(graph, sizes, guides, options, log, start.gained);
-  start.triangles = triangulateShores(std::move(graph), size);
+  evenOut(graph, sizes, guides, options, log, start.gained, loop);
+  start.triangles = triangulateShores(std::move(graph), size, loop);
   FollowNotes noted;
   if (!guides.passages.empty() || !guides.barriers.empty()) {
     WaterAreas by_the_user;
@@ -157,7 +158,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   };
   mendEnds(chains, gone);
   coarsenShores(chains, gone);
-  mendShores(chains, gone, moved);
+  mendShores(chains, gone, moved, loop);
   WaterAreas missing;
   for (const auto& [water, gained] : opened.gained)
     if (std::abs(gained) > kNoted * opened.areas[water]) missing[water] = -gained;

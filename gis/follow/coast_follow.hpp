@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/item_loop.hpp"
 #include "core/size_function.hpp"
 #include "gis/clean/clean.hpp"
 #include "gis/coast/coastline.hpp"
@@ -16,9 +17,11 @@ namespace coastmesh {
 // was changed goes to the report, with notes on the largest waters that were cut off, the longest straits that were
 // closed, and what became of `guides`, which come first of all. A graph without labels is labelled first, by its holes.
 // Throws BadPslg where that cannot be. Sizes are lengths on the projection's surface, shores are measured in its plane,
-// which is conformal: as long there as the surface's lengths are at the place.
+// which is conformal: as long there as the surface's lengths are at the place. `loop` lends threads; the result does
+// not depend on it.
 Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOptions& options,
-                   const Coastline& coastline, CleanReport& report, const ShoreGuides& guides = {});
+                   const Coastline& coastline, CleanReport& report, const ShoreGuides& guides = {},
+                   const ItemLoop& loop = inOrder);
 
 // By what sizes have become larger, at most: at vertices of shores, and at all others.
 struct SizeGrowth {

@@ -30,10 +30,9 @@ class Coarsener {
   Coarsener(ShoreChains& chains, const ShoreLoss& gone) : c_(chains), gone_(gone) {
     version_.assign(c_.at.size(), 0);
     dropped_.resize(c_.at.size());
-    std::vector<Box> boxes(c_.at.size());
-    for (VertexId v = 0; v < boxes.size(); ++v)
-      if (c_.alive[v]) boxes[v].add(c_.at[v]);
-    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+    for (VertexId v = 0; v < c_.at.size(); ++v)
+      if (c_.alive[v]) held_.push_back(v);
+    plant();
   }
 
   void run() {
@@ -51,6 +50,7 @@ class Coarsener {
       all.insert(all.end(), dropped_[v].begin(), dropped_[v].end());
       std::vector<VertexId>().swap(dropped_[v]);
       takeOut(c_, v);
+      if (++gone_since_ > held_.size() / 2) plant();
       for (const VertexId end : {p, q}) {
         ++version_[end];
         enqueue(end);
@@ -59,6 +59,15 @@ class Coarsener {
   }
 
  private:
+  // The tree of what is left: planted anew whenever half has gone, or most of what is found would be gone.
+  void plant() {
+    std::erase_if(held_, [&](VertexId v) { return !c_.alive[v]; });
+    std::vector<Box> boxes;
+    for (const VertexId v : held_) boxes.push_back(Box::of(c_.at[v], c_.at[v]));
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+    gone_since_ = 0;
+  }
+
   struct Entry {
     double cost;
     VertexId vertex;
@@ -96,7 +105,8 @@ class Coarsener {
     // On a straight shore nothing comes nearer.
     const double reach = costOf(v) < kNothing ? 0.0 : kApart * c_.size[v];
     if (reach > 0.0) findNear(v);
-    tree_.visit(box.grownBy(reach), [&](std::uint32_t w) {
+    tree_.visit(box.grownBy(reach), [&](std::uint32_t item) {
+      const VertexId w = held_[item];
       if (found || w == v || w == p || w == q || !c_.alive[w]) return;
       const Point& y = c_.at[w];
       found = turn == 0
@@ -144,6 +154,8 @@ class Coarsener {
   std::vector<std::uint32_t> version_;
   std::vector<std::vector<VertexId>> dropped_;  // beside the segment that leaves a vertex
   std::vector<VertexId> near_;
+  std::vector<VertexId> held_;  // by the tree
+  std::size_t gone_since_ = 0;
   BoxTree tree_;
   std::priority_queue<Entry> queue_;
 };

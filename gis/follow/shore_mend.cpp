@@ -22,8 +22,14 @@ constexpr double kSteps[] = {0.1, 0.25, 0.45};
 
 class Mender {
  public:
-  Mender(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved)
-      : c_(chains), gone_(gone), moved_(moved), from_(chains.at), near_(chains), is_new_(chains.at.size(), 1) {}
+  Mender(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved, const ItemLoop& loop)
+      : c_(chains),
+        gone_(gone),
+        moved_(moved),
+        loop_(loop),
+        from_(chains.at),
+        near_(chains),
+        is_new_(chains.at.size(), 1) {}
 
   void run() {
     for (int round = 0; round < kRounds && mendOnce(); ++round) {
@@ -37,16 +43,28 @@ class Mender {
     double quality = 0.0;
   };
 
+  std::vector<std::pair<double, VertexId>> findBad() const {
+    constexpr std::size_t kStretch = 4096;
+    return joined(overStretches(
+        loop_, c_.at.size(),
+        [&](std::size_t first, std::size_t last) {
+          std::vector<std::pair<double, VertexId>> bad;
+          ShorePieces near = near_;
+          for (auto v = static_cast<VertexId>(first); v < last; ++v) {
+            if (!is_new_[v] || c_.next[v] == kNone || c_.prev[v] == kNone) continue;
+            near.gather(v, 0.0);
+            const double quality = near.qualityOf(v, c_.at[v]);
+            if (quality < 1.0) bad.emplace_back(quality, v);
+          }
+          return bad;
+        },
+        kStretch));
+  }
+
   bool mendOnce() {
     near_.buildTrees();
     locked_.assign(c_.at.size(), 0);
-    std::vector<std::pair<double, VertexId>> bad;
-    for (VertexId v = 0; v < c_.at.size(); ++v) {
-      if (!is_new_[v] || c_.next[v] == kNone || c_.prev[v] == kNone) continue;
-      near_.gather(v, kSteps[2]);
-      const double quality = near_.qualityOf(v, c_.at[v]);
-      if (quality < 1.0) bad.emplace_back(quality, v);
-    }
+    std::vector<std::pair<double, VertexId>> bad = findBad();
     std::ranges::sort(bad);
     is_new_.assign(c_.at.size(), 0);
     bool any = false;
@@ -105,6 +123,7 @@ class Mender {
   ShoreChains& c_;
   const ShoreLoss& gone_;
   const ShoreMove& moved_;
+  const ItemLoop& loop_;
   std::vector<Point> from_;
   ShorePieces near_;
   std::vector<char> locked_;
@@ -113,8 +132,8 @@ class Mender {
 
 }  // namespace
 
-void mendShores(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved) {
-  Mender(chains, gone, moved).run();
+void mendShores(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved, const ItemLoop& loop) {
+  Mender(chains, gone, moved, loop).run();
 }
 
 }  // namespace coastmesh

@@ -88,7 +88,10 @@ class Opening {
     };
     bool any_wide = false;
     for (TriId t = 0; t < mesh().triangles.size() && !any_wide; ++t) any_wide = !isLand(t) && !narrow(t);
-    if (!any_wide) return;
+    if (!any_wide) {
+      parts_ = patchesOf(mesh(), [&](TriId t) { return !isLand(t); }).triangles;
+      return;
+    }
     const Patches closed = patchesOf(mesh(), narrow);
     for (const std::vector<TriId>& patch : closed.triangles) {
       const auto gates = gatesOf(patch, closed.of, [&](TriId t) { return !isLand(t); });
@@ -96,18 +99,18 @@ class Opening {
       if (gates.size() == 1 && depth < kShallow) continue;
       flip(patch, t_.land, EditKind::ClosedWater, gates.size() == 1 ? deepest : mesh().triangles[patch.front()].v[0]);
     }
+    parts_ = patchesOf(mesh(), [&](TriId t) { return !isLand(t); }).triangles;
     closeSmall();
   }
 
-  // Parts of a region belong together.
+  // Of what `openWater` left. Parts of a region belong together.
   void keepWater(KeepWater keep, std::vector<WaterPart>& waters) {
-    const Patches parts = patchesOf(mesh(), [&](TriId t) { return !isLand(t); });
     struct Whole {
       double area = 0.0, at_open = 0.0, largest_at_open = 0.0;
       std::size_t largest = 0;
     };
     std::map<RegionId, Whole> wholes;
-    for (const std::vector<TriId>& part : parts.triangles) {
+    for (const std::vector<TriId>& part : parts_) {
       const WaterPart& water = waters.emplace_back(partOf(part));
       Whole& whole = wholes.try_emplace(water.region, Whole{.largest = waters.size() - 1}).first->second;
       whole.area += water.area;
@@ -125,7 +128,7 @@ class Opening {
       water.kept = by_opening ? water.at_open && water.area >= grazed * whole.largest_at_open : i == whole.largest;
       if (water.kept || keep == KeepWater::All) continue;
       gained_[water.region] += water.area;
-      flip(parts.triangles[i], t_.land, EditKind::CutOffWater, firstVertexOf(parts.triangles[i]));
+      flip(parts_[i], t_.land, EditKind::CutOffWater, firstVertexOf(parts_[i]));
     }
   }
 
@@ -276,16 +279,16 @@ class Opening {
   }
 
   void closeSmall() {
-    const Patches waters = patchesOf(mesh(), [&](TriId t) { return !isLand(t); });
-    std::size_t most = 0;
     std::vector<double> elements;
-    for (const std::vector<TriId>& water : waters.triangles) elements.push_back(elementsIn(water));
+    for (const std::vector<TriId>& water : parts_) elements.push_back(elementsIn(water));
     if (elements.empty()) return;
-    most = static_cast<std::size_t>(std::ranges::max_element(elements) - elements.begin());
+    const auto most = static_cast<std::size_t>(std::ranges::max_element(elements) - elements.begin());
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      if (i == most || elements[i] >= kLeastWater || (usesOf(waters.triangles[i]) & kInWater) != 0) continue;
-      flip(waters.triangles[i], t_.land, EditKind::ClosedWater, firstVertexOf(waters.triangles[i]));
+      if (i == most || elements[i] >= kLeastWater || (usesOf(parts_[i]) & kInWater) != 0) continue;
+      flip(parts_[i], t_.land, EditKind::ClosedWater, firstVertexOf(parts_[i]));
+      parts_[i].clear();
     }
+    std::erase_if(parts_, [](const std::vector<TriId>& water) { return water.empty(); });
   }
 
   ShoreTriangles& t_;
@@ -295,6 +298,7 @@ class Opening {
   WaterAreas& gained_;
   double narrowest_ = 0.0;
   std::vector<bool> keeps_all_;
+  std::vector<std::vector<TriId>> parts_;  // of the water, once it is opened
 };
 
 }  // namespace

@@ -37,25 +37,25 @@ double apartInWater(const Point& y, const Point& a, const Point& b) {
 void ShorePieces::buildTrees() {
   std::vector<Box> points, segments;
   std::vector<char> is_loose(c_.at.size(), 0);
-  ends_.clear();
+  const auto trees = std::make_shared<Trees>();
   for (VertexId v = 0; v < c_.at.size(); ++v) {
     if (!c_.alive[v]) continue;
     is_loose[v] = c_.next[v] == kNone && c_.prev[v] == kNone;
-    if (c_.next[v] != kNone) ends_.emplace_back(v, c_.next[v]);
+    if (c_.next[v] != kNone) trees->ends.emplace_back(v, c_.next[v]);
   }
   for (const Segment& s : c_.lines) {
-    ends_.emplace_back(s.a, s.b);
+    trees->ends.emplace_back(s.a, s.b);
     is_loose[s.a] = is_loose[s.b] = 0;
   }
-  loose_.clear();
   for (VertexId v = 0; v < is_loose.size(); ++v) {
     if (is_loose[v] == 0) continue;
-    loose_.push_back(v);
+    trees->loose.push_back(v);
     points.push_back(Box::of(c_.at[v], c_.at[v]));
   }
-  for (const auto& [a, b] : ends_) segments.push_back(Box::of(c_.at[a], c_.at[b]));
-  point_tree_ = points.empty() ? BoxTree() : BoxTree(points, BoxTree::Order::Hilbert);
-  segment_tree_ = BoxTree(segments, BoxTree::Order::Hilbert);
+  for (const auto& [a, b] : trees->ends) segments.push_back(Box::of(c_.at[a], c_.at[b]));
+  trees->points = points.empty() ? BoxTree() : BoxTree(points, BoxTree::Order::Hilbert);
+  trees->segments = BoxTree(segments, BoxTree::Order::Hilbert);
+  trees_ = trees;
 }
 
 void ShorePieces::gather(VertexId v, double reach) {
@@ -65,10 +65,11 @@ void ShorePieces::gather(VertexId v, double reach) {
   Box box = Box::of(c_.at[p], c_.at[q]);
   box.add(c_.at[v]);
   box = box.grownBy((kNarrow + reach) * c_.size[v]);
-  point_tree_.visit(box, [&](std::uint32_t i) { points_.push_back(loose_[i]); });
-  segment_tree_.visit(box, [&](std::uint32_t s) {
-    segments_.push_back(ends_[s]);
-    for (const VertexId w : {ends_[s].first, ends_[s].second}) points_.push_back(w);
+  trees_->points.visit(box, [&](std::uint32_t i) { points_.push_back(trees_->loose[i]); });
+  trees_->segments.visit(box, [&](std::uint32_t s) {
+    const auto& [from, to] = segments_.emplace_back(trees_->ends[s]);
+    points_.push_back(from);
+    points_.push_back(to);
   });
   for (const VertexId w : {c_.prev[p], c_.next[q]})
     if (w != kNone) points_.push_back(w);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@ inline constexpr double kSmallShoreAngle = toRadians(50.0);  // on the water's s
 
 // What lies near a vertex's piece of shore (the vertex and its two neighbours), to judge a place that it may be moved
 // to.
+// Copies share what was built, so that each thread may gather on its own.
 class ShorePieces {
  public:
   explicit ShorePieces(const ShoreChains& chains) : c_(chains) {}
@@ -42,10 +44,14 @@ class ShorePieces {
   double apart(VertexId v, const Point& x) const;
 
  private:
+  struct Trees {
+    std::vector<std::pair<VertexId, VertexId>> ends;
+    std::vector<VertexId> loose;  // ends of nothing
+    BoxTree points, segments;     // of `loose` and of what leads from end to end
+  };
+
   const ShoreChains& c_;
-  std::vector<std::pair<VertexId, VertexId>> ends_;
-  std::vector<VertexId> loose_;  // ends of nothing
-  BoxTree point_tree_, segment_tree_;
+  std::shared_ptr<const Trees> trees_;
   std::vector<VertexId> points_;
   std::vector<std::pair<VertexId, VertexId>> segments_;
 };

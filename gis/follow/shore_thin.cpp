@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
@@ -23,8 +24,8 @@ constexpr double kGrain = 1e-12;                 // of coordinates: what lies so
 
 class Thinner {
  public:
-  Thinner(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone)
-      : c_(chains), thinning_(thinning), gone_(gone) {}
+  Thinner(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone, const ItemLoop& loop)
+      : c_(chains), thinning_(thinning), gone_(gone), loop_(loop) {}
 
   void run() {
     layOut();
@@ -38,24 +39,12 @@ class Thinner {
       thinning_.dropped(order_[stretch.first], islandArea(stretch));
       for (std::uint32_t i = stretch.first; i < stretch.last; ++i) drop(c_, order_[i]);
     }
-    std::vector<Run> waiting;
-    for (const Run& run : runs) {
-      if (stretches_[run.stretch].is_gone) continue;
-      waiting.assign(1, run);
-      while (!waiting.empty()) {
-        const Run here = waiting.back();
-        waiting.pop_back();
-        if (here.last - here.first < 2) continue;
-        const std::uint32_t farthest = measure(here);
-        if (isFree(here)) {
-          leaving_.push_back(here);
-        } else {
-          waiting.push_back({here.first, farthest, here.stretch});
-          waiting.push_back({farthest, here.last, here.stretch});
-        }
-      }
-    }
-    for (const Run& run : leaving_) {
+    // Each is judged by the shore as it was.
+    const std::vector<Run> leaving = joined(overStretches(
+        loop_, runs.size(),
+        [&](std::size_t first, std::size_t last) { return freeOf(std::span(runs).subspan(first, last - first)); },
+        kStretch));
+    for (const Run& run : leaving) {
       for (std::uint32_t i = run.first + 1; i < run.last; ++i) {
         gone_(order_[i]);
         takeOut(c_, order_[i]);
@@ -73,7 +62,9 @@ class Thinner {
   struct Run {
     std::uint32_t first, last;
     std::uint32_t stretch;
+    double off = 0.0;  // how far it lies off its segment, once that is measured
   };
+  static constexpr std::size_t kStretch = 2048;  // runs for a thread
 
   const Point& at(std::uint32_t place) const { return c_.at[order_[place]]; }
   double sizeAt(std::uint32_t place) const { return c_.size[order_[place]]; }
@@ -192,26 +183,48 @@ class Thinner {
     return is_empty;
   }
 
-  // How far the run lies off its segment, and where it does so most.
-  std::uint32_t measure(const Run& run) {
+  // Of these and of their parts, those that may become segments.
+  std::vector<Run> freeOf(std::span<const Run> runs) const {
+    std::vector<Run> waiting, free;
+    for (const Run& run : runs) {
+      if (stretches_[run.stretch].is_gone) continue;
+      waiting.assign(1, run);
+      while (!waiting.empty()) {
+        Run here = waiting.back();
+        waiting.pop_back();
+        if (here.last - here.first < 2) continue;
+        const std::uint32_t farthest = measure(here);
+        if (isFree(here)) {
+          free.push_back(here);
+        } else {
+          waiting.push_back({here.first, farthest, here.stretch});
+          waiting.push_back({farthest, here.last, here.stretch});
+        }
+      }
+    }
+    return free;
+  }
+
+  // Sets how far the run lies off its segment; returns where it does so most.
+  std::uint32_t measure(Run& run) const {
     const Point &a = at(run.first), &b = at(run.last);
     std::uint32_t farthest = run.first + 1;
-    off_ = 0.0;
+    run.off = 0.0;
     for (std::uint32_t i = run.first + 1; i < run.last; ++i) {
       const double off = squaredDistanceToSegment(at(i), a, b);
-      if (off <= off_) continue;
-      off_ = off;
+      if (off <= run.off) continue;
+      run.off = off;
       farthest = i;
     }
-    off_ = std::sqrt(off_);
+    run.off = std::sqrt(run.off);
     return farthest;
   }
 
   // After `measure`: whether the run may become its segment.
   bool isFree(const Run& run) const {
     const Point &a = at(run.first), &b = at(run.last);
-    if (off_ > kMoved * sizeAt(run.first)) return false;
-    const double reach = off_ * (1.0 + 1.0 / kMovedOfWidth);
+    if (run.off > kMoved * sizeAt(run.first)) return false;
+    const double reach = run.off * (1.0 + 1.0 / kMovedOfWidth);
     const Box box = Box::of(a, b).grownBy(reach);
     bool is_free = true;
     thinning_.lines.visit(box, [&](std::uint32_t) { is_free = false; });
@@ -244,7 +257,7 @@ class Thinner {
 
   // All between a run and its segment is no further off than the run.
   bool isNear(const Point& x, const Run& run) const {
-    const double off = off_ + kGrain * (std::abs(x.x) + std::abs(x.y));
+    const double off = run.off + kGrain * (std::abs(x.x) + std::abs(x.y));
     return squaredDistanceToSegment(x, at(run.first), at(run.last)) <= off * off;
   }
 
@@ -301,19 +314,19 @@ class Thinner {
   ShoreChains& c_;
   const ShoreThinning& thinning_;
   const ShoreLoss& gone_;
+  const ItemLoop& loop_;
   std::vector<VertexId> order_;  // stretch after stretch
   std::vector<double> way_;      // along the stretch
   std::vector<Stretch> stretches_;
   std::vector<VertexId> others_;  // vertices on no shore
-  std::vector<Run> runs_, leaving_;
+  std::vector<Run> runs_;
   BoxTree tree_;  // of `runs_`, then of `others_`
-  double off_ = 0.0;
 };
 
 }  // namespace
 
-void thinShores(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone) {
-  Thinner(chains, thinning, gone).run();
+void thinShores(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone, const ItemLoop& loop) {
+  Thinner(chains, thinning, gone, loop).run();
 }
 
 }  // namespace coastmesh

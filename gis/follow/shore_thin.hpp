@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "core/item_loop.hpp"
 #include "gis/follow/shore_chains.hpp"
 #include "gis/geometry/box_tree.hpp"
 
@@ -20,6 +21,8 @@ struct ShoreThinning {
 // the other side of the land, and of the water where narrow water is kept: these come no nearer than eight tenths of
 // what they were, and no nearer by more than a twelfth of the size. Between a run and its segment lies nothing else, so
 // that nothing crosses or changes sides. Open boundaries stay.
-void thinShores(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone);
+// `loop` lends threads.
+void thinShores(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone,
+                const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -35,27 +35,37 @@ bool isBeside(const Point& p, const Point& q, const Point& a, const Point& b, do
 
 }  // namespace
 
-void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines) {
+void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines, const ItemLoop& loop) {
   Pslg& pslg = graph.pslg;
   std::vector<Box> boxes;
   for (const Segment& s : pslg.segments) boxes.push_back(Box::of(pslg.points[s.a], pslg.points[s.b]));
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  // How many pieces become of a segment.
+  const auto countOf = [&](SegmentId s) {
+    const Segment& segment = pslg.segments[s];
+    const Point &a = pslg.points[segment.a], &b = pslg.points[segment.b];
+    const double wanted = size.at(midpoint(a, b)), length = distance(a, b);
+    const double count = std::min(kMostSamples, std::ceil(kSampling * length / wanted));
+    if (!isBoundary(segment) || !(count >= 2.0)) return 1.0;
+    bool cut = false;
+    const Box around = boxes[s].grownBy(wanted);
+    tree.descend([&](const Box& box, std::size_t, std::size_t) { return !cut && box.meets(around); },
+                 [&](std::uint32_t other) {
+                   const Segment& near = pslg.segments[other];
+                   cut = other != s && isBeside(pslg.points[near.a], pslg.points[near.b], a, b, wanted);
+                 });
+    lines.visit(around, [&](std::uint32_t) { cut = true; });
+    return cut ? count : 1.0;
+  };
+  std::vector<double> counts(boxes.size());
+  forEachByStretches(loop, counts.size(), [&](std::size_t s) { counts[s] = countOf(static_cast<SegmentId>(s)); });
   std::vector<Segment> pieces;
   for (SegmentId s = 0; s < boxes.size(); ++s) {
     const Segment segment = pslg.segments[s];
     const Point a = pslg.points[segment.a], b = pslg.points[segment.b];
-    const double wanted = size.at(midpoint(a, b)), length = distance(a, b);
-    const double count = std::min(kMostSamples, std::ceil(kSampling * length / wanted));
-    bool cut = false;
-    if (isBoundary(segment) && count >= 2.0) {
-      tree.visit(boxes[s].grownBy(wanted), [&](std::uint32_t other) {
-        const Segment& near = pslg.segments[other];
-        cut = cut || (other != s && isBeside(pslg.points[near.a], pslg.points[near.b], a, b, wanted));
-      });
-      lines.visit(boxes[s].grownBy(wanted), [&](std::uint32_t) { cut = true; });
-    }
+    const double count = counts[s];
     Segment piece = segment;
-    for (double i = 1.0; cut && i < count; ++i) {
+    for (double i = 1.0; i < count; ++i) {
       piece.b = static_cast<VertexId>(pslg.points.size());
       pslg.points.push_back(a + (i / count) * (b - a));
       graph.source.push_back(kNone);
@@ -68,7 +78,7 @@ void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& li
   pslg.segments = std::move(pieces);
 }
 
-ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size) {
+ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop) {
   ShoreTriangles result;
   Pslg pslg = std::move(graph.pslg);
   result.source = std::move(graph.source);
@@ -101,10 +111,10 @@ ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size) {
   result.home.assign(pslg.points.size(), kNone);
   result.size.resize(result.mesh.triangles.size());
   result.width.resize(result.mesh.triangles.size());
-  for (TriId t = 0; t < result.mesh.triangles.size(); ++t) {
+  for (TriId t = 0; t < result.mesh.triangles.size(); ++t)
     for (const VertexId v : result.mesh.triangles[t].v) result.home[v] = t;
-    measureTriangle(result, t, size);
-  }
+  forEachByStretches(loop, result.size.size(),
+                     [&](std::size_t t) { measureTriangle(result, static_cast<TriId>(t), size); });
   return result;
 }
 

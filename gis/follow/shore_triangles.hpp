@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/size_function.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/follow/shore_graph.hpp"
@@ -32,10 +33,11 @@ struct ShoreTriangles {
 
 // Cuts segments between water and land where another shore is about as near as the size wanted, so that triangles
 // between them are as wide as the water or the land there. So are those at `lines`.
-void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines = {});
+void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines = {},
+                  const ItemLoop& loop = inOrder);
 
 // REQUIRES: a labelled graph.
-ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size);
+ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop = inOrder);
 
 // Calls `visit(t)` with the triangles round v, counter-clockwise. REQUIRES: v is no corner of what is around.
 template <typename Visit>

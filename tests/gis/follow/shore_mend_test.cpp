@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "core/metric.hpp"
+#include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
 namespace {
@@ -45,6 +48,30 @@ TEST(MendShores, WidensWhatIsOnlyJustTooNarrow) {
         chains, [](VertexId) {}, [](VertexId, const Point&) {});
     EXPECT_GE(narrowest(chains), 0.5) << width;
   }
+}
+
+TEST(MendShores, DoesNotDependOnThreads) {
+  constexpr VertexId kCount = 20000;  // several stretches of them
+  const auto mended = [](const ItemLoop& loop) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> off(0.0, 1.0);
+    ShoreGraph graph;
+    for (VertexId v = 0; v < kCount; ++v) {
+      const double angle = 2.0 * std::numbers::pi * v / kCount, radius = 2000.0 + off(random);
+      graph.pslg.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+      graph.source.push_back(kNone);
+      graph.pslg.segments.push_back({v, (v + 1) % kCount, 0, 0, kOutside});
+    }
+    ShoreChains chains = chainsOf(std::move(graph), ConstantSize(1.5));
+    std::size_t edits = 0;
+    mendShores(
+        chains, [&](VertexId) { ++edits; }, [&](VertexId, const Point&) { ++edits; }, loop);
+    EXPECT_GT(edits, 1000U);
+    return chains;
+  };
+  const ShoreChains one = mended(inOrder), other = mended(testing::backwards);
+  EXPECT_EQ(one.at, other.at);
+  EXPECT_EQ(one.next, other.next);
 }
 
 TEST(MendShores, LeavesWhatIsWideEnough) {

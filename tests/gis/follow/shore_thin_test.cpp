@@ -10,6 +10,7 @@
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
 #include "gis/follow/shore_graph.hpp"
+#include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
 namespace {
@@ -38,7 +39,7 @@ struct Thinned {
   double dropped_area = 0.0;
 };
 
-Thinned thin(const Pslg& pslg, bool keeps_narrow_water = false) {
+Thinned thin(const Pslg& pslg, bool keeps_narrow_water = false, const ItemLoop& loop = inOrder) {
   ShoreGraph graph{pslg, std::vector<VertexId>(pslg.points.size(), kNone)};
   ShoreChains chains = chainsOf(std::move(graph), ConstantSize(kSize));
   Thinned thinned;
@@ -46,7 +47,8 @@ Thinned thin(const Pslg& pslg, bool keeps_narrow_water = false) {
     ++thinned.dropped;
     thinned.dropped_area += area;
   };
-  thinShores(chains, {{}, keeps_narrow_water, dropped}, [](VertexId) {});
+  thinShores(
+      chains, {{}, keeps_narrow_water, dropped}, [](VertexId) {}, loop);
   thinned.pslg = graphOf(std::move(chains)).pslg;
   return thinned;
 }
@@ -80,6 +82,19 @@ TEST(ThinShores, FineShoresLoseWhatIsNoUse) {
   EXPECT_LT(after.points.size(), 200u);
   for (const Point& p : pslg.points) EXPECT_LE(toShores(p, after), 0.04 * kSize);
   for (const Segment& s : after.segments) EXPECT_LE(distance(after.points[s.a], after.points[s.b]), 0.34 * kSize);
+}
+
+TEST(ThinShores, DoesNotDependOnThreads) {
+  std::mt19937 random(7);
+  std::vector<Point> ring;
+  const Point corners[] = {{0.0, 0.0}, {500.0, 0.0}, {500.0, 500.0}, {0.0, 500.0}};
+  for (int side = 0; side < 4; ++side) addWay(ring, corners[side], corners[(side + 1) % 4], 8000, 0.05, random);
+  Pslg pslg;
+  addShore(pslg, ring);
+  const Thinned one = thin(pslg), other = thin(pslg, false, testing::backwards);
+  EXPECT_LT(one.pslg.points.size(), ring.size() / 2);
+  EXPECT_GT(one.pslg.points.size(), 5000U);  // several stretches of runs
+  EXPECT_EQ(one.pslg.points, other.pslg.points);
 }
 
 TEST(ThinShores, LinesAcrossThinLandKeepApart) {
