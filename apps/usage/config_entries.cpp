@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -107,13 +108,20 @@ std::vector<ConfigEntry> readJson(const std::string& file, const std::string& te
 
 // TOML ------------------------------------------------------------------------------------------------------------
 
-// The library frees tables within tables by recursion, and dotted names may nest as many as there are dots: counts
-// those outside of texts and comments, each of which opens at most one.
-std::size_t countDots(std::string_view text) {
+// What stands outside of texts and comments.
+struct BareParts {
   std::size_t dots = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
+  std::optional<std::size_t> foreign;  // the first byte that is no ASCII
+};
+
+// The library frees tables within tables by recursion, and dotted names may nest as many as there are dots, each of
+// which opens at most one. And letters beyond ASCII it takes for what cannot be, where it looks for the end of a name.
+BareParts barePartsOf(std::string_view text) {
+  BareParts parts;
+  for (std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < text.size(); ++at) {
     const char c = text[at];
-    if (c == '.') ++dots;
+    if (c == '.') ++parts.dots;
+    if (static_cast<unsigned char>(c) >= 0x80 && !parts.foreign) parts.foreign = at;
     if (c == '#') at = std::min(text.find('\n', at), text.size());
     if (c != '"' && c != '\'') continue;
     const bool tripled = text.substr(at, 3) == std::string(3, c);
@@ -125,7 +133,7 @@ std::size_t countDots(std::string_view text) {
     at += end.size() - 1;
     while (tripled && at + 1 < text.size() && text[at + 1] == c) ++at;  // quotes at the end belong to the text
   }
-  return dots;
+  return parts;
 }
 
 std::string numberText(double number) {
@@ -168,7 +176,13 @@ ConfigEntry entryOf(const toml::node& value, const std::string& file, const std:
 
 std::vector<ConfigEntry> readToml(const std::string& file, const std::string& text) {
   constexpr std::size_t kMostDots = 10'000;
-  if (countDots(text) > kMostDots) refuseDepth(file);
+  const BareParts bare = barePartsOf(text);
+  if (bare.dots > kMostDots) refuseDepth(file);
+  if (bare.foreign) {
+    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*bare.foreign), '\n') + 1;
+    throw OptionError(file + ": line " + std::to_string(line) +
+                      " is not TOML: letters beyond ASCII stand in texts and comments alone");
+  }
   toml::table table;
   try {
     table = toml::parse(text);

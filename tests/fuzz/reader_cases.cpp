@@ -9,6 +9,7 @@
 
 #include "apps/cli/mesh_file.hpp"
 #include "apps/report/file_info.hpp"
+#include "apps/usage/config_entries.hpp"
 #include "apps/usage/config_file.hpp"
 #include "apps/usage/mesh_usage.hpp"
 #include "gis/clean/clean.hpp"
@@ -56,6 +57,7 @@ void readAndClean(const std::string& path) {
 void readPslg(const std::string& path) { readPoly(path); }
 
 void readConfig(const std::string& path) {
+  readConfigEntries(path);  // before the options are declared, which takes far longer
   MeshUsage usage;
   OptionTable table("mesh", "");
   declareMeshOptions(table, usage);
@@ -149,7 +151,9 @@ ReadOutcome runReader(const ReaderCase& reader, std::span<const std::uint8_t> by
   }
   // Besides ours there may be what libraries put beside a file.
   for (const auto& entry : std::filesystem::directory_iterator(folder)) std::filesystem::remove_all(entry);
-  if (!outcome.read && outcome.refusal.find(folder) == std::string::npos) {
+  // What was cleaned says of each feature from which file it came.
+  const auto says = [&](std::string_view words) { return outcome.refusal.find(words) != std::string::npos; };
+  if (!outcome.read && !says(folder) && !says(", feature ")) {
     throw std::logic_error("a refusal that names no file: " + outcome.refusal);
   }
   return outcome;

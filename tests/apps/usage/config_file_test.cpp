@@ -140,6 +140,22 @@ TEST_F(ConfigFile, ListsOfNumbersAreOneValueWhereTheOptionHasCommas) {
   EXPECT_THAT(texts->bands, ElementsAre(ElementsAre(0.0, 10.0, 50.0)));
 }
 
+// Outside of texts the library takes such letters for what cannot be.
+TEST_F(ConfigFile, LettersBeyondAsciiStandInTextsAndComments) {
+  const auto job = taken(
+      write("a.toml", "# \u00e9\ninput = \"\u00e9.gpkg\" # \u00e9\noutput = ['\u02df.nc', \"\"\"\n\u00e9\"\"\"]\n"));
+  EXPECT_THAT(job->inputs, ElementsAre("\u00e9.gpkg"));
+  EXPECT_THAT(job->outputs, ElementsAre("\u02df.nc", "\u00e9"));
+  for (const char* const text : {"\n\u02df = 1\n", "\na\u02dfb = 1\n", "\n[m\u00e9]\n", "\nquiet = true\u02df\n"}) {
+    try {
+      taken(write("b.toml", text));
+      ADD_FAILURE() << text;
+    } catch (const OptionError& error) {
+      EXPECT_NE(std::string(error.what()).find("line 2 is not TOML: letters beyond ASCII"), std::string::npos);
+    }
+  }
+}
+
 TEST_F(ConfigFile, SwitchesByTheirOtherName) {
   EXPECT_FALSE(taken(write("a.toml", "no-coarsen = true\n"))->coarsen);
   EXPECT_TRUE(taken(write("a.toml", "no_coarsen = false\n"))->coarsen);
