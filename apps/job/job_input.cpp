@@ -36,9 +36,12 @@ Crs parseWorkingCrs(const std::string& text) {
 }
 
 void requireOneFrame(const InputOptions& options) {
-  if (options.frame.side == DomainSide::Globe) {
-    if (options.frame.box || !options.clip.empty() || options.frame.water_at)
-      throw OptionError("--domain globe has no frame: leave out --bbox, --clip and --water-at");
+  const DomainSide side = options.frame.side;
+  const std::string name = side == DomainSide::Ocean ? "ocean" : side == DomainSide::Land ? "land" : "globe";
+  if ((side == DomainSide::Ocean || side == DomainSide::Land || side == DomainSide::Globe) &&
+      (options.frame.box || !options.clip.empty() || options.frame.water_at))
+    throw OptionError("--domain " + name + " has no frame: leave out --bbox, --clip and --water-at");
+  if (side == DomainSide::Globe) {
     if (options.surface.kind == SurfaceKind::Plane)
       throw OptionError("--domain globe is on no plane: leave out --surface plane");
     if (options.crs != "auto") throw OptionError("--domain globe is on no plane: leave out --crs");
@@ -48,7 +51,8 @@ void requireOneFrame(const InputOptions& options) {
   if (options.frame.side == DomainSide::Outside && !options.frame.box && options.clip.empty() &&
       !options.frame.water_at)
     throw OptionError(
-        "--domain outside: water outside of land has to end somewhere: give --bbox W,S,E,N or --clip FILE");
+        "--domain outside: water outside of land has to end somewhere: give --bbox W,S,E,N or --clip FILE, or "
+        "--domain ocean for all that there is on Earth");
 }
 
 std::vector<Source> sourcesOf(const InputOptions& options) {

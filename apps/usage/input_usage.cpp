@@ -50,18 +50,26 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
   FrameOptions& frame = options.frame;
   table
       .choice(
-          "--domain", "auto", {"auto", "inside", "outside", "globe"},
+          "--domain", "auto", {"auto", "inside", "outside", "ocean", "land", "globe"},
           [&frame](const std::string& chosen) {
             frame.side = chosen == "inside"    ? DomainSide::Inside
                          : chosen == "outside" ? DomainSide::Outside
+                         : chosen == "ocean"   ? DomainSide::Ocean
+                         : chosen == "land"    ? DomainSide::Land
                          : chosen == "globe"   ? DomainSide::Globe
                                                : DomainSide::Auto;
           },
           "what is meshed: the inside of polygons, or the water outside of land polygons, as far as --bbox or "
-          "--clip; or the whole globe, closed, with polygons and the rest as regions, and without INPUT too; auto: "
+          "--clip; of polygons of the Earth's land its ocean, all of it, or the land; or the whole globe, closed, with "
+          "polygons and the rest as regions, and without INPUT too; auto: "
           "inside polygons, and beside lines within a frame on the side of the water")
-      .needs([&frame, &options] { return frame.side == DomainSide::Globe || frame.box || !options.clip.empty(); },
-             "without --bbox or --clip")
+      .needs(
+          [&frame, &options] {
+            const bool unframed =
+                frame.side == DomainSide::Ocean || frame.side == DomainSide::Land || frame.side == DomainSide::Globe;
+            return unframed || frame.box || !options.clip.empty();
+          },
+          "without --bbox or --clip")
       .ignoredWith({"--water-at"});
   table.numbers(
       "--bbox", "W,S,E,N", false, [&frame](const std::vector<double>& sides) { return storeBox(sides, frame.box); },

@@ -174,6 +174,31 @@ TEST_F(Coordinates, ACrsThatShowsAWideInputInOnePieceIsTaken) {
   }
 }
 
+TEST_F(Coordinates, OceanAndLandAreTheTwoSidesOfAllCoasts) {
+  const std::string land =
+      write("land.geojson",
+            geoJsonPolygons({{{{-20, -30}, {40, -25}, {30, 35}, {-15, 30}}}, {{{100, 10}, {140, 0}, {120, 40}}}}));
+  const auto mesh = [&](const std::string& input, std::vector<std::string> options) {
+    options.insert(options.begin(), {"mesh", input, "--size", "400000", "-o", file("m.2dm"), "--overwrite"});
+    return runProgram(options);
+  };
+  for (const auto& [name, longer] :
+       {std::pair<std::string, std::vector<std::string>>{"ocean", {"--domain", "outside", "--bbox=-180,-90,180,90"}},
+        {"land", {"--domain", "auto"}}}) {
+    ASSERT_EQ(mesh(land, longer).code, 0);
+    const std::string text = readText(file("m.2dm"));
+    const ProgramRun run = mesh(land, {"--domain", name});
+    ASSERT_EQ(run.code, 0) << run.errors;
+    EXPECT_EQ(run.errors.find("--domain"), std::string::npos) << run.errors;
+    EXPECT_EQ(readText(file("m.2dm")), text) << name;
+    EXPECT_EQ(mesh(land, {"--domain", name, "--bbox=0,0,10,10"}).code, 2);
+  }
+  const std::string plane = ring("plane.geojson", {{0, 0}, {1000, 0}, {0, 1000}});
+  const ProgramRun run = mesh(plane, {"--domain", "ocean", "--crs", "plane"});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.errors.find("--domain ocean takes longitudes"), std::string::npos) << run.errors;
+}
+
 // A plane shows all of the globe but a place on an island, wherever that is and small as it may be, down to a degree.
 TEST_F(Coordinates, TheGlobeLessAnIsland) {
   const auto mesh = [&](const Point2& at, double side, std::vector<std::string> options) {
