@@ -15,13 +15,14 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kLongestIsland = 3.0;           // in elements: what is longer stays
-constexpr double kShallow = 0.3;                 // of the size: what reaches no deeper is left to simplifying
-constexpr double kPassage = 0.55;                // of its width: what is nearer to its line is part of a passage
-constexpr double kLeastOpening = 1.0;            // elements of open boundary: a shorter one may become shore
-constexpr double kLeastWater = 6.0;              // triangles of the size wanted
-constexpr double kGrazed = 0.1;                  // less water at an open boundary is not what is meant
-constexpr std::size_t kPlaces = 8;               // given for each water
+constexpr double kLongestIsland = 3.0;  // in elements: what is longer stays
+constexpr double kShallow = 0.3;        // of the size: what reaches no deeper is left to simplifying
+constexpr double kWinding = 2.5;        // times as long as its gate: such a shore simplifying would not get straight
+constexpr double kPassage = 0.55;       // of its width: what is nearer to its line is part of a passage
+constexpr double kLeastOpening = 1.0;   // elements of open boundary: a shorter one may become shore
+constexpr double kLeastWater = 6.0;     // triangles of the size wanted
+constexpr double kGrazed = 0.1;         // less water at an open boundary is not what is meant
+constexpr std::size_t kPlaces = 8;      // given for each water
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
 class Opening {
@@ -76,7 +77,8 @@ class Opening {
       const RegionId water = waterAround(spit);
       const auto gates = gatesOf(spit, spits.of, [&](TriId t) { return isLand(t); });
       const auto [deepest, depth] = deepestOf(spit, gates);
-      if (water != kNoRegion && depth >= kShallow) flip(spit, water, EditKind::DroppedSpit, deepest);
+      if (water == kNoRegion || (depth < kShallow && !isWinding(spit, gates))) continue;
+      flip(spit, water, EditKind::DroppedSpit, deepest);
     }
   }
 
@@ -96,7 +98,7 @@ class Opening {
     for (const std::vector<TriId>& patch : closed.triangles) {
       const auto gates = gatesOf(patch, closed.of, [&](TriId t) { return !isLand(t); });
       const auto [deepest, depth] = deepestOf(patch, gates);
-      if (gates.size() == 1 && depth < kShallow) continue;
+      if (gates.size() == 1 && depth < kShallow && !isWinding(patch, gates)) continue;
       flip(patch, t_.land, EditKind::ClosedWater, gates.size() == 1 ? deepest : mesh().triangles[patch.front()].v[0]);
     }
     parts_ = patchesOf(mesh(), [&](TriId t) { return !isLand(t); }).triangles;
@@ -252,6 +254,17 @@ class Opening {
     }
     return gates;
   }
+
+  // Whether the shore of a patch is much longer than its gates. REQUIRES: all of one kind, water or land.
+  bool isWinding(const std::vector<TriId>& patch, const std::vector<EdgeRef>& gates) const {
+    double shore = 0.0, opening = 0.0;
+    for (const TriId t : patch)
+      for (const EdgeRef twin : mesh().triangles[t].adj)
+        if (isLand(triOf(twin)) != isLand(t)) shore += lengthOf(twin);
+    for (const EdgeRef e : gates) opening += lengthOf(e);
+    return shore > kWinding * opening;
+  }
+  double lengthOf(EdgeRef e) const { return distance(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
 
   // The vertex that lies furthest from the gate, and how far, as a share of the size there. Infinite where there is not
   // one gate.

@@ -210,6 +210,26 @@ TEST(FollowSizes, WhereLandAndWaterAreNarrowNeitherGivesWayToAllOfTheOther) {
   EXPECT_GT(countOf(report, EditKind::DroppedSpit), 0u);
 }
 
+// Behind a bar, with one narrow mouth, and a quarter of an element deep: simplifying alone may be caught in its shore.
+TEST(FollowSizes, AShallowBayWithAWindingShoreIsNotLeftToSimplifying) {
+  std::vector<Point> ring{{0, 0}, {100, 0}, {100, 100}, {0, 100}, {0, 50.3}, {-1, 50.3}, {-1, 55}};
+  // Comb by comb, from the west and from the bar.
+  for (double y = 55.0; y > 45.5; y -= 0.8)
+    for (const Point& p :
+         {Point{-5, y}, Point{-5, y - 0.5}, Point{-1.5, y - 0.5}, Point{-1.5, y - 0.6}, Point{-5, y - 0.6}})
+      ring.push_back(p);
+  ring.insert(ring.end(), {{-5, 45}, {-1, 45}, {-1, 50}, {0, 50}});
+  Domain domain;
+  addShore(domain, ring);
+  constexpr double kSize = 20.0;
+  CleanReport report;
+  const Domain coarse = followSizes(std::move(domain), ConstantSize(kSize), {}, oneFeature(), report);
+  EXPECT_GE(countOf(report, EditKind::DroppedSpit) + countOf(report, EditKind::ClosedWater), 10u);
+  for (const Segment& s : coarse.pslg.segments)
+    EXPECT_GE(distance(coarse.pslg.points[s.a], coarse.pslg.points[s.b]), 0.45 * kSize);
+  EXPECT_NEAR(areaOf(coarse), 1e4, 100.0);
+}
+
 TEST(FollowSizes, AChannelNarrowerThanAnElementIsClosed) {
   const ConstantSize size(2.0);
   CleanReport wide, narrow, kept;
