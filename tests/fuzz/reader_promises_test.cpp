@@ -20,6 +20,20 @@ std::atomic<std::size_t> g_largest = 0;  // bytes of the largest piece of memory
 
 }  // namespace
 
+#ifdef __SANITIZE_ADDRESS__
+// The sanitizer has its own operators, and says what is asked of them. GCC comes without the header for that.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void*, std::size_t),
+                                                         void (*freed)(const volatile void*));
+namespace {
+
+void noteSize(const volatile void*, std::size_t size) {
+  if (size > g_largest) g_largest = size;
+}
+void ignore(const volatile void*) {}
+[[maybe_unused]] const int g_installed = __sanitizer_install_malloc_and_free_hooks(noteSize, ignore);
+
+}  // namespace
+#else
 // Not inlined: the compiler would see new, and free.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   if (size > g_largest) g_largest = size;
@@ -28,6 +42,7 @@ std::atomic<std::size_t> g_largest = 0;  // bytes of the largest piece of memory
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#endif
 
 namespace coastmesh {
 namespace {
