@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
@@ -122,8 +123,7 @@ void checkDelaunay(const TriMesh& mesh, const CheckOptions& options, const ItemL
   });
 }
 
-void checkUnused(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) {
-  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+void checkUnused(const TriMesh& mesh, std::span<const std::uint8_t> used, Defects& defects) {
   for (VertexId v = mesh.input_vertices; v < mesh.points.size(); ++v)
     if (!used[v]) defects.push_back({DefectKind::UnusedVertex, mesh.points[v]});
 }
@@ -148,7 +148,8 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
   checkTopology(mesh, loop, defects);
   if (!defects.empty()) return defects;  // nothing else can be said of a mesh that does not hold together
   checkOrientation(mesh, options, loop, defects);
-  checkUnused(mesh, loop, defects);
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  checkUnused(mesh, used, defects);
   if (options.pinches) checkPinches(mesh, defects);
   if (pslg != nullptr && mesh.input_vertices == 0 && !pslg->points.empty()) {
     TriMesh marked = mesh;
@@ -157,7 +158,7 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
     counts = checkBounds(marked, options, loop, defects);
     return defects;
   }
-  if (pslg != nullptr) checkAgainstInput(mesh, *pslg, loop, defects);
+  if (pslg != nullptr) checkAgainstInput(mesh, used, *pslg, loop, defects);
   if (options.delaunay) checkDelaunay(mesh, options, loop, defects);
   counts = checkBounds(mesh, options, loop, defects);
   return defects;

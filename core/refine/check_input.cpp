@@ -146,12 +146,12 @@ bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::vec
 
 }  // namespace
 
-void checkAgainstInput(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop, std::vector<MeshDefect>& defects) {
+void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, const Pslg& pslg, const ItemLoop& loop,
+                       std::vector<MeshDefect>& defects) {
   const bool closed = isClosed(mesh);
   const Expected expected = closed                ? expectAll(pslg)
                             : labelsTellAll(pslg) ? expectFromLabels(pslg)
                                                   : expectFromTriangulation(pslg);
-  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
   const std::vector<EdgeRef> constrained =
       joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
         std::vector<EdgeRef> edges;

@@ -204,6 +204,17 @@ double EdgeMeter::between(std::uint32_t a, std::uint32_t b) const {
   return diameter_ * std::asin(std::min(1.0, std::sqrt(dot(along, along)) / diameter_));
 }
 
+double EdgeMeter::shortestOf(const std::array<std::uint32_t, 3>& corners) const {
+  if (places_.empty()) return std::ranges::min(of(corners));
+  const auto squaredChord = [&](std::size_t a, std::size_t b) {
+    const Vector along = places_[corners[b]] - places_[corners[a]];
+    return dot(along, along);
+  };
+  const std::array<double, 3> squared{squaredChord(0, 1), squaredChord(1, 2), squaredChord(2, 0)};
+  const auto least = static_cast<std::size_t>(std::ranges::min_element(squared) - squared.begin());
+  return between(corners[least], corners[(least + 1) % 3]);
+}
+
 std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
                                                std::span<const std::array<std::uint32_t, 3>> triangles,
                                                const Crs& crs) {

@@ -38,6 +38,8 @@ class EdgeMeter {
   std::array<double, 3> of(const std::array<std::uint32_t, 3>& corners) const {
     return {between(corners[0], corners[1]), between(corners[1], corners[2]), between(corners[2], corners[0])};
   }
+  // The least of these, for less than all of them.
+  double shortestOf(const std::array<std::uint32_t, 3>& corners) const;
 
  private:
   std::span<const Point> nodes_;

@@ -95,7 +95,7 @@ StepReport measureStep(const Grid& grid, const ItemLoop& loop) {
   for (const Shortest& one : overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
          Shortest some;
          for (std::size_t t = first; t < last; ++t) {
-           const double length = std::ranges::min(meter.of(grid.triangles[t]));
+           const double length = meter.shortestOf(grid.triangles[t]);
            if (length < some.length) {
              some.length = length;
              some.of_length = t;

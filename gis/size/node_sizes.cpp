@@ -45,10 +45,13 @@ std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, dou
       joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
         std::vector<Entry> some;
         for (std::size_t t = first; t < last; ++t) {
-          const auto& v = mesh.triangles[t].v;
-          for (unsigned i = 0; i < 3; ++i)
-            for (const VertexId to : {v[next3(i)], v[prev3(i)]})
-              if (sizes[v[i]] < sizes[to] && allowed(v[i], to) < sizes[to]) some.push_back({sizes[v[i]], v[i]});
+          for (unsigned i = 0; i < 3; ++i) {
+            const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
+            if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;  // once of both sides
+            VertexId from = mesh.origin(e), to = mesh.target(e);
+            if (sizes[to] < sizes[from]) std::swap(from, to);
+            if (sizes[from] < sizes[to] && allowed(from, to) < sizes[to]) some.push_back({sizes[from], from});
+          }
         }
         return some;
       }));
