@@ -10,7 +10,6 @@
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
 #include "core/lattice/lattice_core.hpp"
-#include "core/metric.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/optimise.hpp"
 #include "core/refine/vertex_notes.hpp"

@@ -35,12 +35,15 @@ Crs parseWorkingCrs(const std::string& text) {
   }
 }
 
+std::string nameOfUnframed(DomainSide side) {
+  return side == DomainSide::Ocean ? "ocean" : side == DomainSide::Land ? "land" : "globe";
+}
+
 void requireOneFrame(const InputOptions& options) {
   const DomainSide side = options.frame.side;
-  const std::string name = side == DomainSide::Ocean ? "ocean" : side == DomainSide::Land ? "land" : "globe";
   if ((side == DomainSide::Ocean || side == DomainSide::Land || side == DomainSide::Globe) &&
       (options.frame.box || !options.clip.empty() || options.frame.water_at))
-    throw OptionError("--domain " + name + " has no frame: leave out --bbox, --clip and --water-at");
+    throw OptionError("--domain " + nameOfUnframed(side) + " has no frame: leave out --bbox, --clip and --water-at");
   if (side == DomainSide::Globe) {
     if (options.surface.kind == SurfaceKind::Plane)
       throw OptionError("--domain globe is on no plane: leave out --surface plane");
@@ -116,10 +119,11 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   } else {
     coastline_ = readCoastline(sources, options_.filter, report_);
   }
-  if (globe && !coastline_.crs.geographic)
-    throw InputError("--domain globe takes longitudes and latitudes, and the input is in " +
-                     (coastline_.crs.isPlane() ? std::string("a plane without a CRS") : nameOf(coastline_.crs)));
   if (options_.crs == "plane") forgetImpossibleCrs(coastline_, report_);
+  if ((globe || options_.frame.side == DomainSide::Ocean) && !coastline_.crs.geographic)
+    throw InputError("--domain " + nameOfUnframed(options_.frame.side) +
+                     " takes longitudes and latitudes, and the input is in " +
+                     (coastline_.crs.isPlane() ? std::string("a plane without a CRS") : nameOf(coastline_.crs)));
   requireSurface();
   FrameReport framed = frameCoastline(coastline_, options_.frame);
   report_.beyond_frame = framed.beyond_frame;

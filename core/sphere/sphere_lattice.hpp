@@ -26,8 +26,8 @@ struct SphereLattice {
 // (k = 0), whose triangles are better. REQUIRES: at least `kLeastLatticeEdge`.
 SphereLattice sphereLattice(double edge);
 
-// Finer lattices have more places than there are numbers for.
-inline constexpr double kLeastLatticeEdge = 1e-4;
+// Finer lattices have more triangles than there are numbers for: an edge is named by four times its triangle.
+inline constexpr double kLeastLatticeEdge = 1.7e-4;
 
 // The first places of a lattice: a pole and its neighbours.
 inline constexpr std::size_t kLatticePole = 1, kLatticeRing = 5;
@@ -39,7 +39,7 @@ std::vector<SpacePoint> placesOf(const SphereLattice& lattice, const ItemLoop& l
 
 // The closed mesh of one without turns, in the plane of a curved surface: its vertices in the same order but for the
 // pole, which is the last, as far from the origin as a `SphereCap` has it. Without regions; nothing is input. REQUIRES:
-// k = 0, h > 1, and no more triangles than have numbers.
+// k = 0, h > 1, and edges of at least `kLeastLatticeEdge`.
 TriMesh meshOf(const SphereLattice& lattice, const Surface& surface, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -379,12 +379,8 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
     coastline.rest = coastline.features.size() - 1;
     return report;
   }
-  if (options.side == DomainSide::Ocean) {
-    if (!coastline.crs.geographic)
-      throw InputError("--domain ocean takes longitudes and latitudes, and the input is in " +
-                       (coastline.crs.isPlane() ? std::string("a plane without a CRS") : nameOf(coastline.crs)));
+  if (options.side == DomainSide::Ocean)
     return frameCoastline(coastline, {DomainSide::Outside, Box{-180.0, -90.0, 180.0, 90.0}, {}});
-  }
   if (options.box) {
     refuseOddBox(*options.box, coastline.crs);
     const double turn = turnOf(boundsOf(coastline, false));

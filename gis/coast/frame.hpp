@@ -14,7 +14,7 @@ enum class DomainSide {
   Auto,     // inside polygons; lines within a frame are coasts
   Inside,   // inside polygons and closed lines
   Outside,  // the frame's water: what land polygons and coasts leave of it
-  Ocean,    // the water that land polygons leave of the whole Earth
+  Ocean,    // the water that land polygons, in degrees, leave of the whole Earth
   Land,     // the polygons themselves, of land, without a frame
   Globe,    // both sides of all shores, round the whole globe: a closed mesh
 };

@@ -28,6 +28,10 @@ TEST(SphereLattice, ComesNearToTheLengthAsked) {
   }
 }
 
+TEST(SphereLattice, TheFinestHasAsManyTrianglesAsCanBeNumbered) {
+  EXPECT_LT(sphereLattice(kLeastLatticeEdge).triangles(), std::int64_t{kNone / 4});
+}
+
 TEST(SphereLattice, ItsPlacesAreTheVerticesOfEvenTrianglesRoundTheWholeSphere) {
   for (const SphereLattice lattice :
        {SphereLattice{1, 0}, SphereLattice{1, 1}, SphereLattice{2, 1}, SphereLattice{5, 0}, SphereLattice{4, 4},
