@@ -47,4 +47,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/coastmeshConfigVersion.cm
 install(FILES ${PROJECT_BINARY_DIR}/coastmeshConfig.cmake ${PROJECT_BINARY_DIR}/coastmeshConfigVersion.cmake
   DESTINATION ${coastmesh_package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/cmake/debian/copyright
+  ${PROJECT_SOURCE_DIR}/docs/report.schema.json
   DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -2,7 +2,8 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME coastmesh)
 set(CPACK_PACKAGE_VENDOR "the coastmesh authors")
-set(CPACK_PACKAGE_CONTACT "the coastmesh authors <coastmesh@example.org>")
+# dpkg asks for a maintainer, not for an address: there is none that somebody reads.
+set(CPACK_PACKAGE_CONTACT "the coastmesh authors")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "triangle meshes from coastlines and lakes, for ocean and lake models")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "Reads coastlines and lakes from any GIS source, cleans and projects them, fills

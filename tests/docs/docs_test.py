@@ -20,7 +20,7 @@ PROGRAM, SOURCES, MODULES, PLUGIN = (os.path.abspath(path) for path in sys.argv[
 PYTHON = sys.executable
 FENCE = re.compile(r"^```(?P<info>[^\n]+)?\n(?P<text>.*?)^```$", re.M | re.S)
 GUIDE = sorted(glob.glob(os.path.join(SOURCES, "docs", "**", "*.md"), recursive=True))
-PAGES = [os.path.join(SOURCES, name) for name in ("README.md", "CONTRIBUTING.md")] + GUIDE
+PAGES = [os.path.join(SOURCES, name) for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md")] + GUIDE
 
 
 def read(path):
@@ -148,6 +148,14 @@ class GuideTest(unittest.TestCase):
         self.assertTrue(os.path.exists(os.path.join(folder.path, "globe.png")))
         info = json.loads(folder.run("coastmesh info --json even.nc"))
         self.assertAlmostEqual(info["area_m2"] / 5.10065621724e14, 1.0, 9)
+
+    def test_stable(self):
+        folder, ran = self.run_page("stable.md")
+        self.assertEqual(ran, 1)
+        # The codes of its table are those of the program.
+        page = dict(re.findall(r"^\| (\d+) \| ([^|,]*)", read(os.path.join(SOURCES, "docs/stable.md")), re.M))
+        header = re.findall(r"^  kExit\w+ = (\d+),", read(os.path.join(SOURCES, "apps/cli/exit_codes.hpp")), re.M)
+        self.assertEqual(sorted(page), sorted(header))
 
     def test_batch(self):
         folder, ran = self.run_page("batch.md")
