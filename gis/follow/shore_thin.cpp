@@ -14,10 +14,10 @@ namespace coastmesh {
 namespace {
 
 // Shares of the size wanted.
-constexpr double kMoved = 0.04;
-constexpr double kLongest = 1.0 / 3.0;
+constexpr double kMoved = 0.1;
+constexpr double kLongest = 0.6;
 constexpr double kNearAlong = 1.6;  // along the shore: what is nearer is the same piece of it
-constexpr double kMovedOfWidth = 0.1;
+constexpr double kMovedOfWidth = 0.2;
 constexpr double kLongestIsland = 3.0;
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 constexpr double kGrain = 1e-12;                 // of coordinates: what lies so near to a line may lie on it

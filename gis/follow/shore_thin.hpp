@@ -17,10 +17,10 @@ struct ShoreThinning {
 
 // Takes out of shores what is much finer than the sizes wanted, so that all that follows costs by the elements and not
 // by the data. Islands smaller than a triangle of that size go. Runs of vertices become single segments, no longer than
-// a third of the size and no further off than a twenty-fifth of it, nor than a tenth of the distance to the shore on
-// the other side of the land, and of the water where narrow water is kept: these come no nearer than eight tenths of
-// what they were, and no nearer by more than a twelfth of the size. Between a run and its segment lies nothing else, so
-// that nothing crosses or changes sides. Open boundaries stay.
+// six tenths of the size and no further off than a tenth of it, nor than a fifth of the distance to the shore on the
+// other side of the land, and of the water where narrow water is kept: these come no nearer than six tenths of what
+// they were, and no nearer by more than a fifth of the size. Between a run and its segment lies nothing else, so that
+// nothing crosses or changes sides. Open boundaries stay.
 // `loop` lends threads.
 void thinShores(ShoreChains& chains, const ShoreThinning& thinning, const ShoreLoss& gone,
                 const ItemLoop& loop = inOrder);

@@ -341,8 +341,10 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     for_scale = 0.5 * options.gradation;
   }
   SizeTreeOptions tree;
-  constexpr double kRough = 0.1;
-  if (accuracy == SizeAccuracy::Rough) tree.tolerance = kRough;
+  // What grows with a distance alone is hardly off by as much: its kinks lie where two lines are as near.
+  constexpr double kRough = 0.1, kRoughOfLines = 0.2;
+  const bool lines_alone = inputs.rasters.empty() && !options.depth.any() && !(options.time_step_s > 0.0);
+  if (accuracy == SizeAccuracy::Rough) tree.tolerance = lines_alone ? kRoughOfLines : kRough;
   tree.surface = surface;
   tree.gradation = options.gradation - for_scale;
   // A little less: what is only just too steep everywhere would have to be flattened everywhere.

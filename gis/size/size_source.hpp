@@ -78,8 +78,8 @@ struct TooManyVertices : std::runtime_error {
   VertexDemand demand;
 };
 
-// How far sizes may be off between the places that they are measured at: a few hundredths, or a tenth, which takes half
-// the time and is enough for a coast that is to follow them.
+// How far sizes may be off between the places that they are measured at: a few hundredths, or a tenth (a fifth, where
+// they grow with distances alone), which takes half the time and is enough for a coast that is to follow them.
 enum class SizeAccuracy { Fine, Rough };
 
 struct DomainSizes {
