@@ -12,6 +12,7 @@ namespace coastmesh {
 struct CutEdge {
   VertexId a = kNone, b = kNone;  // in the submesh's numbers, the submesh to the left of a -> b
   EdgeRef name = kNone;           // the same on both sides
+  EdgeRef beyond = kNone;         // the other side, in the whole's numbers, where that belongs to no piece
   SegmentId seg = kNone;          // what kFrozen stands for
 };
 
@@ -19,6 +20,7 @@ struct CutEdge {
 struct CutSubmesh {
   MeshState state;
   std::vector<VertexId> fixed;  // the number in the whole of each of the first `input_vertices` vertices
+  std::vector<VertexId> own;    // the numbers in the whole of the vertices that it has alone, before it is worked on
   std::vector<CutEdge> edges;   // by a, then b
 };
 
@@ -26,11 +28,5 @@ struct CutSubmesh {
 using VertexNumbers = std::vector<VertexId>;
 
 CutSubmesh cutOut(const MeshState& whole, const Partition& partition, PieceId piece, VertexNumbers& numbers);
-
-// Puts together again what `before` was cut into: all pieces of one partition, in order, each worked on or not.
-// Restores the Delaunay property across the cuts and marks the triangles that this changes as due. Vertices are
-// numbered anew: input vertices as before, then those on cuts, then each piece's own. What `whole` holds is lost but
-// for its memory, which serves again: fresh memory costs more than what is written to it.
-void stitch(std::vector<CutSubmesh>&& pieces, const MeshState& before, Recorder& recorder, MeshState& whole);
 
 }  // namespace coastmesh

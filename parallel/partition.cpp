@@ -57,15 +57,15 @@ Point centroidOf(const TriMesh& mesh, TriId t) {
   return centroid(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]));
 }
 
-// The triangles in the order of their pieces.
-void sortByPiece(Partition& partition, Recorder& recorder) {
+// The triangles in the order of their pieces. `triangle(i)` is the i-th of `count`.
+template <typename Triangle>
+void sortByPiece(Partition& partition, std::size_t count, const Triangle& triangle, Recorder& recorder) {
   constexpr std::size_t kStretches = 64;
-  const std::size_t count = partition.piece_of.size();
   const auto begin = [&](std::size_t stretch) { return count * stretch / kStretches; };
   std::vector<std::vector<std::size_t>> counts(kStretches);
   recorder.forEach("cut", kStretches, {}, [&](std::size_t s) {
     counts[s].assign(partition.pieces, 0);
-    for (std::size_t t = begin(s); t < begin(s + 1); ++t) ++counts[s][partition.piece_of[t]];
+    for (std::size_t i = begin(s); i < begin(s + 1); ++i) ++counts[s][partition.piece_of[triangle(i)]];
   });
   partition.first.assign(partition.pieces + 1, 0);
   std::size_t sum = 0;
@@ -75,12 +75,13 @@ void sortByPiece(Partition& partition, Recorder& recorder) {
   }
   partition.first[partition.pieces] = sum;
   resizeAnew(recorder.loop("cut"), partition.triangles, count);
-  resizeAnew(recorder.loop("cut"), partition.slot_of, count);
+  resizeAnew(recorder.loop("cut"), partition.slot_of, partition.piece_of.size());
   recorder.forEach("cut", kStretches, {}, [&](std::size_t s) {
-    for (std::size_t t = begin(s); t < begin(s + 1); ++t) {
+    for (std::size_t i = begin(s); i < begin(s + 1); ++i) {
+      const TriId t = triangle(i);
       const PieceId p = partition.piece_of[t];
       const std::size_t place = counts[s][p]++;
-      partition.triangles[place] = static_cast<TriId>(t);
+      partition.triangles[place] = t;
       partition.slot_of[t] = static_cast<TriId>(place - partition.first[p]);
     }
   });
@@ -98,27 +99,31 @@ std::array<double, 2> CutTree::turn(const Point& p) const {
   return {cosine * p.x + sine * p.y, cosine * p.y - sine * p.x};
 }
 
-void partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
-               Recorder& recorder, Partition& parts) {
+void partition(const TriMesh& mesh, std::span<const TriId> some, PieceId pieces, double angle,
+               const std::function<double(TriId)>& weight, Recorder& recorder, Partition& parts) {
   CutTree tree{std::cos(angle), std::sin(angle), std::vector<CutTree::Node>(2 * pieces - 1)};
   const auto centre = [&](TriId t) { return tree.turn(centroidOf(mesh, t)); };
   // Enough samples a piece that their weights differ little; all triangles would take longer to sort than to mesh.
   constexpr std::size_t kSamples = 128;
-  const std::size_t count = mesh.triangles.size();
+  const std::size_t count = some.empty() ? mesh.triangles.size() : some.size();
+  const auto triangle = [&](std::size_t i) { return some.empty() ? static_cast<TriId>(i) : some[i]; };
   const std::size_t stride = std::max<std::size_t>(1, count / (kSamples * pieces));
   std::vector<Sample> samples((count + stride - 1) / stride);
   const ItemLoop loop = recorder.loop("cut");
   forEachByStretches(loop, samples.size(), [&](std::size_t i) {
-    const auto t = static_cast<TriId>(i * stride);
+    const TriId t = triangle(i * stride);
     samples[i] = {centre(t), weight(t)};
   });
   CutTreeBuilder(tree.nodes).split(0, samples, 0, pieces);
 
   parts.pieces = pieces;
-  resizeAnew(loop, parts.piece_of, count);
-  forEachByStretches(loop, count,
-                     [&](std::size_t t) { parts.piece_of[t] = tree.pieceAt(centre(static_cast<TriId>(t))); });
-  sortByPiece(parts, recorder);
+  resizeAnew(loop, parts.piece_of, mesh.triangles.size());
+  if (!some.empty()) forEachByStretches(loop, parts.piece_of.size(), [&](std::size_t t) { parts.piece_of[t] = kNone; });
+  forEachByStretches(loop, count, [&](std::size_t i) {
+    const TriId t = triangle(i);
+    parts.piece_of[t] = tree.pieceAt(centre(t));
+  });
+  sortByPiece(parts, count, triangle, recorder);
   parts.tree = std::move(tree);
 }
 

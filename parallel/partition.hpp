@@ -33,7 +33,7 @@ struct CutTree {
 // Which piece each triangle goes to.
 struct Partition {
   PieceId pieces = 0;
-  std::vector<PieceId> piece_of;  // one a triangle
+  std::vector<PieceId> piece_of;  // one a triangle; kNone where it stays where it is
   // The triangles of piece p, in the order of their numbers: triangles[first[p]] to triangles[first[p + 1]].
   std::vector<TriId> triangles;
   std::vector<std::size_t> first;
@@ -45,11 +45,12 @@ struct Partition {
 
 // Cuts a mesh into pieces of like weight by straight lines, along one of two directions at right angles each: halves,
 // halves of these, and so on (Bentley's k-d tree). Depends on nothing but its arguments.
+//   some       which triangles, ascending; the others stay where they are. Empty stands for all.
 //   weight(t)  what a triangle counts, above 0
 //   angle      radians: the directions are turned by so much; cuts under other angles meet these at single points
 //   parts      what is written; what it holds is lost but for its memory, which serves again
-void partition(const TriMesh& mesh, PieceId pieces, double angle, const std::function<double(TriId)>& weight,
-               Recorder& recorder, Partition& parts);
+void partition(const TriMesh& mesh, std::span<const TriId> some, PieceId pieces, double angle,
+               const std::function<double(TriId)>& weight, Recorder& recorder, Partition& parts);
 
 // The piece that each triangle's centroid lies in.
 std::vector<PieceId> piecesOf(const TriMesh& mesh, const CutTree& tree, const ItemLoop& loop);

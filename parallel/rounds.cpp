@@ -12,7 +12,9 @@
 #include "core/refine/split_segments.hpp"
 #include "core/refine/submesh_runs.hpp"
 #include "parallel/cut.hpp"
+#include "parallel/near_due.hpp"
 #include "parallel/recorder.hpp"
+#include "parallel/stitch.hpp"
 
 namespace coastmesh {
 
@@ -44,11 +46,13 @@ constexpr double kFirstAngleDeg = 0.5;
 // number.
 constexpr int kMostRounds = 8;
 // Bad triangles that a step may leave to the next, or that are mended uncut at the end. More are work for one thread,
-// fewer are rounds that copy the whole mesh for next to nothing.
+// fewer are rounds for next to nothing.
 constexpr double kFewDue = 200.0;
-// In a mesh of so few triangles what is left in the last step is mended uncut; in a larger one a round of pieces takes
-// less time.
-constexpr std::size_t kSmallMesh = 1'000'000;
+// A round after the first works on what lies so many edges round what is due: fewer leave more at the edge of that to
+// the next round, more are copied for nothing. The rest of the mesh stays where it is.
+constexpr unsigned kEdgesRoundDue = 6;
+// Where more than this share of the triangles is near what is due, all are cut.
+constexpr double kWorthAll = 0.4;
 // Work, in triangles, that is not worth a cut: the first step makes about so many. Fewer are more steps, more are work
 // for one thread.
 constexpr double kLittleWork = 5000.0;
@@ -100,6 +104,13 @@ PieceId piecesFor(double weight) {
   return static_cast<PieceId>(std::max(1.0, std::round(weight / grain)));
 }
 
+// What a round works on.
+enum class Extent {
+  Uncut,    // all, as one
+  All,      // pieces of all
+  NearDue,  // pieces of what is due and lies round it
+};
+
 // The mesh from round to round.
 class Rounds {
  public:
@@ -115,10 +126,23 @@ class Rounds {
   // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `work(state, share, control)` handles a piece with
   // that share of the whole weight, and returns what it did.
   template <typename Weigh, typename Work>
-  void round(std::string_view name, const Weigh& weigh, bool uncut, const Work& work) {
-    const double weight = total(weigh);
+  void round(std::string_view name, const Weigh& weigh, Extent extent, const Work& work) {
+    const RunControl inner{control_.cancelled, {}};
+    if (extent == Extent::Uncut) {
+      recorder_.forEach(name, 1, inner, [&](std::size_t) { stats_.add(work(whole_, 1.0, inner)); });
+      most_pieces_ = std::max<std::size_t>(most_pieces_, 1);
+      return;
+    }
+    const std::size_t count = whole_.mesh.triangles.size();
+    std::vector<TriId> some;
+    if (extent == Extent::NearDue) {
+      some = trianglesNearDue(whole_, kEdgesRoundDue, recorder_.loop("cut"));
+      if (static_cast<double>(some.size()) > kWorthAll * static_cast<double>(count)) some.clear();
+    }
+    const double weight =
+        some.empty() ? total(count, weigh) : total(some.size(), [&](TriId i) { return weigh(some[i]); });
     Partition& parts = workspace_.parts;
-    partition(whole_.mesh, uncut ? 1 : piecesFor(weight), cutAngle(count_++), weigh, recorder_, parts);
+    partition(whole_.mesh, some, piecesFor(weight), cutAngle(count_++), weigh, recorder_, parts);
     if (parts.pieces > most_pieces_) {
       most_pieces_ = parts.pieces;
       most_cuts_ = parts.tree;
@@ -134,22 +158,24 @@ class Rounds {
     std::vector<CutSubmesh> pieces(parts.pieces);
     std::vector<RefineStats> stats(parts.pieces);
     tbb::enumerable_thread_specific<VertexNumbers> numbers;
-    const RunControl inner{control_.cancelled, {}};
     recorder_.forEach(name, parts.pieces, inner, [&](std::size_t i) {
       const std::size_t p = order[i];
       pieces[p] = cutOut(whole_, parts, static_cast<PieceId>(p), numbers.local());
       stats[p] = work(pieces[p].state, weights[p] / weight, inner);
     });
-    stitch(std::move(pieces), whole_, recorder_, workspace_.spare);
-    std::swap(whole_, workspace_.spare);
-    for (const RefineStats& some : stats) stats_.add(some);
+    if (some.empty()) {
+      stitch(std::move(pieces), whole_, recorder_, workspace_.spare);
+      std::swap(whole_, workspace_.spare);
+    } else {
+      stitchInPlace(std::move(pieces), parts, recorder_, whole_);
+    }
+    for (const RefineStats& of_piece : stats) stats_.add(of_piece);
   }
 
-  // The triangles' weights, summed in a fixed order.
+  // The weights of so many triangles, summed in a fixed order.
   template <typename Weigh>
-  double total(const Weigh& weigh) {
+  double total(std::size_t count, const Weigh& weigh) {
     constexpr std::size_t kStretches = 256;
-    const std::size_t count = whole_.mesh.triangles.size();
     std::vector<double> sums(kStretches, 0.0);
     recorder_.forEach("cut", kStretches, {}, [&](std::size_t s) {
       for (std::size_t t = count * s / kStretches; t < count * (s + 1) / kStretches; ++t)
@@ -227,14 +253,14 @@ RefineOptions optionsOfPiece(const RefineOptions& options, std::uint64_t vertice
   return own;
 }
 
-void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, const TriangleBound& bound, bool uncut,
+void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, const TriangleBound& bound, Extent extent,
                  bool mends) {
   MeshState& whole = run.whole();
   const std::uint64_t vertices = whole.mesh.points.size();
   if (vertices > options.most_in_memory) throw OutOfRoom(whole.mesh.points.back());
   const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? expectedOf(whole.mesh, t, bound) : kOfACopy; };
   run.stats().budget_reached = false;
-  run.round("refine", weigh, uncut, [&](MeshState& state, double share, const RunControl& inner) {
+  run.round("refine", weigh, extent, [&](MeshState& state, double share, const RunControl& inner) {
     if (!anyOf(state.due_triangles)) return RefineStats{};
     return refineSubmesh(state, pslg, optionsOfPiece(options, vertices, state, share), mends, inner);
   });
@@ -260,13 +286,16 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, boo
   const TriangleBound bound = boundOf(options);
   markBad(run, bound);
   for (int round = 0; round <= kMostRounds; ++round) {
-    const double left = run.total([&](TriId t) { return static_cast<double>(whole.due_triangles[t]); });
+    const double left =
+        run.total(whole.mesh.triangles.size(), [&](TriId t) { return static_cast<double>(whole.due_triangles[t]); });
     // Only the last step has to leave nothing: its last round is not cut. The first step is not cut at all.
     if (left == 0.0 || (whole_first && round > 0)) break;
     if (!mends && (left < kFewDue || round == kMostRounds)) break;
     checkpoint(static_cast<double>(round) / (kMostRounds + 1));
-    const bool soon_done = mends && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
-    refineRound(run, pslg, options, bound, whole_first || round == kMostRounds || soon_done, mends);
+    const bool soon_done = mends && round > 0 && left < kFewDue;
+    const bool uncut = whole_first || soon_done || round == kMostRounds;
+    const Extent extent = uncut ? Extent::Uncut : round == 0 ? Extent::All : Extent::NearDue;
+    refineRound(run, pslg, options, bound, extent, mends);
   }
 }
 
@@ -305,7 +334,7 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
         if (!anyOf(state.due_triangles)) return RefineStats{};
         return repairSubmesh(state, pslg, optionsOfPiece(options, vertices, state, share), inner);
       };
-      run.round("refine", weigh, round + 1 == kRepairRounds, work);
+      run.round("refine", weigh, round + 1 == kRepairRounds ? Extent::Uncut : Extent::All, work);
     }
   } else {
     refineStep(run, pslg, options, false, true, [&](double share) { control.checkpoint(share); });
@@ -330,9 +359,10 @@ RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunContro
       const auto& v = whole.mesh.triangle(t).v;
       return kOfACopy + whole.due_vertices[v[0]] + whole.due_vertices[v[1]] + whole.due_vertices[v[2]];
     };
-    run.round(name, weigh, false, [&](MeshState& state, double, const RunControl& inner) {
-      return anyOf(state.due_vertices) ? work(state, inner) : RefineStats{};
-    });
+    run.round(name, weigh, r == 0 ? Extent::All : Extent::NearDue,
+              [&](MeshState& state, double, const RunControl& inner) {
+                return anyOf(state.due_vertices) ? work(state, inner) : RefineStats{};
+              });
   }
   return run.finish(mesh);
 }

@@ -11,6 +11,9 @@
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
 #include "core/refine/refine.hpp"
+#include "core/refine/submesh_runs.hpp"
+#include "parallel/near_due.hpp"
+#include "parallel/stitch.hpp"
 #include "parallel/workers.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
@@ -26,6 +29,45 @@ TriMesh refined(const Pslg& pslg) {
 
 double one(TriId) { return 1.0; }
 
+// Triangles by their corners' places, with what hangs on them.
+using Known =
+    std::tuple<std::array<std::pair<double, double>, 3>, std::array<SegmentId, 3>, std::array<double, 3>, int>;
+
+std::set<Known> known(const MeshState& s) {
+  std::set<Known> all;
+  for (TriId t = 0; t < s.mesh.triangles.size(); ++t) {
+    const Triangle& tri = s.mesh.triangles[t];
+    Known k;
+    for (unsigned i = 0; i < 3; ++i) {
+      std::get<0>(k)[i] = {s.mesh.point(tri.v[i]).x, s.mesh.point(tri.v[i]).y};
+      std::get<1>(k)[i] = tri.seg[i];
+      std::get<2>(k)[i] = s.notes.spacing[tri.v[i]];
+    }
+    std::get<3>(k) = s.due_triangles[t];
+    all.insert(k);
+  }
+  return all;
+}
+
+// A refined mesh of which a corner is due.
+MeshState dueInACorner(const Pslg& pslg) {
+  MeshState whole;
+  whole.mesh = refined(pslg);
+  whole.notes = noteInput(whole.mesh, TriangleBound(30.0, 180.0, 0.05));
+  whole.due_triangles.resize(whole.mesh.triangles.size());
+  const Point corner = pslg.points.front();
+  for (TriId t = 0; t < whole.mesh.triangles.size(); ++t)
+    whole.due_triangles[t] = squaredDistance(whole.mesh.point(whole.mesh.triangle(t).v[0]), corner) < 0.01;
+  return whole;
+}
+
+std::vector<CutSubmesh> cutAll(const MeshState& whole, const Partition& parts) {
+  std::vector<CutSubmesh> pieces;
+  VertexNumbers numbers;
+  for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(whole, parts, p, numbers));
+  return pieces;
+}
+
 class CutInto : public ::testing::TestWithParam<PieceId> {};
 
 TEST_P(CutInto, PartitionTakesEveryTriangleOnce) {
@@ -33,7 +75,7 @@ TEST_P(CutInto, PartitionTakesEveryTriangleOnce) {
   for (const double angle : {0.0, 0.7, 1.3}) {
     Recorder recorder;
     Partition parts;
-    partition(mesh, GetParam(), angle, one, recorder, parts);
+    partition(mesh, {}, GetParam(), angle, one, recorder, parts);
     ASSERT_EQ(parts.pieces, GetParam());
     std::vector<int> seen(mesh.triangles.size(), 0);
     for (PieceId p = 0; p < parts.pieces; ++p) {
@@ -55,7 +97,7 @@ TEST_P(CutInto, PiecesAreOfLikeWeight) {
   const auto weight = [&](TriId t) { return mesh.point(mesh.triangle(t).v[0]).x < 0.5 ? 4.0 : 1.0; };
   Recorder recorder;
   Partition parts;
-  partition(mesh, GetParam(), 0.3, weight, recorder, parts);
+  partition(mesh, {}, GetParam(), 0.3, weight, recorder, parts);
   double whole = 0.0;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) whole += weight(t);
   const double fair = whole / GetParam();
@@ -75,7 +117,7 @@ TEST_P(CutInto, StitchedAgainIsTheSameMesh) {
     for (TriId t = 0; t < whole.mesh.triangles.size(); t += 3) whole.due_triangles[t] = 1;
     Recorder recorder;
     Partition parts;
-    partition(whole.mesh, GetParam(), 0.4, one, recorder, parts);
+    partition(whole.mesh, {}, GetParam(), 0.4, one, recorder, parts);
     std::vector<CutSubmesh> pieces;
     VertexNumbers numbers;
     for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(whole, parts, p, numbers));
@@ -87,26 +129,80 @@ TEST_P(CutInto, StitchedAgainIsTheSameMesh) {
     expectValidMesh(labelled, pslg);
     ASSERT_EQ(again.mesh.points.size(), whole.mesh.points.size());
     for (VertexId v = 0; v < whole.mesh.input_vertices; ++v) EXPECT_EQ(again.mesh.point(v), whole.mesh.point(v));
-    // Triangles by their corners' places, with what hangs on them.
-    using Known =
-        std::tuple<std::array<std::pair<double, double>, 3>, std::array<SegmentId, 3>, std::array<double, 3>, int>;
-    const auto known = [](const MeshState& s) {
-      std::set<Known> all;
-      for (TriId t = 0; t < s.mesh.triangles.size(); ++t) {
-        const Triangle& tri = s.mesh.triangles[t];
-        Known k;
-        for (unsigned i = 0; i < 3; ++i) {
-          std::get<0>(k)[i] = {s.mesh.point(tri.v[i]).x, s.mesh.point(tri.v[i]).y};
-          std::get<1>(k)[i] = tri.seg[i];
-          std::get<2>(k)[i] = s.notes.spacing[tri.v[i]];
-        }
-        std::get<3>(k) = s.due_triangles[t];
-        all.insert(k);
-      }
-      return all;
-    };
     EXPECT_EQ(known(again), known(whole));
   }
+}
+
+TEST(NearDue, GrowsByOneEdgeAtATime) {
+  const MeshState whole = dueInACorner(squarePslg());
+  std::vector<TriId> before = trianglesNearDue(whole, 0, inOrder);
+  ASSERT_FALSE(before.empty());
+  for (const TriId t : before) EXPECT_TRUE(whole.due_triangles[t]);
+  EXPECT_EQ(before.size(), static_cast<std::size_t>(std::ranges::count(whole.due_triangles, 1)));
+  for (unsigned edges = 1; edges < 4; ++edges) {
+    std::set<TriId> next(before.begin(), before.end());
+    for (const TriId t : before)
+      for (const EdgeRef twin : whole.mesh.triangle(t).adj)
+        if (twin != kNone) next.insert(triOf(twin));
+    before.assign(next.begin(), next.end());
+    EXPECT_EQ(trianglesNearDue(whole, edges, inOrder), before);
+  }
+}
+
+TEST_P(CutInto, StitchedInPlaceIsTheSameMesh) {
+  for (const Pslg& pslg : {fractalCoast(2, 3, 3), touchingHoles(), openLines(), twoRegions()}) {
+    const MeshState before = dueInACorner(pslg);
+    const std::vector<TriId> some = trianglesNearDue(before, 3, inOrder);
+    ASSERT_FALSE(some.empty());
+    ASSERT_LT(some.size(), before.mesh.triangles.size());
+    MeshState whole = before;
+    Recorder recorder;
+    Partition parts;
+    partition(whole.mesh, some, GetParam(), 0.4, one, recorder, parts);
+    stitchInPlace(cutAll(whole, parts), parts, recorder, whole);
+    EXPECT_EQ(whole.mesh.points, before.mesh.points);
+    EXPECT_EQ(known(whole), known(before));
+  }
+}
+
+// Pieces that grow take numbers behind the last, pieces that shrink leave holes that the last ones fill.
+TEST_P(CutInto, PiecesOfSomeMayGrowAndShrink) {
+  std::size_t grown = 0, shrunk = 0;
+  for (const Pslg& pslg : {fractalCoast(2, 3, 3), touchingHoles(), openLines(), twoRegions()}) {
+    MeshState whole = dueInACorner(pslg);
+    const std::vector<TriId> some = trianglesNearDue(whole, 6, inOrder);
+    const std::size_t triangles = whole.mesh.triangles.size();
+    const RefineOptions finer{.min_angle_deg = 30.0, .size_max = 0.02}, coarser{.min_angle_deg = 20.0};
+    Recorder recorder;
+    Partition parts;
+    partition(whole.mesh, some, GetParam(), 0.4, one, recorder, parts);
+    std::vector<CutSubmesh> pieces = cutAll(whole, parts);
+    for (CutSubmesh& cut : pieces) refineSubmesh(cut.state, pslg, finer, false, {});
+    stitchInPlace(std::move(pieces), parts, recorder, whole);
+    const std::size_t most = whole.mesh.triangles.size();
+    ASSERT_GE(most, triangles);
+    grown += most - triangles;
+    TriMesh labelled = whole.mesh;
+    labelRegions(labelled, pslg);
+    expectValidMesh(labelled, pslg);
+
+    whole.notes = {};
+    whole.due_triangles = {};
+    whole.due_vertices.assign(whole.mesh.points.size(), 0);
+    for (VertexId v = whole.mesh.input_vertices; v < whole.mesh.points.size(); ++v)
+      whole.due_vertices[v] = squaredDistance(whole.mesh.point(v), pslg.points.front()) < 0.01;
+    partition(whole.mesh, trianglesNearDue(whole, 3, inOrder), GetParam(), 0.4, one, recorder, parts);
+    pieces = cutAll(whole, parts);
+    for (CutSubmesh& cut : pieces) coarsenSubmesh(cut.state, pslg, coarser, {});
+    stitchInPlace(std::move(pieces), parts, recorder, whole);
+    shrunk += most - whole.mesh.triangles.size();
+    EXPECT_EQ(whole.due_vertices.size(), whole.mesh.points.size());
+    labelRegions(whole.mesh, pslg);
+    expectValidMesh(whole.mesh, pslg);
+  }
+  if (GetParam() > 1) return;  // in small pieces everything may lie at a cut
+  EXPECT_GT(grown, 0u);
+  EXPECT_GT(shrunk, 0u);
 }
 
 TEST_P(CutInto, PiecesShareFrozenEdgesOnly) {
@@ -115,7 +211,7 @@ TEST_P(CutInto, PiecesShareFrozenEdgesOnly) {
   whole.notes = noteInput(whole.mesh, TriangleBound(30.0, 180.0, 0.05));
   Recorder recorder;
   Partition parts;
-  partition(whole.mesh, GetParam(), 0.0, one, recorder, parts);
+  partition(whole.mesh, {}, GetParam(), 0.0, one, recorder, parts);
   VertexNumbers numbers;
   std::size_t frozen = 0;
   for (PieceId p = 0; p < parts.pieces; ++p) {
@@ -143,7 +239,7 @@ TEST_P(CutInto, NothingNotedStaysNothing) {
   whole.due_vertices.assign(whole.mesh.points.size(), 1);
   Recorder recorder;
   Partition parts;
-  partition(whole.mesh, GetParam(), 0.4, one, recorder, parts);
+  partition(whole.mesh, {}, GetParam(), 0.4, one, recorder, parts);
   std::vector<CutSubmesh> pieces;
   VertexNumbers numbers;
   for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(whole, parts, p, numbers));

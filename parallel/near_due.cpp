@@ -1,0 +1,45 @@
+#include "parallel/near_due.hpp"
+
+#include <atomic>
+#include <cstdint>
+
+namespace coastmesh {
+
+namespace {
+
+bool isDue(const MeshState& whole, TriId t) {
+  if (!whole.due_triangles.empty() && whole.due_triangles[t]) return true;
+  if (whole.due_vertices.empty()) return false;
+  const auto& v = whole.mesh.triangle(t).v;
+  return whole.due_vertices[v[0]] || whole.due_vertices[v[1]] || whole.due_vertices[v[2]];
+}
+
+}  // namespace
+
+std::vector<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, const ItemLoop& loop) {
+  const std::size_t count = whole.mesh.triangles.size();
+  std::vector<std::uint8_t> taken(count, 0);
+  const auto stretchesOf = [&](const auto& take) {
+    return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+      std::vector<TriId> some;
+      for (std::size_t t = first; t < last; ++t)
+        if (take(static_cast<TriId>(t))) some.push_back(static_cast<TriId>(t));
+      return some;
+    }));
+  };
+  std::vector<TriId> front = stretchesOf([&](TriId t) { return (taken[t] = isDue(whole, t)) != 0; });
+  for (unsigned edge = 0; edge < edges && !front.empty(); ++edge) {
+    // Which thread comes to a triangle first does not matter: the set is the same.
+    front = joined(overStretches(loop, front.size(), [&](std::size_t first, std::size_t last) {
+      std::vector<TriId> next;
+      for (std::size_t i = first; i < last; ++i)
+        for (const EdgeRef twin : whole.mesh.triangle(front[i]).adj)
+          if (twin != kNone && std::atomic_ref(taken[triOf(twin)]).exchange(1, std::memory_order_relaxed) == 0)
+            next.push_back(triOf(twin));
+      return next;
+    }));
+  }
+  return stretchesOf([&](TriId t) { return taken[t] != 0; });
+}
+
+}  // namespace coastmesh

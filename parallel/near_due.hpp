@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "core/refine/submesh.hpp"
+
+namespace coastmesh {
+
+// The triangles that are due, or have a due vertex, and those at most so many edges away from them; ascending.
+std::vector<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, const ItemLoop& loop);
+
+}  // namespace coastmesh

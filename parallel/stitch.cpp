@@ -1,0 +1,283 @@
+#include "parallel/stitch.hpp"
+
+#include <oneapi/tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cassert>
+#include <span>
+#include <utility>
+
+#include "core/flip.hpp"
+#include "core/links.hpp"
+#include "core/predicates.hpp"
+#include "core/refine/check.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// One side of a cut edge in the stitched mesh.
+struct CutSide {
+  EdgeRef name;
+  EdgeRef edge;
+  EdgeRef beyond;  // the other side, where that belongs to no piece
+  SegmentId seg;
+};
+
+// Where in the stitched mesh the pieces begin.
+struct Layout {
+  std::vector<VertexId> on_cuts;  // Steiner points on cuts: the whole's numbers, ascending
+  std::vector<VertexId> vertex;   // one a piece, and the end
+  std::vector<TriId> triangle;    // one a piece, and the end
+};
+
+Layout layOut(const std::vector<CutSubmesh>& pieces, VertexId input_vertices) {
+  Layout layout;
+  for (const CutSubmesh& cut : pieces)
+    std::ranges::copy_if(cut.fixed, std::back_inserter(layout.on_cuts),
+                         [&](VertexId v) { return v >= input_vertices; });
+  tbb::parallel_sort(layout.on_cuts.begin(), layout.on_cuts.end());
+  layout.on_cuts.erase(std::unique(layout.on_cuts.begin(), layout.on_cuts.end()), layout.on_cuts.end());
+  layout.vertex.push_back(input_vertices + static_cast<VertexId>(layout.on_cuts.size()));
+  layout.triangle.push_back(0);
+  for (const CutSubmesh& cut : pieces) {
+    const TriMesh& mesh = cut.state.mesh;
+    layout.vertex.push_back(layout.vertex.back() + static_cast<VertexId>(mesh.points.size()) - mesh.input_vertices);
+    layout.triangle.push_back(layout.triangle.back() + static_cast<TriId>(mesh.triangles.size()));
+  }
+  return layout;
+}
+
+// Writes one piece to its place; lists its sides of cut edges. `vertex` has the new number of each vertex, `triangle(t)`
+// gives that of a triangle. What is fixed stays as the whole has it.
+template <typename TriangleNumber>
+std::vector<CutSide> place(const CutSubmesh& cut, std::span<const VertexId> vertex, const TriangleNumber& triangle,
+                           MeshState& whole) {
+  const TriMesh& mesh = cut.state.mesh;
+  for (VertexId v = mesh.input_vertices; v < mesh.points.size(); ++v) {
+    whole.mesh.points[vertex[v]] = mesh.points[v];
+    if (!whole.notes.spacing.empty()) whole.notes.spacing[vertex[v]] = cut.state.notes.spacing[v];
+    if (!whole.due_vertices.empty()) whole.due_vertices[vertex[v]] = cut.state.due_vertices[v];
+  }
+  std::vector<CutSide> sides;
+  sides.reserve(cut.edges.size());
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const TriId at = triangle(t);
+    whole.mesh.triangles[at] = renumbered(mesh.triangle(t), triangle, [&](VertexId v) { return vertex[v]; });
+    for (unsigned i = 0; i < 3; ++i) {
+      if (mesh.triangle(t).seg[i] != kFrozen) continue;
+      const std::pair ends(mesh.origin(edgeRef(t, i)), mesh.target(edgeRef(t, i)));
+      const auto endsOf = [](const CutEdge& e) { return std::pair(e.a, e.b); };
+      const auto edge = std::ranges::lower_bound(cut.edges, ends, {}, endsOf);
+      // Else the whole has nothing beyond it: it stays frozen.
+      if (edge != cut.edges.end() && endsOf(*edge) == ends)
+        sides.push_back({edge->name, edgeRef(at, i), edge->beyond, edge->seg});
+    }
+    if (!whole.due_triangles.empty()) whole.due_triangles[at] = cut.state.due_triangles[t];
+  }
+  return sides;
+}
+
+// Joins the two sides of every cut edge; returns the edges.
+std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of, TriMesh& mesh, Recorder& recorder) {
+  std::vector<CutSide> sides;
+  std::vector<EdgeRef> edges;
+  for (const std::vector<CutSide>& some : sides_of) {
+    for (const CutSide& side : some) {
+      if (side.beyond == kNone) {
+        sides.push_back(side);
+      } else {
+        link(mesh.triangles, side.edge, side.beyond, side.seg);
+        edges.push_back(side.edge);
+      }
+    }
+  }
+  tbb::parallel_sort(sides.begin(), sides.end(), [](const CutSide& x, const CutSide& y) {
+    return std::pair(x.name, x.edge) < std::pair(y.name, y.edge);
+  });
+  const std::size_t others = edges.size();
+  edges.resize(others + sides.size() / 2);
+  forEachByStretches(recorder.loop("stitch"), sides.size() / 2, [&](std::size_t i) {
+    const CutSide &one = sides[2 * i], &other = sides[2 * i + 1];
+    link(mesh.triangles, one.edge, other.edge, one.seg);
+    edges[others + i] = one.edge;
+  });
+  return edges;
+}
+
+// Flips what is not Delaunay from these edges on.
+void restoreAcross(std::vector<EdgeRef>&& edges, MeshState& whole) {
+  std::erase_if(edges, [&](EdgeRef e) {
+    if (whole.mesh.segment(e) != kNone) return true;
+    const auto& v = whole.mesh.triangle(triOf(e)).v;
+    return inCircle(whole.mesh.point(v[0]), whole.mesh.point(v[1]), whole.mesh.point(v[2]),
+                    whole.mesh.point(whole.mesh.apex(whole.mesh.twin(e)))) <= 0;
+  });
+  for (const TriId t : restoreDelaunay(whole.mesh, std::move(edges)))
+    if (!whole.due_triangles.empty()) whole.due_triangles[t] = 1;
+}
+
+// Numbers, of vertices or of triangles, that the pieces of a partition give up and take.
+class Exchange {
+ public:
+  // `old(p)` has the numbers that piece p had, `count(p)` says how many it has now; there are numbers up to `end`.
+  template <typename Old, typename Count>
+  Exchange(std::size_t pieces, std::uint32_t end, const Old& old, const Count& count) : end_(end) {
+    std::size_t further = 0;
+    for (std::size_t p = 0; p < pieces; ++p) {
+      const std::span<const std::uint32_t> had = old(p);
+      const std::size_t has = count(p);
+      further_.push_back(further);
+      if (has > had.size()) {
+        further += has - had.size();
+      } else {
+        free_.insert(free_.end(), had.begin() + static_cast<std::ptrdiff_t>(has), had.end());
+      }
+    }
+    taken_ = std::min(further, free_.size());
+    last_ = end + static_cast<std::uint32_t>(further - taken_);
+  }
+
+  std::uint32_t end() const { return last_; }  // of the numbers taken
+  // The number of item i of piece p, which had these.
+  std::uint32_t operator()(std::size_t p, std::span<const std::uint32_t> had, std::size_t i) const {
+    if (i < had.size()) return had[i];
+    const std::size_t place = further_[p] + i - had.size();
+    return place < taken_ ? free_[place] : end_ + static_cast<std::uint32_t>(place - taken_);
+  }
+  // What nobody took, ascending.
+  std::vector<std::uint32_t> holes() const {
+    std::vector<std::uint32_t> left(free_.begin() + static_cast<std::ptrdiff_t>(taken_), free_.end());
+    std::ranges::sort(left);
+    return left;
+  }
+
+ private:
+  std::uint32_t end_, last_ = 0;
+  std::vector<std::size_t> further_;  // one a piece: how many the pieces before it need beyond those that they had
+  std::vector<std::uint32_t> free_;
+  std::size_t taken_ = 0;
+};
+
+// Calls `move(from, to)` for what fills holes, ascending, from the end of `count` items; returns how many are left.
+template <typename Move>
+std::size_t fillHoles(std::span<const std::uint32_t> holes, std::size_t count, const Move& move) {
+  const std::size_t left = count - holes.size();
+  std::size_t next = 0, last_hole = holes.size();
+  for (std::size_t from = count; from-- > left;) {
+    if (last_hole > 0 && holes[last_hole - 1] == from) {
+      --last_hole;
+    } else {
+      move(static_cast<std::uint32_t>(from), holes[next++]);
+    }
+  }
+  return left;
+}
+
+template <typename Item>
+void resizeWhereKept(std::vector<Item>& items, std::size_t count) {
+  if (!items.empty()) items.resize(count);
+}
+
+void closeHoles(std::span<const TriId> triangles, std::span<const VertexId> vertices, MeshState& whole,
+                Recorder& recorder) {
+  TriMesh& mesh = whole.mesh;
+  mesh.triangles.resize(fillHoles(triangles, mesh.triangles.size(), [&](TriId from, TriId to) {
+    const Triangle moved = mesh.triangles[from];
+    mesh.triangles[to] = unlinked(moved.v);
+    for (unsigned i = 0; i < 3; ++i) link(mesh.triangles, edgeRef(to, i), moved.adj[i], moved.seg[i]);
+    if (!whole.due_triangles.empty()) whole.due_triangles[to] = whole.due_triangles[from];
+  }));
+  resizeWhereKept(whole.due_triangles, mesh.triangles.size());
+  if (vertices.empty()) return;
+  const auto left = static_cast<VertexId>(mesh.points.size() - vertices.size());
+  std::vector<VertexId> number(vertices.size(), kNone);  // of those from `left` on
+  fillHoles(vertices, mesh.points.size(), [&](VertexId from, VertexId to) {
+    number[from - left] = to;
+    mesh.points[to] = mesh.points[from];
+    if (!whole.notes.spacing.empty()) whole.notes.spacing[to] = whole.notes.spacing[from];
+    if (!whole.due_vertices.empty()) whole.due_vertices[to] = whole.due_vertices[from];
+  });
+  forEachByStretches(recorder.loop("stitch"), mesh.triangles.size(), [&](std::size_t t) {
+    for (VertexId& v : mesh.triangles[t].v)
+      if (v >= left) v = number[v - left];
+  });
+  mesh.points.resize(left);
+  resizeWhereKept(whole.notes.spacing, left);
+  resizeWhereKept(whole.due_vertices, left);
+}
+
+}  // namespace
+
+void stitch(std::vector<CutSubmesh>&& pieces, const MeshState& before, Recorder& recorder, MeshState& whole) {
+  const VertexId input_vertices = before.mesh.input_vertices;
+  const Layout layout = layOut(pieces, input_vertices);
+  whole.mesh.input_vertices = input_vertices;
+  const ItemLoop loop = recorder.loop("stitch");
+  resizeAnew(loop, whole.mesh.points, layout.vertex.back());
+  resizeAnew(loop, whole.mesh.triangles, layout.triangle.back());
+  whole.notes.shell_unit = before.notes.shell_unit;
+  whole.notes.small_angle = before.notes.small_angle;
+  whole.notes.corners = before.notes.corners;
+  resizeAnew(loop, whole.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back());
+  resizeAnew(loop, whole.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back());
+  resizeAnew(loop, whole.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back());
+  const auto keep = [&](VertexId from, VertexId to) {
+    whole.mesh.points[to] = before.mesh.points[from];
+    if (!whole.notes.spacing.empty()) whole.notes.spacing[to] = before.notes.spacing[from];
+    if (!whole.due_vertices.empty()) whole.due_vertices[to] = before.due_vertices[from];
+  };
+  forEachByStretches(recorder.loop("stitch"), input_vertices + layout.on_cuts.size(), [&](std::size_t i) {
+    const auto to = static_cast<VertexId>(i);
+    keep(to < input_vertices ? to : layout.on_cuts[to - input_vertices], to);
+  });
+
+  std::vector<std::vector<CutSide>> sides(pieces.size());
+  recorder.forEach("stitch", pieces.size(), {}, [&](std::size_t p) {
+    const TriMesh& mesh = pieces[p].state.mesh;
+    std::vector<VertexId> vertex(mesh.points.size());
+    for (VertexId v = 0; v < mesh.input_vertices; ++v) {
+      const VertexId old = pieces[p].fixed[v];
+      const auto at = std::ranges::lower_bound(layout.on_cuts, old) - layout.on_cuts.begin();
+      vertex[v] = old < input_vertices ? old : input_vertices + static_cast<VertexId>(at);
+    }
+    for (VertexId v = mesh.input_vertices; v < mesh.points.size(); ++v)
+      vertex[v] = layout.vertex[p] + v - mesh.input_vertices;
+    sides[p] = place(
+        pieces[p], vertex, [&](TriId t) { return layout.triangle[p] + t; }, whole);
+    pieces[p] = {};
+  });
+  restoreAcross(joinSides(sides, whole.mesh, recorder), whole);
+  assert(checkMesh(whole.mesh, nullptr, {}).empty());
+}
+
+void stitchInPlace(std::vector<CutSubmesh>&& pieces, const Partition& parts, Recorder& recorder, MeshState& whole) {
+  TriMesh& mesh = whole.mesh;
+  const auto meshOf = [&](std::size_t p) -> const TriMesh& { return pieces[p].state.mesh; };
+  const auto oldTriangles = [&](std::size_t p) { return parts.of(static_cast<PieceId>(p)); };
+  const auto oldVertices = [&](std::size_t p) { return std::span<const VertexId>(pieces[p].own); };
+  const Exchange triangles(pieces.size(), static_cast<TriId>(mesh.triangles.size()), oldTriangles,
+                           [&](std::size_t p) { return meshOf(p).triangles.size(); });
+  const Exchange vertices(pieces.size(), static_cast<VertexId>(mesh.points.size()), oldVertices,
+                          [&](std::size_t p) { return meshOf(p).points.size() - meshOf(p).input_vertices; });
+  mesh.triangles.resize(triangles.end());
+  mesh.points.resize(vertices.end());
+  resizeWhereKept(whole.due_triangles, triangles.end());
+  resizeWhereKept(whole.due_vertices, vertices.end());
+  resizeWhereKept(whole.notes.spacing, vertices.end());
+
+  std::vector<std::vector<CutSide>> sides(pieces.size());
+  recorder.forEach("stitch", pieces.size(), {}, [&](std::size_t p) {
+    std::vector<VertexId> vertex = std::move(pieces[p].fixed);
+    for (std::size_t i = 0; vertex.size() < meshOf(p).points.size(); ++i)
+      vertex.push_back(vertices(p, oldVertices(p), i));
+    sides[p] = place(
+        pieces[p], vertex, [&](TriId t) { return triangles(p, oldTriangles(p), t); }, whole);
+    pieces[p] = {};
+  });
+  restoreAcross(joinSides(sides, mesh, recorder), whole);
+  closeHoles(triangles.holes(), vertices.holes(), whole, recorder);
+  assert(checkMesh(mesh, nullptr, {}).empty());
+}
+
+}  // namespace coastmesh
