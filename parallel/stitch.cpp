@@ -48,8 +48,8 @@ Layout layOut(const std::vector<CutSubmesh>& pieces, VertexId input_vertices) {
   return layout;
 }
 
-// Writes one piece to its place; lists its sides of cut edges. `vertex` has the new number of each vertex, `triangle(t)`
-// gives that of a triangle. What is fixed stays as the whole has it.
+// Writes one piece to its place; lists its sides of cut edges. `vertex` has the new number of each vertex,
+// `triangle(t)` gives that of a triangle. What is fixed stays as the whole has it.
 template <typename TriangleNumber>
 std::vector<CutSide> place(const CutSubmesh& cut, std::span<const VertexId> vertex, const TriangleNumber& triangle,
                            MeshState& whole) {
