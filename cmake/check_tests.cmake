@@ -17,8 +17,6 @@ if(NOT COASTMESH_SANITIZE)
   # Both install the same build.
   set_tests_properties(package.deb PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120 RESOURCE_LOCK install)
   set_tests_properties(package.consumer PROPERTIES RESOURCE_LOCK install)
-endif()
-if(NOT COASTMESH_SANITIZE)
   # What has to agree in a release, and reports against their schema.
   foreach(about release report_schema)
     add_test(NAME package.${about} COMMAND ${COASTMESH_PYTHON} ${PROJECT_SOURCE_DIR}/tests/package/${about}_test.py

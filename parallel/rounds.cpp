@@ -48,6 +48,9 @@ constexpr int kMostRounds = 8;
 // Bad triangles that a step may leave to the next, or that are mended uncut at the end. More are work for one thread,
 // fewer are rounds for next to nothing.
 constexpr double kFewDue = 200.0;
+// In a mesh of so few triangles what is left in the last step is mended uncut; in a larger one rounds near what is left
+// take less time and memory.
+constexpr std::size_t kSmallMesh = 1'000'000;
 // A round after the first works on what lies so many edges round what is due: fewer leave more at the edge of that to
 // the next round, more are copied for nothing. The rest of the mesh stays where it is.
 constexpr unsigned kEdgesRoundDue = 6;
@@ -292,7 +295,7 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, boo
     if (left == 0.0 || (whole_first && round > 0)) break;
     if (!mends && (left < kFewDue || round == kMostRounds)) break;
     checkpoint(static_cast<double>(round) / (kMostRounds + 1));
-    const bool soon_done = mends && round > 0 && left < kFewDue;
+    const bool soon_done = mends && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
     const bool uncut = whole_first || soon_done || round == kMostRounds;
     const Extent extent = uncut ? Extent::Uncut : round == 0 ? Extent::All : Extent::NearDue;
     refineRound(run, pslg, options, bound, extent, mends);
