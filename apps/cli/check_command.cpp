@@ -166,28 +166,38 @@ Command declareCheck(CLI::App& root) {
   auto usage = std::make_shared<CheckUsage>();
   OptionTable table = commandOptions("check", "Look for defects in a mesh; exit code 1 where there are any");
   declareMeshFile(table, "MESH", "mesh to check", usage->mesh);
-  table.texts("--input", usage->input.files, kVectorFile, false,
+  table.section(Section::Input);
+  table.texts({"--input", "What the mesh was made from"}, usage->input.files, kVectorFile, false,
               "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
   declareTargets(table, usage->targets,
                  "also look for all that makes the model refuse the mesh; repeat it for several");
-  table.number("--time-step", usage->target_check.time_step_s, "S", {0.0, 1e6},
+  table.section(Section::Sizes);
+  table.number({"--time-step", "Time step"}, usage->target_check.time_step_s, "S", {0.0, 1e6},
                "also look for triangles whose Courant number with this time step is above 1, or as --target has it; 0 "
                "leaves them out");
-  table.number("--min-angle", usage->check.min_angle_deg, "DEG", {0.0, 60.0}, "smallest angle asked for");
-  table.number("--max-angle", usage->check.max_angle_deg, "DEG", {60.0, 180.0}, "largest angle asked for");
+  table.section(Section::Triangles);
+  table.number({"--min-angle", "Smallest angle"}, usage->check.min_angle_deg, "DEG", {0.0, 60.0},
+               "smallest angle asked for");
+  table.number({"--max-angle", "Largest angle"}, usage->check.max_angle_deg, "DEG", {60.0, 180.0},
+               "largest angle asked for");
   declareSurface(table, usage->input.surface);
-  table.flag("--delaunay", usage->check.delaunay,
+  table.section(Section::Triangles);
+  table.flag({"--delaunay", "Look for edges that are not Delaunay"}, usage->check.delaunay,
              "also look for edges that are not Delaunay; always done with --input, without which edges inside the mesh "
              "cannot be known as constraints");
-  table.flag("--pinches", usage->check.pinches, "also look for nodes in which the mesh touches itself");
+  table.flag({"--pinches", "Look for nodes where the mesh touches itself"}, usage->check.pinches,
+             "also look for nodes in which the mesh touches itself");
   table.needing({"--input"}, [&] {
     declareInputOptions(table, usage->input);
-    declarePinches(table, "--input-pinches", "the --pinches that the mesh was made with from the --input",
-                   usage->input);
+    declarePinches(table, {"--input-pinches", "Where shores of that touch"},
+                   "the --pinches that the mesh was made with from the --input", usage->input);
   });
-  table.output("-o,--output", usage->output, {}, "write the defects as a layer of points: .gpkg, .geojson or .fgb");
-  table.flag("--overwrite", usage->overwrite, "replace a file that exists").needs({"--output"});
-  table.flag("--quiet", usage->quiet, "print nothing");
+  table.section(Section::Output);
+  table.output({"-o,--output", "Defects"}, usage->output, {},
+               "write the defects as a layer of points: .gpkg, .geojson or .fgb");
+  table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace a file that exists").needs({"--output"});
+  table.section(Section::Run);
+  table.flag({"--quiet", "No summary"}, usage->quiet, "print nothing");
   table.example("coastmesh check lake.nc --input lake.geojson --min-angle 33",
                 "is the mesh sound, does it hold the angle, is all of the input in it?");
   table.example("coastmesh check grid.2dm -o defects.gpkg", "the defects as a layer of points");

@@ -220,18 +220,22 @@ Command declareClean(CLI::App& root) {
   OptionTable table =
       commandOptions("clean", "Write the plane graph that would be meshed, and what was changed for it");
   table.arguments("INPUT", usage->input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
-  table.output("-o,--output", usage->output, {.required = true},
+  table.section(Section::Output);
+  table.output({"-o,--output", "Output"}, usage->output, {.required = true},
                "a .gpkg with the layers pslg and edits, or a .poly in the working plane");
   declareInputOptions(table, usage->input);
   declareSurface(table, usage->input.surface);
   declarePinches(table, usage->input);
+  table.section(Section::Boundaries);
   table.text(
-      "--boundary-column", usage->boundary_column, "NAME",
+      {"--boundary-column", "Column of the types"}, usage->boundary_column, "NAME",
       "the column of INPUT with the types of boundaries, which go into the layer pslg and from there into a mesh");
-  table.output("--report", usage->report, {.standard_output = true},
+  table.section(Section::Output);
+  table.output({"--report", "Report"}, usage->report, {.standard_output = true},
                "write what was read and mended, and the time it took, as JSON; - prints it in place of the summary");
-  table.flag("--overwrite", usage->overwrite, "replace a file that exists");
-  table.flag("--quiet", usage->quiet, "print no summary");
+  table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace a file that exists");
+  table.section(Section::Run);
+  table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
   table.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");
   return {{root, std::move(table)}, [usage](Run& run) { return runClean(*usage, run); }};
 }

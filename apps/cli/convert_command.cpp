@@ -56,8 +56,10 @@ Command declareConvert(CLI::App& root) {
   declareGridOutputs(table, usage->outputs, usage->format);
   declareFinishOptions(table, usage->finish);
   table.option("--boundary-column").needs({"--boundaries"});
-  table.flag("--overwrite", usage->overwrite, "replace files that exist");
-  table.flag("--quiet", usage->quiet, "print no summary");
+  table.section(Section::Output);
+  table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace files that exist");
+  table.section(Section::Run);
+  table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
   table.example("coastmesh convert lake.nc -o lake.2dm -o lake.msh", "a grid in two other formats");
   return {{root, std::move(table)}, [usage](Run& run) { return runConvert(*usage, run); }};
 }

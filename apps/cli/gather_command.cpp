@@ -36,7 +36,8 @@ Command declareGather(CLI::App& root) {
   table.arguments("SHARD", usage->shards, "all .shard files of a run, in any order; its inputs are read again");
   declareMeshes(table, usage->whole, false);
   declareRunOutputs(table, usage->whole);
-  table.integer("--threads", usage->whole.mesh.threads, "N", 0, 1024,
+  table.section(Section::Run);
+  table.integer({"--threads", "Threads"}, usage->whole.mesh.threads, "N", 0, 1024,
                 "threads to work on, 0 for all cores; never changes the result");
   table.example("coastmesh gather lakes-*.shard -o lakes.nc --report lakes.json", "all lakes, from their shards");
   return {{root, std::move(table)}, [usage](Run& run) { return runGather(*usage, run); }};

@@ -70,7 +70,8 @@ Command declareInfo(CLI::App& root) {
   OptionTable table = commandOptions("info", "Report what a mesh, a vector file or a .poly holds");
   declareMeshFile(table, "FILE", "mesh, vector file or .poly", usage->file);
   declareSurface(table, usage->surface);
-  table.flag("--json", usage->json, "print it as JSON");
+  table.section(Section::Output);
+  table.flag({"--json", "As JSON"}, usage->json, "print it as JSON");
   table.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");
   table.example("coastmesh info lakes.shp", "what there is to mesh");
   return {{root, std::move(table)}, [usage](Run& run) {

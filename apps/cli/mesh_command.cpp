@@ -25,7 +25,8 @@ OptionTable declareOptions(MeshRunUsage& usage) {
             });
           },
           "without an output that is UGRID (.nc)");
-  table.text("--shard", usage.shard, "I/N",
+  table.section(Section::Output);
+  table.text({"--shard", "Share of the features"}, usage.shard, "I/N",
              "mesh but the I-th of N shares of like work of all groups of features that touch; the same shares in each "
              "run. With .shard files as outputs gather puts them together");
   declareRunOutputs(table, usage);

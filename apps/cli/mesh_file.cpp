@@ -9,7 +9,8 @@ namespace coastmesh {
 
 void declareMeshFile(OptionTable& table, const std::string& name, const std::string& help, MeshFile& file) {
   table.argument(name, file.path, help);
-  table.text("--assume-crs", file.crs, "CRS",
+  table.section(Section::Input);
+  table.text({"--assume-crs", "CRS of the mesh"}, file.crs, "CRS",
              "CRS of the mesh where its file does not say one; without this option a plane is assumed then");
 }
 

@@ -114,29 +114,34 @@ void declareMeshes(OptionTable& table, MeshRunUsage& usage, bool with_shards) {
     if (with_shards && isShardFile(path)) return {{path}, {}, {}};
     return filesOf(gridFormatFor(path, usage.format), path);
   };
-  table.outputs("-o,--output", usage.outputs, {.required = true, .files = files},
+  table.section(Section::Output);
+  table.outputs({"-o,--output", "Outputs"}, usage.outputs, {.required = true, .files = files},
                 with_shards ? "mesh to write, or a .shard for gather; repeat it for several"
                             : "mesh to write; repeat it for several");
-  table.text("--format", usage.format, "NAME", "format of the output, where its ending does not say");
+  table.text({"--format", "Format"}, usage.format, "NAME", "format of the output, where its ending does not say");
 }
 
 void declareRunOutputs(OptionTable& table, MeshRunUsage& usage) {
+  table.section(Section::Output);
   declareParts(table, usage.parts, usage.outputs, usage.format);
-  table.output("--report", usage.report, {.standard_output = true},
+  table.output({"--report", "Report"}, usage.report, {.standard_output = true},
                "write a report as JSON; - prints it in place of the summary");
-  table.output("--edits", usage.edits, {},
+  table.output({"--edits", "What was changed"}, usage.edits, {},
                "write what cleaning and --coast follow changed, as points with its kind and the feature: a .gpkg, "
                ".geojson or .fgb");
+  table.section(Section::Run);
   table.choice(
-      "--progress", usage.progress, {"auto", "bar", "log", "json", "none"},
+      {"--progress", "Show of progress"}, usage.progress, {"auto", "bar", "log", "json", "none"},
       "how to show progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, else lines); "
       "or JSON lines on stdout");
-  table.flag("--overwrite", usage.overwrite, "replace files that exist");
+  table.section(Section::Output);
+  table.flag({"--overwrite", "Replace files"}, usage.overwrite, "replace files that exist");
   table
-      .flag("--skip-existing", usage.skip_existing,
+      .flag({"--skip-existing", "Skip what is there"}, usage.skip_existing,
             "do nothing where all outputs are there already; where some are not, make and replace all")
       .ignoredWith({"--overwrite"});
-  table.flag("--quiet", usage.quiet, "print no summary");
+  table.section(Section::Run);
+  table.flag({"--quiet", "No summary"}, usage.quiet, "print no summary");
 }
 
 int runMesh(const MeshRunUsage& usage, Run& run) {

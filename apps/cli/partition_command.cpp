@@ -65,10 +65,12 @@ Command declarePartition(CLI::App& root) {
   declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
   table.integerArgument("N", usage->parts, 1, kMostParts, "how many processes");
   declareGridOutputs(table, usage->outputs, usage->format);
-  table.output("--report", usage->report, {.standard_output = true},
+  table.section(Section::Output);
+  table.output({"--report", "Report"}, usage->report, {.standard_output = true},
                "write a report as JSON; - prints it in place of the summary");
-  table.flag("--overwrite", usage->overwrite, "replace files that exist");
-  table.flag("--quiet", usage->quiet, "print no summary");
+  table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace files that exist");
+  table.section(Section::Run);
+  table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
   table.example("coastmesh partition hgrid.gr3 480 -o partition.prop", "for SCHISM on 480 processes");
   table.example("coastmesh partition fort.14 64 -o partmesh.txt -o parts.nc",
                 "for ADCIRC's adcprep, and to look at as a layer");

@@ -19,7 +19,7 @@ bool anyHolds(const std::vector<std::string>& outputs, const std::string& format
 void declareParts(OptionTable& table, std::uint64_t& parts, const std::vector<std::string>& outputs,
                   const std::string& format) {
   table
-      .integer("--partition", parts, "N", 0, kMostParts,
+      .integer({"--partition", "Parts for processes"}, parts, "N", 0, kMostParts,
                "deal the mesh out to N processes of a solver, 0 for none: SCHISM's partition.prop and ADCIRC's "
                "partmesh.txt as outputs of these names, and in .nc and .msh")
       .needs(

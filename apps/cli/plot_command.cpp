@@ -56,31 +56,34 @@ Command declarePlot(CLI::App& root) {
   auto usage = std::make_shared<PlotUsage>();
   OptionTable table = commandOptions("plot", "Draw a mesh");
   declareMeshFile(table, "MESH", "mesh to draw", usage->mesh);
-  table.output("-o,--output", usage->output, {.required = true}, "picture to write: .svg or .png");
-  table.integer("--size", usage->plot.size_px, "PX", PlotOptions::kLeastSize, PlotOptions::kMostSize,
-                "longer side of the map");
+  table.section(Section::Output);
+  table.output({"-o,--output", "Picture"}, usage->output, {.required = true}, "picture to write: .svg or .png");
+  table.section(Section::Picture);
+  table.integer({"--size", "Size in pixels"}, usage->plot.size_px, "PX", PlotOptions::kLeastSize,
+                PlotOptions::kMostSize, "longer side of the map");
   table.numbers(
-      "--bbox", "W,S,E,N", false,
+      {"--bbox", "Bounding box"}, "W,S,E,N", false,
       [&plot = usage->plot](const std::vector<double>& sides) { return storeBox(sides, plot); },
       "what to show, in the mesh's CRS; all of it by default");
-  table.text("--view", usage->view, "VIEW",
+  table.text({"--view", "View"}, usage->view, "VIEW",
              "plane: a conformal one fitted to the mesh; orthographic=LON,LAT: a globe seen from above that place, or "
              "without it from above the middle of the mesh; natural-earth=LON: all of the Earth about that longitude, "
              "or 0");
   const auto on_plane = [usage = usage.get()] { return usage->view == "plane"; };
   table.option("--bbox").needs(on_plane, "with a globe as --view");
   table.choice(
-      "--color", usage->color, plotColorNames(),
+      {"--color", "Colour of triangles"}, usage->color, plotColorNames(),
       "what the triangles' colour shows; quality is 4 sqrt(3) area / sum of squared edges, 1 for equilateral ones");
-  table.flag("--edges,!--no-edges", usage->plot.edges, "draw the triangles' edges");
+  table.flag({"--edges,!--no-edges", "Draw edges"}, usage->plot.edges, "draw the triangles' edges");
   table.flag(
-      "--degrees", usage->plot.degrees,
+      {"--degrees", "Dots on irregular nodes"}, usage->plot.degrees,
       "draw a dot on each node inside the mesh that has not six neighbours: green for 5, orange for 7, purple for "
       "other numbers");
   table.option("--degrees").needs(on_plane, "with a globe as --view");
-  table.number("--min-angle", usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
+  table.number({"--min-angle", "Angle shown in red"}, usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
                "show triangles with a smaller angle in red");
-  table.flag("--overwrite", usage->overwrite, "replace a file that exists");
+  table.section(Section::Output);
+  table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace a file that exists");
   table.example("coastmesh plot lake.nc -o lake.png --color angle", "a picture coloured by the smallest angle");
   table.example("coastmesh plot lake.nc -o shapes.png --color quality --degrees", "how regular it is");
   table.example("coastmesh plot lake.nc -o bay.svg --bbox=-90.5,46.5,-90,47", "a part of it, as a vector drawing");

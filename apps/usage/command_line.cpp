@@ -22,6 +22,10 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
     return CLI::detail::find_and_replace(CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
   }
+  // CLI11 ends a group with an empty line, and begins one so.
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode), "\n\n\n", "\n\n");
+  }
   // What must be given may also stand in a file, which CLI11 does not know: to it nothing is required.
   std::string make_option_opts(const CLI::Option* option) const override {
     return CLI::Formatter::make_option_opts(option) + (required_.contains(option) ? " " + get_label("REQUIRED") : "");
@@ -35,7 +39,6 @@ class HelpFormatter : public CLI::Formatter {
   std::set<const CLI::Option*> required_;
 };
 
-// Null for a flag.
 CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& entry) {
   const auto set = [&table, &entry](const std::string& text) {
     try {
@@ -46,10 +49,9 @@ CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& e
   };
   if (entry.kind == OptionKind::Flag) {
     const std::string help = entry.shown_help;
-    app.add_flag(entry.names, help)->each([set](const std::string& text) {
+    return app.add_flag(entry.names, help)->each([set](const std::string& text) {
       set(CLI::detail::to_flag_value(text) > 0 ? "true" : "false");
     });
-    return nullptr;
   }
   CLI::Option* option = nullptr;
   if (entry.multiple) {
@@ -69,7 +71,8 @@ CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& e
 
 OptionTable commandOptions(const std::string& name, const std::string& help) {
   OptionTable table(name, help);
-  table.file(kConfig,
+  table.section(Section::Run);
+  table.file({kConfig, "Options from a file"},
              "take options from a TOML or JSON file, by their long names without dashes; those given here go before "
              "it");
   return table;
@@ -78,14 +81,20 @@ OptionTable commandOptions(const std::string& name, const std::string& help) {
 CommandLine::CommandLine(CLI::App& root, OptionTable table)
     : app_(root.add_subcommand(table.name(), table.help())), table_(std::make_unique<OptionTable>(std::move(table))) {
   const OptionTable* options = table_.get();
-  app_->add_flag_callback(
-          "--json-usage", [options] { throw UsageText{options->jsonUsage()}; }, "print this usage as JSON")
-      ->trigger_on_parse();
   std::set<const CLI::Option*> required;
   for (const OptionTable::Entry* entry : table_->entries()) {
-    const CLI::Option* option = bind(*app_, *table_, *entry);
+    CLI::Option* const option = bind(*app_, *table_, *entry);
+    if (!entry->argument) option->group(sectionTitle(entry->section));
     if (entry->required) required.insert(option);
   }
+  // CLI11 shows groups in the order of their first options: its own come last.
+  const std::string last = sectionTitle(Section::Run);
+  app_->set_help_flag();
+  app_->set_help_flag("-h,--help", "print this help")->group(last);
+  app_->add_flag_callback(
+          "--json-usage", [options] { throw UsageText{options->jsonUsage()}; }, "print this usage as JSON")
+      ->trigger_on_parse()
+      ->group(last);
   app_->formatter(std::make_shared<HelpFormatter>(std::move(required)));
   if (const std::string examples = table_->examplesText(); !examples.empty()) app_->footer(examples);
 }

@@ -44,13 +44,16 @@ std::function<void(const std::string&)> storePinches(InputOptions& options) {
 
 void declareInputOptions(OptionTable& table, InputOptions& options) {
   constexpr NumberRange kNotNegative{0.0, std::numeric_limits<double>::infinity()};
-  table.texts("--layer", options.filter.layers, "NAME", false, "read only this layer; repeat it for several");
-  table.text("--where", options.filter.where, "SQL",
+  table.section(Section::Input);
+  table.texts({"--layer", "Layers to read"}, options.filter.layers, "NAME", false,
+              "read only this layer; repeat it for several");
+  table.text({"--where", "Features to read"}, options.filter.where, "SQL",
              "read only features for which this holds, such as \"kind = 'sea' AND area > 5\"");
   FrameOptions& frame = options.frame;
+  table.section(Section::Domain);
   table
       .choice(
-          "--domain", "auto", {"auto", "inside", "outside", "ocean", "land", "globe"},
+          {"--domain", "What is meshed"}, "auto", {"auto", "inside", "outside", "ocean", "land", "globe"},
           [&frame](const std::string& chosen) {
             frame.side = chosen == "inside"    ? DomainSide::Inside
                          : chosen == "outside" ? DomainSide::Outside
@@ -72,48 +75,56 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
           "without --bbox or --clip")
       .ignoredWith({"--water-at"});
   table.numbers(
-      "--bbox", "W,S,E,N", false, [&frame](const std::vector<double>& sides) { return storeBox(sides, frame.box); },
+      {"--bbox", "Bounding box"}, "W,S,E,N", false,
+      [&frame](const std::vector<double>& sides) { return storeBox(sides, frame.box); },
       "mesh only within this box, in the input's CRS; its sides become open boundaries; across the antimeridian "
       "where E "
       "is less than W");
-  table.text("--clip", options.clip, kVectorFile,
+  table.text({"--clip", "Clip to polygons"}, options.clip, kVectorFile,
              "mesh only within these polygons; their sides become open boundaries");
   table.numbers(
-      "--water-at", "LON,LAT", false,
+      {"--water-at", "Place in the water"}, "LON,LAT", false,
       [&frame](const std::vector<double>& place) { return storePlace(place, frame.water_at); },
       "a place in the water, in the input's CRS: mesh this side of the coasts");
-  table.texts("--constraints", options.constraints, kVectorFile, false,
+  table.texts({"--constraints", "Lines and points to keep"}, options.constraints, kVectorFile, false,
               "lines and points in the water that become edges and vertices of the mesh");
-  table.texts("--weirs", options.weirs, kVectorFile, false,
+  table.texts({"--weirs", "Weirs"}, options.weirs, kVectorFile, false,
               "lines in the water that become edges of the mesh, marked as weirs where the output has room for lines");
-  table.texts("--regions", options.regions, kVectorFile, false, "polygons that mark the triangles in them");
-  table.flag("--dissolve", options.dissolve,
+  table.texts({"--regions", "Regions to mark"}, options.regions, kVectorFile, false,
+              "polygons that mark the triangles in them");
+  table.flag({"--dissolve", "Join polygons that share an edge"}, options.dissolve,
              "polygons that share an edge become one: lakes cut at a map sheet or a meridian leave no trace");
-  table.number("--snap", options.snap_m, "M", kNotNegative,
+  table.section(Section::Coast);
+  table.number({"--snap", "Snapping distance"}, options.snap_m, "M", kNotNegative,
                "points nearer than this become one; in a plane only where it is given", &options.snap_in_plane);
-  table.number("--simplify", options.simplify_m, "M", kNotNegative,
+  table.number({"--simplify", "Tolerance of simplification"}, options.simplify_m, "M", kNotNegative,
                "how far the simplified shore may lie from the input");
+  table.section(Section::Input);
   table.choice(
-      "--edges", kEdgeLineNames.front(), {kEdgeLineNames.begin(), kEdgeLineNames.end()},
+      {"--edges", "Edges of the input"}, kEdgeLineNames.front(), {kEdgeLineNames.begin(), kEdgeLineNames.end()},
       [&options](const std::string& chosen) {
         options.edges = static_cast<EdgeLine>(std::ranges::find(kEdgeLineNames, chosen) - kEdgeLineNames.begin());
       },
       "what an edge between two points of the input is: a straight line in the working plane, in the input's "
       "longitudes and latitudes (or x and y), or a geodesic; long edges get points on it");
   table
-      .number("--edge-tolerance", options.edge_tolerance_m, "M", {0.001, std::numeric_limits<double>::infinity()},
-              "how far edges may lie from these lines")
+      .number({"--edge-tolerance", "Tolerance of the edges"}, options.edge_tolerance_m, "M",
+              {0.001, std::numeric_limits<double>::infinity()}, "how far edges may lie from these lines")
       .needs({"--edges"});
-  table.number("--min-island-area", options.min_island_area_m2, "M2", kNotNegative, "fill islands smaller than this");
+  table.section(Section::Coast);
+  table.number({"--min-island-area", "Smallest island"}, options.min_island_area_m2, "M2", kNotNegative,
+               "fill islands smaller than this");
+  table.section(Section::Input);
   table.text(
-      "--crs", options.crs, "CRS",
+      {"--crs", "Working plane"}, options.crs, "CRS",
       "plane to work in: auto fits a conformal projection, plane takes coordinates as they are, or anything that "
       "PROJ knows");
 }
 
 void declareSurface(OptionTable& table, SurfaceChoice& surface) {
+  table.section(Section::Input);
   table.choice(
-      "--surface", kSurfaceNames.front(), {kSurfaceNames.begin(), kSurfaceNames.end()},
+      {"--surface", "Surface measured on"}, kSurfaceNames.front(), {kSurfaceNames.begin(), kSurfaceNames.end()},
       [&surface](const std::string& chosen) {
         surface.kind = static_cast<SurfaceKind>(std::ranges::find(kSurfaceNames, chosen) - kSurfaceNames.begin());
       },
@@ -127,13 +138,14 @@ void chooseSurface(const std::vector<std::string>& targets, SurfaceChoice& surfa
   surface = {SurfaceKind::Sphere, true};
 }
 
-void declarePinches(OptionTable& table, const std::string& name, const std::string& help, InputOptions& options) {
-  table.choice(name, "keep", kPinchChoices, storePinches(options), help);
+void declarePinches(OptionTable& table, const OptionNames& names, const std::string& help, InputOptions& options) {
+  table.section(Section::Coast);
+  table.choice(names, "keep", kPinchChoices, storePinches(options), help);
 }
 
 void declarePinches(OptionTable& table, InputOptions& options) {
   declarePinches(
-      table, "--pinches",
+      table, {"--pinches", "Where shores touch"},
       "places where shores touch in one point: keep them, or open them for water to pass: the narrower corner of "
       "land gives way by a twentieth of the shortest edge there",
       options);

@@ -16,6 +16,6 @@ void chooseSurface(const std::vector<std::string>& targets, SurfaceChoice& surfa
 
 // --pinches; apart, since `check` means something else by it.
 void declarePinches(OptionTable& table, InputOptions& options);
-void declarePinches(OptionTable& table, const std::string& name, const std::string& help, InputOptions& options);
+void declarePinches(OptionTable& table, const OptionNames& names, const std::string& help, InputOptions& options);
 
 }  // namespace coastmesh

@@ -34,24 +34,26 @@ void chooseLargestAngle(MeshUsage& usage) {
 
 void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
   RefineOptions& refine = usage.job.mesh.refine;
-  table.number("--min-angle", refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");
+  table.section(Section::Triangles);
+  table.number({"--min-angle", "Smallest angle"}, refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");
   double& max_angle = refine.max_angle_deg;
-  table.number("--max-angle", max_angle, "DEG", {60.0, 180.0},
+  table.number({"--max-angle", "Largest angle"}, max_angle, "DEG", {60.0, 180.0},
                "largest angle asked for; 180 sets no bound; 89 with --target mpas where nothing is said",
                &usage.max_angle_given);
-  table.choice("--algorithm", usage.algorithm, {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)},
-               "where the points go that mend bad triangles");
+  table.choice({"--algorithm", "Placing of points"}, usage.algorithm,
+               {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)}, "where the points go that mend bad triangles");
   table
-      .flag("--coarsen,!--no-coarsen", usage.job.mesh.coarsen,
+      .flag({"--coarsen,!--no-coarsen", "Take out needless vertices"}, usage.job.mesh.coarsen,
             "take out vertices that the bounds do not need; the algorithms other than relocate do so only when asked",
             &usage.coarsen_given)
       .formerly({"--shrink", "--no-shrink"});
   declareSizing(table, usage.job.sizes, usage.sizing);
-  table.flag("--smooth,!--no-smooth", usage.job.mesh.smooth,
+  table.section(Section::Triangles);
+  table.flag({"--smooth,!--no-smooth", "Optimise for longer"}, usage.job.mesh.smooth,
              "optimise the shapes of triangles for longer; where no sizes are asked for, at all");
   table
       .choice(
-          "--quality", usage.quality, {std::begin(kGoalNames), std::end(kGoalNames)},
+          {"--quality", "Aim of the optimiser"}, usage.quality, {std::begin(kGoalNames), std::end(kGoalNames)},
           "what the optimiser holds above equilateral triangles: centred asks for no angle above 90 degrees, so that "
           "circumcentres lie within (C-grids), links for neighbours' circumcentres twice as far apart as D-Flow FM "
           "asks, which shape keeps too")
@@ -65,13 +67,18 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
   declareSurface(table, usage.job.input.surface);
   declarePinches(table, usage.job.input);
   declareFinishOptions(table, usage.job.finish);
+  table.section(Section::Triangles);
   table.integer(
-      "--max-vertices", refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
+      {"--max-vertices", "Most vertices"}, refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
       "stop refining at so many vertices, with exit code 1; where sizes ask for clearly more, nothing is made");
-  table.flag("--cut,!--no-cut", usage.cut, "cut large seas into pieces, to be refined at the same time");
-  table.flag("--mark-pieces", usage.job.mesh.mark_pieces,
+  table.section(Section::Run);
+  table.flag({"--cut,!--no-cut", "Cut large seas into pieces"}, usage.cut,
+             "large seas are refined in pieces at the same time");
+  table.section(Section::Output);
+  table.flag({"--mark-pieces", "Mark the pieces"}, usage.job.mesh.mark_pieces,
              "write which piece each triangle was refined in, to .nc, for plot --color piece");
-  table.integer("--threads", usage.threads, "N", 0, 1024,
+  table.section(Section::Run);
+  table.integer({"--threads", "Threads"}, usage.threads, "N", 0, 1024,
                 "threads to work on, 0 for all cores; never changes the result");
 }
 

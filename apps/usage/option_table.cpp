@@ -1,6 +1,7 @@
 #include "apps/usage/option_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -75,6 +76,20 @@ const char* typeName(OptionKind kind) {
 
 }  // namespace
 
+const char* sectionTitle(Section section) {
+  constexpr const char* kTitles[] = {
+      "Input",   "Domain", "Triangles", "Sizes", "Coast", "Depths", "Boundaries and models",
+      "Picture", "Output", "The run"};
+  return kTitles[static_cast<std::size_t>(section)];
+}
+
+std::string saidOf(const std::string& label, const std::string& help, const std::string& mark) {
+  if (label.empty()) return help;
+  const auto sameLetter = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
+  const bool begins = std::ranges::equal(label, help.substr(0, label.size()), sameLetter);
+  return mark + label + mark + (begins ? help.substr(label.size()) : ": " + help);
+}
+
 struct OptionTable::Impl {
   // Stores a value, or returns what is wrong with it as the end of a sentence about it.
   using Store = std::function<std::string(const OptionValue&)>;
@@ -92,6 +107,7 @@ struct OptionTable::Impl {
   };
 
   std::string name, help;
+  Section section = Section::Run;
   // Pointers to entries are given away.
   std::vector<std::unique_ptr<Declared>> all;
   Json examples = Json::array();
@@ -113,24 +129,27 @@ struct OptionTable::Impl {
     return *found;
   }
 
-  Declared& add(const std::string& names, OptionKind kind, const std::string& unit, const std::string& help_text,
+  Declared& add(const OptionNames& names, OptionKind kind, const std::string& unit, const std::string& help_text,
                 const std::string& range = {}) {
-    const std::vector<std::string> split = namesIn(names);
+    const std::vector<std::string> split = namesIn(names.typed);
     Declared& added = *all.emplace_back(std::make_unique<Declared>());
-    added.entry.names = names;
-    const bool with_opposite = names.find('!') != std::string::npos;
+    added.entry.names = names.typed;
+    added.entry.label = names.label;
+    added.entry.section = section;
+    const bool with_opposite = names.typed.find('!') != std::string::npos;
     added.entry.name = with_opposite ? split.front() : split.back();
     added.entry.kind = kind;
     added.entry.shown_unit = shownUnit(unit);
-    added.entry.shown_help = help_text + (range.empty() ? "" : " (" + range + ")");
-    added.json = {{"name", added.entry.name}, {"names", split}, {"type", typeName(kind)}, {"help", help_text}};
+    added.entry.shown_help = saidOf(names.label, help_text) + (range.empty() ? "" : " (" + range + ")");
+    added.json = {{"name", added.entry.name},         {"names", split},         {"label", names.label},
+                  {"section", sectionTitle(section)}, {"type", typeName(kind)}, {"help", help_text}};
     if (!unit.empty()) added.json["unit"] = shownUnit(unit);
     if (isFile(unit)) added.json["role"] = unit == "FILE" ? "input" : unit.substr(unit.find(':') + 1);
     added.reads = isInput(unit);
     return added;
   }
 
-  Declared& addText(const std::string& names, std::string& value, const std::string& unit,
+  Declared& addText(const OptionNames& names, std::string& value, const std::string& unit,
                     const std::string& help_text) {
     Declared& added = add(names, isFile(unit) ? OptionKind::File : OptionKind::Text, unit, help_text);
     added.initial = value;
@@ -143,7 +162,7 @@ struct OptionTable::Impl {
 
   Declared& addArgument(const std::string& argument, const std::string& help_text, OptionKind kind = OptionKind::File,
                         const std::string& range = {}) {
-    Declared& added = add(argument, kind, kind == OptionKind::File ? "FILE" : "", help_text, range);
+    Declared& added = add(argument.c_str(), kind, kind == OptionKind::File ? "FILE" : "", help_text, range);
     added.entry.argument = true;
     added.entry.required = true;
     added.initial = std::string{};
@@ -166,9 +185,19 @@ struct OptionTable::Impl {
     return !option.given.empty() && option.given.front() == OptionValue(need.substr(space + 1));
   }
 
+  // Arguments first, then by sections.
+  std::vector<const Declared*> shown() const {
+    std::vector<const Declared*> order;
+    for (const auto& one : all) order.push_back(one.get());
+    std::ranges::stable_sort(order, {}, [](const Declared* one) {
+      return std::pair(!one->entry.argument, one->entry.argument ? Section::Input : one->entry.section);
+    });
+    return order;
+  }
+
   Json usage() const {
     Json arguments = Json::array(), options = Json::array();
-    for (const auto& one : all) {
+    for (const Declared* one : shown()) {
       if (!one->entry.argument)
         options.push_back(one->json);
       else
@@ -226,6 +255,8 @@ const OptionTable::Option& OptionTable::Option::formerly(const std::vector<std::
   return *this;
 }
 
+void OptionTable::section(Section section) { impl_->section = section; }
+
 void OptionTable::argument(const std::string& name, std::string& value, const std::string& help) {
   impl_->addArgument(name, help).store = [&value](const OptionValue& given) {
     value = std::get<std::string>(given);
@@ -244,7 +275,7 @@ void OptionTable::arguments(const std::string& name, std::vector<std::string>& v
   };
 }
 
-OptionTable::Option OptionTable::number(const std::string& names, double& value, const std::string& unit,
+OptionTable::Option OptionTable::number(const OptionNames& names, double& value, const std::string& unit,
                                         const NumberRange& range, const std::string& help, bool* given) {
   const bool has_default = std::isfinite(value);
   Impl::Declared& added = impl_->add(names, OptionKind::Number, unit, help, rangeText(range));
@@ -289,7 +320,7 @@ void OptionTable::integerArgument(const std::string& name, std::uint64_t& value,
   impl_->addArgument(name, help, OptionKind::Integer, wholeRange(low, high)).store = storeInteger(value, low, high);
 }
 
-OptionTable::Option OptionTable::integer(const std::string& names, std::uint64_t& value, const std::string& unit,
+OptionTable::Option OptionTable::integer(const OptionNames& names, std::uint64_t& value, const std::string& unit,
                                          std::uint64_t low, std::uint64_t high, const std::string& help) {
   constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
   const bool has_default = value != kNoLimit;
@@ -303,7 +334,7 @@ OptionTable::Option OptionTable::integer(const std::string& names, std::uint64_t
   return {*this, added.entry.name};
 }
 
-OptionTable::Option OptionTable::numbers(const std::string& names, const std::string& unit, bool multiple,
+OptionTable::Option OptionTable::numbers(const OptionNames& names, const std::string& unit, bool multiple,
                                          const StoreNumbers& store, const std::string& help) {
   Impl::Declared& added = impl_->add(names, OptionKind::Numbers, unit, help);
   added.numbers = 1 + static_cast<std::size_t>(std::ranges::count(unit, ','));
@@ -326,7 +357,7 @@ OptionTable::Option OptionTable::numbers(const std::string& names, const std::st
   return {*this, added.entry.name};
 }
 
-OptionTable::Option OptionTable::text(const std::string& names, std::string& value, const std::string& unit,
+OptionTable::Option OptionTable::text(const OptionNames& names, std::string& value, const std::string& unit,
                                       const std::string& help) {
   Impl::Declared& added = impl_->addText(names, value, unit, help);
   added.entry.shown_default = value;
@@ -334,7 +365,7 @@ OptionTable::Option OptionTable::text(const std::string& names, std::string& val
   return {*this, added.entry.name};
 }
 
-OptionTable::Option OptionTable::requiredText(const std::string& names, std::string& value, const std::string& unit,
+OptionTable::Option OptionTable::requiredText(const OptionNames& names, std::string& value, const std::string& unit,
                                               const std::string& help) {
   Impl::Declared& added = impl_->addText(names, value, unit, help);
   added.entry.required = true;
@@ -342,7 +373,7 @@ OptionTable::Option OptionTable::requiredText(const std::string& names, std::str
   return {*this, added.entry.name};
 }
 
-OptionTable::Option OptionTable::texts(const std::string& names, std::vector<std::string>& values,
+OptionTable::Option OptionTable::texts(const OptionNames& names, std::vector<std::string>& values,
                                        const std::string& unit, bool required, const std::string& help) {
   Impl::Declared& added = impl_->add(names, isFile(unit) ? OptionKind::File : OptionKind::Text, unit, help);
   added.initial = std::string{};
@@ -357,13 +388,13 @@ OptionTable::Option OptionTable::texts(const std::string& names, std::vector<std
   return {*this, added.entry.name};
 }
 
-OptionTable::Option OptionTable::choice(const std::string& names, std::string& value,
+OptionTable::Option OptionTable::choice(const OptionNames& names, std::string& value,
                                         const std::vector<std::string>& choices, const std::string& help) {
   return choice(
       names, value, choices, [&value](const std::string& chosen) { value = chosen; }, help);
 }
 
-OptionTable::Option OptionTable::choice(const std::string& names, const std::string& initial,
+OptionTable::Option OptionTable::choice(const OptionNames& names, const std::string& initial,
                                         const std::vector<std::string>& choices,
                                         const std::function<void(const std::string&)>& store, const std::string& help) {
   Impl::Declared& added = impl_->add(names, OptionKind::Choice, {}, help);
@@ -382,8 +413,8 @@ OptionTable::Option OptionTable::choice(const std::string& names, const std::str
   return {*this, added.entry.name};
 }
 
-OptionTable::Option OptionTable::flag(const std::string& names, bool& value, const std::string& help, bool* given) {
-  const bool with_opposite = names.find('!') != std::string::npos;
+OptionTable::Option OptionTable::flag(const OptionNames& names, bool& value, const std::string& help, bool* given) {
+  const bool with_opposite = names.typed.find('!') != std::string::npos;
   Impl::Declared& added = impl_->add(names, OptionKind::Flag, {}, help, with_opposite ? (value ? "on" : "off") : "");
   added.initial = value;
   added.store = [&value, given](const OptionValue& asked) {
@@ -395,7 +426,7 @@ OptionTable::Option OptionTable::flag(const std::string& names, bool& value, con
   return {*this, added.entry.name};
 }
 
-OptionTable::Option OptionTable::file(const std::string& names, const std::string& help) {
+OptionTable::Option OptionTable::file(const OptionNames& names, const std::string& help) {
   Impl::Declared& added = impl_->add(names, OptionKind::File, "FILE", help);
   added.initial = std::string{};
   added.store = [](const OptionValue&) { return std::string{}; };
@@ -409,7 +440,7 @@ void OptionTable::needing(const std::vector<std::string>& others, const std::fun
   for (std::size_t i = first; i < impl_->all.size(); ++i) Option(*this, impl_->all[i]->entry.name).needs(others);
 }
 
-OptionTable::Option OptionTable::output(const std::string& names, std::string& value, OutputKind kind,
+OptionTable::Option OptionTable::output(const OptionNames& names, std::string& value, OutputKind kind,
                                         const std::string& help) {
   const Option option =
       kind.required ? requiredText(names, value, kOutputFile, help) : text(names, value, kOutputFile, help);
@@ -417,7 +448,7 @@ OptionTable::Option OptionTable::output(const std::string& names, std::string& v
   return option;
 }
 
-OptionTable::Option OptionTable::outputs(const std::string& names, std::vector<std::string>& values, OutputKind kind,
+OptionTable::Option OptionTable::outputs(const OptionNames& names, std::vector<std::string>& values, OutputKind kind,
                                          const std::string& help) {
   const Option option = texts(names, values, kOutputFile, kind.required, help);
   impl_->declared(option.name_).writes = std::move(kind);
@@ -430,7 +461,7 @@ void OptionTable::example(const std::string& command, const std::string& help) {
 
 std::vector<const OptionTable::Entry*> OptionTable::entries() const {
   std::vector<const Entry*> entries;
-  for (const auto& one : impl_->all) entries.push_back(&one->entry);
+  for (const Impl::Declared* one : impl_->shown()) entries.push_back(&one->entry);
   return entries;
 }
 

@@ -14,6 +14,21 @@
 
 namespace coastmesh {
 
+// Headings under which options are shown, in this order.
+enum class Section { Input, Domain, Triangles, Sizes, Coast, Depths, Boundaries, Picture, Output, Run };
+const char* sectionTitle(Section section);
+
+// What an option is called.
+struct OptionNames {
+  OptionNames(const char* as_typed, std::string as_read = {}) : typed(as_typed), label(std::move(as_read)) {}
+  std::string typed;  // by those who type it: "-o,--output"
+  std::string label;  // by those who read it, in a dialog of QGIS: "Bounding box"; unique within a table
+};
+
+// What an option is called and what it does, in one: "Bounding box: mesh only ...", and where `help` begins with the
+// label, that alone: "Smallest angle asked for". `mark` stands before the label and after it.
+std::string saidOf(const std::string& label, const std::string& help, const std::string& mark = {});
+
 struct NumberRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -67,34 +82,37 @@ class OptionTable {
   void integerArgument(const std::string& name, std::uint64_t& value, std::uint64_t low, std::uint64_t high,
                        const std::string& help);
 
-  // Options. Names are as a user of the program types them: "-o,--output". `unit` is what the value is counted in
+  // The heading of the options that are declared from here on; before the first call it is Section::Run.
+  void section(Section section);
+
+  // Options. `unit` is what the value is counted in
   // ("DEG", "M"), or what it is ("FILE"). Numbers must be within their range and `isComputable`; an infinite default,
   // or the greatest of integers, means none. `given`, where there is one, becomes true when the user gives the option.
-  Option number(const std::string& names, double& value, const std::string& unit, const NumberRange& range,
+  Option number(const OptionNames& names, double& value, const std::string& unit, const NumberRange& range,
                 const std::string& help, bool* given = nullptr);
-  Option integer(const std::string& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
+  Option integer(const OptionNames& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
                  std::uint64_t high, const std::string& help);
   // As many numbers as `unit` names: "W,S,E,N". `store` gets as many, or none where the text given is empty, and
   // returns what is wrong with them as the end of a sentence about them ("is not ..."), empty where nothing is.
   // `multiple`: the option may be repeated, `store` being called for each.
   using StoreNumbers = std::function<std::string(const std::vector<double>&)>;
-  Option numbers(const std::string& names, const std::string& unit, bool multiple, const StoreNumbers& store,
+  Option numbers(const OptionNames& names, const std::string& unit, bool multiple, const StoreNumbers& store,
                  const std::string& help);
-  Option text(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
+  Option text(const OptionNames& names, std::string& value, const std::string& unit, const std::string& help);
   // `values` is empty when declared.
-  Option texts(const std::string& names, std::vector<std::string>& values, const std::string& unit, bool required,
+  Option texts(const OptionNames& names, std::vector<std::string>& values, const std::string& unit, bool required,
                const std::string& help);
-  Option requiredText(const std::string& names, std::string& value, const std::string& unit, const std::string& help);
-  Option choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
+  Option requiredText(const OptionNames& names, std::string& value, const std::string& unit, const std::string& help);
+  Option choice(const OptionNames& names, std::string& value, const std::vector<std::string>& choices,
                 const std::string& help);
   // The same for a value that is no text: `store` takes the user's choice.
-  Option choice(const std::string& names, const std::string& initial, const std::vector<std::string>& choices,
+  Option choice(const OptionNames& names, const std::string& initial, const std::vector<std::string>& choices,
                 const std::function<void(const std::string&)>& store, const std::string& help);
   // "--coarsen,!--no-coarsen" declares a flag and its opposite.
-  Option flag(const std::string& names, bool& value, const std::string& help, bool* given = nullptr);
+  Option flag(const OptionNames& names, bool& value, const std::string& help, bool* given = nullptr);
 
   // A file to read that whoever fills the table reads himself: nothing is stored.
-  Option file(const std::string& names, const std::string& help);
+  Option file(const OptionNames& names, const std::string& help);
 
   // One that is declared already, by its longest name.
   Option option(const std::string& name) { return {*this, name}; }
@@ -109,8 +127,8 @@ class OptionTable {
     FilesOf files = {};
     bool standard_output = false;
   };
-  Option output(const std::string& names, std::string& value, OutputKind kind, const std::string& help);
-  Option outputs(const std::string& names, std::vector<std::string>& values, OutputKind kind, const std::string& help);
+  Option output(const OptionNames& names, std::string& value, OutputKind kind, const std::string& help);
+  Option outputs(const OptionNames& names, std::vector<std::string>& values, OutputKind kind, const std::string& help);
 
   // A command line as a user might type it, and what it does.
   void example(const std::string& command, const std::string& help);
@@ -120,17 +138,19 @@ class OptionTable {
   struct Entry {
     std::string name;   // the longest; of a flag with an opposite, the one that turns it on
     std::string names;  // all of them, as declared
+    std::string label;
+    Section section = Section::Run;
     OptionKind kind = OptionKind::Text;
     bool multiple = false;
     bool required = false;
     std::string shown_unit;
-    std::string shown_help;     // with its range
+    std::string shown_help;     // after its label, with its range
     std::string shown_default;  // empty: none is shown
     std::vector<std::string> choices;
     std::vector<std::pair<std::string, std::string>> former_names;  // each with what it is called now
     bool argument = false;                                          // known by its place
   };
-  // In the order of declaration, arguments among them.
+  // As they are shown: arguments first, then by sections, and in the order of declaration.
   std::vector<const Entry*> entries() const;
   const std::string& name() const;
   const std::string& help() const;

@@ -32,49 +32,53 @@ const std::vector<std::string> kSizes = {"--size",           "--size-shore",    
 void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
   constexpr NumberRange kAboveZero{0.0, kInfinity, true};
   constexpr NumberRange kNotNegative{0.0, kInfinity};
-  table.number("--size", sizes.size_m, "M", kAboveZero,
+  table.section(Section::Sizes);
+  table.number({"--size", "Size everywhere"}, sizes.size_m, "M", kAboveZero,
                "length that edges should have everywhere, where nothing else asks for less");
   table
-      .number("--size-min", sizes.least_m, "M", kNotNegative,
+      .number({"--size-min", "Smallest size"}, sizes.least_m, "M", kNotNegative,
               "no size is less; edges shorter than it are reported, with exit code 1 where --coast follow leaves one "
               "shorter than half")
       .needs(kSizes);
-  table.number("--size-max", sizes.most_m, "M", kAboveZero,
+  table.number({"--size-max", "Largest size"}, sizes.most_m, "M", kAboveZero,
                "no size is more; given without any other size, no edge is longer");
   table
-      .number("--grade", sizes.gradation, "G", {0.0, 1.0, true},
+      .number({"--grade", "Gradation of sizes"}, sizes.gradation, "G", {0.0, 1.0, true},
               "sizes at two places differ by at most this times their distance", &usage.grade_given)
       .needs(kSizes);
-  table.number("--size-shore", sizes.shore_m, "M", kAboveZero, "size at the shore");
+  table.number({"--size-shore", "Size at the shore"}, sizes.shore_m, "M", kAboveZero,
+               "length that edges should have at the shore");
   table
-      .number("--shore-rate", sizes.shore_rate, "R", {0.0, 1000.0},
+      .number({"--shore-rate", "Growth away from the shore"}, sizes.shore_rate, "R", {0.0, 1000.0},
               "how fast that grows with the distance from the shore")
       .needs({"--size-shore"});
-  table.number("--channel-elements", sizes.channel_elements, "N", {0.0, 1000.0},
+  table.number({"--channel-elements", "Elements across channels"}, sizes.channel_elements, "N", {0.0, 1000.0},
                "elements across channels and straits; 0 asks for none");
-  table.texts("--size-features", sizes.features, kVectorFile, false,
+  table.texts({"--size-features", "Features with sizes"}, sizes.features, kVectorFile, false,
               "points, lines and polygons with a size in metres on them as the attribute 'size', and how fast it grows "
               "with the "
               "distance as 'rate', else --grade");
-  table.texts("--size-raster", sizes.rasters, kRasterFile, false,
+  table.texts({"--size-raster", "Rasters of sizes"}, sizes.rasters, kRasterFile, false,
               "raster of sizes in metres; of several the first that covers a place counts");
-  table.number("--wave-elements", sizes.depth.wave_elements, "N", {0.0, 1e9}, "elements a wavelength; 0 asks for none");
+  table.number({"--wave-elements", "Elements per wavelength"}, sizes.depth.wave_elements, "N", {0.0, 1e9},
+               "elements on each length of the wave; 0 asks for none");
   table
-      .number("--wave-period", sizes.depth.period_s, "S", {0.1, 1e8},
+      .number({"--wave-period", "Period of the wave"}, sizes.depth.period_s, "S", {0.1, 1e8},
               "period of that wave; the default is that of the M2 tide")
       .needs({"--wave-elements"});
-  table.number("--slope-elements", sizes.depth.slope_elements, "N", {0.0, 1000.0},
+  table.number({"--slope-elements", "Elements by the slope"}, sizes.depth.slope_elements, "N", {0.0, 1000.0},
                "elements on 2 pi times the depth over its slope; 0 asks for none");
   table
-      .number("--slope-filter", sizes.depth.slope_filter_m, "M", kNotNegative,
+      .number({"--slope-filter", "Length of slopes that count"}, sizes.depth.slope_filter_m, "M", kNotNegative,
               "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given)
       .needs({"--slope-elements"});
   table.numbers(
-      "--depth-band", "FROM,TO,SIZE", true,
+      {"--depth-band", "Sizes by depth"}, "FROM,TO,SIZE", true,
       [&sizes](const std::vector<double>& numbers) { return storeBand(numbers, sizes.depth.bands); },
       "size where the depth is FROM or more and less than TO, all in metres, depths positive");
+  table.section(Section::Coast);
   table.choice(
-      "--coast", "keep", {"keep", "follow"},
+      {"--coast", "Detail of the coast"}, "keep", {"keep", "follow"},
       [&sizes, &usage](const std::string& chosen) {
         usage.coast_given = true;
         sizes.coast = chosen == "follow" ? CoastDetail::Follow : CoastDetail::Keep;
@@ -82,22 +86,22 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
       "whether the coast keeps its detail, or follows the sizes: its edges become about as long as they are, water and "
       "land narrower than elements go, and so do islands smaller than one");
   table
-      .number("--channel-min", sizes.follow.channel_min, "N", {0.0, 100.0},
+      .number({"--channel-min", "Narrowest channel"}, sizes.follow.channel_min, "N", {0.0, 100.0},
               "with --coast follow: water narrower than N times the size there is closed; 0 closes none")
       .needs({"--coast follow"});
   table
-      .number("--strait-min", sizes.follow.strait_min, "N", {0.0, 100.0},
+      .number({"--strait-min", "Narrowest strait"}, sizes.follow.strait_min, "N", {0.0, 100.0},
               "with --coast follow: narrow water that alone joins waters is not closed but made --channel-min times "
               "the size there wide, where it is no narrower than N times that and to widen it takes less than a "
               "quarter of the water behind; what --channel-min says widens none")
       .needs({"--coast follow"});
   table
-      .number("--land-min", sizes.follow.land_min, "N", {0.0, 100.0},
+      .number({"--land-min", "Narrowest land"}, sizes.follow.land_min, "N", {0.0, 100.0},
               "with --coast follow: spits and capes narrower than N times the size there go; 0 keeps them")
       .needs({"--coast follow"});
   table
       .choice(
-          "--keep-water", "auto", {"auto", "largest", "open", "all"},
+          {"--keep-water", "Waters that stay"}, "auto", {"auto", "largest", "open", "all"},
           [&sizes](const std::string& chosen) {
             sizes.keep_water_given = chosen != "auto";
             sizes.follow.keep = chosen == "largest" ? KeepWater::Largest
@@ -110,22 +114,25 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
           "tenth of the water")
       .needs({"--coast follow"});
   table
-      .texts("--passages", sizes.passages, kVectorFile, false,
+      .texts({"--passages", "Passages kept open"}, sizes.passages, kVectorFile, false,
              "with --coast follow: lines along which water stays open, made as wide as --passage-elements where it is "
              "narrower; their attribute 'name' is reported")
       .needs({"--coast follow"});
-  table.number("--passage-elements", sizes.passage_elements, "N", {0.5, 100.0}, "elements across passages")
+  table
+      .number({"--passage-elements", "Elements across passages"}, sizes.passage_elements, "N", {0.5, 100.0},
+              "how many elements lie across each of them")
       .needs({"--passages"});
   table
-      .texts("--barriers", sizes.barriers, kVectorFile, false,
+      .texts({"--barriers", "Barriers"}, sizes.barriers, kVectorFile, false,
              "with --coast follow: lines along which water is closed, half an element wide")
       .needs({"--coast follow"});
-  table.number("--time-step", sizes.time_step_s, "S", {0.0, 1e6},
+  table.section(Section::Sizes);
+  table.number({"--time-step", "Time step"}, sizes.time_step_s, "S", {0.0, 1e6},
                "no element smaller than the Courant number allows with this time step; triangles in which it does not "
                "hold are reported, with exit code 1; 0 asks for none");
   table
       .number(
-          "--courant", sizes.courant, "C", {1e-3, 1e3},
+          {"--courant", "Largest Courant number"}, sizes.courant, "C", {1e-3, 1e3},
           "largest Courant number: sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the "
           "depth of its deepest corner")
       .needs({"--time-step"});

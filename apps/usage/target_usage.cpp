@@ -5,7 +5,8 @@
 namespace coastmesh {
 
 void declareTargets(OptionTable& table, std::vector<std::string>& names, const std::string& help) {
-  table.texts("--target", names, allTargetNames(), false, help);
+  table.section(Section::Boundaries);
+  table.texts({"--target", "Models to suit"}, names, allTargetNames(), false, help);
 }
 
 }  // namespace coastmesh

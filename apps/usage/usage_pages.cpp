@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "apps/usage/option_table.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -59,6 +60,13 @@ std::string rangeOf(const Json& option) {
   if (low && high) return numberText(option["minimum"]) + " to " + numberText(option["maximum"]);
   if (low) return numberText(option["minimum"]) + " or more";
   return high ? numberText(option["maximum"]) + " or less" : std::string{};
+}
+
+// Whether options of one section end and those of the next begin with `option`; `section` is that of the one before.
+bool beginsSection(const Json& option, std::string& section) {
+  if (option["section"] == section) return false;
+  section = option["section"];
+  return true;
 }
 
 // "0 to 45; default 33".
@@ -127,11 +135,14 @@ std::string manOf(const Json& usage, const Json& command) {
     page += ".TP\n.I " + argument["name"].get<std::string>() + "\n" + roff(argument["help"]) + "\n";
   }
   page += ".SH OPTIONS\n";
+  std::string section;
   for (const Json& option : command["options"]) {
+    if (beginsSection(option, section)) page += ".SS " + roff(section) + "\n";
     std::string names;
     for (const Json& name : option["names"]) names += (names.empty() ? "\\fB" : ", \\fB") + roff(name) + "\\fR";
     const std::string value = valueOf(option);
-    page += ".TP\n" + names + (value.empty() ? "" : " \\fI" + roff(value) + "\\fR") + "\n" + roff(option["help"]);
+    page += ".TP\n" + names + (value.empty() ? "" : " \\fI" + roff(value) + "\\fR") + "\n" +
+            roff(saidOf(option["label"], option["help"]));
     const std::string facts = factsOf(option);
     page += facts.empty() ? "\n" : " (" + roff(facts) + ")\n";
   }
@@ -186,7 +197,7 @@ std::string formerly(const Json& option) {
 std::string markdown(const Json& usage) {
   std::string page =
       "# Every command and option\nMade from the program's own table by `coastmesh --usage-as markdown`; do not "
-      "edit.\n\n"
+      "edit. What stands in italics is what dialogs call the option.\n\n"
       "Units: M metres on the ground, M2 square metres, DEG degrees. In a plane without a place on Earth, metres are "
       "its "
       "units.\n";
@@ -195,12 +206,15 @@ std::string markdown(const Json& usage) {
     for (const Json& argument : command["arguments"]) {
       page += " " + argument["name"].get<std::string>() + (argument["multiple"] ? "…" : "");
     }
-    page += "\n" + command["help"].get<std::string>() +
-            ".\n\n| option | unit or values | range | default | |\n|---|---|---|---|---|\n";
+    page += "\n" + command["help"].get<std::string>() + ".\n";
+    std::string section;
     for (const Json& option : command["options"]) {
+      if (beginsSection(option, section))
+        page += "\n### " + section + "\n| option | unit or values | range | default | |\n|---|---|---|---|---|\n";
       const std::string required = option.value("required", false) ? "required" : defaultOf(option);
       page += "| " + cell("`" + joined(option["names"], "`, `") + "`") + " | " + cell(valueOf(option)) + " | " +
-              cell(rangeOf(option)) + " | " + cell(required) + " | " + cell(option["help"]) + formerly(option) + " |\n";
+              cell(rangeOf(option)) + " | " + cell(required) + " | " +
+              cell(saidOf(option["label"], option["help"], "*")) + formerly(option) + " |\n";
     }
   }
   page += "\n## Formats of meshes\n| name | endings | | read | written |\n|---|---|---|---|---|\n";

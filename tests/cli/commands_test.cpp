@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -46,6 +47,36 @@ TEST_F(Commands, EveryOptionOfTheJsonUsageIsInTheHelp) {
     }
   }
   EXPECT_EQ(verbs, (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "clean", "partition", "gather"}));
+}
+
+// What people read in QGIS, and look for in the help and the manual pages.
+TEST_F(Commands, EveryOptionHasALabelOfItsOwnAndASection) {
+  const std::vector<std::string> sections = {
+      "Input",   "Domain", "Triangles", "Sizes", "Coast", "Depths", "Boundaries and models",
+      "Picture", "Output", "The run"};
+  const Json usage = Json::parse(runProgram({"--json-usage"}).output);
+  for (const Json& command : usage["commands"]) {
+    const std::string verb = command["command"];
+    const std::string help = runProgram({verb, "--help"}).output;
+    std::set<std::string> labels;
+    std::size_t at_section = 0, at_help = 0;
+    for (const Json& option : command["options"]) {
+      const std::string label = option["label"], section = option["section"];
+      const std::string shown = verb + " " + option["name"].get<std::string>() + ": '" + label + "', " + section;
+      EXPECT_GE(label.size(), 4u) << shown;
+      EXPECT_TRUE(std::isupper(static_cast<unsigned char>(label.front()))) << shown;
+      EXPECT_FALSE(label.ends_with('.') || label.ends_with(':')) << shown;
+      EXPECT_TRUE(labels.insert(label).second) << shown << " is the label of two options";
+      while (at_section < sections.size() && sections[at_section] != section) ++at_section;
+      ASSERT_LT(at_section, sections.size()) << shown << " is out of the order of sections, or of none";
+      // The help shows them in the same order.
+      for (const std::string& part : {"\n" + section + ":\n", label}) {
+        const std::size_t found = part == label ? help.find(part, at_help) : help.find(part);
+        ASSERT_NE(found, std::string::npos) << shown;
+        at_help = std::max(at_help, found);
+      }
+    }
+  }
 }
 
 TEST_F(Commands, UsageTellsDefaultAndRange) {

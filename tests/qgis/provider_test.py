@@ -3,8 +3,10 @@
 
 usage: provider_test.py PROGRAM PLUGINS   (the program coastmesh, the folder that holds coastmesh_qgis)
 """
+import json
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import threading
@@ -107,6 +109,41 @@ class ProviderTest(unittest.TestCase):
             self.assertTrue(algorithm.shortHelpString())
             for parameter in algorithm.parameterDefinitions():
                 self.assertTrue(parameter.description(), parameter.name())
+
+    def test_parameters_are_called_by_the_labels_of_the_options_in_their_order(self):
+        usage = json.loads(subprocess.run([PROGRAM, "--json-usage"], capture_output=True, check=True).stdout)
+        units = {"DEG": " [degrees]", "M": " [metres]", "M2": " [square metres]", "S": " [seconds]"}
+        provider = QgsApplication.processingRegistry().providerById("coastmesh")
+        compared = 0
+        for command in usage["commands"]:
+            algorithm = provider.algorithm(command["command"])
+            if algorithm is None:
+                continue
+            shown = algorithm.parameterDefinitions()
+            descriptions = [parameter.description() for parameter in shown]
+            self.assertEqual(len(descriptions), len(set(descriptions)), descriptions)
+            at = {parameter.name(): i for i, parameter in enumerate(shown)}
+            before = -1
+            for option in command["options"]:
+                # Names stay, whatever the labels become.
+                name = {"--input": "MADE_FROM"}.get(option["name"], option["name"][2:].replace("-", "_").upper())
+                if name not in at or name == "OUTPUT":
+                    continue
+                parameter = shown[at[name]]
+                self.assertEqual(parameter.description(), option["label"] + units.get(option.get("unit"), ""))
+                self.assertIn(f"<b>{option['label']}</b>", algorithm.shortHelpString())
+                self.assertIn(f"<h3>{option['section']}</h3>", algorithm.shortHelpString())
+                if option.get("role") != "output":
+                    self.assertGreater(at[name], before, "options are not in the order of their sections")
+                    before = at[name]
+                compared += 1
+        self.assertGreater(compared, 90)
+        mesh = provider.algorithm("mesh")
+        self.assertEqual(mesh.parameterDefinition("BBOX").description(), "Bounding box")
+        self.assertEqual(mesh.parameterDefinition("WATER_AT").description(), "Place in the water")
+        advanced = {p.name() for p in mesh.parameterDefinitions() if p.flags() & p.FlagAdvanced}
+        self.assertLessEqual({"SLOPE_FILTER", "ALGORITHM", "THREADS", "SNAP", "REPORT"}, advanced)
+        self.assertFalse({"INPUT", "OUTPUT", "BBOX", "WATER_AT", "SIZE_MAX", "MIN_ANGLE", "BATHYMETRY"} & advanced)
 
     def test_from_a_layer_to_loaded_and_styled_layers(self):
         layer = memory_layer(LAKE)

@@ -115,8 +115,13 @@ class ManualTest(unittest.TestCase):
             path = os.path.join(USAGE, "man", f"coastmesh-{command['command']}.1")
             with open(path, encoding="utf-8") as file:
                 page = file.read().replace("\\-", "-")
+            at = 0
             for option in command["options"]:
                 self.assertIn(f"\\fB{option['name']}\\fR", page)
+                section = page.find(f"\n.SS {option['section']}\n")
+                self.assertGreater(section, 0, option["section"])
+                at = page.find("\n" + option["label"], max(at, section))
+                self.assertGreater(at, 0, option["label"])
         if not shutil.which("groff"):
             self.skipTest("there is no groff to look for faults")
         for name in os.listdir(os.path.join(USAGE, "man")):

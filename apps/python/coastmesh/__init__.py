@@ -272,7 +272,8 @@ def _require_known(keywords):
 
 
 def _describe(option):
-    said = option["help"]
+    label, said = option["label"], option["help"]
+    said = label + said[len(label):] if said.lower().startswith(label.lower()) else f"{label}: {said}"
     unit = option.get("unit")
     default = option.get("default")
     bounds = [f"from {option['minimum']:g}" if "minimum" in option else "",
@@ -285,4 +286,14 @@ def _describe(option):
     return f"{said} ({facts})" if facts else said
 
 
-mesh.__doc__ += "\n    Options:\n" + "".join(f"        {name}: {_describe(o)}\n" for name, o in options().items())
+def _options_text():
+    text, section = "", None
+    for name, option in options().items():
+        if option["section"] != section:
+            section = option["section"]
+            text += f"\n    {section}:\n"
+        text += f"        {name}: {_describe(option)}\n"
+    return text
+
+
+mesh.__doc__ += _options_text()

@@ -19,7 +19,7 @@ from qgis.core import (
     QgsProcessingUtils,
 )
 
-from .parameters import arguments_of, by_present_names, make_parameter, parameter_name
+from .parameters import arguments_of, by_present_names, make_parameter
 from .program import ProgramError, find_program
 from .running import SHORT, run_program
 from .sources import Sources, takes_selection
@@ -73,9 +73,14 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             lines.append("<p>Takes polygons, or lines that close. The mesh comes as a mesh layer (.nc, .2dm) and as vector "
                          "layers, coloured by the smallest angle of each triangle. Lengths are metres on the ground, "
                          "whatever the layer's CRS.</p>")
+        section = None
         for option in self.shown_options:
-            title = parameter_name(option).replace("_", " ").capitalize()
-            lines.append(f"<p><b>{title}</b>: {_html(option['help'])}</p>")
+            if option["section"] != section:
+                section = option["section"]
+                lines.append(f"<h3>{_html(section)}</h3>")
+            label, said = option["label"], option["help"]
+            rest = said[len(label):] if said.lower().startswith(label.lower()) else ": " + said
+            lines.append(f"<p><b>{_html(label)}</b>{_html(rest)}</p>")
         return "".join(lines)
 
     def flags(self):

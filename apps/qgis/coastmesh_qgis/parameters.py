@@ -52,9 +52,8 @@ def make_parameter(option):
 
 
 def _title(option):
-    words = parameter_name(option).replace("_", " ").capitalize()
-    unit = {"DEG": "degrees", "M": "metres", "M2": "square metres"}.get(option.get("unit"))
-    return f"{words} [{unit}]" if unit else words
+    unit = {"DEG": "degrees", "M": "metres", "M2": "square metres", "S": "seconds"}.get(option.get("unit"))
+    return f"{option['label']} [{unit}]" if unit else option["label"]
 
 
 def _make(option, name, title):

@@ -28,6 +28,6 @@ NEVER_SHOWN = ("--output", "--overwrite", "--progress", "--quiet", "--assume-crs
 # What most users look for; the others are under "Advanced parameters".
 BASIC = (
     "--min-angle", "--domain", "--bbox", "--clip", "--water-at", "--size", "--size-shore", "--size-min", "--size-max", "--grade", "--size-raster",
-    "--bathymetry", "--depth", "--simplify", "--min-island-area", "--input", "--target", "--delaunay", "--pinches",
+    "--bathymetry", "--simplify", "--min-island-area", "--input", "--target", "--delaunay", "--pinches",
     "--format",
 )

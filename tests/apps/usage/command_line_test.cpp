@@ -31,8 +31,10 @@ class CommandLineTest : public testing::Test {
   static OptionTable declared(Values& values) {
     OptionTable table = commandOptions("knit", "Knit a sock");
     table.arguments("INPUT", values.inputs, "wool");
-    table.number("--angle", values.angle, "DEG", {0.0, 45.0}, "angle", &values.angle_given);
-    table.number("--size", values.size, "M", {0.0, std::numeric_limits<double>::infinity(), true}, "size");
+    table.number({"--angle", "Angle of the heel"}, values.angle, "DEG", {0.0, 45.0}, "angle", &values.angle_given);
+    table.section(Section::Sizes);
+    table.number({"--size", "Size"}, values.size, "M", {0.0, std::numeric_limits<double>::infinity(), true},
+                 "size of the sock");
     table.integer("--count", values.count, "N", 2, 9, "count");
     table.flag("--coarsen,!--no-coarsen", values.coarsen, "coarsen").formerly({"--felt", "--no-felt"});
     table.choice("--name", values.name, {"a", "b"}, "name");
@@ -119,17 +121,24 @@ TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
   EXPECT_EQ(usage["command"], "knit");
   EXPECT_EQ(usage["arguments"].size(), 1u);
   ASSERT_EQ(usage["options"].size(), 8u);  // --config besides
-  const Json& angle = usage["options"][1];
+  const auto option = [&usage](const std::string& name) {
+    for (const Json& each : usage["options"])
+      if (each["name"] == name) return each;
+    return Json();
+  };
+  const Json angle = option("--angle");
   EXPECT_EQ(angle, (Json{{"name", "--angle"},
                          {"names", {"--angle"}},
+                         {"label", "Angle of the heel"},
+                         {"section", "The run"},
                          {"type", "number"},
                          {"help", "angle"},
                          {"unit", "DEG"},
                          {"default", 33.0},
                          {"minimum", 0.0},
                          {"maximum", 45.0}}));
-  EXPECT_EQ(usage["options"][4]["names"], (Json{"--coarsen", "--no-coarsen"}));
-  EXPECT_EQ(usage["options"][4]["former_names"], (Json{{"--felt", "--coarsen"}, {"--no-felt", "--no-coarsen"}}));
+  EXPECT_EQ(option("--coarsen")["names"], (Json{"--coarsen", "--no-coarsen"}));
+  EXPECT_EQ(option("--coarsen")["former_names"], (Json{{"--felt", "--coarsen"}, {"--no-felt", "--no-coarsen"}}));
 }
 
 TEST_F(CommandLineTest, FormerNamesBecomeThePresentOnesWithAWarning) {
@@ -150,6 +159,19 @@ TEST_F(CommandLineTest, HelpShowsUnitDefaultAndRange) {
   for (const char* part : {"DEG", "33", "0 to 45", "above 0", "2 to 9", "--no-coarsen", "a|b"}) {
     EXPECT_NE(help.find(part), std::string::npos) << part << help;
   }
+}
+
+TEST_F(CommandLineTest, HelpHasLabelsUnderHeadingsInTheOrderOfSections) {
+  const std::string help = app_.get_subcommand("knit")->help();
+  std::size_t before = 0;
+  for (const char* part : {"\nSizes:\n", "--size", "Size of the sock (above 0)", "\nThe run:\n", "--angle",
+                           "Angle of the heel: angle (0 to 45)", "--help"}) {
+    const std::size_t at = help.find(part, before);
+    ASSERT_NE(at, std::string::npos) << part << help;
+    before = at;
+  }
+  EXPECT_EQ(help.find("\n\n\n"), std::string::npos) << help;
+  EXPECT_EQ(help.find("Options:\n"), std::string::npos) << help;
 }
 
 // Two options, one of which counts only with the other; `words` are parsed.

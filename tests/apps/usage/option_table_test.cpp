@@ -61,6 +61,30 @@ TEST_F(OptionTableTest, TakesValuesOfTheirOwnTypes) {
   EXPECT_THAT(box_, ElementsAre(1, 2, 3, 4));
 }
 
+TEST(OptionLabels, AreNotSaidTwice) {
+  EXPECT_EQ(saidOf("Bounding box", "mesh only there"), "Bounding box: mesh only there");
+  EXPECT_EQ(saidOf("Smallest angle", "smallest angle asked for", "*"), "*Smallest angle* asked for");
+  EXPECT_EQ(saidOf("Size", "size"), "Size");
+  EXPECT_EQ(saidOf("Size of all", "size"), "Size of all: size");
+  EXPECT_EQ(saidOf("", "size"), "size");
+}
+
+TEST(OptionSections, OptionsAreShownByThemAndInThemAsDeclared) {
+  OptionTable table("knit", "Knit a sock");
+  bool value = false;
+  table.flag("--loose", value, "");
+  table.section(Section::Output);
+  table.flag("--wrapped", value, "");
+  table.section(Section::Sizes);
+  table.flag("--wide", value, "");
+  table.flag("--long", value, "");
+  std::string wool;
+  table.argument("WOOL", wool, "");
+  std::vector<std::string> names;
+  for (const OptionTable::Entry* entry : table.entries()) names.push_back(entry->name);
+  EXPECT_THAT(names, ElementsAre("WOOL", "--wide", "--long", "--wrapped", "--loose"));
+}
+
 TEST_F(OptionTableTest, TextsAreReadAsValues) {
   table_.setText("--heel-angle", " +1.5e1");
   table_.setText("--count", "007");
