@@ -46,6 +46,6 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/coastmeshConfig.cmake.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/coastmeshConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/coastmeshConfig.cmake ${PROJECT_BINARY_DIR}/coastmeshConfigVersion.cmake
   DESTINATION ${coastmesh_package_dir})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/cmake/debian/copyright
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/debian/copyright
   ${PROJECT_SOURCE_DIR}/docs/report.schema.json
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
