@@ -157,6 +157,18 @@ class GuideTest(unittest.TestCase):
         header = re.findall(r"^  kExit\w+ = (\d+),", read(os.path.join(SOURCES, "apps/cli/exit_codes.hpp")), re.M)
         self.assertEqual(sorted(page), sorted(header))
 
+    def test_reference(self):
+        """Its table names the folders that installed headers lie in."""
+        self.assertEqual(list(blocks(os.path.join(SOURCES, "docs/reference.md"))), [])
+        rows = re.findall(r"^\| (`.*?) \|", read(os.path.join(SOURCES, "docs/reference.md")), re.M)
+        named = {folder for row in rows for folder in re.findall(r"`([^`]*)`", row)}
+        doxyfile = os.path.join(os.path.dirname(MODULES), "Doxyfile")
+        if not os.path.exists(doxyfile):
+            self.skipTest("there is no Doxygen, and no list of headers for it")
+        headers = re.findall(rf'"{re.escape(SOURCES)}/([^" ]*)\.hpp"', read(doxyfile))
+        self.assertGreater(len(headers), 50)
+        self.assertEqual(named, {os.path.dirname(header) for header in headers} - {"gis"})
+
     def test_batch(self):
         folder, ran = self.run_page("batch.md")
         self.assertGreaterEqual(ran, 3)
