@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <new>
+#include <utility>
 
 #include "apps/cli/exit_codes.hpp"
 #include "core/run_control.hpp"
@@ -78,6 +79,12 @@ void Interrupt::close() {
   closed_ = true;
 }
 
+void Interrupt::reopen() {
+  const std::lock_guard lock(mutex_);
+  closed_ = false;
+  if (std::exchange(missed_, false)) pthread_kill(watcher_.native_handle(), SIGTERM);
+}
+
 void Interrupt::watch() {
   const sigset_t signals = stopSignals();
   for (;;) {
@@ -85,7 +92,10 @@ void Interrupt::watch() {
     if (sigwait(&signals, &signal_number) != 0) continue;
     std::unique_lock lock(mutex_);
     if (ended_) return;
-    if (closed_) continue;
+    if (closed_) {
+      missed_ = true;
+      continue;
+    }
     requested_ = true;
     if (ended_changed_.wait_for(lock, kPatience, [this] { return ended_; })) return;
     endProcess();

@@ -33,6 +33,8 @@ class Interrupt {
   // The point of no return, before finished files are moved to their places: a signal that comes later changes nothing.
   // Throws Cancelled where one came before.
   void close();
+  // Where the run goes on after that: from here on a signal counts again, and so does one that came in between.
+  void reopen();
 
  private:
   void watch();
@@ -44,6 +46,7 @@ class Interrupt {
   std::condition_variable ended_changed_;
   bool ended_ = false;
   bool closed_ = false;
+  bool missed_ = false;                                             // a signal came while closed
   std::map<std::filesystem::path, std::filesystem::path> guarded_;  // as given, and from the root
   std::thread watcher_;
 };

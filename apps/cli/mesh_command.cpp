@@ -2,6 +2,7 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/mesh_run.hpp"
+#include "apps/cli/per_feature_run.hpp"
 #include "apps/cli/shard_file.hpp"
 #include "gis/format/grid_io.hpp"
 
@@ -29,6 +30,7 @@ OptionTable declareOptions(MeshRunUsage& usage) {
   table.text({"--shard", "Share of the features"}, usage.shard, "I/N",
              "mesh but the I-th of N shares of like work of all groups of features that touch; the same shares in each "
              "run. With .shard files as outputs gather puts them together");
+  declarePerFeature(table, usage);
   declareRunOutputs(table, usage);
   table.example("coastmesh mesh lake.geojson -o lake.gpkg -o lake.nc", "a lake as GIS layers and as a UGRID grid");
   table.example("coastmesh mesh sea.shp -o fort.14 --min-angle 35 --size-max 5000",
@@ -39,6 +41,8 @@ OptionTable declareOptions(MeshRunUsage& usage) {
                 "all of the Earth, closed: no pole and no meridian is special");
   table.example("coastmesh mesh lakes.gpkg --shard 3/7 -o lakes-3.shard --skip-existing",
                 "the third of seven shares of many lakes, for coastmesh gather");
+  table.example("coastmesh mesh lakes.gpkg --per-feature -o lake-{}.nc --skip-existing",
+                "a file for each lake; the same line again makes what is missing");
   return table;
 }
 
@@ -48,7 +52,7 @@ Command declareMesh(CLI::App& root) {
   auto usage = std::make_shared<MeshRunUsage>();
   return {{root, declareOptions(*usage)}, [usage](Run& run) {
             settle(usage->mesh);
-            return runMesh(*usage, run);
+            return usage->per_feature ? runPerFeature(*usage, run) : runMesh(*usage, run);
           }};
 }
 

@@ -69,20 +69,6 @@ std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, Progr
   return warnings;
 }
 
-// "3/7" as the third of seven, counted from 1.
-std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text) {
-  if (text.empty()) return {0, 1};
-  constexpr std::uint32_t kMostShards = 1'000'000;
-  std::uint32_t shard = 0, shards = 0;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, shard);
-  const bool divided = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-  const auto second = divided ? std::from_chars(first.ptr + 1, end, shards) : first;
-  if (!divided || second.ec != std::errc() || second.ptr != end || shards > kMostShards || shard < 1 || shard > shards)
-    throw OptionError("--shard " + text + ": is not I/N, such as 3/7 for the third of seven, up to a million");
-  return {shard - 1, shards};
-}
-
 // The exit code of the run that made what is there already; none where that is not all.
 std::optional<int> doneBefore(const MeshRunUsage& usage, const Run& run, const GivenOptions& given) {
   int code = kExitDone;
@@ -100,6 +86,19 @@ std::optional<int> doneBefore(const MeshRunUsage& usage, const Run& run, const G
 }
 
 }  // namespace
+
+std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text) {
+  if (text.empty()) return {0, 1};
+  constexpr std::uint32_t kMostShards = 1'000'000;
+  std::uint32_t shard = 0, shards = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard);
+  const bool divided = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second = divided ? std::from_chars(first.ptr + 1, end, shards) : first;
+  if (!divided || second.ec != std::errc() || second.ptr != end || shards > kMostShards || shard < 1 || shard > shards)
+    throw OptionError("--shard " + text + ": is not I/N, such as 3/7 for the third of seven, up to a million");
+  return {shard - 1, shards};
+}
 
 OptionTable meshJobOptions(MeshUsage& usage) {
   OptionTable table("mesh", "");

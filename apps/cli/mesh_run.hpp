@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/cli/commands.hpp"
@@ -21,6 +22,8 @@ struct MeshRunUsage {
   std::string edits;
   std::uint64_t parts = 0;
   std::string shard;  // "I/N"; empty: all
+  bool per_feature = false;
+  std::string name_field;  // of --per-feature; empty: numbers
   std::string progress = "auto";
   bool overwrite = false;
   bool skip_existing = false;
@@ -34,6 +37,9 @@ OptionTable meshJobOptions(MeshUsage& usage);
 void declareMeshes(OptionTable& table, MeshRunUsage& usage, bool with_shards);
 // What else such a run writes, and how.
 void declareRunOutputs(OptionTable& table, MeshRunUsage& usage);
+
+// "3/7" as the third of seven, counted from 0; the only one of one where `text` is empty. Throws OptionError.
+std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text);
 
 // REQUIRES: `usage.mesh` is settled. Gives an exit code; throws what main turns into messages and codes.
 int runMesh(const MeshRunUsage& usage, Run& run);

@@ -138,6 +138,11 @@ void requireOutputsApart(const OptionTable& table, const std::vector<OptionTable
   if (outputs.empty()) return;
   std::vector<OptionTable::NamedFile> read = table.inputs();
   read.insert(read.end(), besides.begin(), besides.end());
+  requireOutputsApart(outputs, read);
+}
+
+void requireOutputsApart(const std::vector<OptionTable::NamedOutput>& outputs,
+                         const std::vector<OptionTable::NamedFile>& read) {
   const Inputs inputs(read);
   Claims claims;
   for (const OptionTable::NamedOutput& output : outputs) {
@@ -211,14 +216,24 @@ std::vector<std::string> RunOutputs::lossWarnings(const Grid& grid, LossesOf of)
   return warnings;
 }
 
-void RunOutputs::commit() {
-  interrupt_.close();
+void RunOutputs::moveIntoPlace() {
   std::vector<StagedFiles*> made;
   for (StagedOutput& grid : grids_)
     if (grid.files().made()) made.push_back(&grid.files());
   for (const auto& file : files_)
     if (file->made()) made.push_back(file.get());
   commitTogether(made);
+}
+
+void RunOutputs::commitAndGoOn() {
+  interrupt_.close();
+  const std::shared_ptr<Interrupt> reopens(&interrupt_, [](Interrupt* interrupt) { interrupt->reopen(); });
+  moveIntoPlace();
+}
+
+void RunOutputs::commit() {
+  interrupt_.close();
+  moveIntoPlace();
   std::fputs(report_text_.c_str(), stdout);
 }
 

@@ -17,6 +17,9 @@ namespace coastmesh {
 // reads: any file that an option or an argument names, those that belong to it, and those that it takes its data from.
 // To be called before anything is read or written. `besides`: what the run reads that `table` does not name.
 void requireOutputsApart(const OptionTable& table, const std::vector<OptionTable::NamedFile>& besides = {});
+// The same of outputs that `table` does not name: of a run that reads the files `read`.
+void requireOutputsApart(const std::vector<OptionTable::NamedOutput>& outputs,
+                         const std::vector<OptionTable::NamedFile>& read);
 
 // All outputs of a run: none comes into place before all are written, and then all do or none.
 class RunOutputs {
@@ -45,9 +48,12 @@ class RunOutputs {
 
   // Moves all that was written into place, after Interrupt::close(). Throws OutputError, Cancelled.
   void commit();
+  // The same for some of a run's outputs, after which it goes on: it can be interrupted again.
+  void commitAndGoOn();
 
  private:
   void guard(const StagedFiles& files);
+  void moveIntoPlace();
 
   bool overwrite_;
   std::vector<std::string> inputs_;

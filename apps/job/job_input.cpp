@@ -17,16 +17,6 @@ namespace {
 
 bool isPolyFile(const std::string& path) { return std::filesystem::path(path).extension() == ".poly"; }
 
-std::size_t countPoints(const Feature& feature) {
-  std::size_t count = 0;
-  for (const Polygon& polygon : feature.polygons) {
-    count += polygon.outer.size();
-    for (const Ring& hole : polygon.holes) count += hole.size();
-  }
-  for (const auto& line : feature.lines) count += line.size();
-  return count;
-}
-
 Crs parseWorkingCrs(const std::string& text) {
   try {
     return parseCrs(text);
@@ -95,6 +85,22 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
 
 }  // namespace
 
+Coastline readInput(const InputOptions& options, ReadReport& report) {
+  Coastline coastline = readCoastline(sourcesOf(options), options.filter, report);
+  if (options.crs == "plane") forgetImpossibleCrs(coastline, report);
+  return coastline;
+}
+
+std::size_t pointsOf(const Feature& feature) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : feature.polygons) {
+    count += polygon.outer.size();
+    for (const Ring& hole : polygon.holes) count += hole.size();
+  }
+  for (const auto& line : feature.lines) count += line.size();
+  return count;
+}
+
 JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_(options) {
   if (options_.pslg) {
     requireSurface();
@@ -114,12 +120,15 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   if (options_.crs != "auto" && options_.crs != "plane") working = parseWorkingCrs(options_.crs);
   requireOneFrame(options_);
   const bool globe = options_.frame.side == DomainSide::Globe;
-  if (const std::vector<Source> sources = sourcesOf(options_); globe && sources.empty()) {
+  if (options_.ready) {
+    coastline_ = *options_.ready;
+    report_.features = coastline_.features.size();
+    for (const Feature& feature : coastline_.features) report_.points += coastmesh::pointsOf(feature);
+  } else if (globe && sourcesOf(options_).empty()) {
     coastline_.crs = wgs84();
   } else {
-    coastline_ = readCoastline(sources, options_.filter, report_);
+    coastline_ = readInput(options_, report_);
   }
-  if (options_.crs == "plane") forgetImpossibleCrs(coastline_, report_);
   if ((globe || options_.frame.side == DomainSide::Ocean) && !coastline_.crs.geographic)
     throw InputError("--domain " + nameOfUnframed(options_.frame.side) +
                      " takes longitudes and latitudes, and the input is in " +
@@ -212,7 +221,7 @@ void JobInput::takePlaneGraph(Pslg pslg, const std::string& source) {
 std::size_t JobInput::pointsOf(std::size_t group) const {
   if (poly_) return poly_->points.size();
   std::size_t count = 0;
-  for (std::size_t member : groups_[group]) count += countPoints(coastline_.features[member]);
+  for (std::size_t member : groups_[group]) count += coastmesh::pointsOf(coastline_.features[member]);
   return count;
 }
 

@@ -24,25 +24,32 @@ struct SurfaceChoice {
 
 // What to read, and how it becomes domains of the plane.
 struct InputOptions {
-  std::vector<std::string> files;        // vector files, or one .poly
-  std::shared_ptr<const Pslg> pslg;      // in place of files: a ready plane graph; cleaning it is the caller's
-  ReadFilter filter;                     // what of the files is read
-  FrameOptions frame;                    // what bounds the domain besides the shores
-  std::string clip;                      // a file of polygons that bound it, in place of `frame.box`; empty: none
-  std::vector<std::string> constraints;  // files of lines and points that become edges and vertices
-  std::vector<std::string> weirs;        // files of lines
-  std::vector<std::string> regions;      // files of polygons
-  std::string crs = "auto";              // the working plane: "auto", "plane" or anything that PROJ knows
-  SurfaceChoice surface;                 // what lengths and angles are measured on
-  EdgeLine edges = EdgeLine::Plane;      // what an edge between two points stands for
-  double edge_tolerance_m = 100.0;       // how far from that it may lie, metres, above 0
-  double snap_m = 0.001;                 // metres, 0 or more
-  bool snap_in_plane = false;            // `snap_m` holds for a plane input too, where else nothing is snapped
-  double simplify_m = 0.0;               // metres, 0 or more
-  bool dissolve = false;                 // features that share an edge become one
-  Pinches pinches = Pinches::Keep;       // what becomes of places where shores touch
-  double min_island_area_m2 = 0.0;       // square metres, 0 or more
+  std::vector<std::string> files;          // vector files, or one .poly
+  std::shared_ptr<const Pslg> pslg;        // in place of files: a ready plane graph; cleaning it is the caller's
+  std::shared_ptr<const Coastline> ready;  // in place of files: features that `readInput` read
+  ReadFilter filter;                       // what of the files is read
+  FrameOptions frame;                      // what bounds the domain besides the shores
+  std::string clip;                        // a file of polygons that bound it, in place of `frame.box`; empty: none
+  std::vector<std::string> constraints;    // files of lines and points that become edges and vertices
+  std::vector<std::string> weirs;          // files of lines
+  std::vector<std::string> regions;        // files of polygons
+  std::string crs = "auto";                // the working plane: "auto", "plane" or anything that PROJ knows
+  SurfaceChoice surface;                   // what lengths and angles are measured on
+  EdgeLine edges = EdgeLine::Plane;        // what an edge between two points stands for
+  double edge_tolerance_m = 100.0;         // how far from that it may lie, metres, above 0
+  double snap_m = 0.001;                   // metres, 0 or more
+  bool snap_in_plane = false;              // `snap_m` holds for a plane input too, where else nothing is snapped
+  double simplify_m = 0.0;                 // metres, 0 or more
+  bool dissolve = false;                   // features that share an edge become one
+  Pinches pinches = Pinches::Keep;         // what becomes of places where shores touch
+  double min_island_area_m2 = 0.0;         // square metres, 0 or more
 };
+
+// Reads all the files that `options` name, which may not be a .poly. Throws OptionError, InputError.
+Coastline readInput(const InputOptions& options, ReadReport& report);
+
+// How many points its rings and lines have: a measure of the work that it is.
+std::size_t pointsOf(const Feature& feature);
 
 // An input that was read and split into groups of features, each of which is meshed apart. A .poly is one group.
 class JobInput {

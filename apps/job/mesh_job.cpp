@@ -301,6 +301,8 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
 
 }  // namespace
 
+MeshJobResult runMeshJobHere(const MeshJob& job, const JobControl& control) { return runOnThreads(job, control); }
+
 MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control) {
   MeshJobResult result;
   withThreads(job.parallel, [&] { result = runOnThreads(job, control); });

@@ -9,4 +9,8 @@ namespace coastmesh {
 // InputError, Cancelled, BadMesh.
 MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control = {});
 
+// The same on the threads at hand, for jobs that are done side by side: to be called within `withThreads`. Jobs that
+// read files are not to be done so, as libraries that read some formats cannot.
+MeshJobResult runMeshJobHere(const MeshJob& job, const JobControl& control = {});
+
 }  // namespace coastmesh

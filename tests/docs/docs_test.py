@@ -36,7 +36,7 @@ def blocks(path):
 
 
 # Schedulers that are seldom installed, as far as the pages go: sbatch runs the tasks of the array that the script asks for,
-# parallel a command for each word behind ":::".
+# parallel, where GNU's is not installed, a command for each word behind ":::".
 SBATCH = """#!/bin/bash
 set -u
 script=${!#}
@@ -54,6 +54,13 @@ for word in "${@:2}"; do "${command[@]//\\{\\}/$word}" || exit; done
 """
 
 
+def has_gnu_parallel():
+    if not shutil.which("parallel"):
+        return False
+    said = subprocess.run(["parallel", "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    return said.stdout.startswith("GNU parallel")
+
+
 class Folder:
     """Where a page's commands are run: with data/, and with the files that examples speak of."""
 
@@ -64,7 +71,8 @@ class Folder:
         bin_folder = os.path.join(self.path, ".bin")
         os.mkdir(bin_folder)
         os.symlink(PROGRAM, os.path.join(bin_folder, "coastmesh"))
-        for name, text in (("sbatch", SBATCH), ("parallel", PARALLEL)):
+        stubs = [("sbatch", SBATCH)] if has_gnu_parallel() else [("sbatch", SBATCH), ("parallel", PARALLEL)]
+        for name, text in stubs:
             with open(os.path.join(bin_folder, name), "w", encoding="utf-8") as stub:
                 stub.write(text)
             os.chmod(stub.name, 0o755)
@@ -112,6 +120,8 @@ class GuideTest(unittest.TestCase):
                     self.require_module()
                     folder.run(text, (PYTHON, "-c"))
                     ran += 1
+                elif words == ["dask"]:
+                    ran += self.run_dask(folder, name, text)
                 continue
             if words == ["qgis"]:
                 if not (shutil.which("qgis_process.bin") or shutil.which("qgis_process")):
@@ -125,6 +135,17 @@ class GuideTest(unittest.TestCase):
             folder.run(text)
             ran += 1
         return folder, ran
+
+    def run_dask(self, folder, name, text):
+        """As a script, which the processes that Dask starts can read; 1 where it was run."""
+        has_dask = subprocess.run([PYTHON, "-c", "import dask, dask.multiprocessing"], capture_output=True, check=False)
+        if has_dask.returncode != 0 or not glob.glob(os.path.join(MODULES, "coastmesh", "_coastmesh*")):
+            print(f"{name}: not run, there is no Dask, or no Python module:\n{text}")
+            return 0
+        with open(os.path.join(folder.path, "with_dask.py"), "w", encoding="utf-8") as script:
+            script.write(text)
+        folder.dask_said = folder.run("with_dask.py", (PYTHON,))
+        return 1
 
     def require_module(self):
         if not glob.glob(os.path.join(MODULES, "coastmesh", "_coastmesh*")):
@@ -178,6 +199,15 @@ class GuideTest(unittest.TestCase):
         folder.run("coastmesh mesh data/samples/finnish_lakes.geojson data/samples/english_lakes.geojson -o whole.nc "
                    "&& cmp whole.nc gathered.nc && cmp lakes.gpkg gathered.gpkg "
                    "&& coastmesh mesh data/samples/finnish_lakes.geojson -o whole.nc --overwrite && cmp whole.nc finnish.nc")
+        # A file for each lake, as it would be alone.
+        each = json.loads(read(os.path.join(folder.path, "each.json")))
+        self.assertEqual(each["per_feature"], {"made": 6, "short": 0, "skipped": 0, "refused": 0})
+        for lake in each["features"]:
+            folder.run(f"coastmesh mesh data/samples/finnish_lakes.geojson --where 'FID = {lake['fid']}' -o one.nc --overwrite "
+                       f"&& cmp one.nc '{lake['outputs'][0]}'")
+        if hasattr(folder, "dask_said"):
+            counts = [json.loads(folder.run(f"coastmesh info --json '{lake['name']}.nc'"))["triangles"] for lake in each["features"]]
+            self.assertEqual(folder.dask_said.strip(), str(tuple(counts)))
         # A shard that was lost is made again, the others are not.
         folder.run("rm lakes-3.shard gathered.nc && touch -d 2000-01-01 lakes-*.shard && sbatch lakes.sbatch "
                    "&& test lakes-3.shard -nt lakes-1.shard && test ! lakes-2.shard -nt lakes-1.shard "

@@ -198,6 +198,8 @@ def cases():
         "--mark-pieces": Case(),
         "--partition": Case("3"),
         "--shard": Case("2/2", input="two.geojson"),
+        "--per-feature": Case(extra=["--output", "lake-{}.nc"]),
+        "--name-field": Case("name", extra=["--per-feature", "--output", "lake-{}.nc"]),
         "--skip-existing": Case(exists=["out.nc"]),
         "--threads": Case("1", report="threads"),
         "--report": Case("report2.json"),

@@ -42,6 +42,9 @@ RUNS = {
     "refused": ("mesh_report", 1, "mesh made/touching.geojson --size 1 --max-vertices 1000 -o none.nc"),
     "shard": ("mesh_report", 0, "mesh data/samples/finnish_lakes.geojson --shard 1/1 -o one.shard"),
     "gathered": ("mesh_report", 0, "gather one.shard -o gathered.nc"),
+    "each": ("per_feature_report", 0, "mesh data/samples/finnish_lakes.geojson --per-feature -o lake-{}.nc"),
+    "some": ("per_feature_report", 0, "mesh data/samples/finnish_lakes.geojson --per-feature --shard 1/2 --skip-existing "
+             "-o lake-{}.nc"),
     "clean": ("clean_report", 0, "clean data/samples/belgium_luxembourg.geojson -o clean.gpkg"),
     "partition": ("partition_report", 0, "partition lake.nc 4 -o lake.prop -o parts/partmesh.txt"),
 }
@@ -151,7 +154,7 @@ class ReportSchemaTest(unittest.TestCase):
                 self.assertFalse(validator(kind).is_valid({k: v for k, v in report.items() if k != key}), key)
 
     def test_every_key_that_it_names_is_seen_in_a_run(self):
-        for kind in ("mesh_report", "clean_report", "partition_report"):
+        for kind in ("mesh_report", "per_feature_report", "clean_report", "partition_report"):
             seen = {key for of_kind, report in self.reports.values() if of_kind == kind for key in keys_of(report)}
             unseen = set(named_keys(SCHEMA["$defs"][kind])) - seen
             # What needs an input that no short run is: a triangle turned over on the ground.

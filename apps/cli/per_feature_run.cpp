@@ -1,0 +1,365 @@
+#include "apps/cli/per_feature_run.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/feature_names.hpp"
+#include "apps/cli/partition_outputs.hpp"
+#include "apps/cli/progress.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/cli/shard_file.hpp"
+#include "apps/job/deal_groups.hpp"
+#include "apps/job/mesh_job.hpp"
+#include "apps/job/stopwatch.hpp"
+#include "apps/report/mesh_warnings.hpp"
+#include "apps/report/per_feature_report.hpp"
+#include "gis/error.hpp"
+#include "gis/format/grid_io.hpp"
+#include "gis/geometry/box.hpp"
+#include "parallel/workers.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlaceOfName = "{}";
+
+std::string named(std::string path, const std::string& name) {
+  for (std::size_t at = 0; (at = path.find(kPlaceOfName, at)) != std::string::npos; at += name.size())
+    path.replace(at, 2, name);
+  return path;
+}
+
+// Of what does not go together with a mesh for each feature.
+void requirePossible(const MeshRunUsage& usage) {
+  const MeshJob& job = usage.mesh.job;
+  const FrameOptions& frame = job.input.frame;
+  const bool framed = frame.box || frame.water_at || !job.input.clip.empty();
+  if (framed || (frame.side != DomainSide::Auto && frame.side != DomainSide::Inside))
+    throw OptionError(
+        "--per-feature meshes the inside of each feature: leave out --domain, --bbox, --clip and --water-at");
+  if (job.input.dissolve) throw OptionError("--per-feature and --dissolve: leave out one of them");
+  if (!usage.edits.empty()) throw OptionError("--edits is of one mesh: leave it out with --per-feature");
+  if (usage.report == "-" && usage.progress == "json")
+    throw OptionError("--report - and --progress json both write to standard output: give the report a file");
+  for (const std::string& file : job.input.files)
+    if (fs::path(file).extension() == ".poly")
+      throw OptionError("'" + file + "' is a ready plane graph without features: leave out --per-feature");
+  for (const std::string& output : usage.outputs) {
+    if (isShardFile(output))
+      throw OptionError("'" + output + "': --per-feature writes no .shard; gather has nothing to do");
+    if (fs::path(output).filename().string().find(kPlaceOfName) == std::string::npos ||
+        fs::path(output).parent_path().string().find(kPlaceOfName) != std::string::npos)
+      throw OptionError(
+          "--output " + output +
+          ": with --per-feature a file's name has to say by {} where each feature's goes, such as lake-{}.nc");
+  }
+}
+
+// A feature that is this run's to mesh.
+struct Planned {
+  std::size_t feature = 0;  // in the coastline
+  std::size_t points = 0;
+  Box box;
+  FeatureOutcome outcome;
+};
+
+bool isArea(const Feature& feature) { return feature.use == FeatureUse::Area && !feature.polygons.empty(); }
+
+Box boxOf(const Feature& feature) {
+  Box box;
+  const auto add = [&box](const std::vector<Point>& points) {
+    for (const Point& p : points) box.add(p);
+  };
+  for (const Polygon& polygon : feature.polygons) add(polygon.outer);
+  for (const auto& line : feature.lines) add(line);
+  add(feature.points);
+  return box;
+}
+
+bool areThere(const std::vector<std::string>& paths) {
+  return std::ranges::all_of(paths, [](const std::string& path) {
+    std::error_code error;
+    return fs::exists(path, error);
+  });
+}
+
+// Those of this run's shard, in the input's order, named.
+std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline, const Run& run) {
+  std::vector<const Feature*> features;
+  std::vector<std::size_t> points, indices;
+  for (std::size_t i = 0; i < coastline.features.size(); ++i) {
+    const Feature& feature = coastline.features[i];
+    if (!isArea(feature)) continue;
+    features.push_back(&feature);
+    points.push_back(pointsOf(feature));
+    indices.push_back(i);
+  }
+  const std::vector<std::string> names = namesOfFeatures(features, usage.name_field);
+  const auto [shard, shards] = shardOf(usage.shard);
+  const std::vector<std::uint32_t> shard_of = dealGroups(points, shards);
+  std::vector<Planned> planned;
+  std::vector<OptionTable::NamedOutput> files;
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    if (shard_of[f] != shard) continue;
+    Planned one{indices[f], points[f], boxOf(*features[f]), {}};
+    one.outcome.name = names[f];
+    one.outcome.source = features[f]->source;
+    one.outcome.fid = features[f]->fid;
+    for (const std::string& output : usage.outputs) {
+      const std::string path = named(output, names[f]);
+      one.outcome.outputs.push_back(path);
+      files.push_back({"--output", path, filesOf(gridFormatFor(path, usage.format), path)});
+    }
+    if (usage.skip_existing && !usage.overwrite && areThere(one.outcome.outputs))
+      one.outcome.state = FeatureState::Skipped;
+    planned.push_back(std::move(one));
+  }
+  std::vector<OptionTable::NamedOutput> all = files;
+  if (!usage.report.empty() && usage.report != "-") all.push_back({"--report", usage.report, {{usage.report}, {}, {}}});
+  requireOutputsApart(all, run.options.inputs());
+  if (!usage.overwrite && !usage.skip_existing)
+    for (const OptionTable::NamedOutput& output : files)
+      for (const std::string& file : output.files.targets)
+        if (areThere({file})) throw OutputError("'" + file + "' exists; give --overwrite, or --skip-existing to go on");
+  return planned;
+}
+
+// Features that are not meshed themselves: constraints, regions, lines that say types of boundaries.
+struct Beside {
+  std::vector<std::size_t> indices;
+  std::vector<Box> boxes;
+};
+
+Beside besideAreas(const Coastline& coastline) {
+  Beside beside;
+  for (std::size_t i = 0; i < coastline.features.size(); ++i) {
+    if (isArea(coastline.features[i])) continue;
+    beside.indices.push_back(i);
+    beside.boxes.push_back(boxOf(coastline.features[i]));
+  }
+  return beside;
+}
+
+// The feature alone, with what of the others may concern it, in the input's order.
+std::shared_ptr<const Coastline> alone(const Coastline& all, const Beside& beside, const Planned& one) {
+  std::vector<std::size_t> members{one.feature};
+  for (std::size_t b = 0; b < beside.indices.size(); ++b)
+    if (beside.boxes[b].meets(one.box)) members.push_back(beside.indices[b]);
+  std::ranges::sort(members);
+  auto coastline = std::make_shared<Coastline>();
+  coastline->crs = all.crs;
+  for (const std::size_t member : members) coastline->features.push_back(all.features[member]);
+  return coastline;
+}
+
+// How far all are, weighed by their points.
+class Shares {
+ public:
+  Shares(const std::vector<Planned>& planned, ProgressDisplay& display) : shares_(planned.size()), display_(display) {
+    for (const Planned& one : planned) weights_.push_back(one.points);
+    total_ = std::max(1.0, static_cast<double>(std::accumulate(weights_.begin(), weights_.end(), std::size_t{0})));
+  }
+  void report(std::size_t i, double share) {
+    const std::lock_guard lock(mutex_);
+    if (!(share > shares_[i])) return;
+    done_ += (share - shares_[i]) * static_cast<double>(weights_[i]);
+    shares_[i] = share;
+    display_.show("refine", std::min(1.0, done_ / total_));
+  }
+
+ private:
+  std::vector<std::size_t> weights_;
+  std::vector<double> shares_;
+  ProgressDisplay& display_;
+  std::mutex mutex_;
+  double total_ = 1.0, done_ = 0.0;
+};
+
+// Whether its jobs read files, which they can only one after another.
+bool readsFiles(const MeshJob& job) {
+  const BoundaryOptions& boundaries = job.finish.boundaries;
+  const SizeOptions& sizes = job.sizes;
+  return !job.finish.depth.files.empty() || !boundaries.files.empty() || !boundaries.inputs.empty() ||
+         !sizes.features.empty() || !sizes.rasters.empty() || !sizes.bathymetry.empty() || !sizes.passages.empty() ||
+         !sizes.barriers.empty();
+}
+
+// Meshes and writes features; each call is for another one, from any thread.
+class Maker {
+ public:
+  Maker(const MeshRunUsage& usage, const Coastline& coastline, const MeshJob& job, const PartitionOptions& partition,
+        Run& run, Shares& shares, std::function<bool()> cancelled)
+      : usage_(usage),
+        coastline_(coastline),
+        beside_(besideAreas(coastline)),
+        job_(job),
+        partition_(partition),
+        run_(run),
+        shares_(shares),
+        cancelled_(std::move(cancelled)) {}
+
+  void make(std::size_t i, Planned& one) {
+    FeatureOutcome& outcome = one.outcome;
+    MeshJob job = job_;
+    job.input.ready = alone(coastline_, beside_, one);
+    const JobControl control{cancelled_, [this, i](std::string_view phase, double share) {
+                               if (phase == "refine") shares_.report(i, share);
+                             }};
+    try {
+      MeshJobResult result = runMeshJobHere(job, control);
+      if (result.regions == 0) {
+        outcome.state = FeatureState::Refused;
+        outcome.reason = result.refusals.empty() ? result.last_unwanted : result.refusals.front().reason;
+      } else {
+        outcome.warnings = warningsOf(result);
+        write(outcome, result);
+        outcome.state = result.complete() ? FeatureState::Made : FeatureState::Short;
+        outcome.quality = result.quality;
+        outcome.digest = result.digest;
+      }
+    } catch (const InputError& error) {
+      outcome.state = FeatureState::Refused;
+      outcome.reason = error.what();
+    }
+    shares_.report(i, 1.0);
+  }
+
+ private:
+  // One feature at a time: libraries of formats, and the partitioner, are not for several threads. Nothing in here
+  // shares out work, or a thread might begin another feature while it holds the lock.
+  void write(FeatureOutcome& outcome, MeshJobResult& result) {
+    const std::lock_guard lock(mutex_);
+    run_.interrupt.check();
+    if (cancelled_()) throw Cancelled();
+    result.partition = partitionGrid(result.grid, partition_, inOrder);
+    RunOutputs outputs(usage_.overwrite || usage_.skip_existing, run_.inputs, run_.interrupt);
+    outputs.addGrids(outcome.outputs, usage_.format);
+    const std::vector<std::string> losses = outputs.lossWarnings(result.grid, LossesOf::Input);
+    outcome.warnings.insert(outcome.warnings.end(), losses.begin(), losses.end());
+    if (const std::string warning = outputs.depthWarning(result.grid); !warning.empty())
+      outcome.warnings.push_back(warning);
+    for (std::size_t g = 0; g < outputs.grids(); ++g) outputs.writeGrid(g, result.grid, inOrder);
+    outputs.commitAndGoOn();
+  }
+
+  const MeshRunUsage& usage_;
+  const Coastline& coastline_;
+  Beside beside_;
+  const MeshJob& job_;
+  const PartitionOptions& partition_;
+  Run& run_;
+  Shares& shares_;
+  std::function<bool()> cancelled_;
+  std::mutex mutex_;
+};
+
+void warnOf(const std::vector<FeatureOutcome>& features, Run& run) {
+  constexpr std::size_t kShown = 20;
+  std::size_t left = 0, shown = 0;
+  const auto warn = [&](const std::string& text) {
+    if (shown < kShown) run.warn(text);
+    left += shown >= kShown;
+    ++shown;
+  };
+  for (const FeatureOutcome& feature : features) {
+    if (feature.state == FeatureState::Refused) warn("left out: " + feature.reason);
+    for (const std::string& text : feature.warnings) warn(feature.name + ": " + text);
+  }
+  if (left > 0) run.warn(std::to_string(left) + " more warnings of features are not shown");
+}
+
+int exitCodeOf(const FeatureSums& sums) {
+  if (sums.refused > 0 && sums.meshed() + sums.skipped == 0) return kExitInput;
+  return sums.refused + sums.short_of > 0 ? kExitShort : kExitDone;
+}
+
+}  // namespace
+
+void declarePerFeature(OptionTable& table, MeshRunUsage& usage) {
+  table.section(Section::Output);
+  table.flag(
+      {"--per-feature", "A mesh for each feature"}, usage.per_feature,
+      "mesh each feature alone, into files of its own: {} in the names of outputs, such as lake-{}.nc, stands for "
+      "the feature's number, or what --name-field says. One that cannot be meshed is left out, with exit code 1; "
+      "with --skip-existing those that are there stay, with --shard only a share of them is made");
+  table
+      .text({"--name-field", "Attribute with names"}, usage.name_field, "NAME",
+            "the attribute that {} stands for, made safe for names of files; a feature without a value goes by its "
+            "number")
+      .needs({"--per-feature"});
+}
+
+int runPerFeature(const MeshRunUsage& usage, Run& run) {
+  requirePossible(usage);
+  const PartitionOptions partition = partitionFor(usage.parts, usage.outputs, usage.format);
+  const Stopwatch whole;
+  ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
+  const Interrupt& interrupt = run.interrupt;
+  const auto cancelled = [&interrupt, &display] { return interrupt.requested() || display.abandoned(); };
+  // Above all the report's place is looked at: nothing is made that it cannot tell of.
+  RunOutputs report(usage.overwrite || usage.skip_existing, run.inputs, run.interrupt);
+  report.addReport(usage.report);
+  ReadReport read;
+  PerFeatureTimes seconds;
+  display.show("read", 0.0);
+  const Coastline coastline = readInput(usage.mesh.job.input, read);
+  std::vector<Planned> planned = plan(usage, coastline, run);
+  seconds.read = whole.seconds();
+  run.interrupt.check();
+  display.show("read", 1.0);
+
+  MeshJob job = usage.mesh.job;
+  if (read.boundary_types) job.finish.boundaries.inputs = job.input.files;
+  Shares shares(planned, display);
+  Maker maker(usage, coastline, job, partition, run, shares, cancelled);
+  std::vector<std::size_t> order;  // the large ones first
+  for (std::size_t i = 0; i < planned.size(); ++i)
+    if (planned[i].outcome.state != FeatureState::Skipped) order.push_back(i);
+  std::ranges::stable_sort(order, std::greater(), [&planned](std::size_t i) { return planned[i].points; });
+  int threads = 1;
+  withThreads(job.parallel, [&] {
+    threads = threadCount();
+    if (readsFiles(job)) {
+      for (const std::size_t i : order) maker.make(i, planned[i]);
+    } else {
+      forEachItem(order.size(), RunControl{cancelled, {}},
+                  [&](std::size_t i) { maker.make(order[i], planned[order[i]]); });
+    }
+  });
+  display.clear();
+
+  std::vector<FeatureOutcome> features;
+  for (Planned& one : planned) features.push_back(std::move(one.outcome));
+  for (const std::string& warning : read.warnings) run.warn(warning);
+  warnOf(features, run);
+  seconds.total = whole.seconds();
+  report.writeReport(perFeatureReport(job.input.files, read, coastline.crs, features, run.warnings, seconds, threads));
+  const FeatureSums sums = sumsOf(features);
+  report.commit();
+  const int code = exitCodeOf(sums);
+  if (code == kExitInput) {
+    throw InputError(features.size() == 1
+                         ? features.front().reason
+                         : "none of the " + std::to_string(features.size()) + " features can be meshed");
+  }
+  display.show("done", 1.0);
+  display.clear();
+  if (!usage.quiet && usage.progress != "json" && usage.report != "-")
+    std::fputs(
+        (perFeatureSummary(features, seconds.total) + (usage.report.empty() ? "" : "wrote " + usage.report + "\n"))
+            .c_str(),
+        stdout);
+  return code;
+}
+
+}  // namespace coastmesh

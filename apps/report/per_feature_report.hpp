@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/job/mesh_job_result.hpp"
+
+namespace coastmesh {
+
+enum class FeatureState {
+  Made,
+  Short,    // made, but short of what was asked
+  Skipped,  // its outputs were there already
+  Refused,  // no mesh can be made of it
+};
+std::string_view toString(FeatureState state);
+
+// What became of one feature of many that are meshed apart.
+struct FeatureOutcome {
+  std::string name, source;
+  std::int64_t fid = 0;
+  std::vector<std::string> outputs;
+  FeatureState state = FeatureState::Made;
+  std::string reason;  // of a refusal
+  MeshQuality quality;
+  std::uint64_t digest = 0;
+  std::vector<std::string> warnings;
+};
+
+struct FeatureSums {
+  std::uint64_t made = 0, short_of = 0, skipped = 0, refused = 0;  // `made`: those that are short not among them
+  MeshQuality quality;                                             // of what was meshed
+
+  std::uint64_t meshed() const { return made + short_of; }
+};
+FeatureSums sumsOf(const std::vector<FeatureOutcome>& features);
+
+// The report as JSON text, its keys as apps/README.md documents them. `seconds` by the clock.
+struct PerFeatureTimes {
+  double read = 0.0, total = 0.0;
+};
+std::string perFeatureReport(const std::vector<std::string>& files, const ReadReport& read, const Crs& crs,
+                             const std::vector<FeatureOutcome>& features, const std::vector<std::string>& warnings,
+                             const PerFeatureTimes& seconds, int threads);
+
+// A few lines for people.
+std::string perFeatureSummary(const std::vector<FeatureOutcome>& features, double seconds);
+
+}  // namespace coastmesh

@@ -1,0 +1,235 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+using Names = std::set<std::string>;
+
+// Squares of a kilometre and more; the first and the second share a side.
+class PerFeature : public ProgramTest {
+ protected:
+  static Json square(double west, double south, double side, const Json& properties) {
+    const Json ring = {
+        {west, south}, {west + side, south}, {west + side, south + side}, {west, south + side}, {west, south}};
+    return {
+        {"type", "Feature"}, {"properties", properties}, {"geometry", {{"type", "Polygon"}, {"coordinates", {ring}}}}};
+  }
+  std::string writeFeatures(const Json& features, const std::string& name = "lakes.geojson") const {
+    return write(name, Json{{"type", "FeatureCollection"}, {"features", features}}.dump());
+  }
+  std::string lakes() const {
+    return writeFeatures({square(5, 50, 0.01, {{"name", "West/Lake"}}), square(5.01, 50, 0.01, {{"name", "Müggelsee"}}),
+                          square(6, 50, 0.03, {{"name", nullptr}}), square(7, 50, 0.02, {{"name", " .hidden "}})});
+  }
+  // A sliver without area in place of the third.
+  std::string lakesWithOneThatCannotBe() const {
+    Json bad = square(6, 50, 0.03, {{"name", "flat"}});
+    bad["geometry"]["coordinates"] = {{{6, 50}, {6.1, 50}, {6, 50}, {6, 50}}};
+    return writeFeatures({square(5, 50, 0.01, {{"name", "a"}}), square(5.5, 50, 0.01, {{"name", "b"}}), bad,
+                          square(7, 50, 0.02, {{"name", "c"}})});
+  }
+  ProgramRun mesh(const std::string& input, std::vector<std::string> options) const {
+    options.insert(options.begin(), {"mesh", input, "--per-feature"});
+    return runProgram(options);
+  }
+  Names made(const std::string& ending) const {
+    Names found;
+    for (const std::string& name : names())
+      if (name.ends_with(ending)) found.insert(name);
+    return found;
+  }
+  void expectRefused(const ProgramRun& run, int code, const std::string& why) const {
+    EXPECT_EQ(run.code, code) << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr(why));
+  }
+};
+
+TEST_F(PerFeature, EachFileIsThatOfTheFeatureAlone) {
+  const std::string input = lakes();
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--threads", "1"},
+                                                  {"--threads", "4", "--size-max", "300"},
+                                                  {"--size", "200", "--target", "fvcom"}}) {
+    std::vector<std::string> words{"-o", file("lake-{}.nc"), "-o", file("lake-{}.gpkg"), "--overwrite", "--quiet"};
+    words.insert(words.end(), options.begin(), options.end());
+    const ProgramRun run = mesh(input, words);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_EQ(run.output, "");
+    for (int fid = 0; fid < 4; ++fid) {
+      std::vector<std::string> alone{"mesh",        input,          "--where", "FID = " + std::to_string(fid),
+                                     "-o",          file("one.nc"), "-o",      file("one.gpkg"),
+                                     "--overwrite", "--quiet"};
+      alone.insert(alone.end(), options.begin(), options.end());
+      ASSERT_EQ(runProgram(alone).code, 0);
+      const std::string name = "lake-" + std::to_string(fid);
+      EXPECT_TRUE(readText(file("one.nc")) == readText(file(name + ".nc"))) << name;
+      EXPECT_TRUE(readText(file("one.gpkg")) == readText(file(name + ".gpkg"))) << name;
+    }
+  }
+}
+
+TEST_F(PerFeature, NamesAreMadeSafeAndNumbersStandInForThem) {
+  const ProgramRun run = mesh(lakes(), {"-o", file("{}.2dm"), "--name-field", "name"});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_EQ(made(".2dm"), (Names{"West_Lake.2dm", "Müggelsee.2dm", "2.2dm", "hidden.2dm"}));
+}
+
+TEST_F(PerFeature, NumbersOfSeveralFilesStandAfterTheirNames) {
+  const std::string more = writeFeatures(Json::array({square(9, 50, 0.01, {{"name", "x"}})}), "ponds.geojson");
+  EXPECT_EQ(mesh(lakes(), {more, "-o", file("{}.2dm")}).code, 0);
+  EXPECT_EQ(made(".2dm"), (Names{"lakes-0.2dm", "lakes-1.2dm", "lakes-2.2dm", "lakes-3.2dm", "ponds-0.2dm"}));
+}
+
+TEST_F(PerFeature, TwoOfOneNameAreRefusedBeforeAnythingIsMade) {
+  const auto twice = [this](const char* first, const char* second) {
+    return writeFeatures({square(5, 50, 0.01, {{"name", first}}), square(6, 50, 0.01, {{"name", "other"}}),
+                          square(7, 50, 0.01, {{"name", second}})});
+  };
+  for (const auto& [first, second] :
+       {std::pair("Long Lake", "Long Lake"), std::pair("a/b", "a:b"), std::pair("Lake", "LAKE"), std::pair("2", "")}) {
+    const ProgramRun run = mesh(twice(first, second), {"-o", file("{}.2dm"), "--name-field", "name"});
+    expectRefused(run, 3, "feature 0 of '");
+    EXPECT_THAT(run.errors, HasSubstr("feature 2 of '"));
+    EXPECT_EQ(names(), Names{"lakes.geojson"});
+  }
+}
+
+TEST_F(PerFeature, OneThatCannotBeMeshedIsLeftOutAndTheReportSumsUp) {
+  const ProgramRun run = mesh(lakesWithOneThatCannotBe(), {"-o", file("{}.2dm"), "--report", file("r.json")});
+  EXPECT_EQ(run.code, 1) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("coastmesh: warning: left out: "));
+  EXPECT_THAT(run.output, HasSubstr("3 of 4 features meshed, 1 left out"));
+  EXPECT_EQ(made(".2dm"), (Names{"0.2dm", "1.2dm", "3.2dm"}));
+  const Json report = Json::parse(readText(file("r.json")));
+  EXPECT_EQ(report["per_feature"], (Json{{"made", 3}, {"short", 0}, {"skipped", 0}, {"refused", 1}}));
+  std::uint64_t vertices = 0, triangles = 0;
+  double least = 180.0;
+  for (const char* name : {"0.2dm", "1.2dm", "3.2dm"}) {
+    const Json info = Json::parse(runProgram({"info", file(name), "--json", "--assume-crs", "EPSG:4326"}).output);
+    vertices += info["nodes"].get<std::uint64_t>();
+    triangles += info["triangles"].get<std::uint64_t>();
+    least = std::min(least, info["min_angle_deg"].get<double>());
+  }
+  EXPECT_EQ(report["mesh"]["vertices"], vertices);
+  EXPECT_EQ(report["mesh"]["triangles"], triangles);
+  EXPECT_NEAR(report["mesh"]["min_angle_deg"].get<double>(), least, 0.01);
+  const Json& refused = report["features"][2];
+  EXPECT_EQ(refused["state"], "refused");
+  EXPECT_EQ(refused["fid"], 2);
+  EXPECT_FALSE(refused["reason"].get<std::string>().empty());
+  EXPECT_TRUE(refused["outputs"].empty());
+}
+
+TEST_F(PerFeature, WhereNoneCanBeMeshedItIsTheInputsFault) {
+  Json bad = square(6, 50, 0.03, {{"name", "flat"}});
+  bad["geometry"]["coordinates"] = {{{6, 50}, {6.1, 50}, {6, 50}, {6, 50}}};
+  const ProgramRun run = mesh(writeFeatures({bad, bad}), {"-o", file("{}.2dm")});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("none of the 2 features can be meshed"));
+  EXPECT_EQ(names(), Names{"lakes.geojson"});
+}
+
+TEST_F(PerFeature, BoundsThatAreMissedMakeExitCodeOne) {
+  const ProgramRun run =
+      mesh(lakes(), {"-o", file("{}.2dm"), "--size", "50", "--max-vertices", "40", "--report", file("r.json")});
+  EXPECT_NE(run.code, 0);
+  const Json sums = Json::parse(readText(file("r.json")))["per_feature"];
+  EXPECT_EQ(sums["made"], 0);
+  EXPECT_EQ(sums["short"].get<int>() + sums["refused"].get<int>(), 4);
+}
+
+TEST_F(PerFeature, WhatIsThereStaysAndIsGoneOnWith) {
+  const std::string input = lakes();
+  ASSERT_EQ(mesh(input, {"-o", file("{}.nc"), "-o", file("{}.2dm"), "--quiet"}).code, 0);
+  const std::string first = readText(file("1.nc"));
+  std::filesystem::remove(file("1.nc"));  // one of its two
+  write("2.nc", "precious");
+  // Said plainly, nothing is replaced.
+  const ProgramRun plain = mesh(input, {"-o", file("{}.nc"), "-o", file("{}.2dm")});
+  expectRefused(plain, 4, "--skip-existing");
+  EXPECT_EQ(made(".nc").count("1.nc"), 0u);
+  const ProgramRun on = mesh(input, {"-o", file("{}.nc"), "-o", file("{}.2dm"), "--skip-existing"});
+  EXPECT_EQ(on.code, 0) << on.errors;
+  EXPECT_THAT(on.output, HasSubstr("1 of 4 features meshed, 3 were there already"));
+  EXPECT_TRUE(readText(file("1.nc")) == first);
+  EXPECT_EQ(readText(file("2.nc")), "precious");
+  ASSERT_EQ(mesh(input, {"-o", file("{}.nc"), "-o", file("{}.2dm"), "--overwrite", "--quiet"}).code, 0);
+  EXPECT_NE(readText(file("2.nc")), "precious");
+}
+
+TEST_F(PerFeature, SharesAreMadeOnceEach) {
+  const std::string input = lakes();
+  std::size_t before = 0;
+  for (int shard = 1; shard <= 3; ++shard) {
+    EXPECT_EQ(mesh(input, {"-o", file("{}.2dm"), "--shard", std::to_string(shard) + "/3", "--quiet"}).code, 0);
+    const std::size_t now = made(".2dm").size();
+    EXPECT_GT(now, before);
+    before = now;
+  }
+  EXPECT_EQ(made(".2dm").size(), 4u);
+}
+
+// What was finished when the run was stopped is whole, nothing else is left, and the same line makes the rest.
+TEST_F(PerFeature, StoppedAndGoneOnWithItIsTheWhole) {
+  Json features = Json::array();
+  for (int i = 0; i < 40; ++i) features.push_back(square(5 + 0.1 * i, 50, 0.02, Json::object()));
+  const std::string input = writeFeatures(features);
+  const std::vector<std::string> options{"-o", file("{}.2dm"), "--size", "25", "--threads", "2", "--skip-existing"};
+  std::vector<std::string> words{"mesh", input, "--per-feature", "--progress", "json"};
+  words.insert(words.end(), options.begin(), options.end());
+  // Some are done then.
+  const ProgramRun stopped = runAndSignal(words, R"("phase":"refine","share":0.3)", SIGTERM);
+  EXPECT_EQ(stopped.code, 5) << stopped.errors;
+  const Names whole = made(".2dm");
+  EXPECT_GT(whole.size(), 0u);
+  EXPECT_LT(whole.size(), 40u);
+  for (const std::string& name : names()) EXPECT_FALSE(name.starts_with(".")) << name;
+  const ProgramRun rest = mesh(input, options);
+  EXPECT_EQ(rest.code, 0) << rest.errors;
+  EXPECT_THAT(rest.output, HasSubstr(std::to_string(whole.size()) + " were there already"));
+  ASSERT_EQ(made(".2dm").size(), 40u);
+  std::size_t compared = 0;
+  for (const std::string& name : whole) {
+    if (++compared > 5) break;
+    ASSERT_EQ(runProgram({"mesh", input, "--where", "FID = " + name.substr(0, name.find('.')), "-o", file("one.2dm"),
+                          "--size", "25", "--overwrite", "--quiet"})
+                  .code,
+              0);
+    EXPECT_TRUE(readText(file("one.2dm")) == readText(file(name))) << name;
+  }
+}
+
+TEST_F(PerFeature, WhatDoesNotGoTogetherIsRefused) {
+  const std::string input = lakes();
+  const std::string out = file("{}.2dm");
+  expectRefused(mesh(input, {"-o", file("a.2dm")}), 2, "{}");
+  expectRefused(mesh(input, {"-o", file("{}/a.2dm")}), 2, "{}");
+  expectRefused(mesh(input, {"-o", file("{}.shard")}), 2, ".shard");
+  expectRefused(mesh(input, {"-o", out, "--name-field", "nmae"}), 2, "there are name");
+  expectRefused(mesh(input, {"-o", out, "--dissolve"}), 2, "--dissolve");
+  expectRefused(mesh(input, {"-o", out, "--edits", file("e.gpkg")}), 2, "--edits");
+  expectRefused(mesh(input, {"-o", out, "--bbox", "5,50,6,51"}), 2, "--bbox");
+  expectRefused(mesh(input, {"-o", out, "--domain", "globe"}), 2, "--domain");
+  expectRefused(mesh(input, {"-o", file("none/{}.2dm")}), 4, "none");
+  expectRefused(mesh(input, {"-o", out, "--report", file("3.2dm"), "--overwrite"}), 2, "would both write");
+  expectRefused(mesh(input, {"-o", file("{}.geojson"), "--name-field", "name", "--overwrite", "--quiet",
+                             writeFeatures(Json::array({square(1, 1, 0.1, {{"name", "lakes"}})}), "more.geojson")}),
+                2, "input and output at once");
+  expectRefused(mesh(write("a.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n"), {"-o", out}), 2,
+                "plane graph");
+  EXPECT_TRUE(made(".2dm").empty());
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test
