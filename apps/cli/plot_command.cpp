@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "apps/cli/commands.hpp"
@@ -9,6 +10,7 @@
 #include "apps/cli/run_outputs.hpp"
 #include "apps/plot/plot_globe.hpp"
 #include "apps/plot/plot_mesh.hpp"
+#include "apps/plot/plot_page.hpp"
 
 namespace coastmesh {
 
@@ -32,16 +34,37 @@ std::string storeBox(const std::vector<double>& sides, PlotOptions& plot) {
   return {};
 }
 
+// What a page, in which one moves about, has no use for.
+void refusePictureOptions(const OptionTable& options) {
+  for (const char* name : {"--size", "--bbox", "--degrees"}) {
+    if (!options.given(name).empty())
+      throw OptionError(std::string(name) +
+                        " is for pictures, .svg or .png: a page (.html) shows all of the mesh, and "
+                        "is as large as its window");
+  }
+}
+
 int runPlot(PlotUsage& usage, Run& run) {
   usage.plot.color = plotColorNamed(usage.color);
   const std::optional<GlobeView> globe = globeViewNamed(usage.view);
-  requirePlotFormat(usage.output);
+  const bool page = isPagePath(usage.output);
+  if (page)
+    refusePictureOptions(run.options);
+  else
+    requirePlotFormat(usage.output);
   RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
   StagedFiles& picture = outputs.addFile(usage.output);
   const Grid grid = readMeshFile(usage.mesh, run);
   run.interrupt.check();
+  PageOptions in_page{.name = std::filesystem::path(usage.mesh.path).filename().string(),
+                      .edges = usage.plot.edges,
+                      .min_angle_deg = usage.plot.min_angle_deg,
+                      .view = globe};
+  if (!run.options.given("--color").empty()) in_page.color = usage.plot.color;
   picture.make([&](const std::string& path) {
-    if (globe)
+    if (page)
+      plotPage(grid, in_page, path);
+    else if (globe)
       plotGlobe(grid, usage.plot, *globe, path);
     else
       plotMesh(grid, usage.plot, path);
@@ -57,7 +80,8 @@ Command declarePlot(CLI::App& root) {
   OptionTable table = commandOptions("plot", "Draw a mesh");
   declareMeshFile(table, "MESH", "mesh to draw", usage->mesh);
   table.section(Section::Output);
-  table.output({"-o,--output", "Picture"}, usage->output, {.required = true}, "picture to write: .svg or .png");
+  table.output({"-o,--output", "Picture"}, usage->output, {.required = true},
+               "picture to write, .svg or .png, or a page for a browser, .html, to pan, zoom and pick numbers from");
   table.section(Section::Picture);
   table.integer({"--size", "Size in pixels"}, usage->plot.size_px, "PX", PlotOptions::kLeastSize,
                 PlotOptions::kMostSize, "longer side of the map");
@@ -71,9 +95,9 @@ Command declarePlot(CLI::App& root) {
              "or 0");
   const auto on_plane = [usage = usage.get()] { return usage->view == "plane"; };
   table.option("--bbox").needs(on_plane, "with a globe as --view");
-  table.choice(
-      {"--color", "Colour of triangles"}, usage->color, plotColorNames(),
-      "what the triangles' colour shows; quality is 4 sqrt(3) area / sum of squared edges, 1 for equilateral ones");
+  table.choice({"--color", "Colour of triangles"}, usage->color, plotColorNames(),
+               "what the triangles' colour shows, in a page at first (angle without this option); quality is 4 sqrt(3) "
+               "area / sum of squared edges, 1 for equilateral ones");
   table.flag({"--edges,!--no-edges", "Draw edges"}, usage->plot.edges, "draw the triangles' edges");
   table.flag(
       {"--degrees", "Dots on irregular nodes"}, usage->plot.degrees,
@@ -85,6 +109,7 @@ Command declarePlot(CLI::App& root) {
   table.section(Section::Output);
   table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace a file that exists");
   table.example("coastmesh plot lake.nc -o lake.png --color angle", "a picture coloured by the smallest angle");
+  table.example("coastmesh plot lake.nc -o lake.html", "a page to look around in, which needs no network");
   table.example("coastmesh plot lake.nc -o shapes.png --color quality --degrees", "how regular it is");
   table.example("coastmesh plot lake.nc -o bay.svg --bbox=-90.5,46.5,-90,47", "a part of it, as a vector drawing");
   table.example("coastmesh plot lake.nc -o globe.png --view orthographic=-60,30", "where on the globe it lies");

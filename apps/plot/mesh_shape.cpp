@@ -1,6 +1,7 @@
 #include "apps/plot/mesh_shape.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/quality.hpp"
@@ -15,6 +16,31 @@ std::vector<std::uint32_t> degreesInside(const TriMesh& mesh) {
     for (unsigned i = 0; i < 3; ++i)
       if (triangle.adj[i] == kNone) degrees[triangle.v[next3(i)]] = degrees[triangle.v[prev3(i)]] = 0;
   return degrees;
+}
+
+std::vector<std::uint32_t> partsOf(const TriMesh& mesh) {
+  constexpr std::uint32_t kNoPart = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> parts(mesh.triangles.size(), kNoPart);
+  std::uint32_t count = 0;
+  std::vector<TriId> waiting;
+  for (TriId first = 0; first < mesh.triangles.size(); ++first) {
+    if (parts[first] != kNoPart) continue;
+    parts[first] = count;
+    waiting.push_back(first);
+    while (!waiting.empty()) {
+      const TriId t = waiting.back();
+      waiting.pop_back();
+      for (const EdgeRef twin : mesh.triangles[t].adj) {
+        if (twin == kNone) continue;
+        const TriId next = triOf(twin);
+        if (parts[next] != kNoPart || mesh.regions[next] != mesh.regions[t]) continue;
+        parts[next] = count;
+        waiting.push_back(next);
+      }
+    }
+    ++count;
+  }
+  return parts;
 }
 
 double shapeQuality(const Point& a, const Point& b, const Point& c) {

@@ -312,8 +312,9 @@ class GlobePlot {
   std::vector<int> regions_;     // one a feature
 };
 
-// Above the middle of the triangles; where they go all round, above the prime meridian.
-LonLat middleOf(const Grid& grid, const std::vector<SphereVector>& places) {
+}  // namespace
+
+LonLat middleOnGlobe(const Grid& grid, const std::vector<SphereVector>& places) {
   SphereVector sum{};
   for (const auto& [a, b, c] : grid.triangles) {
     const SphereVector normal = cross(minus(places[b], places[a]), minus(places[c], places[a]));
@@ -324,8 +325,6 @@ LonLat middleOf(const Grid& grid, const std::vector<SphereVector>& places) {
   const LonLat middle = placeOf(sum);
   return {std::round(middle.lon), std::round(middle.lat)};
 }
-
-}  // namespace
 
 std::optional<GlobeView> globeViewNamed(const std::string& text) {
   if (text == "plane") return std::nullopt;
@@ -359,7 +358,7 @@ void plotGlobe(const Grid& grid, const PlotOptions& options, const GlobeView& vi
   requireColors(grid, options);
   std::vector<SphereVector> places;
   for (const Point& place : geographicNodes(grid)) places.push_back(onSphere(asLonLat(place)));
-  const LonLat above = view.above ? *view.above : middleOf(grid, places);
+  const LonLat above = view.above ? *view.above : middleOnGlobe(grid, places);
   const std::unique_ptr<GlobeChart> chart = view.all ? naturalEarthChart(above.lon) : orthographicChart(above);
   GlobePlot(grid, options, places, *chart, path).draw();
 }

@@ -2,10 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/plot/plot_mesh.hpp"
 #include "gis/crs/lon_lat.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/grid/on_sphere.hpp"
 
 namespace coastmesh {
 
@@ -19,6 +21,9 @@ struct GlobeView {
 // Reads "orthographic", "orthographic=LON,LAT", "natural-earth" or "natural-earth=LON"; none for "plane". Throws
 // OptionError for all else.
 std::optional<GlobeView> globeViewNamed(const std::string& text);
+
+// Above the middle of the triangles; where they go all round, above the prime meridian. `places`: one a node.
+LonLat middleOnGlobe(const Grid& grid, const std::vector<SphereVector>& places);
 
 // Draws the grid on a globe, its edges great circles, latitudes taken for those of a sphere; what lies beyond the
 // horizon is not seen. Of the options all but the box and the dots on nodes mean the same as for `plotMesh`; angles

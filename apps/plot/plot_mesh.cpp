@@ -237,8 +237,7 @@ class MeshPlot {
     if (!(most_step_s_ > 0.0)) throw InputError("the mesh has no depth below water, so no time step to colour it by");
   }
 
-  // Numbers the regions by their names where there are any, else the parts that hang together by edges and lie in one
-  // feature.
+  // Numbers the regions by their names where there are any, else the parts.
   void findParts() {
     if (const std::vector<std::string> names = regionNames(grid_); !names.empty()) {
       const std::vector<int> numbers = regionNumbers(grid_, names);
@@ -246,27 +245,7 @@ class MeshPlot {
         parts_.push_back(static_cast<std::uint32_t>(numbers[static_cast<std::size_t>(feature)]));
       return;
     }
-    constexpr std::uint32_t kNoPart = std::numeric_limits<std::uint32_t>::max();
-    parts_.assign(mesh_.triangles.size(), kNoPart);
-    std::uint32_t count = 0;
-    std::vector<TriId> waiting;
-    for (TriId first = 0; first < mesh_.triangles.size(); ++first) {
-      if (parts_[first] != kNoPart) continue;
-      parts_[first] = count;
-      waiting.push_back(first);
-      while (!waiting.empty()) {
-        const TriId t = waiting.back();
-        waiting.pop_back();
-        for (EdgeRef twin : mesh_.triangles[t].adj) {
-          if (twin == kNone) continue;
-          const TriId next = triOf(twin);
-          if (parts_[next] != kNoPart || mesh_.regions[next] != mesh_.regions[t]) continue;
-          parts_[next] = count;
-          waiting.push_back(next);
-        }
-      }
-      ++count;
-    }
+    parts_ = partsOf(mesh_);
   }
 
   // The range that colours show: of the triangles shown, less the few smallest.
@@ -516,7 +495,7 @@ void requireColors(const Grid& grid, const PlotOptions& options) {
 void requirePlotFormat(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".svg" && ending != ".png") {
-    throw OutputError("cannot draw '" + path + "': give it one of the endings .svg, .png");
+    throw OutputError("cannot draw '" + path + "': give it one of the endings .svg, .png, or .html for a page");
   }
 }
 

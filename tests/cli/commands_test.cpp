@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -192,6 +193,14 @@ TEST_F(Commands, PlotDraws) {
   }
   EXPECT_EQ(runProgram({"plot", mesh, "-o", file("b.svg"), "--bbox", "-87.49,41.60,-87.48,41.61"}).code, 0);
   EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.jpg")}).code, 4);
+  EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.html"), "--color", "piece"}).code, 2);  // none said
+  EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.html"), "--color", "depth"}).code, 3);
+  EXPECT_FALSE(std::filesystem::exists(file("a.html")));
+  EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.html")}).code, 0);
+  const std::string page = readText(file("a.html"));
+  EXPECT_TRUE(page.starts_with("<!doctype html>"));
+  EXPECT_TRUE(page.ends_with("</html>\n"));
+  EXPECT_EQ(page.find("{{"), std::string::npos);
 }
 
 }  // namespace

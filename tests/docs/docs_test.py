@@ -170,6 +170,11 @@ class GuideTest(unittest.TestCase):
         info = json.loads(folder.run("coastmesh info --json even.nc"))
         self.assertAlmostEqual(info["area_m2"] / 5.10065621724e14, 1.0, 9)
 
+    def test_page(self):
+        folder, ran = self.run_page("page.md")
+        self.assertEqual(ran, 2)
+        self.assertIn("</html>", read(os.path.join(folder.path, "lake.html")))
+
     def test_stable(self):
         folder, ran = self.run_page("stable.md")
         self.assertEqual(ran, 1)
