@@ -1,11 +1,15 @@
 #include "apps/cli/interrupt.hpp"
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
-#include <new>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "apps/cli/exit_codes.hpp"
@@ -17,6 +21,7 @@ namespace {
 
 constexpr auto kPatience = std::chrono::milliseconds(400);
 constexpr int kRemovalTries = 100;
+constexpr int kDepth = 4;  // folders within folders; there is one, of files that are replaced
 
 sigset_t stopSignals() {
   sigset_t signals;
@@ -25,6 +30,31 @@ sigset_t stopSignals() {
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGHUP);
   return signals;
+}
+
+// Removes a folder with the files and folders in it, and asks for no memory, as there may be none: entries are read as
+// the system gives them. True where it is not there any more.
+bool removeFolder(int above, const char* name, int depth) {
+  const int folder = openat(above, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (folder < 0) return errno == ENOENT;
+  struct Entry {
+    std::uint64_t number;
+    std::int64_t next;
+    unsigned short size;
+    unsigned char type;
+    char name[1];
+  };
+  alignas(Entry) char entries[4096];
+  for (long size = 0; (size = syscall(SYS_getdents64, folder, entries, sizeof entries)) > 0;) {
+    for (long at = 0; at < size;) {
+      const Entry& entry = *reinterpret_cast<const Entry*>(entries + at);
+      at += entry.size;
+      if (std::strcmp(entry.name, ".") == 0 || std::strcmp(entry.name, "..") == 0) continue;
+      if (unlinkat(folder, entry.name, 0) != 0 && depth > 0) removeFolder(folder, entry.name, depth - 1);
+    }
+  }
+  close(folder);
+  return unlinkat(above, name, AT_REMOVEDIR) == 0 || errno == ENOENT;
 }
 
 }  // namespace
@@ -66,11 +96,7 @@ void Interrupt::release(const std::filesystem::path& folder) noexcept {
 // Whoever holds the lock may be the one that cannot go on.
 void Interrupt::removeGuarded() noexcept {
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  try {
-    emptyGuarded();
-  } catch (const std::bad_alloc&) {
-    return;
-  }
+  emptyGuarded();
 }
 
 void Interrupt::close() {
@@ -104,11 +130,9 @@ void Interrupt::watch() {
 
 // The caller holds `mutex_`, so no folder comes under guard any more. A thread that is still writing may put another
 // file into a folder that is being emptied: hence the tries. Once a folder is gone nothing can be made in it.
-void Interrupt::emptyGuarded() {
+void Interrupt::emptyGuarded() noexcept {
   for (const auto& [given, folder] : guarded_) {
-    std::error_code error;
-    for (int i = 0; i < kRemovalTries && std::filesystem::exists(folder, error); ++i) {
-      std::filesystem::remove_all(folder, error);
+    for (int i = 0; i < kRemovalTries && !removeFolder(AT_FDCWD, folder.c_str(), kDepth); ++i) {
     }
   }
 }

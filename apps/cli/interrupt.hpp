@@ -39,7 +39,7 @@ class Interrupt {
  private:
   void watch();
   [[noreturn]] void endProcess();
-  void emptyGuarded();
+  void emptyGuarded() noexcept;
 
   std::atomic<bool> requested_{false};
   std::mutex mutex_;

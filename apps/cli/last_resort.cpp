@@ -1,12 +1,16 @@
 #include "apps/cli/last_resort.hpp"
 
 #include <cpl_error.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <atomic>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <optional>
+#include <system_error>
 
 #include "apps/cli/exit_codes.hpp"
 
@@ -16,34 +20,93 @@ namespace {
 
 Interrupt* g_interrupt = nullptr;
 std::optional<int> g_finished;
+std::atomic<bool> g_memory_lacked{false};
 
-// Without an exception it is GDAL that ends the process, which it does where memory lacks.
-bool memoryLacks() {
+constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr unsigned kSecondsToRemove = 10;  // what crashed may have left a lock closed
+
+// Which shortage an error tells of; null where it tells of none. Without an exception it is GDAL that ends the process,
+// which it does where memory lacks.
+const char* shortage() {
   const std::exception_ptr current = std::current_exception();
-  if (!current) return true;
+  if (!current) return kNoMemory;
   try {
     std::rethrow_exception(current);
   } catch (const std::bad_alloc&) {
-    return true;
+    return kNoMemory;
+  } catch (const std::system_error& error) {
+    return error.code() == std::errc::resource_unavailable_try_again ? kNoThread : nullptr;
   } catch (...) {
-    return false;
+    return nullptr;
   }
 }
 
-[[noreturn]] void endAtOnce() {
+// Nothing here asks for memory.
+void tell(const char* text) { [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text)); }
+
+void removeWhatIsHalfWritten() {
   if (g_finished) _exit(*g_finished);
-  const bool memory = memoryLacks();
   if (g_interrupt != nullptr) g_interrupt->removeGuarded();
-  std::fprintf(stderr, "coastmesh: error: %s\n",
-               memory ? kNoMemory : "this is a bug of coastmesh, please report it: an error where none may be thrown");
-  _exit(memory ? kExitInput : kExitBug);
+}
+
+[[noreturn]] void end(const char* lacking, const char* otherwise) {
+  tell("coastmesh: error: ");
+  tell(lacking != nullptr ? lacking : otherwise);
+  tell("\n");
+  _exit(lacking != nullptr ? kExitInput : kExitBug);
+}
+
+[[noreturn]] void endAtOnce() {
+  const char* const lacking = shortage();
+  removeWhatIsHalfWritten();
+  end(lacking, "this is a bug of coastmesh, please report it: an error where none may be thrown");
+}
+
+// A library that is given no memory may take no notice, or end the process itself.
+void crashed(int number) {
+  for (const int other : kCrashes) signal(other, SIG_DFL);
+  signal(SIGALRM, SIG_DFL);
+  alarm(kSecondsToRemove);
+  removeWhatIsHalfWritten();
+  const char* const lacking = g_memory_lacked || CPLGetLastErrorNo() == CPLE_OutOfMemory ? kNoMemory : nullptr;
+  rlimit core{};
+  // Whoever wants to see what it died of does so.
+  if (lacking == nullptr && getrlimit(RLIMIT_CORE, &core) == 0 && core.rlim_cur > 0) raise(number);
+  end(lacking, "this is a bug of coastmesh, or of a library, please report it: it crashed");
+}
+
+// A stack that has run over leaves no room for this one.
+void catchCrashes() {
+  static char stack[1 << 16];
+  stack_t other{};
+  other.ss_sp = stack;
+  other.ss_size = sizeof stack;
+  sigaltstack(&other, nullptr);
+  for (const int number : kCrashes) {
+    struct sigaction now {};
+    // Who looks for such errors, a sanitizer say, has its own.
+    if (sigaction(number, nullptr, &now) != 0 || now.sa_handler != SIG_DFL) continue;
+    struct sigaction wanted {};
+    wanted.sa_handler = crashed;
+    wanted.sa_flags = SA_ONSTACK | SA_NODEFER;
+    sigaction(number, &wanted, nullptr);
+  }
+}
+
+// Before main, where declarations ask for memory already.
+[[gnu::constructor(101)]] void beforeMain() {
+  std::set_terminate(endAtOnce);
+  std::set_new_handler([] {
+    g_memory_lacked = true;
+    throw std::bad_alloc();
+  });
 }
 
 }  // namespace
 
 LastResort::LastResort(Interrupt& interrupt) {
   g_interrupt = &interrupt;
-  std::set_terminate(endAtOnce);
+  catchCrashes();
   CPLSetErrorHandler([](CPLErr severity, CPLErrorNum code, const char* message) {
     if (severity == CE_Fatal) std::terminate();
     CPLDefaultErrorHandler(severity, code, message);

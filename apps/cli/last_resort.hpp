@@ -5,7 +5,8 @@
 namespace coastmesh {
 
 // Where an error cannot be thrown (memory lacks while another error is on its way, or in a library that ends the
-// process then): what is half written goes, and the exit code says what happened. One at a time.
+// process then), and where the process crashes: what is half written goes, one line says so, and so does the exit code.
+// Where a limit allows one, a crash leaves its core file all the same. One at a time.
 class LastResort {
  public:
   explicit LastResort(Interrupt& interrupt);  // which has to stay as long
@@ -19,5 +20,7 @@ void finishedWith(int code);
 
 inline constexpr const char* kNoMemory =
     "this takes more memory than there is; mesh the input in parts, or ask for larger triangles";
+inline constexpr const char* kNoThread =
+    "the system starts no further thread for this process; raise its limits (ulimit -u, or those of the container)";
 
 }  // namespace coastmesh

@@ -481,7 +481,8 @@ std::string OptionTable::jsonUsage() const { return impl_->usage().dump(2) + "\n
 void OptionTable::set(const std::string& name, const OptionValue& value, const std::string& shown) {
   Impl::Declared& option = impl_->declared(name);
   if (const std::string wrong = option.store(value); !wrong.empty()) throw OptionError("'" + shown + "' " + wrong);
-  option.given.push_back(value);
+  OptionValue kept = value;
+  option.given.push_back(std::move(kept));
 }
 
 void OptionTable::setText(const std::string& name, const std::string& text) {

@@ -1,9 +1,9 @@
 #include "apps/usage/option_value.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 namespace coastmesh {
@@ -22,10 +22,20 @@ std::optional<Number> numberIn(std::string_view text) {
   return number;
 }
 
+// What lies between commas; a comma at the end adds nothing. No stream, which would take memory that lacks for the end.
+std::vector<std::string_view> parts(std::string_view text) {
+  std::vector<std::string_view> found;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(','), text.size());
+    found.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return found;
+}
+
 OptionValue listIn(const std::string& text) {
   std::vector<double> list;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
+  for (const std::string_view part : parts(text)) {
     const std::optional<double> number = numberIn<double>(part);
     if (!number) return text;
     list.push_back(*number);
@@ -38,9 +48,7 @@ OptionValue listIn(const std::string& text) {
 
 std::vector<std::string> namesIn(const std::string& declared) {
   std::vector<std::string> names;
-  std::istringstream parts(declared);
-  for (std::string name; std::getline(parts, name, ',');)
-    names.push_back(name.starts_with('!') ? name.substr(1) : name);
+  for (const std::string_view name : parts(declared)) names.emplace_back(name.substr(name.starts_with('!') ? 1 : 0));
   return names;
 }
 

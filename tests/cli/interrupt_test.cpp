@@ -45,6 +45,25 @@ TEST_F(Interrupted, ExistingOutputsStayAsTheyWere) {
   EXPECT_EQ(names(), (std::set<std::string>{"lake.geojson", "out.gpkg"}));
 }
 
+// What a library does wrong, or we: the files that stood there are as they were, and one line says what happened.
+TEST_F(Interrupted, ByACrash) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  const std::vector<int> crashes = {SIGABRT};  // the others are the sanitizer's
+#else
+  const std::vector<int> crashes = {SIGABRT, SIGSEGV, SIGBUS};
+#endif
+  for (const int crash : crashes) {
+    write("out.gpkg", "precious");
+    std::vector<std::string> arguments = endlessRun();
+    arguments.push_back("--overwrite");
+    const ProgramRun run = runAndSignal(arguments, R"("phase":"refine")", crash);
+    EXPECT_EQ(run.code, 70) << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_EQ(readText(file("out.gpkg")), "precious");
+    EXPECT_EQ(names(), (std::set<std::string>{"lake.geojson", "out.gpkg"}));
+  }
+}
+
 // Opening a pipe that nobody writes to does not come back: nothing but the watcher can end the program then.
 TEST_F(Interrupted, WhileALibraryCallHangs) {
   ASSERT_EQ(mkfifo(file("pipe.geojson").c_str(), 0600), 0);

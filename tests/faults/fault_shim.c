@@ -1,18 +1,26 @@
 // A library to be loaded before all others (LD_PRELOAD) that lets one call fail, or ends the program at one.
 //
-// COASTMESH_FAULT=KIND:N:WHAT  the N-th call, from 1, of a KIND: `new` (C++'s operator new), `malloc` (malloc, calloc and
-//   realloc), or `disk` (whatever changes a disk: write, pwrite, writev, fwrite, fflush, fclose, fsync, ftruncate, rename,
-//   link, mkdir, and open for writing; standard output and errors left out). WHAT is `fail` for memory; for a disk
-//   `short` (half of it is written, and then the disk is full), `EIO` or `ENOSPC` (from then on nothing can be written;
-//   names can be changed again, as they can on a full disk), `kill` (SIGKILL, before the call) or `int` (SIGINT, before
-//   the call).
+// COASTMESH_FAULT=KIND:N:WHAT  the N-th call, from 1, of a KIND: `new` (C++'s operator new), `malloc` (malloc, calloc,
+//   realloc and aligned ones, which `new` asks too: all allocations), or `disk` (whatever changes a disk: write, pwrite,
+//   writev, fwrite, fflush, fclose, fsync, fdatasync, ftruncate, rename, link, unlink, rmdir, mkdir, and opening for
+//   writing; standard output and errors left out). WHAT is for memory `fail`, or `gone` (this call, and from then on
+//   every one of 1 KiB or more), for either `kill` (SIGKILL, before the call) or `int` (SIGINT, before the call), and
+//   for a disk `short` (half of it is written, and then the disk is full), `EIO` or `ENOSPC` (from then on nothing can be
+//   written; names can be changed and files removed again, as they can on a full disk).
+// COASTMESH_FAULT_EVERY=KIND:WHAT:FIRST:STEP:MOST:OUT:IN  every STEP-th call of memory from FIRST on: the process splits
+//   in two there, one that fails and one that goes on to the next, so that what leads to a call is run once, and not once
+//   for each. Of calls from the same place, by all the functions on the stack, MOST at most. The one that fails goes on
+//   in a copy of the folder it is in, which sweep.py makes: before each it is told so, through the descriptor OUT, and
+//   says `g` through IN; then it is told how that one ended, and says `g`, or `t` to be told the stack.
 // COASTMESH_FAULT_TRACE=1  where memory fails, says from where it was asked for.
 // COASTMESH_FAULT_COUNT=FILE  at its end the program writes there how many calls of each kind there were.
+// COASTMESH_FAULT_LOG=FILE  the program writes there the changes of the disk, one a line: what, and which file.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -23,6 +31,7 @@
 #include <sys/syscall.h>
 #include <sys/types.h>
 #include <sys/uio.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 enum Kind { kNew, kMalloc, kDisk, kKinds };
@@ -34,20 +43,52 @@ static long g_at = 0;
 static int g_traced = 0;
 static char g_what[16] = "";
 static atomic_int g_disk_gone = 0;
+static atomic_int g_memory_gone = 0;
 static char g_count_file[1024] = "";
+static int g_log = -1;
+
+// Every one.
+static struct {
+  int kind;  // -1: it is not asked for
+  long first, step, most;
+  int out, in;
+  char folder[2048];
+} g_every = {.kind = -1};
+static __thread int t_inside = 0;
+
+#define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+static int kindNamed(const char* name) {
+  for (int kind = 0; kind < kKinds; ++kind) {
+    if (strcmp(name, kNames[kind]) == 0) return kind;
+  }
+  _exit(99);
+}
 
 __attribute__((constructor)) static void readEnvironment(void) {
   const char* const file = getenv("COASTMESH_FAULT_COUNT");
   if (file != NULL) snprintf(g_count_file, sizeof g_count_file, "%s", file);
+  const char* const log = getenv("COASTMESH_FAULT_LOG");
+  if (log != NULL) g_log = (int)syscall(SYS_openat, AT_FDCWD, log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   g_traced = getenv("COASTMESH_FAULT_TRACE") != NULL;
+  char name[16] = "";
+  const char* const every = getenv("COASTMESH_FAULT_EVERY");
+  if (every != NULL) {
+    void* frames[4];
+    t_inside = 1;
+    backtrace(frames, 4);  // the first one loads a library
+    t_inside = 0;
+    if (sscanf(every, "%15[^:]:%15[^:]:%ld:%ld:%ld:%d:%d", name, g_what, &g_every.first, &g_every.step, &g_every.most,
+               &g_every.out, &g_every.in) != 7 || getcwd(g_every.folder, sizeof g_every.folder) == NULL)
+      _exit(99);
+    g_every.kind = kindNamed(name);
+    if (g_every.kind == kDisk) _exit(99);
+    return;
+  }
   const char* const fault = getenv("COASTMESH_FAULT");
   if (fault == NULL) return;
-  char name[16] = "";
   if (sscanf(fault, "%15[^:]:%ld:%15s", name, &g_at, g_what) != 3) _exit(99);
-  for (int kind = 0; kind < kKinds; ++kind) {
-    if (strcmp(name, kNames[kind]) == 0) g_kind = kind;
-  }
-  if (g_kind < 0) _exit(99);
+  g_kind = kindNamed(name);
 }
 
 __attribute__((destructor)) static void writeCounts(void) {
@@ -61,57 +102,203 @@ __attribute__((destructor)) static void writeCounts(void) {
   syscall(SYS_close, file);
 }
 
+// Every one ----------------------------------------------------------------------------------------------------------
+
+enum { kFrames = 64, kStacks = 1 << 18 };
+static struct {
+  unsigned long hash;
+  long times;
+} g_stacks[kStacks];
+
+// How often this stack has been seen before.
+static long timesSeen(void* const* frames, int count) {
+  unsigned long hash = 1469598103934665603UL;
+  for (int i = 0; i < count; ++i) hash = (hash ^ (unsigned long)frames[i]) * 1099511628211UL;
+  hash |= 1;
+  for (unsigned long tried = 0; tried < kStacks; ++tried) {
+    const unsigned long slot = (hash + tried) % kStacks;
+    if (g_stacks[slot].hash == 0) g_stacks[slot].hash = hash;
+    if (g_stacks[slot].hash == hash) return g_stacks[slot].times++;
+  }
+  _exit(99);
+}
+
+static char tell(const char* text, int size) {
+  char answer = 0;
+  if (syscall(SYS_write, g_every.out, text, (size_t)size) != size) _exit(99);
+  if (syscall(SYS_read, g_every.in, &answer, 1) != 1) _exit(99);
+  return answer;
+}
+
+// The folder that this process was in is `folder`.kept now, and a copy of it stands in its place: what is open in the one
+// is opened in the other, at the same byte.
+static void moveToCopy(void) {
+  static char from[4096], path[4096];
+  const size_t length = strlen(g_every.folder);
+  if (chdir(g_every.folder) != 0) _exit(98);
+  for (int file = 0; file < 256; ++file) {
+    const int flags = fcntl(file, F_GETFL);
+    if (flags < 0) continue;
+    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    const ssize_t size = readlink(path, from, sizeof from - 1);
+    if (size < 0) _exit(98);
+    from[size] = '\0';
+    if (strncmp(from, g_every.folder, length) != 0 || strncmp(from + length, ".kept/", 6) != 0) continue;
+    snprintf(path, sizeof path, "%s/%s", g_every.folder, from + length + 6);
+    const int copy = (int)syscall(SYS_openat, AT_FDCWD, path, flags & ~(O_CREAT | O_EXCL | O_TRUNC), 0);
+    if (copy < 0) continue;  // it is removed already
+    lseek(copy, lseek(file, 0, SEEK_CUR), SEEK_SET);
+    if (dup3(copy, file, (fcntl(file, F_GETFD) & FD_CLOEXEC) != 0 ? O_CLOEXEC : 0) < 0) _exit(98);
+    syscall(SYS_close, copy);
+  }
+  const int errors = (int)syscall(SYS_openat, AT_FDCWD, "../errors", O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (errors < 0 || dup2(errors, STDERR_FILENO) < 0) _exit(98);
+  syscall(SYS_close, errors);
+  alarm(10);
+}
+
+// A mutex that this thread holds knows it by a number, which is another one in the process that is split off: there it
+// would wait for itself. The C library keeps that number in what it knows of the thread.
+static int* threadNumber(void) {
+  int* const known = (int*)pthread_self();
+  const int number = (int)syscall(SYS_gettid);
+  for (int i = 0; i < 512; ++i) {
+    if (known[i] == number) return &known[i];
+  }
+  _exit(96);
+}
+
+// Splits the process. True in the one that is to fail.
+static int split(long at) {
+  void* frames[kFrames];
+  t_inside = 1;
+  const int count = backtrace(frames, kFrames);
+  t_inside = 0;
+  if (timesSeen(frames, count) >= g_every.most) return 0;
+  char text[96];
+  tell(text, snprintf(text, sizeof text, "at %ld\n", at));
+  int* const number = threadNumber();
+  const int kept = *number;
+  const pid_t child = fork();
+  if (child < 0) _exit(97);
+  if (child == 0) {
+    *number = kept;
+    g_every.kind = -1;
+    g_count_file[0] = '\0';
+    moveToCopy();
+    return 1;
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (tell(text, snprintf(text, sizeof text, "ended %d\n", WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status))) ==
+      't') {
+    t_inside = 1;
+    backtrace_symbols_fd(frames, count, g_every.out);
+    t_inside = 0;
+    tell("told\n", 5);
+  }
+  return 0;
+}
+
 static int isDue(enum Kind kind) {
-  if (atomic_fetch_add(&g_counts[kind], 1) + 1 != g_at || g_kind != (int)kind) return 0;
-  if (g_traced) {
-    void* frames[64];
-    backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
+  if (t_inside) return 0;
+  const long at = atomic_fetch_add(&g_counts[kind], 1) + 1;
+  if (g_every.kind == (int)kind && at >= g_every.first && (at - g_every.first) % g_every.step == 0) {
+    // What another thread asks for cannot be tried so: the main one would not be there.
+    return syscall(SYS_gettid) == getpid() && split(at);
+  }
+  if (at != g_at || g_kind != (int)kind) return 0;
+  if (g_traced && kind != kDisk) {
+    void* frames[kFrames];
+    t_inside = 1;
+    backtrace_symbols_fd(frames, backtrace(frames, kFrames), STDERR_FILENO);
+    t_inside = 0;
   }
   return 1;
 }
 
-#define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+// A signal where one is asked for. True where there was one: the call itself is not to fail.
+static int signals(void) {
+  if (strcmp(g_what, "kill") == 0) kill(getpid(), SIGKILL);
+  if (strcmp(g_what, "int") != 0) return 0;
+  kill(getpid(), SIGINT);
+  return 1;
+}
 
 // Memory ------------------------------------------------------------------------------------------------------------
+
+enum { kLarge = 1024 };
+
+static int lacks(enum Kind kind, size_t size) {
+  if (!isDue(kind)) return size >= kLarge && !t_inside && atomic_load(&g_memory_gone);
+  if (signals()) return 0;
+  if (strcmp(g_what, "gone") == 0) atomic_store(&g_memory_gone, 1);
+  return 1;
+}
 
 extern void* __libc_malloc(size_t);
 extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
+extern void* __libc_memalign(size_t, size_t);
 
 void* malloc(size_t size) {
-  if (isDue(kMalloc)) return errno = ENOMEM, NULL;
+  if (lacks(kMalloc, size)) return errno = ENOMEM, NULL;
   return __libc_malloc(size);
 }
 
 void* calloc(size_t count, size_t size) {
-  if (isDue(kMalloc)) return errno = ENOMEM, NULL;
+  if (lacks(kMalloc, count * size)) return errno = ENOMEM, NULL;
   return __libc_calloc(count, size);
 }
 
 void* realloc(void* memory, size_t size) {
-  if (isDue(kMalloc)) return errno = ENOMEM, NULL;
+  if (size > 0 && lacks(kMalloc, size)) return errno = ENOMEM, NULL;
   return __libc_realloc(memory, size);
+}
+
+void* aligned_alloc(size_t alignment, size_t size) {
+  if (lacks(kMalloc, size)) return errno = ENOMEM, NULL;
+  return __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void** memory, size_t alignment, size_t size) {
+  if (lacks(kMalloc, size)) return ENOMEM;
+  *memory = __libc_memalign(alignment, size);
+  return *memory == NULL ? ENOMEM : 0;
 }
 
 // operator new(std::size_t), whose name C can say: where it is to fail, one that is too large is asked for.
 void* _Znwm(size_t size) {
   static void* (*next)(size_t) = NULL;
   if (next == NULL) next = (void* (*)(size_t))dlsym(RTLD_NEXT, "_Znwm");
-  return next(isDue(kNew) ? (size_t)1 << 60 : size);
+  return next(lacks(kNew, size) ? (size_t)1 << 60 : size);
 }
 
 // Disk --------------------------------------------------------------------------------------------------------------
+
+static void logChange(const char* what, const char* path) {
+  static char line[4096];
+  if (g_log < 0) return;
+  const int size = snprintf(line, sizeof line, "%s\t%s\n", what, path);
+  syscall(SYS_write, g_log, line, (size_t)size);
+}
+
+static void logOpen(const char* what, int file) {
+  char link[64], path[2048];
+  if (g_log < 0) return;
+  snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+  const ssize_t size = readlink(link, path, sizeof path - 1);
+  if (size < 0) return;
+  path[size] = '\0';
+  logChange(what, path);
+}
 
 // Whether a call is to fail; sets errno. `half`: may be asked for, where half can be done. `names`: it changes names alone.
 static int failsAt(int* half, int names) {
   const int due = isDue(kDisk);
   if (atomic_load(&g_disk_gone) && !names) return errno = strcmp(g_what, "EIO") == 0 ? EIO : ENOSPC, 1;
-  if (!due) return 0;
-  if (strcmp(g_what, "kill") == 0) kill(getpid(), SIGKILL);
-  if (strcmp(g_what, "int") == 0) {
-    kill(getpid(), SIGINT);
-    return 0;
-  }
+  if (!due || signals()) return 0;
   atomic_store(&g_disk_gone, 1);
   if (strcmp(g_what, "short") == 0 && half != NULL) return *half = 1, 0;
   return errno = strcmp(g_what, "EIO") == 0 ? EIO : ENOSPC, 1;
@@ -123,39 +310,107 @@ static int isTerminal(int file) { return file == STDOUT_FILENO || file == STDERR
 
 ssize_t write(int file, const void* bytes, size_t size) {
   int half = 0;
-  if (!isTerminal(file) && fails(&half)) return -1;
+  if (!isTerminal(file)) {
+    logOpen("write", file);
+    if (fails(&half)) return -1;
+  }
   return NEXT(write)(file, bytes, half && size > 1 ? size / 2 : size);
 }
 
 ssize_t writev(int file, const struct iovec* parts, int count) {
-  if (!isTerminal(file) && fails(NULL)) return -1;
+  if (!isTerminal(file)) {
+    logOpen("write", file);
+    if (fails(NULL)) return -1;
+  }
   return NEXT(writev)(file, parts, count);
 }
 
 ssize_t pwrite(int file, const void* bytes, size_t size, off_t at) {
   int half = 0;
+  logOpen("write", file);
   if (fails(&half)) return -1;
   return NEXT(pwrite)(file, bytes, half && size > 1 ? size / 2 : size, at);
 }
 
 ssize_t pwrite64(int file, const void* bytes, size_t size, off64_t at) {
   int half = 0;
+  logOpen("write", file);
   if (fails(&half)) return -1;
   return NEXT(pwrite64)(file, bytes, half && size > 1 ? size / 2 : size, at);
 }
 
 size_t fwrite(const void* bytes, size_t size, size_t count, FILE* file) {
   int half = 0;
-  if (!isTerminal(fileno(file)) && fails(&half)) return 0;
+  if (!isTerminal(fileno(file))) {
+    logOpen("write", fileno(file));
+    if (fails(&half)) return 0;
+  }
   return NEXT(fwrite)(bytes, size, half && count > 1 ? count / 2 : count, file);
 }
 
-int fsync(int file) { return fails(NULL) ? -1 : NEXT(fsync)(file); }
-int ftruncate(int file, off_t size) { return fails(NULL) ? -1 : NEXT(ftruncate)(file, size); }
-int ftruncate64(int file, off64_t size) { return fails(NULL) ? -1 : NEXT(ftruncate64)(file, size); }
-int rename(const char* from, const char* to) { return failsAt(NULL, 1) ? -1 : NEXT(rename)(from, to); }
+static int isWritten(FILE* file) {
+  const int flags = file == NULL ? -1 : fcntl(fileno(file), F_GETFL);
+  return flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && !isTerminal(fileno(file));
+}
+
+int fflush(FILE* file) {
+  if (isWritten(file)) {
+    logOpen("write", fileno(file));
+    if (fails(NULL)) return EOF;
+  }
+  return NEXT(fflush)(file);
+}
+
+// Where it fails the file is closed all the same.
+int fclose(FILE* file) {
+  int failure = 0;
+  if (isWritten(file)) {
+    logOpen("write", fileno(file));
+    if (fails(NULL)) failure = errno;
+  }
+  const int closed = NEXT(fclose)(file);
+  return failure != 0 ? (errno = failure, EOF) : closed;
+}
+
+int fsync(int file) {
+  logOpen("fsync", file);
+  return fails(NULL) ? -1 : NEXT(fsync)(file);
+}
+
+int fdatasync(int file) {
+  logOpen("fsync", file);
+  return fails(NULL) ? -1 : NEXT(fdatasync)(file);
+}
+
+int ftruncate(int file, off_t size) {
+  logOpen("write", file);
+  return fails(NULL) ? -1 : NEXT(ftruncate)(file, size);
+}
+
+int ftruncate64(int file, off64_t size) {
+  logOpen("write", file);
+  return fails(NULL) ? -1 : NEXT(ftruncate64)(file, size);
+}
+
+int rename(const char* from, const char* to) {
+  logChange("rename", from);
+  return failsAt(NULL, 1) ? -1 : NEXT(rename)(from, to);
+}
+
+// A disk that is full lets files go: these are counted, for what comes before them, and never fail.
+static void comesBefore(void) {
+  if (strcmp(g_what, "kill") == 0 || strcmp(g_what, "int") == 0) failsAt(NULL, 1);
+  else atomic_fetch_add(&g_counts[kDisk], 1);
+}
+
+int unlink(const char* path) { return comesBefore(), NEXT(unlink)(path); }
+int unlinkat(int folder, const char* path, int flags) { return comesBefore(), NEXT(unlinkat)(folder, path, flags); }
+int remove(const char* path) { return comesBefore(), NEXT(remove)(path); }
+int rmdir(const char* path) { return comesBefore(), NEXT(rmdir)(path); }
+
 int link(const char* from, const char* to) { return failsAt(NULL, 1) ? -1 : NEXT(link)(from, to); }
 int mkdir(const char* path, mode_t mode) { return fails(NULL) ? -1 : NEXT(mkdir)(path, mode); }
+char* mkdtemp(char* pattern) { return fails(NULL) ? NULL : NEXT(mkdtemp)(pattern); }
 
 static int changes(int flags) { return (flags & O_ACCMODE) != O_RDONLY || (flags & O_CREAT) != 0; }
 
@@ -173,4 +428,12 @@ int open64(const char* path, int flags, ...) {
   const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
   va_end(rest);
   return changes(flags) && fails(NULL) ? -1 : NEXT(open64)(path, flags, mode);
+}
+
+FILE* fopen(const char* path, const char* mode) {
+  return strpbrk(mode, "wa+") != NULL && fails(NULL) ? NULL : NEXT(fopen)(path, mode);
+}
+
+FILE* fopen64(const char* path, const char* mode) {
+  return strpbrk(mode, "wa+") != NULL && fails(NULL) ? NULL : NEXT(fopen64)(path, mode);
 }

@@ -1,104 +1,235 @@
 #!/usr/bin/env python3
 """Lets the n-th allocation or the n-th change of the disk fail, for many n, and looks at what is left.
 
-Every run writes a mesh in several formats over files that stand there already. Whatever fails: the exit code is one of
-the program's own and says so, no part of an output is left, the files that stood there are as they were, or all of the
-new ones are there where the exit code is 0. A run that is killed may leave its hidden folder, and nothing else.
+Every run writes its outputs over files that stand there already. Whatever fails: the exit code is one of the program's
+own and says so, no part of an output is left, the files that stood there are as they were, or all of the new ones are
+there where the exit code is that of a run without a fault. A run that is killed may leave its hidden folder, and nothing
+else. And before a file comes into its place, it has been waited for until it is on the disk.
 """
 import argparse
 import collections
+import concurrent.futures
 import os
 import pathlib
+import random
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 
-OUTPUTS = ["m.nc", "m.14", "m.msh", "m.2dm", "m.gpkg", "report.json"]
 OLD = b"what stood there\n"
-# Exit codes that each fault may lead to, 0 apart.
-CODES = {"new": {3, 4}, "malloc": {3, 4}, "short": {4}, "EIO": {4}, "ENOSPC": {4}, "int": {5}, "kill": {-signal.SIGKILL}}
+REPORT = "report.json"
+# Exit codes that each fault may lead to, that of a run without one apart.
+CODES = {"fail": {3, 4}, "gone": {3, 4}, "short": {4}, "EIO": {4}, "ENOSPC": {4}, "int": {5},
+         "kill": {-signal.SIGKILL}}
+MESH = ["mesh", "INPUT", "--overwrite", "--threads", "THREADS", "--quiet"]
+WRITE = ["--overwrite", "--quiet"]
+SOURCE = [["mesh", "INPUT", "-o", "source.nc", "--quiet"]]
+# What is tried: outputs, the command but for these, and what has to be made before it. INPUT is the file that is meshed.
+CASES = {
+    "mesh": (["m.nc", "m.14", "m.msh", "m.2dm", "m.gpkg"], MESH + ["--report", REPORT], []),
+    "formats": (["a.geojson", "b.shp", "c.fgb", "d.gr3", "e.slf", "f_grd.dat", "nod2d.out", "g_jigsaw.msh",
+                 "h_mpas.nc", "i_22.msh", "j_ww3.msh", "k.node", "l.vtu", "m_globe.vtu", "n.ply", "partition.prop",
+                 "partmesh.txt"], MESH + ["--edits", "edits.gpkg", "--partition", "3"], []),
+    "sized": (["m.nc", "m.14"], MESH + ["--size-shore", "4000", "--shore-rate", "0.2", "--size-max", "20000", "--coast",
+                                        "follow", "--target", "adcirc"], []),
+    "globe": (["m.nc"], ["mesh", "--domain", "globe", "--size", "2000000"] + MESH[2:], []),
+    "pieces": (["m.nc"], MESH + ["--size-max", "3000"], []),
+    "png": (["m.png"], ["plot", "../source.nc"] + WRITE, SOURCE),
+    "svg": (["m.svg"], ["plot", "../source.nc", "--color", "angle"] + WRITE, SOURCE),
+    "convert": (["m.gpkg", "m.14"], ["convert", "../source.nc", "--target", "adcirc"] + WRITE, SOURCE),
+    "partition": (["partition.prop"], ["partition", "../source.nc", "3"] + WRITE, SOURCE),
+    "check": (["m.gpkg"], ["check", "../source.nc", "--input", "INPUT", "--min-angle", "40"] + WRITE, SOURCE),
+    "clean": (["m.gpkg"], ["clean", "INPUT", "--report", REPORT] + WRITE, []),
+    "shard": (["m.shard"], MESH + ["--shard", "1/1"], []),
+    "gather": (["m.nc"], ["gather", "../m.shard", "--report", REPORT] + WRITE,
+               [["mesh", "INPUT", "--shard", "1/1", "-o", "m.shard", "--quiet"]]),
+}
 
 
 class Sweep:
-    def __init__(self, program, shim, input_file, scratch, threads):
+    def __init__(self, program, shim, input_file, scratch, threads, case):
         self.scratch = scratch
         self.shim = shim
-        self.command = [program, "mesh", input_file, "--overwrite", "--threads", str(threads), "--quiet"]
-        for name in OUTPUTS[:-1]:
-            self.command += ["-o", name]
-        self.command += ["--report", OUTPUTS[-1]]
-        self.faults = []
+        self.program = program
+        self.lock = threading.Lock()
         self.outcomes = collections.Counter()
-        self.reference = {}
+        self.found = collections.defaultdict(list)
+        outputs, command, before = CASES[case]
+        given = {"INPUT": str(input_file), "THREADS": str(threads)}
+        for each in before:
+            subprocess.run([program] + [given.get(word, word) for word in each], cwd=scratch, check=True)
+        self.command = [program] + [given.get(word, word) for word in command]
+        for name in outputs:
+            self.command += ["-o", name]
+        self.stable = set()
+        self.learn()
 
-    def run(self, fault, count_file=None):
+    # What a run without a fault makes and says, and how many calls there are.
+    def learn(self):
+        self.outputs, self.done = [], None
+        folder, code, errors = self.run(None)
+        if code not in (0, 1):
+            sys.exit(f"the run without a fault fails: {code}: {errors}")
+        self.outputs, self.done = sorted(self.contents(folder)), code
+        count_file, log_file = self.scratch / "counts", self.scratch / "log"
+        folder, code, errors = self.run(None, COASTMESH_FAULT_COUNT=count_file, COASTMESH_FAULT_LOG=log_file)
+        if code != self.done or any(p.is_dir() for p in folder.iterdir()):
+            sys.exit(f"the run without a fault leaves {sorted(folder.iterdir())}: {code}: {errors}")
+        self.reference = self.contents(folder)
+        if OLD in self.reference.values():
+            sys.exit("the run without a fault replaces nothing")
+        self.counts = dict(zip(("new", "malloc", "disk"), map(int, count_file.read_text().split())))
+        self.look_at_order(log_file.read_text().splitlines())
+
+    # A file is moved into place after it has been waited for, and is not written to any more in between.
+    def look_at_order(self, lines):
+        waited, moved = set(), set()
+        for line in lines:
+            what, path = line.split("\t")
+            name = "/".join(pathlib.PurePath(path).parts[-2:])
+            if what == "fsync":
+                waited.add(name)
+            elif what == "write":
+                waited.discard(name)
+            elif ".part-" in name:
+                moved.add(name)
+                if name not in waited:
+                    self.note("disk:0:fsync", f"{name.split('/')[1]} is moved into place before it is on the disk", "")
+        if len(moved) != len(self.outputs):
+            self.note("disk:0:fsync", f"{len(moved)} files are moved into place, of {len(self.outputs)}", "")
+
+    def folder(self):
         folder = pathlib.Path(tempfile.mkdtemp(dir=self.scratch))
-        for name in OUTPUTS:
+        for name in self.outputs:
             (folder / name).write_bytes(OLD)
-        environment = dict(os.environ, LD_PRELOAD=str(self.shim))
+        return folder
+
+    def run(self, fault, **environment):
+        folder = self.folder()
+        environment = dict(os.environ, LD_PRELOAD=str(self.shim), **{k: str(v) for k, v in environment.items()})
         if fault:
             environment["COASTMESH_FAULT"] = fault
-        if count_file:
-            environment["COASTMESH_FAULT_COUNT"] = str(count_file)
         try:
             done = subprocess.run(self.command, cwd=folder, env=environment, capture_output=True, timeout=300)
-            code, errors = done.returncode, done.stderr.decode(errors="replace")
+            return folder, done.returncode, done.stderr.decode(errors="replace")
         except subprocess.TimeoutExpired:
-            code, errors = "does not end", ""
-        return folder, code, errors
+            return folder, "does not end", ""
 
     def contents(self, folder):
         # Reports tell times.
-        return {p.name: b"" if p.name == OUTPUTS[-1] and p.read_bytes() != OLD else p.read_bytes()
+        return {p.name: b"" if p.name == REPORT and p.read_bytes() != OLD else p.read_bytes()
                 for p in folder.iterdir() if p.is_file()}
 
-    def counts(self):
-        file = self.scratch / "counts"
-        folder, code, errors = self.run(None, file)
-        if code != 0:
-            sys.exit(f"the run without a fault fails: {code}: {errors}")
-        self.reference = self.contents(folder)
-        if set(self.reference) < set(OUTPUTS) or any(p.is_dir() for p in folder.iterdir()):
-            sys.exit(f"the run without a fault leaves {sorted(self.reference)}")
-        shutil.rmtree(folder)
-        return dict(zip(("new", "malloc", "disk"), map(int, file.read_text().split())))
-
-    def judge(self, fault, folder, code, errors):
-        what = fault.split(":")[2] if fault.startswith("disk") else fault.split(":")[0]
+    def judge(self, what, folder, code, errors):
         left = self.contents(folder)
         hidden = [p.name for p in folder.iterdir() if p.is_dir()]
         if what == "kill" and code == -signal.SIGKILL:
-            for name in OUTPUTS:
+            for name in self.outputs:
                 if left.get(name) not in (OLD, self.reference[name]):
                     yield f"{name} is neither what stood there nor the new file"
             return
         if hidden:
-            yield f"left {hidden}"
-        if code == 0:
+            yield "left " + " ".join(sorted(name.split(".part-")[0] + ".part" for name in hidden))
+        if code == self.done:
             if left != self.reference:
-                yield "exit code 0, but other files than without a fault"
+                yield f"exit code {code}, but other files than without a fault"
             return
         if code not in CODES[what]:
-            yield f"exit code {code}, not {sorted(CODES[what])}"
-        if set(left) != set(OUTPUTS):
-            yield f"left {sorted(set(left) ^ set(OUTPUTS))}"
-        for name in OUTPUTS:
-            if left.get(name) != OLD:
-                yield f"{name} is not what stood there"
-        if what != "kill" and "coastmesh: error: " not in errors:
+            yield f"exit code {code}, not {' or '.join(map(str, sorted(CODES[what])))}"
+        elif what != "kill" and "coastmesh: error: " not in errors:
             yield "no error is told"
+        if set(left) != set(self.outputs):
+            yield f"left {sorted(set(left) ^ set(self.outputs))}"
+        for name in self.outputs:
+            if name in left and left[name] != OLD:
+                yield f"{name} is not what stood there"
+
+    def note(self, fault, sentence, errors, stack=""):
+        with self.lock:
+            seen = self.found[sentence, stack]
+            seen.append(fault)
+            if len(seen) == 1:
+                print(f"{fault}: {sentence}\n    {errors.strip().splitlines()[-1] if errors.strip() else ''}{stack}",
+                      flush=True)
 
     def check(self, fault):
         folder, code, errors = self.run(fault)
-        found = list(self.judge(fault, folder, code, errors))
+        for sentence in list(self.judge(fault.split(":")[2], folder, code, errors)):
+            self.note(fault, sentence, errors)
         shutil.rmtree(folder, ignore_errors=True)
-        self.outcomes[fault.split(":")[0] + ":" + fault.split(":")[2], code] += 1
-        for sentence in found:
-            print(f"{fault}: {sentence}\n    {errors.strip().splitlines()[-1] if errors.strip() else ''}", flush=True)
-        if found:
-            self.faults.append(fault)
+        with self.lock:
+            self.outcomes[fault.split(":")[0] + ":" + fault.split(":")[2], code] += 1
+
+    # Every STEP-th allocation from FIRST on, in one run: fault_shim.c says how.
+    def check_every(self, kind, what, first, step, most):
+        around = pathlib.Path(tempfile.mkdtemp(dir=self.scratch))
+        for name in self.scratch.iterdir():
+            if name.is_file():
+                shutil.copy(name, around)
+        folder, kept, copy = around / "run", around / "run.kept", around / "copy"
+        self.folder().rename(folder)
+        out_read, out_write = os.pipe()
+        in_read, in_write = os.pipe()
+        environment = dict(os.environ, LD_PRELOAD=str(self.shim),
+                           COASTMESH_FAULT_EVERY=f"{kind}:{what}:{first}:{step}:{most}:{out_write}:{in_read}")
+        process = subprocess.Popen(self.command, cwd=folder, env=environment, pass_fds=(out_write, in_read),
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        os.close(out_write)
+        os.close(in_read)
+        with os.fdopen(out_read, "rb") as told, os.fdopen(in_write, "wb", buffering=0) as answer:
+            for line in told:
+                word, value = line.split()
+                if word == b"at":
+                    fault = f"{kind}:{value.decode()}:{what}"
+                    shutil.copytree(folder, copy, symlinks=True)
+                    folder.rename(kept)
+                    copy.rename(folder)
+                    answer.write(b"g")
+                    continue
+                code = int(value)
+                if code == -signal.SIGALRM:
+                    code = "does not end"
+                errors = (around / "errors").read_text(errors="replace")
+                found = list(self.judge(what, folder, code, errors))
+                stack = ""
+                if found:
+                    answer.write(b"t")
+                    lines = []
+                    while (frame := told.readline()) != b"told\n":
+                        lines.append(frame.decode())
+                    stack = self.named(lines)
+                shutil.rmtree(folder)
+                kept.rename(folder)
+                for sentence in found:
+                    self.note(fault, sentence, errors, stack)
+                with self.lock:
+                    self.outcomes[f"{kind}:{what}", code] += 1
+                    if sum(self.outcomes.values()) % 2000 == 0:
+                        print(f"{sum(self.outcomes.values())} faults, the last {fault}", flush=True)
+                answer.write(b"g")
+        errors = process.stderr.read().decode(errors="replace")
+        if process.wait() != self.done or self.contents(folder) != self.reference:
+            self.note(f"{kind}:{first}:{what}", f"the run that was split came to exit code {process.returncode}", errors)
+        shutil.rmtree(around)
+
+    # The functions on a stack, innermost first, of which nothing is said that differs from run to run.
+    def named(self, lines):
+        places = [re.match(r"(.*?)\(([^+)]*)(?:\+(0x[0-9a-f]+))?\)", line) for line in lines]
+        ours = [place[3] for place in places if place and place[1] == str(self.program) and place[3]]
+        names = subprocess.run(["addr2line", "-f", "-C", "-e", self.program] + ours, capture_output=True,
+                               text=True).stdout.splitlines()[::2]
+        names = dict(zip(ours, names))
+        text = []
+        for place in places:
+            if place and place[1] != str(self.shim):
+                name = place[2] or names.get(place[3]) or place[3] or "?"
+                text.append(f"{os.path.basename(place[1])}: {name}")
+        shown = subprocess.run(["c++filt"], input="\n".join(text), capture_output=True, text=True).stdout.splitlines()
+        return "".join(f"\n      {line[:150]}" for line in shown[:24])
 
 
 def spread(count, most):
@@ -115,30 +246,62 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("shim", type=pathlib.Path)
     parser.add_argument("input", type=pathlib.Path)
+    parser.add_argument("--case", choices=list(CASES) + ["all"], default="mesh", help="what is run")
+    parser.add_argument("--every", action="store_true", help="every change of the disk, and every allocation, by malloc "
+                        "too, in runs that split in two at each")
+    parser.add_argument("--what", choices=["fail", "gone"], default="fail", help="of --every: one allocation fails, or "
+                        "from it on all of 1 KiB and more")
+    parser.add_argument("--each", type=int, default=10**9, help="of --every: so many allocations from each place at most")
     parser.add_argument("--disk", type=int, default=10**9, help="how many changes of the disk are let fail")
     parser.add_argument("--memory", type=int, default=10**9, help="how many allocations by new are let fail")
     parser.add_argument("--malloc", type=int, default=0, help="how many by malloc: many are made in C, which may crash")
+    parser.add_argument("--signals", type=int, default=0, help="how many allocations, at random, are interrupted")
+    parser.add_argument("--seed", type=int, default=1, help="of --signals")
     parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1, help="how many runs at a time")
+    parser.add_argument("--scratch", help="folder to work in, on a disk in memory at best")
     parser.add_argument("--only", help="one fault: KIND:N:WHAT")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as scratch:
-        sweep = Sweep(arguments.program.resolve(), arguments.shim.resolve(), arguments.input.resolve(),
-                      pathlib.Path(scratch), arguments.threads)
-        counts = sweep.counts()
-        print(f"{counts['disk']} changes of the disk, {counts['new']} allocations by new, {counts['malloc']} by malloc")
+    failed = 0
+    for case in list(CASES) if arguments.case == "all" else [arguments.case]:
+        with tempfile.TemporaryDirectory(dir=arguments.scratch) as scratch:
+            failed += sweep_case(case, arguments, pathlib.Path(scratch).resolve())
+    if failed:
+        sys.exit(f"{failed} faults are not taken as they should be")
+
+
+def sweep_case(case, arguments, scratch):
+    sweep = Sweep(arguments.program.resolve(), arguments.shim.resolve(), arguments.input.resolve(), scratch,
+                  arguments.threads, case)
+    counts = sweep.counts
+    print(f"{case}: {counts['disk']} changes of the disk, {counts['new']} allocations by new, {counts['malloc']} by malloc",
+          flush=True)
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        work = []
         if arguments.only:
-            sweep.check(arguments.only)
+            work.append(pool.submit(sweep.check, arguments.only))
         else:
             for what in ("ENOSPC", "EIO", "short", "int", "kill"):
                 for n in spread(counts["disk"], arguments.disk):
-                    sweep.check(f"disk:{n}:{what}")
-            for kind, most in (("new", arguments.memory), ("malloc", arguments.malloc)):
-                for n in spread(counts[kind], most):
-                    sweep.check(f"{kind}:{n}:fail")
-        for (what, code), times in sorted(sweep.outcomes.items(), key=str):
-            print(f"{what:12} exit code {code}: {times}")
-        if sweep.faults:
-            sys.exit(f"{len(sweep.faults)} faults are not taken as they should be")
+                    work.append(pool.submit(sweep.check, f"disk:{n}:{what}"))
+            numbers = random.Random(arguments.seed)
+            for _ in range(arguments.signals):
+                work.append(pool.submit(sweep.check, f"malloc:{numbers.randint(1, counts['malloc'])}:int"))
+            if arguments.every:
+                for job in range(arguments.jobs):
+                    work.append(pool.submit(sweep.check_every, "malloc", arguments.what, job + 1, arguments.jobs,
+                                            arguments.each))
+            else:
+                for kind, most in (("new", arguments.memory), ("malloc", arguments.malloc)):
+                    for n in spread(counts[kind], most):
+                        work.append(pool.submit(sweep.check, f"{kind}:{n}:fail"))
+        for each in work:
+            each.result()
+    for (what, code), times in sorted(sweep.outcomes.items(), key=str):
+        print(f"{what:12} exit code {code}: {times}")
+    for (sentence, stack), seen in sweep.found.items():
+        print(f"{len(seen)} times, first {seen[0]}: {sentence}")
+    return len({fault for seen in sweep.found.values() for fault in seen})
 
 
 if __name__ == "__main__":
