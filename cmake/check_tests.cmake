@@ -18,7 +18,7 @@ if(NOT COASTMESH_SANITIZE)
   set_tests_properties(package.deb PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120 RESOURCE_LOCK install)
   set_tests_properties(package.consumer PROPERTIES RESOURCE_LOCK install)
   # What has to agree in a release, and reports against their schema.
-  foreach(about release report_schema recipes)
+  foreach(about release report_schema recipes source)
     add_test(NAME package.${about} COMMAND ${COASTMESH_PYTHON} ${PROJECT_SOURCE_DIR}/tests/package/${about}_test.py
       $<TARGET_FILE:coastmesh>)
     set_tests_properties(package.${about} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)

@@ -20,7 +20,8 @@ PROGRAM, SOURCES, MODULES, PLUGIN = (os.path.abspath(path) for path in sys.argv[
 PYTHON = sys.executable
 FENCE = re.compile(r"^```(?P<info>[^\n]+)?\n(?P<text>.*?)^```$", re.M | re.S)
 GUIDE = sorted(glob.glob(os.path.join(SOURCES, "docs", "**", "*.md"), recursive=True))
-PAGES = [os.path.join(SOURCES, name) for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md")] + GUIDE
+PAGES = [os.path.join(SOURCES, name)
+         for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "recipes/README.md")] + GUIDE
 
 
 def read(path):
