@@ -14,6 +14,14 @@ std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c) 
   return {toDegrees(angleAt(a, b, c)), toDegrees(angleAt(b, c, a)), toDegrees(angleAt(c, a, b))};
 }
 
+// The smallest angle has the largest scalar product of its sides.
+double leastAngleDeg(const Point& a, const Point& b, const Point& c) {
+  const Point ab = b - a, bc = c - b, ca = a - c;
+  const double at_a = -dot(ab, ca), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
+  if (at_a >= at_b && at_a >= at_c) return toDegrees(angleAt(a, b, c));
+  return toDegrees(at_b >= at_c ? angleAt(b, c, a) : angleAt(c, a, b));
+}
+
 std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
   const SpacePoint ab = b - a, bc = c - b, ca = a - c;
   const double twice_area = lengthOf(cross(ab, bc));

@@ -16,6 +16,9 @@ namespace coastmesh {
 // The three angles of abc in degrees, at a, b and c. REQUIRES: no two corners equal.
 std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c);
 
+// The smallest of them.
+double leastAngleDeg(const Point& a, const Point& b, const Point& c);
+
 // The same of the flat triangle between places in space, and on the sphere that a plane stands for.
 std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);
 double leastSpaceAngleDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);

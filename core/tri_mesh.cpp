@@ -4,7 +4,9 @@
 #include <bit>
 #include <cassert>
 #include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/links.hpp"
 
@@ -86,6 +88,24 @@ EdgeRef nextOnBoundary(const TriMesh& mesh, EdgeRef e) {
   return f;
 }
 
+// For every edge of the boundary, ascending, the place in the list of the one that follows it.
+std::vector<std::uint32_t> followersOf(const TriMesh& mesh, std::span<const EdgeRef> boundary, const ItemLoop& loop) {
+  constexpr std::uint32_t kSeveral = kNone - 1;
+  std::vector<std::uint32_t> leaving(mesh.points.size(), kNone);
+  for (std::uint32_t i = 0; i < boundary.size(); ++i) {
+    std::uint32_t& slot = leaving[mesh.origin(boundary[i])];
+    slot = slot == kNone ? i : kSeveral;
+  }
+  std::vector<std::uint32_t> followers(boundary.size());
+  forEachByStretches(loop, boundary.size(), [&](std::size_t i) {
+    followers[i] = leaving[mesh.target(boundary[i])];
+    if (followers[i] == kSeveral)
+      followers[i] = static_cast<std::uint32_t>(std::ranges::lower_bound(boundary, nextOnBoundary(mesh, boundary[i])) -
+                                                boundary.begin());
+  });
+  return followers;
+}
+
 }  // namespace
 
 std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const ItemLoop& loop) {
@@ -97,23 +117,22 @@ std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const Item
             if (mesh.triangles[t].adj[i] == kNone) edges.push_back(edgeRef(t, i));
         return edges;
       }));
+  const std::vector<std::uint32_t> followers = followersOf(mesh, boundary, loop);
   std::vector<std::vector<VertexId>> loops;
   std::vector<bool> seen(boundary.size(), false);
   for (std::size_t start = 0; start < boundary.size(); ++start) {
     if (seen[start]) continue;
     std::vector<VertexId> vertices;
-    for (std::size_t at = start; !seen[at];) {
+    for (std::size_t at = start; !seen[at]; at = followers[at]) {
       seen[at] = true;
       vertices.push_back(mesh.origin(boundary[at]));
-      at = static_cast<std::size_t>(std::ranges::lower_bound(boundary, nextOnBoundary(mesh, boundary[at])) -
-                                    boundary.begin());
     }
-    const auto less = [&](VertexId a, VertexId b) { return lexLess(mesh.points[a], mesh.points[b]); };
-    std::ranges::rotate(vertices, std::ranges::min_element(vertices, less));
     loops.push_back(std::move(vertices));
   }
-  std::ranges::stable_sort(
-      loops, [&](const auto& a, const auto& b) { return lexLess(mesh.points[a.front()], mesh.points[b.front()]); });
+  const auto less = [&](VertexId a, VertexId b) { return lexLess(mesh.points[a], mesh.points[b]); };
+  forEachByStretches(loop, loops.size(),
+                     [&](std::size_t i) { std::ranges::rotate(loops[i], std::ranges::min_element(loops[i], less)); });
+  std::ranges::stable_sort(loops, less, [](const auto& each) { return each.front(); });
   return loops;
 }
 

@@ -280,6 +280,7 @@ MeshedRegion meshRegion(const Pslg& pslg, MeshOptions options, const RunControl&
   const bool closed = !options.cap.empty();
   const bool done = takeLattice(region, options, recorder.loop("lattice", control));
   if (!done) region.mesh = closed ? triangulateInRing(pslg, options, {}) : constrainedDelaunay(pslg);
+  if (!done && !closed && !labelsTellAll(pslg)) region.cover = coverOf(region.mesh, pslg);
   region.seconds.triangulate = watch.lap();
   region.log.append(recorder.finish("triangulate"));
   const bool cut = !done && !options.one_piece && expectedTriangles(region.mesh, options.refine) >= kWorthCutting;

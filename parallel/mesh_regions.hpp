@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/point.hpp"
 #include "core/pslg.hpp"
+#include "core/refine/check_input.hpp"
 #include "core/refine/refine.hpp"
 #include "core/run_control.hpp"
 #include "core/sphere/close_sphere.hpp"
@@ -44,7 +46,8 @@ struct MeshedRegion {
   MeshSeconds seconds;
   std::size_t pieces = 1;  // that it was cut into
   std::vector<std::uint32_t>
-      piece_of;  // one a triangle where asked for: its piece in the round that was cut into the most
+      piece_of;                    // one a triangle where asked for: its piece in the round that was cut into the most
+  std::optional<PslgCover> cover;  // of the PSLG, where its labels do not tell all
   WorkLog log;
 };
 

@@ -136,9 +136,11 @@ std::string dumpRegion(const Pslg& pslg, std::uint64_t digest) {
   return path.string();
 }
 
-void requireSound(const TriMesh& mesh, const Domain& domain, std::span<const SpacePoint> places, const Feature& first,
-                  const ItemLoop& loop) {
+void requireSound(const MeshedRegion& region, const Domain& domain, std::span<const SpacePoint> places,
+                  const Feature& first, const ItemLoop& loop) {
+  const TriMesh& mesh = region.mesh;
   CheckOptions options;
+  if (region.cover) options.cover = &*region.cover;
   if (domain.closed()) options.places = places, options.closed = true;
   std::vector<MeshDefect> defects = checkMesh(mesh, &domain.pslg, options, loop);
   if (domain.closed() && !isClosed(mesh)) defects.push_back({DefectKind::BrokenTopology, {}});
@@ -380,10 +382,11 @@ class LoopsAfterMeshing {
   Recorder recorder_;
 };
 
-void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions& options, const TriMesh& mesh,
+void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions& options, const MeshedRegion& region,
                 std::span<const SpacePoint> places, const ItemLoop& loop, GroupResult& result) {
   const Stopwatch checking;
-  requireSound(mesh, domain, places, task.firstFeature(), loop);
+  const TriMesh& mesh = region.mesh;
+  requireSound(region, domain, places, task.firstFeature(), loop);
   result.plane = {domain.projection, options.size_max};
   MeshJudgement judgement = judgeMesh(mesh, *result.plane, options, 0.0, places, loop);
   result.quality = judgement.quality;
@@ -428,7 +431,7 @@ void fillGroup(const GroupTask& task, GroupResult& result) {
   MeshedRegion region = meshStage(task, domain, std::move(options), result);
   LoopsAfterMeshing loops(region, task.control);
   GroundPlaces ground = domain.projection.groundPlaces(region.mesh.points, loops.of("check"));
-  checkStage(task, domain, asked, region.mesh, ground.space, loops.of("check"), result);
+  checkStage(task, domain, asked, region, ground.space, loops.of("check"), result);
   gridStage(task, domain, size.get(), region, std::move(ground), loops.of("grid"), result);
   result.log.append(loops.finish());
 }

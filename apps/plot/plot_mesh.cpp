@@ -150,7 +150,7 @@ class MeshPlot {
     const auto& v = mesh_.triangles[t].v;
     if (!piece_.places.empty())
       return std::ranges::min(spaceAnglesDeg(piece_.places[v[0]], piece_.places[v[1]], piece_.places[v[2]]));
-    return std::ranges::min(anglesDeg(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
+    return leastAngleDeg(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
   }
   bool isBad(TriId t) const { return smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg; }
   double area(TriId t) const {

@@ -158,7 +158,7 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
     counts = checkBounds(marked, options, loop, defects);
     return defects;
   }
-  if (pslg != nullptr) checkAgainstInput(mesh, used, *pslg, loop, defects);
+  if (pslg != nullptr) checkAgainstInput(mesh, used, *pslg, options.cover, loop, defects);
   if (options.delaunay) checkDelaunay(mesh, options, loop, defects);
   counts = checkBounds(mesh, options, loop, defects);
   return defects;

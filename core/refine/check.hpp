@@ -14,6 +14,8 @@
 
 namespace coastmesh {
 
+struct PslgCover;
+
 struct CheckOptions {
   double min_angle_deg = 0.0;    // degrees; 0 asks nothing
   double max_angle_deg = 180.0;  // degrees; 180 asks nothing
@@ -22,7 +24,8 @@ struct CheckOptions {
   // The mesh goes round a sphere, and has `places`: the plane shows one triangle, or a few, from the other side. They
   // run counter-clockwise in space as all others do, and nothing is asked of circles through their corners.
   bool closed = false;
-  bool pinches = false;  // report pinched vertices; the core allows them where the input has them
+  bool pinches = false;              // report pinched vertices; the core allows them where the input has them
+  const PslgCover* cover = nullptr;  // of the PSLG, by its first triangulation, for a mesh of ours; none: worked out
 };
 
 // Every defect of the mesh, by kind and then in order of triangles. `pslg` may be null: then the mesh is checked for

@@ -19,26 +19,8 @@ namespace coastmesh {
 
 namespace {
 
-// What of the PSLG has to be in the mesh.
-struct Expected {
-  std::vector<bool> vertices;
-  std::vector<bool> segments;
-  double area = 0.0;
-};
-
-// Labels on segments say what the domain is, but not whether a point without segments lies in it.
-bool labelsTellAll(const Pslg& pslg) {
-  bool labelled = false;
-  std::vector<bool> on_segment(pslg.points.size(), false);
-  for (const Segment& s : pslg.segments) {
-    labelled |= s.left != kUnlabelled || s.right != kUnlabelled;
-    on_segment[s.a] = on_segment[s.b] = true;
-  }
-  return labelled && std::ranges::find(on_segment, false) == on_segment.end();
-}
-
-Expected expectFromLabels(const Pslg& pslg) {
-  Expected expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
+PslgCover coverFromLabels(const Pslg& pslg) {
+  PslgCover expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
   // Relative to a point of the input, lest large coordinates drown the area.
   const Point o = pslg.points.front();
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
@@ -66,21 +48,13 @@ double totalArea(const TriMesh& mesh, const ItemLoop& loop) {
 }
 
 // Of a mesh without a boundary, which is all of a sphere: all of the input; the plane has no area for it.
-Expected expectAll(const Pslg& pslg) {
+PslgCover coverOfAll(const Pslg& pslg) {
   return {std::vector<bool>(pslg.points.size(), true), std::vector<bool>(pslg.segments.size(), true)};
 }
 
-Expected expectFromTriangulation(const Pslg& pslg) {
-  Expected expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
-  const TriMesh coarse = constrainedDelaunay(pslg);
-  for (const Triangle& t : coarse.triangles) {
-    for (unsigned i = 0; i < 3; ++i) {
-      expected.vertices[t.v[i]] = true;
-      if (t.seg[i] != kNone) expected.segments[t.seg[i]] = true;
-    }
-  }
-  expected.area = totalArea(coarse, inOrder);
-  return expected;
+PslgCover expectedCover(const TriMesh& mesh, const Pslg& pslg) {
+  if (isClosed(mesh)) return coverOfAll(pslg);
+  return labelsTellAll(pslg) ? coverFromLabels(pslg) : coverOf(constrainedDelaunay(pslg), pslg);
 }
 
 // How much area points on the boundary may have moved it by, rounded as they are to the last place of a coordinate.
@@ -124,8 +98,55 @@ struct HalfEdge {
   VertexId to;
 };
 
+// The half-edges of all segments, those of a segment together.
+struct SegmentEdges {
+  std::vector<HalfEdge> halves;
+  std::vector<std::uint32_t> starts;  // one a segment, and the end of the last
+
+  std::span<HalfEdge> of(SegmentId s) {
+    return std::span(halves).subspan(starts[s], starts[std::size_t{s} + 1] - starts[s]);
+  }
+};
+
+// Reports edges that carry the number of no segment.
+SegmentEdges edgesBySegment(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop,
+                            std::vector<MeshDefect>& defects) {
+  const std::vector<EdgeRef> constrained =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<EdgeRef> edges;
+        for (auto t = static_cast<TriId>(first); t < last; ++t)
+          for (unsigned i = 0; i < 3; ++i)
+            if (const EdgeRef e = edgeRef(t, i);
+                mesh.segment(e) != kNone && (mesh.twin(e) == kNone || mesh.twin(e) > e))
+              edges.push_back(e);
+        return edges;
+      }));
+  SegmentEdges edges;
+  edges.starts.assign(pslg.segments.size() + 1, 0);
+  for (const EdgeRef e : constrained) {
+    if (const SegmentId s = mesh.segment(e); s < pslg.segments.size())
+      edges.starts[std::size_t{s} + 1] += 2;
+    else
+      defects.push_back({DefectKind::BrokenTopology, mesh.points[mesh.origin(e)], triOf(e)});
+  }
+  std::partial_sum(edges.starts.begin(), edges.starts.end(), edges.starts.begin());
+  edges.halves.resize(edges.starts.back());
+  std::vector<std::uint32_t> next(edges.starts.begin(), edges.starts.end() - 1);
+  for (const EdgeRef e : constrained) {
+    const SegmentId s = mesh.segment(e);
+    if (s >= pslg.segments.size()) continue;
+    edges.halves[next[s]++] = {mesh.origin(e), mesh.target(e)};
+    edges.halves[next[s]++] = {mesh.target(e), mesh.origin(e)};
+  }
+  return edges;
+}
+
 // The edges are one chain from one end to the other that does not leave the segment, nor turn back, but for rounding.
-bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::vector<HalfEdge>& halves) {
+bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::span<HalfEdge> halves) {
+  if (halves.size() == 2) {
+    const auto [from, to] = halves.front();
+    return (from == seg.a && to == seg.b) || (from == seg.b && to == seg.a);
+  }
   std::ranges::sort(halves, {}, &HalfEdge::from);
   const Point &a = pslg.points[seg.a], &b = pslg.points[seg.b];
   const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
@@ -144,46 +165,64 @@ bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::vec
   return at == seg.b;
 }
 
+bool areSameBits(const Point& p, const Point& q) {
+  return std::bit_cast<std::uint64_t>(p.x) == std::bit_cast<std::uint64_t>(q.x) &&
+         std::bit_cast<std::uint64_t>(p.y) == std::bit_cast<std::uint64_t>(q.y);
+}
+
+// Appends the numbers below `count` of which `isMissing` holds as defects at their places.
+template <typename IsMissing, typename PlaceOf>
+void reportMissing(DefectKind kind, std::size_t count, const ItemLoop& loop, const IsMissing& isMissing,
+                   const PlaceOf& placeOf, std::vector<MeshDefect>& defects) {
+  const std::vector<MeshDefect> found = joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    std::vector<MeshDefect> here;
+    for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
+      if (isMissing(i)) here.push_back({kind, placeOf(i)});
+    return here;
+  }));
+  defects.insert(defects.end(), found.begin(), found.end());
+}
+
 }  // namespace
 
-void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, const Pslg& pslg, const ItemLoop& loop,
-                       std::vector<MeshDefect>& defects) {
-  const bool closed = isClosed(mesh);
-  const Expected expected = closed                ? expectAll(pslg)
-                            : labelsTellAll(pslg) ? expectFromLabels(pslg)
-                                                  : expectFromTriangulation(pslg);
-  const std::vector<EdgeRef> constrained =
-      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-        std::vector<EdgeRef> edges;
-        for (auto t = static_cast<TriId>(first); t < last; ++t)
-          for (unsigned i = 0; i < 3; ++i)
-            if (const EdgeRef e = edgeRef(t, i);
-                mesh.segment(e) != kNone && (mesh.twin(e) == kNone || mesh.twin(e) > e))
-              edges.push_back(e);
-        return edges;
-      }));
-  std::vector<std::vector<HalfEdge>> halves(pslg.segments.size());
-  for (const EdgeRef e : constrained) {
-    const SegmentId s = mesh.segment(e);
-    if (s >= pslg.segments.size()) {
-      defects.push_back({DefectKind::BrokenTopology, mesh.points[mesh.origin(e)], triOf(e)});
-      continue;
+bool labelsTellAll(const Pslg& pslg) {
+  bool labelled = false;
+  std::vector<bool> on_segment(pslg.points.size(), false);
+  for (const Segment& s : pslg.segments) {
+    labelled |= s.left != kUnlabelled || s.right != kUnlabelled;
+    on_segment[s.a] = on_segment[s.b] = true;
+  }
+  return labelled && std::ranges::find(on_segment, false) == on_segment.end();
+}
+
+PslgCover coverOf(const TriMesh& coarse, const Pslg& pslg) {
+  PslgCover cover{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
+  for (const Triangle& t : coarse.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      cover.vertices[t.v[i]] = true;
+      if (t.seg[i] != kNone) cover.segments[t.seg[i]] = true;
     }
-    halves[s].push_back({mesh.origin(e), mesh.target(e)});
-    halves[s].push_back({mesh.target(e), mesh.origin(e)});
   }
-  for (VertexId v = 0; v < pslg.points.size(); ++v) {
-    const bool same =
-        v < mesh.points.size() &&
-        std::bit_cast<std::uint64_t>(mesh.points[v].x) == std::bit_cast<std::uint64_t>(pslg.points[v].x) &&
-        std::bit_cast<std::uint64_t>(mesh.points[v].y) == std::bit_cast<std::uint64_t>(pslg.points[v].y);
-    if (expected.vertices[v] && !(same && used[v])) defects.push_back({DefectKind::MissingVertex, pslg.points[v]});
-  }
-  for (SegmentId s = 0; s < pslg.segments.size(); ++s)
-    if (expected.segments[s] && !isChain(mesh, pslg, pslg.segments[s], halves[s]))
-      defects.push_back(
-          {DefectKind::MissingSegment, midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b])});
-  if (!closed) checkArea(mesh, expected.area, 1e-9, loop, defects);
+  cover.area = totalArea(coarse, inOrder);
+  return cover;
+}
+
+void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, const Pslg& pslg,
+                       const PslgCover* known, const ItemLoop& loop, std::vector<MeshDefect>& defects) {
+  const PslgCover expected = known != nullptr ? *known : expectedCover(mesh, pslg);
+  SegmentEdges edges = edgesBySegment(mesh, pslg, loop, defects);
+  reportMissing(
+      DefectKind::MissingVertex, pslg.points.size(), loop,
+      [&](VertexId v) {
+        return expected.vertices[v] &&
+               !(v < mesh.points.size() && areSameBits(mesh.points[v], pslg.points[v]) && used[v]);
+      },
+      [&](VertexId v) { return pslg.points[v]; }, defects);
+  reportMissing(
+      DefectKind::MissingSegment, pslg.segments.size(), loop,
+      [&](SegmentId s) { return expected.segments[s] && !isChain(mesh, pslg, pslg.segments[s], edges.of(s)); },
+      [&](SegmentId s) { return midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b]); }, defects);
+  if (!isClosed(mesh)) checkArea(mesh, expected.area, 1e-9, loop, defects);
 }
 
 namespace {
@@ -219,10 +258,7 @@ bool markChain(TriMesh& mesh, const std::vector<std::vector<EdgeRef>>& around, V
 }  // namespace
 
 void checkAgainstInputByPlace(TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects) {
-  const bool closed = isClosed(mesh);
-  const Expected expected = closed                ? expectAll(pslg)
-                            : labelsTellAll(pslg) ? expectFromLabels(pslg)
-                                                  : expectFromTriangulation(pslg);
+  const PslgCover expected = expectedCover(mesh, pslg);
   std::unordered_map<Point, VertexId, PointHash> at;
   at.reserve(pslg.points.size());
   for (const Point& x : pslg.points) at.emplace(x, kNone);
@@ -252,7 +288,7 @@ void checkAgainstInputByPlace(TriMesh& mesh, const Pslg& pslg, std::vector<MeshD
       defects.push_back(
           {DefectKind::MissingSegment, midpoint(pslg.points[pslg.segments[s].a], pslg.points[pslg.segments[s].b])});
   }
-  if (!closed) checkArea(mesh, expected.area, 1e-6, inOrder, defects);
+  if (!isClosed(mesh)) checkArea(mesh, expected.area, 1e-6, inOrder, defects);
 }
 
 }  // namespace coastmesh

@@ -11,10 +11,24 @@
 
 namespace coastmesh {
 
+// What of a PSLG its domain has: the rest is not in a mesh of it.
+struct PslgCover {
+  std::vector<bool> vertices;
+  std::vector<bool> segments;
+  double area = 0.0;
+};
+
+// Labels on segments say what the domain is, but not whether a point without segments lies in it.
+bool labelsTellAll(const Pslg& pslg);
+
+// What the first triangulation of a PSLG covers, which has no vertices but its own: the domain, where labels do not
+// tell all.
+PslgCover coverOf(const TriMesh& coarse, const Pslg& pslg);
+
 // Compares a mesh of ours with the PSLG that it was made from: vertices bit for bit, segments as chains of edges, area.
-// `used` is what `usedVertices` says of the mesh.
-void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, const Pslg& pslg, const ItemLoop& loop,
-                       std::vector<MeshDefect>& defects);
+// `used` is what `usedVertices` says of the mesh; `known` is what the domain covers, or null: then it is worked out.
+void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, const Pslg& pslg,
+                       const PslgCover* known, const ItemLoop& loop, std::vector<MeshDefect>& defects);
 
 // The same for a mesh that was read from a file: vertices are matched by their coordinates, segments by walking along
 // edges. Edges that are found to be pieces of a segment are marked in the mesh.

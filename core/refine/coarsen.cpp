@@ -49,7 +49,7 @@ int sweepsFor(double min_angle_deg, std::size_t vertices) {
   };
   if (min_angle_deg < 32.0) return between(2.0, 5.0, 5000.0);
   if (min_angle_deg < 37.0) return between(3.0, 6.0, 10000.0);
-  if (min_angle_deg <= 43.0) return between(16.0, 64.0, 800000.0);
+  if (min_angle_deg <= 43.0) return between(min_angle_deg <= 41.0 ? 9.0 : 12.0, 64.0, 800000.0);
   return between(3.0, 16.0, 20000.0);
 }
 

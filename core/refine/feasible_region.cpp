@@ -114,8 +114,13 @@ void FeasibleRegion::makeRoom(std::size_t corners) {
   sides_.resize(corners);
 }
 
-bool FeasibleRegion::isEmpty(std::span<const LinkEdge> link) {
-  if (bound_.min_angle <= 0.0) return false;
+bool FeasibleRegion::isForSmallestAnglesAlone() const {
+  return bound_.min_angle > 0.0 && bound_.max_angle >= std::numbers::pi - 2.0 * bound_.min_angle &&
+         std::isinf(bound_.squared_size);
+}
+
+FeasibleRegion::Look FeasibleRegion::look(std::span<const LinkEdge> link) {
+  if (bound_.min_angle <= 0.0) return {};
   // A box round the petals' common part: that alone is empty most of the time.
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Point low{-kFar, -kFar}, high{kFar, kFar};
@@ -124,7 +129,7 @@ bool FeasibleRegion::isEmpty(std::span<const LinkEdge> link) {
     low = {larger(low.x, petal.centre.x - petal.radius), larger(low.y, petal.centre.y - petal.radius)};
     high = {smaller(high.x, petal.centre.x + petal.radius), smaller(high.y, petal.centre.y + petal.radius)};
   }
-  if (low.x >= high.x || low.y >= high.y) return true;
+  if (low.x >= high.x || low.y >= high.y) return {std::nullopt, true};
   constexpr std::size_t kMostCuts = 12;
   makeRoom(4 + kMostCuts);
   Point *polygon = polygon_.data(), *clipped = clipped_.data();
@@ -146,7 +151,7 @@ bool FeasibleRegion::isEmpty(std::span<const LinkEdge> link) {
       worst_edge = share > worst ? &e : worst_edge;
       worst = larger(worst, share);
     }
-    if (worst_edge == nullptr) return false;
+    if (worst_edge == nullptr) return {c, false};
     const Lacks lacks = lacksOf(*worst_edge, c, bound_);
     const Point d = worst_edge->y - worst_edge->x;
     if (lacks.at_x >= lacks.at_y && lacks.at_x >= lacks.at_c) {
@@ -159,12 +164,13 @@ bool FeasibleRegion::isEmpty(std::span<const LinkEdge> link) {
       const Point on = petal.centre + (petal.radius / std::sqrt(squaredLength(outward))) * outward;
       corners = clip(polygon, corners, clipped, sides, on, {-outward.y, outward.x});
     }
-    if (corners < 3) return true;
+    if (corners < 3) return {std::nullopt, true};
   }
-  return false;
+  return {};
 }
 
 std::optional<Point> FeasibleRegion::findPoint(std::span<const LinkEdge> link) {
+  if (isForSmallestAnglesAlone()) return look(link).point;
   Point low = link.front().x, high = link.front().x;
   for (const LinkEdge& e : link) {
     low = {std::min(low.x, e.x.x), std::min(low.y, e.x.y)};

@@ -32,17 +32,22 @@ class FeasibleRegion {
  public:
   explicit FeasibleRegion(const TriangleBound& bound) : bound_(bound), petal_(bound) {}
 
-  // A point well inside the region, or nothing where there is none (or one thinner than rounding).
+  // A point inside the region, or nothing where there is none (or one thinner than rounding).
   std::optional<Point> findPoint(std::span<const LinkEdge> link);
 
-  // Whether the region is certainly empty; a quick test without sizes and largest angles. A `false` says nothing.
-  // REQUIRES: the link is closed.
-  bool isEmpty(std::span<const LinkEdge> link);
+  struct Look {
+    std::optional<Point> point;  // of the region
+    bool is_empty = false;       // certainly; where there is no point either it is thin, and not known
+  };
+  // The same for smallest angles alone, quickly. Of a part of a link, too: where the region of that is empty, so is
+  // that of the whole.
+  Look look(std::span<const LinkEdge> link);
 
   // As findPoint on the line from a to b: the point in the middle of what is feasible there.
   std::optional<Point> findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link) const;
 
  private:
+  bool isForSmallestAnglesAlone() const;
   void makeRoom(std::size_t corners);
 
   TriangleBound bound_;

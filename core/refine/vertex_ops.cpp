@@ -28,8 +28,12 @@ bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
 // One in a hundred merges is along an edge whose squared length is above this share of the mean round its end.
 constexpr double kLongestToMerge = 1.6;
 
-// Below this angle the mean of its neighbours, where that is feasible, is as good a place as the middle of all that is.
+// Below this angle the mean of its neighbours, where that is feasible, is as good a place as one amid all that is.
 constexpr double kMeanServesBelow = toRadians(36.5);
+
+// How far a good vertex goes on its way to a better place, as shares of that way: beyond it at first, since its
+// neighbours are on their way too (over-relaxation), and half of it where no more is feasible.
+constexpr double kShares[] = {1.6, 1.0, 0.5};
 
 VertexId otherEnd(const BoundaryEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
 
@@ -53,7 +57,7 @@ void appendLink(const EditMesh& mesh, const Ring& ring, VertexId other, Link& li
   }
 }
 
-bool fits(const Link& link, const Point& place, const TriangleBound& bound) {
+bool fits(std::span<const LinkEdge> link, const Point& place, const TriangleBound& bound) {
   return std::ranges::all_of(
       link, [&](const LinkEdge& e) { return orient2d(e.x, e.y, place) > 0 && !isBad(e.x, e.y, place, bound); });
 }
@@ -222,7 +226,26 @@ bool VertexOps::cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId besi
   link.clear();
   appendLink(mesh_, ring, w, link);
   appendLink(mesh_, other, v, link);
-  return region_.isEmpty(framed(Frame(bound_.surface, mesh_.point(v)), link));
+  return region_.look(framed(Frame(bound_.surface, mesh_.point(v)), link)).is_empty;
+}
+
+// The same of w on a segment, by what is round v alone.
+bool VertexOps::cannotMergeOnto(VertexId v, const Ring& ring, VertexId w) {
+  Link& link = memory_.link;
+  link.clear();
+  appendLink(mesh_, ring, w, link);
+  return region_.look(framed(Frame(bound_.surface, mesh_.point(v)), link)).is_empty;
+}
+
+// A feasible place on the way to `to`, which is one of the frame at the vertex.
+std::optional<Point> VertexOps::placeTowards(const Point& to, const Frame& frame, const Point& here,
+                                             std::span<const LinkEdge> link) const {
+  const Point from = frame.to(here);
+  for (const double share : kShares) {
+    const Point place = frame.from(from + share * (to - from));
+    if (fits(link, place, bound_)) return place;
+  }
+  return std::nullopt;
 }
 
 bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
@@ -233,18 +256,21 @@ bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
   appendLink(mesh_, ring, kNone, link);
   const Point& here = mesh_.point(v);
   const bool good = std::ranges::none_of(link, [&](const LinkEdge& e) { return isBad(e.x, e.y, here, bound_); });
-  const Frame frame(bound_.surface, here);
-  const std::span<const LinkEdge> seen = framed(frame, link);
-  if (!good && region_.isEmpty(seen)) return false;
-  std::optional<Point> place;
-  if (good && bound_.min_angle < kMeanServesBelow) place = frame.from(meanOf(seen));
-  if (!place || !fits(link, *place, bound_)) {
-    place = region_.findPoint(seen);
-    if (place) place = frame.from(*place);
-  }
-  if (!place || !fits(link, *place, bound_)) return false;
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   if (clear_of_frozen_ && std::ranges::any_of(ring.triangles, isFrozen)) return false;
+  const Frame frame(bound_.surface, here);
+  const std::span<const LinkEdge> seen = framed(frame, link);
+  std::optional<Point> place;
+  if (good && bound_.min_angle < kMeanServesBelow) place = placeTowards(meanOf(seen), frame, here, link);
+  if (!place) {
+    const std::optional<Point> inside = region_.look(seen).point;
+    if (!inside) return false;
+    if (good)
+      place = placeTowards(*inside, frame, here, link);
+    else if (const Point there = frame.from(*inside); fits(link, there, bound_))
+      place = there;
+  }
+  if (!place) return false;
   const auto isBesideBad = [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
   if (bad_stays_ && std::ranges::any_of(ring.triangles, isBesideBad)) return relocateWatchingFlips(v, touched);
   mesh_.setPoint(v, *place);
@@ -373,6 +399,8 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
         if (each_gets_its_turn && w < v) continue;
         if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest || cannotMerge(v, ring, w, ring.triangles[k]))
           continue;
+      } else if (cannotMergeOnto(v, ring, w)) {
+        continue;
       }
       if (merge(v, w, touched)) return true;
     }
@@ -385,7 +413,9 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
   for (const EdgeRef e : opposite) neighbours.push_back(mesh_.origin(e));
   if (const VertexId last = mesh_.target(opposite.back()); last != neighbours.front()) neighbours.push_back(last);
   for (const VertexId w : neighbours) {
-    if (mesh_.kind(w) == VertexKind::Input || (each_gets_its_turn && w < v && mesh_.kind(w) == mesh_.kind(v))) continue;
+    const VertexKind kind = mesh_.kind(w);
+    // A free vertex tries to join one on a segment when its own turn comes.
+    if (kind == VertexKind::Input || (each_gets_its_turn && (w < v || kind == VertexKind::Free))) continue;
     // The vertex that stays is the one on the segment.
     if (mesh_.kind(w) == VertexKind::Free ? merge(w, v, touched) : merge(v, w, touched)) return true;
   }

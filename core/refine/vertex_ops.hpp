@@ -71,6 +71,9 @@ class VertexOps {
   bool relocateFree(VertexId v, std::vector<TriId>& touched);
   bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
   bool cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside);
+  bool cannotMergeOnto(VertexId v, const Ring& ring, VertexId w);
+  std::optional<Point> placeTowards(const Point& to, const Frame& frame, const Point& here,
+                                    std::span<const LinkEdge> link) const;
   template <typename Accept>
   bool removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
   template <typename Accept>

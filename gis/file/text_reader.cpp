@@ -30,7 +30,9 @@ std::string readWhole(const std::string& path) {
 }  // namespace
 
 TextReader::TextReader(std::string path, char comment, std::string_view between)
-    : path_(std::move(path)), comment_(comment), between_(between), text_(readWhole(path_)) {}
+    : path_(std::move(path)), comment_(comment), text_(readWhole(path_)) {
+  for (const char c : between) between_[static_cast<unsigned char>(c)] = true;
+}
 
 bool TextReader::nextLine() {
   while (next_ < text_.size()) {
@@ -53,13 +55,14 @@ void TextReader::needLine() {
 }
 
 bool TextReader::hasWord() {
-  at_ = std::min(line_.find_first_not_of(between_, at_), line_.size());
+  while (at_ < line_.size() && isBetween(line_[at_])) ++at_;
   return at_ < line_.size();
 }
 
 std::string_view TextReader::word() {
   if (!hasWord()) return {};
-  const std::size_t end = std::min(line_.find_first_of(between_, at_), line_.size());
+  std::size_t end = at_;
+  while (end < line_.size() && !isBetween(line_[end])) ++end;
   const std::string_view found = line_.substr(at_, end - at_);
   at_ = end;
   return found;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -30,9 +31,11 @@ class TextReader {
   std::size_t size() const { return text_.size(); }  // bytes in the file: bounds any count that the file claims
 
  private:
+  bool isBetween(char c) const { return between_[static_cast<unsigned char>(c)]; }
+
   std::string path_;
   char comment_;
-  std::string_view between_;
+  std::array<bool, 256> between_{};  // the bytes that set words apart
   std::string text_;
   std::size_t next_ = 0;  // where the next line starts
   std::size_t line_number_ = 0;

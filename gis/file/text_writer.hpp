@@ -71,7 +71,7 @@ class TextWriter {
   // `row(block, i)` for every i below `count`, in this order in the file, made block by block by the threads of `loop`.
   template <typename Row>
   void rows(const ItemLoop& loop, std::size_t count, const Row& row) {
-    constexpr std::size_t kRowsABlock = 4096, kBlocksAtOnce = 64;
+    constexpr std::size_t kRowsABlock = 1024, kBlocksAtOnce = 64;
     std::vector<TextBlock> made, next(std::min(kBlocksAtOnce, count / kRowsABlock + 1));
     made.resize(next.size());
     flush();

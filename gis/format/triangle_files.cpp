@@ -105,9 +105,8 @@ Grid readTriangle(const std::string& path, const Crs& unsaid) {
   return grid;
 }
 
-void writeNodes(const Grid& grid, const std::string& path, const ItemLoop& loop) {
+void writeNodes(const Grid& grid, const std::vector<MarkedEdge>& edges, const std::string& path, const ItemLoop& loop) {
   std::vector<std::int64_t> markers(grid.nodes.size(), 0);
-  const std::vector<MarkedEdge> edges = markedEdges(grid);
   for (auto edge = edges.rbegin(); edge != edges.rend(); ++edge)
     for (const std::uint32_t node : edge->nodes) markers[node] = edge->marker;
   TextWriter file(path);
@@ -147,23 +146,27 @@ Point pointInside(const Grid& grid, const Boundary& island, const std::string& p
   return {inside.getX(), inside.getY()};
 }
 
-void writeSegments(const Grid& grid, const std::string& path) {
-  const std::vector<MarkedEdge> edges = markedEdges(grid);
-  const auto islands = std::ranges::count_if(grid.boundaries, [](const Boundary& boundary) {
-    return boundary.closed && boundary.role == BoundaryRole::Island;
-  });
+void writeSegments(const Grid& grid, const std::vector<MarkedEdge>& edges, const std::string& path,
+                   const ItemLoop& loop) {
   TextWriter file(path);
   file << "0 2 0 1\n" << edges.size() << " 1\n";
-  std::size_t id = 0;
-  for (const auto& [nodes, marker] : edges)
-    file << ++id << ' ' << nodes[0] + 1 << ' ' << nodes[1] + 1 << ' ' << marker << '\n';
-  file << islands << '\n';
-  id = 0;
-  for (const Boundary& boundary : grid.boundaries) {
-    if (!boundary.closed || boundary.role != BoundaryRole::Island) continue;
-    const Point hole = pointInside(grid, boundary, path);
-    file << ++id << ' ' << hole.x << ' ' << hole.y << '\n';
-  }
+  file.rows(loop, edges.size(), [&](TextBlock& text, std::size_t i) {
+    const auto& [nodes, marker] = edges[i];
+    text << i + 1 << ' ' << nodes[0] + 1 << ' ' << nodes[1] + 1 << ' ' << marker << '\n';
+  });
+  std::vector<const Boundary*> islands;
+  for (const Boundary& boundary : grid.boundaries)
+    if (boundary.closed && boundary.role == BoundaryRole::Island) islands.push_back(&boundary);
+  std::vector<Point> holes(islands.size());
+  constexpr std::size_t kIslandsAStretch = 64;
+  forStretches(
+      loop, islands.size(),
+      [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) holes[i] = pointInside(grid, *islands[i], path);
+      },
+      kIslandsAStretch);
+  file << holes.size() << '\n';
+  for (std::size_t i = 0; i < holes.size(); ++i) file << i + 1 << ' ' << holes[i].x << ' ' << holes[i].y << '\n';
   file.close();
 }
 
@@ -172,9 +175,10 @@ void writeSegments(const Grid& grid, const std::string& path) {
 // `boundaryMarker`, nodes with that of the first boundary they lie on. Islands have a hole point. Throws OutputError.
 void writeTriangle(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
-  writeNodes(grid, withEnding(path, ".node"), loop);
+  const std::vector<MarkedEdge> edges = markedEdges(grid);
+  writeNodes(grid, edges, withEnding(path, ".node"), loop);
   writeElements(grid, withEnding(path, ".ele"), loop);
-  writeSegments(grid, withEnding(path, ".poly"));
+  writeSegments(grid, edges, withEnding(path, ".poly"), loop);
   writePrjBeside(path, grid.crs);
 }
 

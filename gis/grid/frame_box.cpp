@@ -75,7 +75,7 @@ std::size_t keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& 
   if (grid.min_angle_deg.empty()) return moved;
   for (const std::size_t t : changed) {
     const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
-    grid.min_angle_deg[t] = std::ranges::min(anglesDeg(p[0], p[1], p[2]));
+    grid.min_angle_deg[t] = leastAngleDeg(p[0], p[1], p[2]);
   }
   return moved;
 }

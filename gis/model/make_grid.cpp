@@ -70,7 +70,7 @@ void appendTriangles(const TriMesh& mesh, const GroundPlaces* ground, const std:
     grid.triangles[before + t] = {index_of[a], index_of[b], index_of[c]};
     if (!feature_index.empty()) grid.feature_of[before + t] = feature_index[static_cast<std::size_t>(mesh.regions[t])];
     grid.min_angle_deg[before + t] = ground == nullptr
-                                         ? std::ranges::min(anglesDeg(mesh.points[a], mesh.points[b], mesh.points[c]))
+                                         ? leastAngleDeg(mesh.points[a], mesh.points[b], mesh.points[c])
                                          : leastSpaceAngleDeg(ground->space[a], ground->space[b], ground->space[c]);
   });
 }

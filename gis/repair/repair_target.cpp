@@ -133,7 +133,7 @@ bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool
 
 double smallestAngle(const Grid& grid, std::size_t t) {
   const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
-  return std::ranges::min(anglesDeg(p[0], p[1], p[2]));
+  return leastAngleDeg(p[0], p[1], p[2]);
 }
 
 void measureChanged(Grid& grid, const std::vector<bool>& changed) {

@@ -18,6 +18,18 @@ namespace {
 
 const double kRoot3 = std::sqrt(3.0);
 
+TEST(Quality, TheLeastAngleIsTheLeastOfAllThree) {
+  const Point a{0, 0};
+  for (const Point b : {Point{1, 0}, Point{3, 1}, Point{0.01, 2}}) {
+    for (const Point c : {Point{0, 1}, Point{-2, 5}, Point{-0.5, 1e-3}}) {
+      const double least = std::ranges::min(anglesDeg(a, b, c));
+      EXPECT_NEAR(leastAngleDeg(a, b, c), least, 1e-12);
+      EXPECT_NEAR(leastAngleDeg(b, c, a), least, 1e-12);
+      EXPECT_NEAR(leastAngleDeg(c, a, b), least, 1e-12);
+    }
+  }
+}
+
 TEST(AnglesDeg, KnownTriangles) {
   const auto equilateral = anglesDeg({0, 0}, {1, 0}, {0.5, kRoot3 / 2});
   for (const double angle : equilateral) EXPECT_NEAR(angle, 60.0, 1e-12);

@@ -184,21 +184,44 @@ TEST(FeasibleRegion, SizeAndPlaceDoNotMatter) {
   }
 }
 
-TEST(FeasibleRegion, IsEmptyOnlyWhereNoPlaceIsFound) {
+TEST(FeasibleRegion, ALookFindsAPlaceOrThatThereIsNone) {
+  constexpr double kLong = 1e6;  // never reached, but a bound that a look does not know
   int empty = 0, found = 0;
   for (unsigned seed = 1; seed <= 2000; ++seed) {
     std::mt19937_64 random(seed);
     const auto link = randomLink(random, {3.0, -2.0}, 1.0);
     const double angle = uniform(random, 5.0, 45.0);
-    FeasibleRegion region(TriangleBound(angle, 180.0, kNoSize));
-    const auto place = region.findPoint(link);
-    found += place.has_value();
-    if (!region.isEmpty(link)) continue;
-    ++empty;
-    EXPECT_TRUE(!place || roomAt(*place, link, {angle, 180.0, kNoSize}) < 1e-6) << "seed " << seed;
+    const Asked asked{angle, 180.0, kNoSize};
+    const auto place = FeasibleRegion(TriangleBound(angle, 180.0, kLong)).findPoint(link);
+    const FeasibleRegion::Look look = FeasibleRegion(TriangleBound(angle, 180.0, kNoSize)).look(link);
+    EXPECT_FALSE(look.is_empty && look.point);
+    if (look.point) {
+      EXPECT_GE(roomAt(*look.point, link, asked), -1e-9) << "seed " << seed;
+    }
+    if (look.is_empty && place) {
+      EXPECT_LT(roomAt(*place, link, asked), 1e-6) << "seed " << seed;
+    }
+    empty += look.is_empty;
+    found += look.point.has_value();
+    EXPECT_TRUE(!place || look.point || roomAt(*place, link, asked) < 1e-3) << "seed " << seed;
   }
   EXPECT_GT(empty, 100);
   EXPECT_GT(found, 100);
+}
+
+TEST(FeasibleRegion, ALookAtPartOfALinkRulesOutTheWhole) {
+  int empty = 0;
+  for (unsigned seed = 1; seed <= 500; ++seed) {
+    std::mt19937_64 random(seed);
+    auto link = randomLink(random, {3.0, -2.0}, 1.0);
+    FeasibleRegion region(TriangleBound(uniform(random, 20.0, 45.0), 180.0, kNoSize));
+    const bool whole_has_place = region.look(link).point.has_value();
+    link.resize(link.size() - 2);
+    if (!region.look(link).is_empty) continue;
+    ++empty;
+    EXPECT_FALSE(whole_has_place) << "seed " << seed;
+  }
+  EXPECT_GT(empty, 20);
 }
 
 }  // namespace
