@@ -201,6 +201,15 @@ TEST(TriangleBounds, WhatIsOnTheBoundHoldsIt) {
   EXPECT_TRUE(isBad({0, 0}, {3, 0}, {0, 4}, less));
 }
 
+// However the product of its sides is rounded.
+TEST_F(RandomTriangles, WhereNothingIsAskedAFlatOneIsGood) {
+  const TriangleBound nothing(0.0, kNoLargest, kAnySize);
+  for (int i = 0; i < 1000; ++i) {
+    const Point step{std::round(number(1.0, 1e6)), std::round(number(1.0, 1e6))};
+    EXPECT_FALSE(isBad({}, step, std::round(number(2.0, 1e6)) * step, nothing));
+  }
+}
+
 TEST_F(RandomTriangles, EdgesAreBounded) {
   for (int i = 0; i < 300; ++i) {
     const auto t = triangle();
@@ -239,6 +248,20 @@ TEST_F(RandomTriangles, AreasAreHalfOfBaseTimesHeight) {
     EXPECT_NEAR(areaOn(flat, t[0], t[2], t[1]), half, 1e-5 * half);
   }
   EXPECT_GT(areaOn({}, {0, 0}, {1, 0}, {0, 1}), 0.0);
+}
+
+// Angles may be short of what is asked by the margin times the longest edge, on the good side alone.
+TEST(IsBadOnASphere, TheMarginMakesBoundsStricter) {
+  const double slack = 0.01;
+  const Point a{0, 0}, b{10, 0}, c{5, 9};  // 10.3 long; 58.1, 60.9 and 60.9 degrees
+  const double longest = std::hypot(5.0, 9.0), least = 2.0 * std::atan(5.0 / 9.0), most = std::atan(9.0 / 5.0);
+  for (const double beyond : {-1.5, -0.5, 0.5, 1.5}) {
+    TriangleBound smallest(toDegrees(least + beyond * slack), kNoLargest, kAnySize);
+    TriangleBound largest(0.0, toDegrees(most + beyond * slack), kAnySize);
+    for (TriangleBound* bound : {&smallest, &largest}) bound->surface = Surface::sphere(1e7, slack / longest);
+    EXPECT_EQ(isBad(a, b, c, smallest), beyond > -1.0) << beyond;
+    EXPECT_EQ(isBad(a, b, c, largest), beyond < 1.0) << beyond;
+  }
 }
 
 TEST(DistanceToSegment, OnASphere) {

@@ -169,8 +169,15 @@ class Sweep:
         for sentence in list(self.judge(fault.split(":")[2], folder, code, errors)):
             self.note(fault, sentence, errors)
         shutil.rmtree(folder, ignore_errors=True)
+        self.count(fault, code)
+
+    def count(self, fault, code):
+        kind, _, what = fault.split(":")
         with self.lock:
-            self.outcomes[fault.split(":")[0] + ":" + fault.split(":")[2], code] += 1
+            self.outcomes[f"{kind}:{what}", code] += 1
+            tried = sum(self.outcomes.values())
+        if tried % 1000 == 0:
+            print(f"{tried} faults, the last {fault}", flush=True)
 
     # Every STEP-th allocation from FIRST on, in one run: fault_shim.c says how.
     def check_every(self, kind, what, first, step, most):
@@ -216,10 +223,7 @@ class Sweep:
                 kept.rename(folder)
                 for sentence in [] if in_library else found:
                     self.note(fault, sentence, errors, stack)
-                with self.lock:
-                    self.outcomes[f"{kind}:{what}", code] += 1
-                    if sum(self.outcomes.values()) % 2000 == 0:
-                        print(f"{sum(self.outcomes.values())} faults, the last {fault}", flush=True)
+                self.count(fault, code)
                 answer.write(b"g")
         errors = process.stderr.read().decode(errors="replace")
         if process.wait() != self.done or self.contents(folder) != self.reference:
@@ -277,6 +281,7 @@ def main():
     parser.add_argument("--what", choices=["fail", "gone"], default="fail", help="of --every: one allocation fails, or "
                         "from it on all of 1 KiB and more")
     parser.add_argument("--each", type=int, default=10**9, help="of --every: so many allocations from each place at most")
+    parser.add_argument("--first", type=int, default=1, help="of --every: allocations from this one on")
     parser.add_argument("--disk", type=int, default=10**9, help="how many changes of the disk are let fail")
     parser.add_argument("--memory", type=int, default=10**9, help="how many allocations by new are let fail")
     parser.add_argument("--malloc", type=int, default=0, help="how many by malloc: many are made in C, which may crash")
@@ -314,7 +319,7 @@ def sweep_case(case, arguments, scratch):
                 work.append(pool.submit(sweep.check, f"malloc:{numbers.randint(1, counts['malloc'])}:int"))
             if arguments.every:
                 for job in range(arguments.jobs):
-                    work.append(pool.submit(sweep.check_every, "malloc", arguments.what, job + 1, arguments.jobs,
+                    work.append(pool.submit(sweep.check_every, "malloc", arguments.what, arguments.first + job, arguments.jobs,
                                             arguments.each))
             else:
                 for kind, most in (("new", arguments.memory), ("malloc", arguments.malloc)):

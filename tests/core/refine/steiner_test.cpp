@@ -225,5 +225,66 @@ TEST(Steiner, BadForItsSizeAlone) {
   }
 }
 
+// Lengths that grow with the distance from the edge y = 0.
+class LengthFourTimesY final : public SizeFunction {
+ public:
+  double at(const Point& x) const override { return 4.0 * x.y; }
+  double least() const override { return 0.1; }
+  double most() const override { return 100.0; }
+};
+
+// A disk in which an equilateral triangle of the length wanted fits, at the centroid of that on the edge.
+TEST(Steiner, LengthsWantedMakeThePetal) {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1, 0}, {0.5, 20}};
+  const EditMesh mesh(constrainedDelaunay(pslg));
+  const LengthFourTimesY wanted;
+  const TriangleBound bound(30.0, 180.0, kNoSize, &wanted, 1.4);
+  const unsigned apex = mesh.cornerOf(0, 2);
+  const double length = 4.0 * std::sqrt(3.0) / 6.0;
+  const auto tip = [](double radius) { return radius + std::sqrt(radius * radius - 0.25); };
+  const SteinerPoint point = SteinerSearch(Algorithm::Optimal, bound, 0.0).find(mesh, 0, apex);
+  EXPECT_EQ(point.type, SteinerType::DualOfShortestEdge);
+  EXPECT_NEAR(point.place.x, 0.5, 1e-12);
+  EXPECT_NEAR(point.place.y, tip(length / std::sqrt(3.0)), 1e-9);
+  EXPECT_NEAR(point.squared_clearance, squaredLength(point.place), 1e-9);
+  const SteinerPoint longer = SteinerSearch(Algorithm::Optimal, bound, 0.0, 1.2).find(mesh, 0, apex);
+  EXPECT_NEAR(longer.place.y, tip(1.2 * length / std::sqrt(3.0)), 1e-9);
+}
+
+// No length wanted makes the petal larger than the angle does, and none smaller than the edge has room in.
+TEST(Steiner, PetalsHaveRoomForTheirEdge) {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1, 0}, {0.5, 20}};
+  const EditMesh mesh(constrainedDelaunay(pslg));
+  const unsigned apex = mesh.cornerOf(0, 2);
+  for (const double length : {0.01, 100.0}) {
+    const ConstantSize wanted(length);
+    const TriangleBound bound(30.0, 180.0, kNoSize, &wanted, 1.4);
+    const SteinerPoint point = SteinerSearch(Algorithm::Offcenter, bound, 0.0).find(mesh, 0, apex);
+    EXPECT_NEAR(point.place.y, length < 1.0 ? 0.5 : 1.0 + std::sqrt(0.75), 1e-5);
+  }
+}
+
+// As in the plane on a sphere so large that it is flat here; elsewhere on it too.
+TEST(Steiner, OnASphere) {
+  for (const Point& away : {Point{0, 0}, Point{500, 200}}) {
+    Pslg pslg;
+    pslg.points = {away + Point{0, 0}, away + Point{1, 0}, away + Point{0.5, 20}};
+    const EditMesh mesh(constrainedDelaunay(pslg));
+    const TriangleBound flat(30.0, 180.0, kNoSize);
+    TriangleBound curved = flat;
+    curved.surface = Surface::sphere(1e5);
+    const unsigned apex = mesh.cornerOf(0, 2);
+    for (const Algorithm algorithm : {Algorithm::Circumcenter, Algorithm::Offcenter, Algorithm::Optimal}) {
+      const SteinerPoint expected = SteinerSearch(algorithm, flat, 0.0).find(mesh, 0, apex);
+      const SteinerPoint point = SteinerSearch(algorithm, curved, 0.0).find(mesh, 0, apex);
+      EXPECT_EQ(point.type, expected.type);
+      EXPECT_NEAR(distance(point.place, expected.place), 0.0, 1e-3);
+      EXPECT_NEAR(point.squared_clearance, expected.squared_clearance, 1e-2 * expected.squared_clearance);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace coastmesh
