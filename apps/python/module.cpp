@@ -2,9 +2,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <filesystem>
 #include <string>
 
 #include "apps/plot/plot_mesh.hpp"
+#include "apps/plot/plot_page.hpp"
 #include "apps/python/arrays.hpp"
 #include "apps/python/pickle.hpp"
 #include "apps/python/run.hpp"
@@ -80,10 +82,18 @@ void plotFile(const MeshResult& mesh, const std::string& path, const std::string
   }
   options.size_px = static_cast<std::uint64_t>(size);
   options.edges = edges;
-  requirePlotFormat(path);
+  const PageOptions in_page{
+      .name = std::filesystem::path(path).stem().string(), .color = options.color, .edges = edges};
+  const bool page = isPagePath(path);
+  if (!page) requirePlotFormat(path);
   const py::gil_scoped_release release;
   StagedFiles picture(path, overwrite);
-  picture.make([&](const std::string& aside) { plotMesh(mesh.grid, options, aside); });
+  picture.make([&](const std::string& aside) {
+    if (page)
+      plotPage(mesh.grid, in_page, aside);
+    else
+      plotMesh(mesh.grid, options, aside);
+  });
   picture.commit();
 }
 

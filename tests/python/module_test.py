@@ -382,6 +382,12 @@ class FilesTest(unittest.TestCase):
         mesh.plot(self.path("lake.png"), size=200)
         with open(self.path("lake.png"), "rb") as file:
             self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+        mesh.plot(self.path("lake.html"), color="size", edges=False)
+        with open(self.path("lake.html"), encoding="utf-8") as file:
+            page = file.read()
+        self.assertTrue(page.startswith("<!doctype html>"))
+        self.assertIn('"color":"size","edges":false', page)
+        self.assertIn(f'"triangles":{len(mesh.triangles)},', page)
         with self.assertRaises(coastmesh.OptionError):
             mesh.plot(self.path("other.png"), color="pink")
         with self.assertRaises(coastmesh.OutputError) as caught:
@@ -395,7 +401,8 @@ class FilesTest(unittest.TestCase):
         for size in (0, 15, -1, 20001, 10**9, 10**30, 3.5, True):
             with self.assertRaisesRegex(coastmesh.OptionError, "size"):
                 mesh.plot(self.path("other.png"), size=size)
-        self.assertEqual(sorted(n for n in os.listdir(self.folder) if not n.endswith(".prj")), ["lake.2dm", "lake.png"])
+        left = sorted(name for name in os.listdir(self.folder) if not name.endswith(".prj"))
+        self.assertEqual(left, ["lake.2dm", "lake.html", "lake.png"])
 
 
 class RunTest(unittest.TestCase):

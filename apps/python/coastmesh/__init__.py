@@ -131,7 +131,8 @@ class Mesh:
             self._made._write(os.fsencode(path), format or "", overwrite)
 
     def plot(self, path, color="angle", size=1600, edges=True, overwrite=False):
-        """Draws the mesh as .png or .svg, `size` pixels on its longer side; `color` as in `coastmesh plot --color`."""
+        """Draws the mesh as .png or .svg, `size` pixels on its longer side, or as a page for a browser, .html, as large
+        as its window; `color` as in `coastmesh plot --color`."""
         if isinstance(size, (bool, np.bool_)) or not isinstance(size, (int, np.integer)) or abs(size) >= 2**63:
             raise OptionError(f"size: {size!r} is no number of pixels")
         with _own_errors():
