@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
@@ -110,6 +111,90 @@ TEST(CheckMesh, CornerOutOfRangeOrTwice) {
     EXPECT_EQ(kindsIn(defects), Kinds{DefectKind::BrokenTopology});
     EXPECT_TRUE(std::ranges::any_of(defects, [](const MeshDefect& d) { return d.triangle == 3; }));
   }
+}
+
+// Each corner, each pair of them, each neighbour: and none but the triangle that has them, where it is.
+TEST(CheckMesh, BrokenTrianglesAreToldOneByOne) {
+  const TriMesh mesh = meshOf({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {{0, 1, 2}, {0, 2, 3}});
+  const auto broken = [](const TriMesh& changed) {
+    std::set<TriId> triangles;
+    for (const MeshDefect& d : checkMesh(changed, nullptr, {}))
+      if (d.kind == DefectKind::BrokenTopology) triangles.insert(d.triangle);
+    return triangles;
+  };
+  EXPECT_EQ(broken(mesh), std::set<TriId>{});
+  for (unsigned i = 0; i < 3; ++i) {
+    TriMesh same = mesh, beyond = mesh;
+    same.triangles[1].v[i] = same.triangles[1].v[(i + 1) % 3];
+    beyond.triangles[1].v[i] = 4;
+    EXPECT_TRUE(broken(same).contains(1)) << i;
+    EXPECT_TRUE(broken(beyond).contains(1)) << i;
+    TriMesh without = mesh;
+    const EdgeRef twin = mesh.triangles[0].adj[i];
+    without.triangles[0].adj[i] = twin == kNone ? edgeRef(1, 0) : edgeRef(0, 0) + 3;
+    EXPECT_TRUE(broken(without).contains(0)) << i;
+  }
+  // Two that do point back, with other corners than each other's.
+  for (const VertexId corner : {0u, 2u}) {
+    TriMesh other = mesh;
+    other.points.push_back({-1, 1});
+    *std::ranges::find(other.triangles[1].v, corner) = 4;
+    EXPECT_EQ(broken(other), (std::set<TriId>{0, 1})) << corner;
+  }
+  TriMesh marked = mesh;
+  for (unsigned i = 0; i < 3; ++i)
+    if (marked.triangles[0].adj[i] != kNone) marked.triangles[0].seg[i] = 7;
+  const auto defects = checkMesh(marked, nullptr, {});
+  ASSERT_EQ(defects.size(), 2u);
+  EXPECT_NEAR(distance(defects[0].place, {2, 1}), 0.0, 1e-12);
+  EXPECT_NEAR(distance(defects[1].place, {1, 2}), 0.0, 1e-12);
+}
+
+// In a mesh that was read from a file cocircular points are rounded; in one of ours circles are exact.
+TEST(CheckMesh, RoundingMakesNoEdgeThatIsNotDelaunay) {
+  for (const double inwards : {1e-9, 1e-5}) {
+    // Of a square of 2 the corner (2, 2) lies within the circle through the others, the diagonal is theirs.
+    const double x = 2.0 - inwards;
+    TriMesh mesh = meshOf({{0, 0}, {2, 0}, {x, x}, {0, 2}}, {{0, 1, 3}, {1, 2, 3}});
+    EXPECT_EQ(checkMesh(mesh, nullptr, {}).size(), inwards > 1e-7 ? 1u : 0u) << inwards;
+    for (const VertexId ours : {1u, 4u}) {
+      mesh.input_vertices = ours;
+      EXPECT_EQ(checkMesh(mesh, nullptr, {}).size(), 1u) << inwards;
+    }
+  }
+}
+
+// Each edge is judged once, whichever corner of either triangle lies across it.
+TEST(CheckMesh, EachEdgeThatIsNotDelaunayOnce) {
+  for (unsigned i = 0; i < 3; ++i)
+    for (unsigned j = 0; j < 3; ++j) {
+      std::array<VertexId, 3> first = {0, 1, 3}, second = {1, 2, 3};
+      std::ranges::rotate(first, first.begin() + i);
+      std::ranges::rotate(second, second.begin() + j);
+      const auto defects = checkMesh(meshOf({{0, 0}, {2, 0}, {1.1, 1.1}, {0, 2}}, {first, second}), nullptr, {});
+      ASSERT_EQ(defects.size(), 1u) << i << j;
+      EXPECT_EQ(defects[0].triangle, 0u);
+      EXPECT_EQ(defects[0].place, (Point{1.0, 1.0}));
+    }
+}
+
+TEST(CheckMesh, TurnedTrianglesAreToldWhereTheyAre) {
+  const TriMesh mesh = meshOf({{0, 0}, {3, 0}, {0, 6}}, {{0, 2, 1}});
+  const auto defects = checkMesh(mesh, nullptr, {});
+  ASSERT_EQ(defects.size(), 1u);
+  EXPECT_EQ(defects[0].kind, DefectKind::NotCounterClockwise);
+  EXPECT_NEAR(distance(defects[0].place, {1, 2}), 0.0, 1e-12);
+}
+
+TEST(CheckMesh, CountsOfBoundsStartAnew) {
+  BoundCounts counts;
+  const TriMesh needle = meshOf({{0, 0}, {9, 0}, {4, 1}}, {{0, 1, 2}});
+  checkMesh(needle, nullptr, {.min_angle_deg = 30.0}, inOrder, &counts);
+  EXPECT_GT(counts.below, 0u);
+  TriMesh broken = needle;
+  broken.triangles[0].v[0] = 1;
+  checkMesh(broken, nullptr, {.min_angle_deg = 30.0}, inOrder, &counts);
+  EXPECT_EQ(counts.below, 0u);
 }
 
 TEST(CheckMesh, SegmentKnownOnOneSideOnly) {

@@ -286,5 +286,53 @@ TEST(Steiner, OnASphere) {
   }
 }
 
+// Wherever on a sphere, the off-centre sees its edge under the angle aimed at: that of the chords in space. The further
+// it may be from what is asked, by the surface's margin, the more it keeps.
+TEST(Steiner, OffcentresOnASphereSeeTheirEdgeUnderTheAngle) {
+  for (const Point& away : {Point{0, 0}, Point{3, 1}, Point{-8, 4}}) {
+    for (const double margin : {0.0, 0.02}) {
+      const Surface surface = Surface::sphere(5.0, margin);
+      const Frame frame(surface, away);
+      Pslg pslg;  // a needle in the frame there
+      pslg.points = {frame.from({0, 0}), frame.from({0.8, 0}), frame.from({0.4, 4})};
+      const EditMesh mesh(constrainedDelaunay(pslg));
+      const unsigned apex = mesh.cornerOf(0, 2);
+      TriangleBound bound(30.0, 180.0, kNoSize);
+      bound.surface = surface;
+      const SteinerPoint point = SteinerSearch(Algorithm::Offcenter, bound, 0.0).find(mesh, 0, apex);
+      EXPECT_EQ(point.type, SteinerType::DualOfShortestEdge);
+      const Point &p = pslg.points[0], &q = pslg.points[1];
+      EXPECT_NEAR(point.squared_clearance, surface.squaredChord(point.place, p), 1e-9);
+      EXPECT_NEAR(point.squared_clearance, surface.squaredChord(point.place, q), 0.01 * point.squared_clearance);
+      const double angle = std::acos(TriangleShape(p, q, point.place, surface).cosAt(2));
+      const double room = margin * std::sqrt(point.squared_clearance);
+      EXPECT_FALSE(isBad(p, q, point.place, bound));
+      EXPECT_GE(angle, toRadians(30.0) + room);
+      EXPECT_LE(angle, toRadians(30.0) + 1e-4 + 1.5 * room);
+    }
+  }
+}
+
+// Random points on a small sphere that is flat where they are: as in the plane, point by point.
+TEST(Steiner, WhereASphereIsFlatAsInThePlane) {
+  const TriangleBound flat(30.0, 180.0, kNoSize);
+  TriangleBound curved = flat;
+  const EditMesh mesh(constrainedDelaunay(randomPoints(3, 120)));
+  double extent = 0.0;
+  for (VertexId v = 0; v < mesh.vertexSlots(); ++v) extent = std::max(extent, distance({}, mesh.point(v)));
+  curved.surface = Surface::sphere(1e6 * extent);
+  SteinerSearch in_plane(Algorithm::Optimal, flat, 0.0), on_sphere(Algorithm::Optimal, curved, 0.0);
+  int compared = 0;
+  for (const auto [t, apex] : badTriangles(mesh, flat)) {
+    const SteinerPoint expected = in_plane.find(mesh, t, apex), found = on_sphere.find(mesh, t, apex);
+    EXPECT_NEAR(found.squared_clearance, expected.squared_clearance, 1e-4 * expected.squared_clearance);
+    const double clearance = std::sqrt(expected.squared_clearance);
+    EXPECT_LE(clearanceAt(mesh, found.place), clearance * (1.0 + 1e-4));
+    if (found.type == expected.type) EXPECT_LE(distance(found.place, expected.place), 1e-3 * clearance);
+    ++compared;
+  }
+  EXPECT_GT(compared, 10);
+}
+
 }  // namespace
 }  // namespace coastmesh
