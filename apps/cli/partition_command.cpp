@@ -34,7 +34,7 @@ int runPartition(const PartitionUsage& usage, Run& run) {
   Interrupt& interrupt = run.interrupt;
   const PartitionOptions options = partitionFor(usage.parts, usage.outputs, usage.format);
   if (!options.elements && !options.nodes)
-    throw OptionError("no output holds parts: give one that is .prop, partmesh.txt, .nc or .msh");
+    throw OptionError("no output holds parts: give one that is .prop, partmesh.txt, rpart.out, .nc or .msh");
   RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
   outputs.addGrids(usage.outputs, usage.format);
   outputs.addReport(usage.report);

@@ -20,19 +20,28 @@ void declareParts(OptionTable& table, std::uint64_t& parts, const std::vector<st
                   const std::string& format) {
   table
       .integer({"--partition", "Parts for processes"}, parts, "N", 0, kMostParts,
-               "deal the mesh out to N processes of a solver, 0 for none: SCHISM's partition.prop and ADCIRC's "
-               "partmesh.txt as outputs of these names, and in .nc and .msh")
+               "deal the mesh out to N processes of a solver, 0 for none: SCHISM's partition.prop, ADCIRC's "
+               "partmesh.txt and "
+               "FESOM2's dist_N/rpart.out as outputs of these names, and in .nc and .msh")
       .needs(
           [&outputs, &format] {
             return anyHolds(outputs, format, GridPart::Partition) || anyHolds(outputs, format, GridPart::NodePartition);
           },
-          "without an output that holds parts (.prop, partmesh.txt, .nc, .msh)");
+          "without an output that holds parts (.prop, partmesh.txt, rpart.out, .nc, .msh)");
 }
 
 PartitionOptions partitionFor(std::uint64_t parts, const std::vector<std::string>& outputs, const std::string& format) {
   for (const std::string& path : outputs)
     if (parts == 0 && gridFormatFor(path, format).beside_grid)
       throw OptionError("'" + path + "' holds the parts of a mesh: say with --partition how many");
+  for (const std::string& path : outputs) {
+    const GridFormat& known = gridFormatFor(path, format);
+    if (known.name != "fesom_partition") continue;
+    const std::size_t for_parts = filesOf(known, path).targets.size() / 2;  // two a process, and one of all
+    if (for_parts != parts)
+      throw OptionError("'" + path + "': this folder is for " + std::to_string(for_parts) + " processes, not for " +
+                        std::to_string(parts));
+  }
   return {static_cast<std::uint32_t>(parts), anyHolds(outputs, format, GridPart::Partition),
           anyHolds(outputs, format, GridPart::NodePartition)};
 }

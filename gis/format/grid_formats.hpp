@@ -50,7 +50,8 @@ struct FormatRecord {
   FORMAT(vtuGlobeFormat)               \
   FORMAT(plyFormat)                    \
   FORMAT(schismPartitionFormat)        \
-  FORMAT(adcircPartitionFormat)
+  FORMAT(adcircPartitionFormat)        \
+  FORMAT(fesomPartitionFormat)
 #define COASTMESH_FORMAT(name) FormatRecord name();
 COASTMESH_GRID_FORMATS(COASTMESH_FORMAT)
 #undef COASTMESH_FORMAT

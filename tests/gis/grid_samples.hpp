@@ -34,11 +34,14 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "coastmesh-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
+    above_ = ::mkdtemp(name.data());
+    // What one format asks of the folder that its files lie in, a grid being dealt out to three processes.
+    path_ = above_ / "dist_3";
+    std::filesystem::create_directory(path_);
   }
   ~TemporaryFolder() {
     std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    std::filesystem::remove_all(above_, ignored);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -54,7 +57,7 @@ class TemporaryFolder {
   }
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path above_, path_;
 };
 
 // Squares of a lattice, two triangles each, as far as `wanted(column, row)` says so. Points are columns + 1 a row,
