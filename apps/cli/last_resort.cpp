@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -75,6 +76,14 @@ void crashed(int number) {
   end(lacking, "this is a bug of coastmesh, or of a library, please report it: it crashed");
 }
 
+// A library ends the process, as HDF5 does where it cannot begin. Once main has returned there is nothing under guard.
+void endedFromWithin() {
+  if (g_interrupt == nullptr || g_finished) return;
+  removeWhatIsHalfWritten();
+  const bool lacking = g_memory_lacked || CPLGetLastErrorNo() == CPLE_OutOfMemory;
+  end(lacking ? kNoMemory : nullptr, "a library ended the process, as it may where memory lacks");
+}
+
 // A stack that has run over leaves no room for this one.
 void catchCrashes() {
   static char stack[1 << 16];
@@ -107,6 +116,7 @@ void catchCrashes() {
 LastResort::LastResort(Interrupt& interrupt) {
   g_interrupt = &interrupt;
   catchCrashes();
+  std::atexit(endedFromWithin);
   CPLSetErrorHandler([](CPLErr severity, CPLErrorNum code, const char* message) {
     if (severity == CE_Fatal) std::terminate();
     CPLDefaultErrorHandler(severity, code, message);
