@@ -15,7 +15,7 @@ namespace coastmesh {
 // it, about that longitude.
 struct GlobeView {
   bool all = false;
-  std::optional<LonLat> above;
+  std::optional<LonLat> above{};
 };
 
 // Reads "orthographic", "orthographic=LON,LAT", "natural-earth" or "natural-earth=LON"; none for "plane". Throws

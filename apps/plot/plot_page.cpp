@@ -57,7 +57,8 @@ struct PageData {
 };
 
 std::int32_t quantised(double share) {
-  return static_cast<std::int32_t>(std::lround(std::clamp(share, -1.0, 1.0) * kWhole));
+  // Nodes of no triangle may lie anywhere, and nowhere.
+  return std::isfinite(share) ? static_cast<std::int32_t>(std::lround(std::clamp(share, -1.0, 1.0) * kWhole)) : 0;
 }
 
 // Axes one after another, so that neighbours in number, which mostly lie near one another, differ little.
@@ -338,6 +339,7 @@ void plotPage(const Grid& grid, const PageOptions& options, const std::string& p
     throw OptionError("--view: a page shows a plane or a globe; natural-earth is for .svg and .png");
   if (options.view && grid.crs.isPlane())
     throw InputError("the mesh lies in a plane, and has no place on a globe; say its CRS");
+  if (grid.triangles.empty()) throw InputError("the mesh has no triangle to show");
   if (grid.triangles.size() > kMostPageTriangles)
     throw InputError("a page of " + std::to_string(grid.triangles.size()) + " triangles is more than browsers take, " +
                      std::to_string(kMostPageTriangles) + "; draw a picture, .svg or .png, with --bbox");
