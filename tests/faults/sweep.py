@@ -210,6 +210,10 @@ class Sweep:
                     code = "does not end"
                 errors = (around / "errors").read_text(errors="replace")
                 found = list(self.judge(what, folder, code, errors))
+                if found:  # a library may tell a process that was split off from one that began anew: the latter counts
+                    anew, code, errors = self.run(fault)
+                    found = list(self.judge(what, anew, code, errors))
+                    shutil.rmtree(anew)
                 stack = ""
                 in_library = False
                 if found:
