@@ -1,21 +1,30 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <functional>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "apps/cli/exit_codes.hpp"
 #include "apps/cli/interrupt.hpp"
+#include "apps/cli/keeper.hpp"
 #include "apps/cli/last_resort.hpp"
 #include "apps/cli/program.hpp"
 #include "apps/usage/command_line.hpp"
+#include "cluster/cluster.hpp"
+#include "cluster/ranks_started.hpp"
+#include "cluster/serve.hpp"
 #include "core/delaunay.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
+#include "parallel/deal.hpp"
 
 namespace {
 
@@ -44,17 +53,37 @@ bool flushOutput(std::string& why) {
   return false;
 }
 
+// Ranks that help in a run: all that were started with this process, where that is to make one mesh.
+int ranksOf(int argc, char** argv) {
+  const auto isShard = [](const char* argument) { return std::string_view(argument).starts_with("--shard"); };
+  const bool together = argc > 1 && std::string_view(argv[1]) == "mesh" && std::none_of(argv + 2, argv + argc, isShard);
+  return together ? ranksStarted() : 1;
+}
+
+// Rank 0 runs the program, the others help it.
+int runAmongRanks(int argc, char** argv, Interrupt& interrupt, int ranks) {
+  std::string command;
+  for (int i = 1; i < argc; ++i) command.append(argv[i]).push_back('\0');
+  const auto stopped = [&interrupt] { return interrupt.requested(); };
+  Post post(joinRanks, ranks, std::hash<std::string>()(command));
+  if (post.rank() != 0) return serveRankZero(post, stopped) ? kExitDone : kExitInterrupted;
+  Cluster cluster(post, stopped);
+  return runProgram(argc, argv, interrupt, &cluster);
+}
+
 // The only place where errors become messages and exit codes.
-int guardedMain(int argc, char** argv, Interrupt& interrupt) {
+int guardedMain(int argc, char** argv, Interrupt& interrupt, int ranks) {
   std::string why;
   try {
     int code = kExitDone;
     try {
-      code = runProgram(argc, argv, interrupt);
+      code = ranks > 1 ? runAmongRanks(argc, argv, interrupt, ranks) : runProgram(argc, argv, interrupt, nullptr);
     } catch (const UsageText& asked) {
       std::fputs(asked.text.c_str(), stdout);
     }
     return flushOutput(why) ? code : fail(kExitOutput, why);
+  } catch (const CannotJoin& error) {
+    return fail(kExitUsage, error.what());
   } catch (const OptionError& error) {
     return fail(kExitUsage, error.what());
   } catch (const InputError& error) {
@@ -69,6 +98,8 @@ int guardedMain(int argc, char** argv, Interrupt& interrupt) {
     return fail(kExitInterrupted, "interrupted");
   } catch (const std::bad_alloc&) {
     return fail(kExitInput, kNoMemory);
+  } catch (const HelperOutOfMemory& error) {
+    return fail(kExitInput, error.what());
   } catch (const std::exception& error) {
     return fail(kExitBug, std::string("this is a bug of coastmesh, please report it: ") + error.what());
   }
@@ -78,9 +109,13 @@ int guardedMain(int argc, char** argv, Interrupt& interrupt) {
 
 int main(int argc, char** argv) {
   holdStandardStreams();
-  Interrupt interrupt;
+  const int ranks = ranksOf(argc, argv);
+  std::optional<Keeper> keeper;
+  if (ranks > 1) keeper.emplace(Keeper::Lost{rankStarted(), tellLauncher});
+  Interrupt interrupt(keeper ? [&keeper](const auto& folder, bool guarded) { keeper->note(folder, guarded); }
+                             : Interrupt::Notes());
   const LastResort last_resort(interrupt);
-  const int code = guardedMain(argc, argv, interrupt);
+  const int code = guardedMain(argc, argv, interrupt, ranks);
   finishedWith(code);
   return code;
 }

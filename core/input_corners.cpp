@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "core/input_angle.hpp"
 #include "core/predicates.hpp"
@@ -162,6 +164,16 @@ std::vector<Apex> smallSectors(const TriMesh& mesh, const TriangleBound& bound, 
   }));
 }
 
+BoxHalves disksOf(std::span<const InputCorner> corners) {
+  std::vector<Bounds> boxes(corners.size());
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Point reach{corners[k].radius, corners[k].radius};
+    boxes[k].add(corners[k].apex - reach);
+    boxes[k].add(corners[k].apex + reach);
+  }
+  return BoxHalves(boxes);
+}
+
 }  // namespace
 
 void BoundCounts::add(Excuse excuse) {
@@ -207,7 +219,6 @@ InputCorners::InputCorners(const TriMesh& mesh, const TriangleBound& bound, cons
     boxes[f].add(mesh.point(features[f].b));
   }
   const BoxHalves nearby(boxes);
-  boxes.assign(corners_.size(), {});
   forEachByStretches(loop, corners_.size(), [&](std::size_t k) {
     const Point& at = corners_[k].apex;
     double nearest = std::numeric_limits<double>::infinity();
@@ -223,12 +234,12 @@ InputCorners::InputCorners(const TriMesh& mesh, const TriangleBound& bound, cons
                        nearest, squaredDistanceToSegment(at, mesh.point(features[f].a), mesh.point(features[f].b)));
                  });
     corners_[k].radius = kNearShare * std::sqrt(nearest);
-    const Point reach{corners_[k].radius, corners_[k].radius};
-    boxes[k].add(at - reach);
-    boxes[k].add(at + reach);
   });
-  disks_ = BoxHalves(boxes);
+  disks_ = disksOf(corners_);
 }
+
+InputCorners::InputCorners(std::vector<InputCorner>&& corners)
+    : corners_(std::move(corners)), disks_(disksOf(corners_)) {}
 
 Excuse InputCorners::excuseOf(const Point& a, const Point& b, const Point& c) const {
   const std::array<Point, 3> vertices{a, b, c};

@@ -56,6 +56,8 @@ class InputCorners {
   InputCorners() = default;
   // Costs next to nothing where there are none.
   InputCorners(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop = inOrder);
+  // As `all` of another gave them.
+  explicit InputCorners(std::vector<InputCorner>&& corners);
 
   std::span<const InputCorner> all() const { return corners_; }
   // What excuses the triangle abc where it breaks the bounds.

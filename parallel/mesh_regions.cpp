@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -14,6 +15,8 @@
 #include "core/refine/optimise.hpp"
 #include "core/refine/vertex_notes.hpp"
 #include "core/size/plane_sizes.hpp"
+#include "parallel/deal.hpp"
+#include "parallel/piece_context.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/rounds.hpp"
 
@@ -170,7 +173,7 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
 // which leave the rest as it is, then by refining more and more of what lies round them.
 template <typename Add>
 void mendBesideCores(TriMesh& mesh, std::vector<TriId> bad, const Pslg& pslg, const RefineOptions& options,
-                     const VertexNotes& notes, const RunControl& control, const Add& add) {
+                     const VertexNotes& notes, const HelpedRegion* helpers, const RunControl& control, const Add& add) {
   constexpr unsigned kNear = 16, kFar = 256;
   for (unsigned edges = kNear; !bad.empty() && edges <= kFar; edges *= 4) {
     Submesh patch = extractNear(mesh, notes, bad, edges);
@@ -178,6 +181,7 @@ void mendBesideCores(TriMesh& mesh, std::vector<TriId> bad, const Pslg& pslg, co
     RefineOptions own = options;
     own.max_vertices -= std::min(own.max_vertices, rest);
     RoundsWorkspace workspace;
+    workspace.helpers = helpers;
     TriMesh solved = patch.mesh;
     RoundsReport report = mendInRounds(solved, pslg, own, patch.notes, edges == kNear, control, workspace);
     report.pieces = 0;  // of a part
@@ -194,7 +198,6 @@ void mendBesideCores(TriMesh& mesh, std::vector<TriId> bad, const Pslg& pslg, co
 }
 
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
-  RoundsWorkspace workspace;
   CutTree cuts;
   const auto add = [&](RoundsReport&& report) {
     region.stats.add(report.stats);
@@ -208,6 +211,12 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   Seeds seeds = seed(region, pslg, options, true, control);
   RefineOptions around = options.refine;
   around.max_vertices -= std::min(around.max_vertices, seeds.core_vertices);
+  std::optional<HelpedRegion> helped;
+  if (options.helpers != nullptr)
+    helped.emplace(*options.helpers, contextBytes(pslg, options.refine, seeds.notes.corners.get()));
+  const HelpedRegion* const helpers = helped ? &*helped : nullptr;
+  RoundsWorkspace workspace;
+  workspace.helpers = helpers;
   region.seconds.triangulate += watch.lap();
   add(refineInRounds(region.mesh, pslg, around, std::move(seeds.notes), control, workspace));
   region.seconds.refine = watch.lap();
@@ -226,7 +235,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
         trianglesInViolation(region.mesh, options.refine, seeds.input.corners.get(), stitch);
     insertCores(region.mesh, static_cast<VertexId>(pslg.points.size()), seeds.cores, stitch);
     region.log.append(recorder.finish("stitch"));
-    mendBesideCores(region.mesh, left, pslg, options.refine, seeds.input, control, add);
+    mendBesideCores(region.mesh, left, pslg, options.refine, seeds.input, helpers, control, add);
   }
   Recorder recorder;
   const ItemLoop label = recorder.loop("label", control);

@@ -15,12 +15,16 @@
 
 namespace coastmesh {
 
+struct Helpers;
+
 struct MeshOptions {
   RefineOptions refine;
   bool coarsen = true;
   bool smooth = false;       // optimises for longer; where no lengths are wanted, at all
   bool one_piece = false;    // never cuts a region, however large
   bool mark_pieces = false;  // fill `MeshedRegion::piece_of`
+  // Who may take pieces off this process's hands; outlives the run. The mesh is the same. Null: nobody.
+  const Helpers* helpers = nullptr;
   // Of a mesh that is all of a sphere, as `refine.surface` says; where it is not empty, the region is what lies within
   // its ring, nothing of the input may lie beyond that, and the mesh is closed.
   SphereCap cap;

@@ -8,11 +8,11 @@
 #include <numeric>
 #include <utility>
 
-#include "core/refine/optimise.hpp"
 #include "core/refine/split_segments.hpp"
-#include "core/refine/submesh_runs.hpp"
 #include "parallel/cut.hpp"
+#include "parallel/deal.hpp"
 #include "parallel/near_due.hpp"
+#include "parallel/piece_task.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/stitch.hpp"
 
@@ -114,6 +114,11 @@ enum class Extent {
   NearDue,  // pieces of what is due and lies round it
 };
 
+bool anyOf(const std::vector<std::uint8_t>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
+
+// Whether anything of a piece is to be worked on: triangles for refinement, vertices for what comes after.
+bool isDue(const MeshState& state) { return anyOf(state.due_triangles) || anyOf(state.due_vertices); }
+
 // The mesh from round to round.
 class Rounds {
  public:
@@ -126,13 +131,16 @@ class Rounds {
   Recorder& recorder() { return recorder_; }
   RefineStats& stats() { return stats_; }
 
-  // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `work(state, share, control)` handles a piece with
-  // that share of the whole weight, and returns what it did.
-  template <typename Weigh, typename Work>
-  void round(std::string_view name, const Weigh& weigh, Extent extent, const Work& work) {
+  // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `taskOf(state, share)` what is done to a piece with
+  // that share of the whole weight where any of it is due.
+  template <typename Weigh, typename TaskOf>
+  void round(std::string_view name, const Weigh& weigh, Extent extent, const Pslg& pslg, const RefineOptions& options,
+             const TaskOf& taskOf) {
     const RunControl inner{control_.cancelled, {}};
     if (extent == Extent::Uncut) {
-      recorder_.forEach(name, 1, inner, [&](std::size_t) { stats_.add(work(whole_, 1.0, inner)); });
+      recorder_.forEach(name, 1, inner, [&](std::size_t) {
+        if (isDue(whole_)) stats_.add(workOn(taskOf(whole_, 1.0), whole_, pslg, options, inner));
+      });
       most_pieces_ = std::max<std::size_t>(most_pieces_, 1);
       return;
     }
@@ -161,11 +169,37 @@ class Rounds {
     std::vector<CutSubmesh> pieces(parts.pieces);
     std::vector<RefineStats> stats(parts.pieces);
     tbb::enumerable_thread_specific<VertexNumbers> numbers;
-    recorder_.forEach(name, parts.pieces, inner, [&](std::size_t i) {
-      const std::size_t p = order[i];
-      pieces[p] = cutOut(whole_, parts, static_cast<PieceId>(p), numbers.local());
-      stats[p] = work(pieces[p].state, weights[p] / weight, inner);
-    });
+    const auto cutAt = [&](std::size_t i) {
+      pieces[order[i]] = cutOut(whole_, parts, static_cast<PieceId>(order[i]), numbers.local());
+      return isDue(pieces[order[i]].state);
+    };
+    const auto taskAt = [&](std::size_t i) { return taskOf(pieces[order[i]].state, weights[order[i]] / weight); };
+    const auto workAt = [&](std::size_t i) {
+      const PieceTask task = taskAt(i);
+      stats[order[i]] = workOn(task, pieces[order[i]].state, pslg, options, inner);
+    };
+    if (workspace_.helpers == nullptr || parts.pieces == 1) {
+      recorder_.forEach(name, parts.pieces, inner, [&](std::size_t i) {
+        if (cutAt(i)) workAt(i);
+      });
+    } else {
+      std::vector<std::uint8_t> due(parts.pieces, 0);
+      DealtWork work;
+      work.may_go = [&](std::size_t i) { return (due[i] = cutAt(i)) != 0; };
+      work.here = [&](std::size_t i) {
+        if (due[i]) workAt(i);
+      };
+      work.request = [&](std::size_t i) {
+        MeshState& state = pieces[order[i]].state;
+        std::string request = requestFor(taskAt(i), state);
+        state.mesh.triangles = {};
+        return request;
+      };
+      work.take = [&](std::size_t i, Reply&& reply) {
+        stats[order[i]] = takePiece(std::move(reply), pieces[order[i]].state);
+      };
+      dealItems(*workspace_.helpers, parts.pieces, inner, recorder_, name, work);
+    }
     if (some.empty()) {
       stitch(std::move(pieces), whole_, recorder_, workspace_.spare);
       std::swap(whole_, workspace_.spare);
@@ -202,8 +236,6 @@ class Rounds {
   CutTree most_cuts_;
   int count_ = 0;
 };
-
-bool anyOf(const std::vector<std::uint8_t>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
 
 // What is asked, step after step. At first small angles, of the whole: long thin triangles from shore to shore, as a
 // triangulation without Steiner points has them, leave no way to cut it. And edges as short as little work makes them:
@@ -263,9 +295,9 @@ void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, co
   if (vertices > options.most_in_memory) throw OutOfRoom(whole.mesh.points.back());
   const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? expectedOf(whole.mesh, t, bound) : kOfACopy; };
   run.stats().budget_reached = false;
-  run.round("refine", weigh, extent, [&](MeshState& state, double share, const RunControl& inner) {
-    if (!anyOf(state.due_triangles)) return RefineStats{};
-    return refineSubmesh(state, pslg, optionsOfPiece(options, vertices, state, share), mends, inner);
+  run.round("refine", weigh, extent, pslg, options, [&](const MeshState& state, double share) {
+    return PieceTask::of(mends ? PieceWork::RefineAndMend : PieceWork::Refine,
+                         optionsOfPiece(options, vertices, state, share));
   });
 }
 
@@ -333,11 +365,10 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
       control.checkpoint(static_cast<double>(round) / kRepairRounds);
       const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? kOfARepair : kOfACopy; };
       const std::uint64_t vertices = whole.mesh.points.size();
-      const auto work = [&](MeshState& state, double share, const RunControl& inner) {
-        if (!anyOf(state.due_triangles)) return RefineStats{};
-        return repairSubmesh(state, pslg, optionsOfPiece(options, vertices, state, share), inner);
-      };
-      run.round("refine", weigh, round + 1 == kRepairRounds ? Extent::Uncut : Extent::All, work);
+      const Extent extent = round + 1 == kRepairRounds ? Extent::Uncut : Extent::All;
+      run.round("refine", weigh, extent, pslg, options, [&](const MeshState& state, double share) {
+        return PieceTask::of(PieceWork::Repair, optionsOfPiece(options, vertices, state, share));
+      });
     }
   } else {
     refineStep(run, pslg, options, false, true, [&](double share) { control.checkpoint(share); });
@@ -347,10 +378,9 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
 
 namespace {
 
-// Gives every Steiner point its turn in some round: `work(state, control)` handles the due vertices of a piece.
-template <typename Work>
-RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunControl& control, RoundsWorkspace& workspace,
-                           const Work& work) {
+// Gives every Steiner point its turn in some round.
+RoundsReport sweepInRounds(std::string_view name, const PieceTask& task, TriMesh& mesh, const Pslg& pslg,
+                           const RefineOptions& options, const RunControl& control, RoundsWorkspace& workspace) {
   constexpr int kRounds = 3;
   Rounds run(std::move(mesh), control, workspace);
   MeshState& whole = run.whole();
@@ -362,10 +392,8 @@ RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunContro
       const auto& v = whole.mesh.triangle(t).v;
       return kOfACopy + whole.due_vertices[v[0]] + whole.due_vertices[v[1]] + whole.due_vertices[v[2]];
     };
-    run.round(name, weigh, r == 0 ? Extent::All : Extent::NearDue,
-              [&](MeshState& state, double, const RunControl& inner) {
-                return anyOf(state.due_vertices) ? work(state, inner) : RefineStats{};
-              });
+    run.round(name, weigh, r == 0 ? Extent::All : Extent::NearDue, pslg, options,
+              [&](const MeshState&, double) { return task; });
   }
   return run.finish(mesh);
 }
@@ -374,16 +402,13 @@ RoundsReport sweepInRounds(std::string_view name, TriMesh& mesh, const RunContro
 
 RoundsReport coarsenInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,
                              RoundsWorkspace& workspace) {
-  return sweepInRounds("coarsen", mesh, control, workspace, [&](MeshState& state, const RunControl& inner) {
-    return coarsenSubmesh(state, pslg, options, inner);
-  });
+  return sweepInRounds("coarsen", PieceTask::of(PieceWork::Coarsen, options), mesh, pslg, options, control, workspace);
 }
 
 RoundsReport optimiseInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
                               const RunControl& control, RoundsWorkspace& workspace) {
-  return sweepInRounds("optimise", mesh, control, workspace, [&](MeshState& state, const RunControl& inner) {
-    return optimiseSubmesh(state, pslg, options, sweeps, inner);
-  });
+  return sweepInRounds("optimise", PieceTask::of(PieceWork::Optimise, options, sweeps), mesh, pslg, options, control,
+                       workspace);
 }
 
 }  // namespace coastmesh

@@ -5,6 +5,7 @@
 #include "core/run_control.hpp"
 #include "core/tri_mesh.hpp"
 #include "parallel/cut.hpp"
+#include "parallel/deal.hpp"
 #include "parallel/partition.hpp"
 #include "parallel/work_log.hpp"
 
@@ -18,6 +19,7 @@ double expectedTriangles(const TriMesh& mesh, const RefineOptions& options);
 struct RoundsWorkspace {
   MeshState spare;
   Partition parts;
+  const HelpedRegion* helpers = nullptr;  // who may take pieces off this process's hands
 };
 
 // What rounds did, besides the mesh.

@@ -9,9 +9,12 @@
 
 namespace coastmesh {
 
+class Cluster;
+
 // What a run of a command is given besides its options.
 struct Run {
   Interrupt& interrupt;
+  Cluster* cluster;                   // the other ranks of the run; null where there are none
   std::vector<std::string> inputs;    // all files that the run reads
   std::vector<std::string> warnings;  // printed already; for the report
   const OptionTable& options;         // all that was given

@@ -59,7 +59,7 @@ bool removeFolder(int above, const char* name, int depth) {
 
 }  // namespace
 
-Interrupt::Interrupt() {
+Interrupt::Interrupt(Notes notes) : notes_(std::move(notes)) {
   // Whoever reads our output may go away first, and a file may come to its limit: such a write then fails as any other
   // does.
   signal(SIGPIPE, SIG_IGN);
@@ -85,12 +85,16 @@ void Interrupt::check() const {
 
 void Interrupt::guard(const std::filesystem::path& folder) {
   const std::lock_guard lock(mutex_);
-  guarded_.emplace(folder, std::filesystem::absolute(folder));
+  const auto [at, added] = guarded_.emplace(folder, std::filesystem::absolute(folder));
+  if (notes_ && added) notes_(at->second, true);
 }
 
 void Interrupt::release(const std::filesystem::path& folder) noexcept {
   const std::lock_guard lock(mutex_);
-  guarded_.erase(folder);
+  const auto at = guarded_.find(folder);
+  if (at == guarded_.end()) return;
+  if (notes_) notes_(at->second, false);
+  guarded_.erase(at);
 }
 
 // Whoever holds the lock may be the one that cannot go on.
@@ -103,6 +107,9 @@ void Interrupt::close() {
   const std::lock_guard lock(mutex_);
   if (requested_) throw Cancelled();
   closed_ = true;
+  // What is replaced is kept in these folders until all is in place.
+  if (notes_)
+    for (const auto& [given, folder] : guarded_) notes_(folder, false);
 }
 
 void Interrupt::reopen() {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -15,7 +16,10 @@ namespace coastmesh {
 // thread.
 class Interrupt {
  public:
-  Interrupt();
+  // What is told which folders come under guard (true) and which are released (false), for whoever removes them where
+  // this process does not come to that. May be empty.
+  using Notes = std::function<void(const std::filesystem::path& folder, bool guarded)>;
+  explicit Interrupt(Notes notes = {});
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
@@ -48,6 +52,7 @@ class Interrupt {
   bool closed_ = false;
   bool missed_ = false;                                             // a signal came while closed
   std::map<std::filesystem::path, std::filesystem::path> guarded_;  // as given, and from the root
+  Notes notes_;
   std::thread watcher_;
 };
 

@@ -23,6 +23,7 @@
 #include "apps/report/mesh_warnings.hpp"
 #include "apps/usage/grid_usage.hpp"
 #include "apps/usage/mesh_usage.hpp"
+#include "cluster/cluster.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
@@ -184,6 +185,10 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
   const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
                            [&display](std::string_view phase, double share) { display.show(phase, share); }};
+  if (run.cluster != nullptr) {
+    run.cluster->start(job.parallel.threads);
+    job.mesh.helpers = &run.cluster->helpers();
+  }
   MeshJobResult result = runMeshJob(job, control);
   display.clear();
   for (const std::string& warning : warningsOf(result)) run.warn(warning);

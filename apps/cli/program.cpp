@@ -69,7 +69,7 @@ void Run::warn(const std::string& text) {
   warnings.push_back(text);
 }
 
-int runProgram(int argc, char** argv, Interrupt& interrupt) {
+int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
   CLI::App app("Turns coastlines and lakes into triangle meshes for ocean and lake models", "coastmesh");
   app.set_version_flag("--version", std::string("coastmesh ") + COASTMESH_VERSION);
   app.footer(
@@ -120,7 +120,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt) {
     if (!command.line.chosen()) continue;
     command.line.complete(names, former_names);
     requireOutputsApart(command.line.options());
-    Run run{interrupt, {}, {}, command.line.options()};
+    Run run{interrupt, cluster, {}, {}, command.line.options()};
     for (const auto& [option, path] : command.line.options().inputs()) run.inputs.push_back(path);
     for (const std::string& sentence : former_names) run.warn(sentence);
     for (const std::string& sentence : command.line.options().withoutEffect()) run.warn(sentence);

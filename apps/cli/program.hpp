@@ -4,8 +4,10 @@
 
 namespace coastmesh {
 
-// Parses the command line and runs the command it names. Returns an exit code, or throws: UsageText, OptionError,
-// InputError, OutputError, Cancelled, and whatever a bug throws.
-int runProgram(int argc, char** argv, Interrupt& interrupt);
+class Cluster;
+
+// Parses the command line and runs the command it names. `cluster`: the other ranks, where there are some. Returns an
+// exit code, or throws: UsageText, OptionError, InputError, OutputError, Cancelled, and whatever a bug throws.
+int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster);
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "apps/job/bytes.hpp"
+#include "apps/job/group_bytes.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -15,37 +16,10 @@ auto partsOf(auto& header) requires std::is_same_v<std::remove_cvref_t<decltype(
   auto& [version, options, shard, shards, exit_code, input_digest, groups] = header;
   return std::tie(version, options, shard, shards, exit_code, input_digest, groups);
 }
-// Bounds that are missed are in `short_of`.
-auto partsOf(auto& stats) requires std::is_same_v<std::remove_cvref_t<decltype(stats)>, RefineStats> {
-  auto& [steiner_points, by_type, segment_splits, relocations, removals, merges, budget_reached, unresolved] = stats;
-  return std::tie(steiner_points, by_type, segment_splits, relocations, removals, merges, budget_reached);
-}
-auto partsOf(auto& seconds) requires std::is_same_v<std::remove_cvref_t<decltype(seconds)>, MeshSeconds> {
-  auto& [triangulate, refine, coarsen, optimise, stitch] = seconds;
-  return std::tie(triangulate, refine, coarsen, optimise, stitch);
-}
-// All but the plane and the log.
-auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, GroupResult> {
-  auto& [grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
-         short_of, quality, plane, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,
-         estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings] = result;
-  return std::tie(grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
-                  short_of, quality, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces,
-                  estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings);
-}
-
 namespace {
 
 constexpr std::string_view kMagic = "coastmesh shard\n";
 constexpr const char* kEnding = ".shard";
-
-std::string bytesOf(const GroupResult& result) {
-  ByteWriter writer;
-  writer.pass(result);
-  writer.pass(result.plane ? std::optional(result.plane->size_max) : std::nullopt);
-  writer.pass(result.log.work());
-  return writer.take();
-}
 
 std::string contentsOf(const std::string& path, std::size_t most) {
   std::ifstream file(path, std::ios::binary);
@@ -187,17 +161,7 @@ void GatheredShards::begin(std::uint64_t input_digest, std::size_t groups) const
 
 GroupResult GatheredShards::take(std::size_t group) const {
   const Place& place = places_[group];
-  ByteReader reader(place.bytes, "'" + paths_[place.file] + "'");
-  GroupResult result;
-  reader.pass(result);
-  std::optional<double> size_max;
-  double work = 0.0;
-  reader.pass(size_max);
-  reader.pass(work);
-  if (!reader.atEnd()) throw InputError("'" + paths_[place.file] + "' is damaged");
-  if (size_max) result.plane = WorkingPlane{Projection::plane(), *size_max};
-  result.log.addAlone("regions", work);
-  return result;
+  return groupFrom(place.bytes, "'" + paths_[place.file] + "'");
 }
 
 }  // namespace coastmesh

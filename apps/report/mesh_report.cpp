@@ -8,6 +8,7 @@
 #include "apps/report/partition_report.hpp"
 #include "apps/report/report_sections.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "parallel/deal.hpp"
 
 namespace coastmesh {
 
@@ -176,6 +177,12 @@ Json parallelSection(const WorkLog& log) {
   return section;
 }
 
+// Who else worked on the mesh.
+Json clusterSection(const Helpers* helpers) {
+  const HelpersUse use = helpers != nullptr ? helpers->use() : HelpersUse();
+  return {{"ranks", use.ranks}, {"pieces_dealt", use.pieces_dealt}, {"bytes_moved", use.bytes_moved}};
+}
+
 }  // namespace
 
 std::string digestText(std::uint64_t digest) {
@@ -201,6 +208,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"output_warnings", result.output_warnings},
                     {"time_s", timeSection(result.seconds)},
                     {"parallel", parallelSection(result.log)},
+                    {"cluster", clusterSection(job.mesh.helpers)},
                     {"peak_memory_mib", peakMemoryMib()},
                     {"threads", threads}};
   return textOf(report);

@@ -92,14 +92,30 @@ class SizeTree final : public SizeFunction {
   const SizeDemand& demand() const { return demand_; }
   std::size_t bytes() const;
 
- private:
-  friend class SizeTreeBuilder;
-
   // Cells are named by the place of their lower left corner, in units of the finest level.
   struct Cell {
     std::uint32_t below = 0;  // the first of four children in a row, or, where `is_leaf`, a leaf's number
     bool is_leaf = true;
   };
+  // Hands all that a complete tree is made of to `visit`, in one call: to be kept elsewhere.
+  template <typename Visit>
+  void visitParts(const Visit& visit) const {
+    visit(origin_, side_, cells_, leaves_, start_levels_, start_, start_level_, least_, most_);
+  }
+  // A tree of the parts that `fill` writes to what it is given, the same as `visitParts` gives.
+  template <typename Fill>
+  static SizeTree fromParts(const Fill& fill) {
+    SizeTree tree;
+    fill(tree.origin_, tree.side_, tree.cells_, tree.leaves_, tree.start_levels_, tree.start_, tree.start_level_,
+         tree.least_, tree.most_);
+    return tree;
+  }
+
+ private:
+  friend class SizeTreeBuilder;
+
+  SizeTree() = default;
+
   // In rows from below: corners, middles of sides, centre. The middle of a side is NaN where lengths are linear along
   // it.
   using Leaf = std::array<float, 9>;

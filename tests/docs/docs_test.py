@@ -102,6 +102,20 @@ class Folder:
                      "&& coastmesh mesh lake.geojson --target schism -o hgrid.gr3")
             self.run("for k in 1 2 3 4 5 6 7; do coastmesh mesh lakes.gpkg --shard $k/7 -o lakes-$k.shard; done")
 
+    def takeMpi(self):
+        """Makes coastmesh the one that was built with Open MPI, where there is one: whether there is."""
+        program, mpirun = PROGRAM + "_openmpi", shutil.which("mpirun.openmpi")
+        if not (os.path.exists(program) and mpirun):
+            return False
+        for name, target in (("coastmesh", program), ("mpirun", mpirun)):
+            link = os.path.join(self.path, ".bin", name)
+            if os.path.lexists(link):
+                os.remove(link)
+            os.symlink(target, link)
+        self.environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                                OMPI_MCA_rmaps_base_oversubscribe="1")
+        return True
+
     def run(self, script, interpreter=("bash", "-euo", "pipefail", "-c")):
         run = subprocess.run([*interpreter, script], cwd=self.path, env=self.environment, capture_output=True, text=True,
                              timeout=240, check=False)
@@ -133,6 +147,9 @@ class GuideTest(unittest.TestCase):
                     archive.extractall(plugins)
                 folder.environment["XDG_DATA_HOME"] = os.path.join(folder.path, ".local/share")
                 folder.environment.pop("PYTHONPATH")
+            if words == ["mpi"] and not folder.takeMpi():
+                print(f"{name}: not run, there is no program with Open MPI:\n{text}")
+                continue
             folder.run(text)
             ran += 1
         return folder, ran
@@ -218,6 +235,14 @@ class GuideTest(unittest.TestCase):
         folder.run("rm lakes-3.shard gathered.nc && touch -d 2000-01-01 lakes-*.shard && sbatch lakes.sbatch "
                    "&& test lakes-3.shard -nt lakes-1.shard && test ! lakes-2.shard -nt lakes-1.shard "
                    "&& coastmesh gather lakes-*.shard -o gathered.nc")
+
+    def test_mpi(self):
+        folder, ran = self.run_page("mpi.md")
+        if ran == 0:
+            self.skipTest("nothing was built with MPI")
+        report = json.loads(read(os.path.join(folder.path, "superior.json")))
+        self.assertEqual(report["cluster"]["ranks"], 4)
+        self.assertGreater(report["cluster"]["pieces_dealt"], 0)
 
     def test_python(self):
         self.require_module()

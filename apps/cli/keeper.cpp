@@ -1,0 +1,161 @@
+#include "apps/cli/keeper.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "apps/cli/exit_codes.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr std::array kStopSignals{SIGINT, SIGTERM, SIGHUP};
+constexpr char kGuarded = '+', kReleased = '-';
+
+volatile sig_atomic_t g_child = 0;
+
+void passOn(int signal_number) {
+  const int before = errno;
+  if (g_child > 0) kill(g_child, signal_number);
+  errno = before;
+}
+
+// Notes that have come whole; what is left of `text` is the beginning of one.
+void takeNotes(std::string& text, std::set<std::string>& folders) {
+  std::size_t end = 0;
+  while ((end = text.find('\0')) != std::string::npos) {
+    const std::string folder = text.substr(1, end - 1);
+    text.front() == kGuarded ? void(folders.insert(folder)) : void(folders.erase(folder));
+    text.erase(0, end + 1);
+  }
+}
+
+// The folders that are under guard when the child is gone.
+std::set<std::string> foldersLeft(int from_child) {
+  std::set<std::string> folders;
+  std::string text;
+  std::array<char, 4096> some{};
+  for (;;) {
+    const ssize_t count = read(from_child, some.data(), some.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return folders;
+    text.append(some.data(), static_cast<std::size_t>(count));
+    takeNotes(text, folders);
+  }
+}
+
+// Whoever looks for the process that works does not find the others by its name.
+void nameAs([[maybe_unused]] const char* name) {
+#ifdef __linux__
+  prctl(PR_SET_NAME, name);
+#endif
+}
+
+// A sweeper, out of reach of whoever ends the run: no signal that is sent to the run or its group comes to it, nor does
+// it hold what the run's end is seen by. It removes what is under guard when the child is gone, however that came.
+pid_t makeSweeper(int from_child, int to_sweeper) {
+  const pid_t sweeper = fork();
+  if (sweeper != 0) return sweeper;
+  nameAs("coastmesh-sweep");
+  setsid();
+  for (const int signal_number : kStopSignals) signal(signal_number, SIG_IGN);
+  const int nowhere = open("/dev/null", O_RDWR);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
+  close(to_sweeper);
+  constexpr int kMostOpen = 1024;
+  for (int other = STDERR_FILENO + 1; other < kMostOpen; ++other)
+    if (other != from_child) close(other);
+  for (const std::string& folder : foldersLeft(from_child)) {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+  }
+  _exit(0);
+}
+
+int statusOf(pid_t process) {
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  return status;
+}
+
+[[noreturn]] void keep(pid_t child, pid_t sweeper, const Keeper::Lost& lost) {
+  nameAs("coastmesh-keep");
+  signal(SIGPIPE, SIG_IGN);
+  const int status = statusOf(child);
+  if (sweeper > 0) statusOf(sweeper);
+  if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
+  std::fprintf(stderr, "coastmesh: error: rank %d was ended by signal %d (%s): there is no mesh\n", lost.rank,
+               WTERMSIG(status), strsignal(WTERMSIG(status)));
+  lost.tell(kExitInterrupted);
+  _exit(kExitInterrupted);
+}
+
+}  // namespace
+
+Keeper::Keeper(const Lost& lost) {
+  std::array<int, 2> pipe_ends{};
+  if (pipe(pipe_ends.data()) != 0) return;
+  const auto [from_child, to_sweeper] = pipe_ends;
+  const pid_t parent = getpid();
+  // Until the child is known no signal may end the parent alone.
+  sigset_t signals, before;
+  sigemptyset(&signals);
+  for (const int signal_number : kStopSignals) sigaddset(&signals, signal_number);
+  sigprocmask(SIG_BLOCK, &signals, &before);
+  const pid_t sweeper = makeSweeper(from_child, to_sweeper);
+  close(from_child);
+  const pid_t child = fork();
+  if (child > 0) {
+    close(to_sweeper);
+    g_child = child;
+    struct sigaction action {};
+    action.sa_handler = passOn;
+    for (const int signal_number : kStopSignals) sigaction(signal_number, &action, nullptr);
+    sigprocmask(SIG_UNBLOCK, &signals, nullptr);
+    keep(child, sweeper, lost);
+  }
+  if (child < 0) {
+    close(to_sweeper);
+    sigprocmask(SIG_SETMASK, &before, nullptr);
+    return;
+  }
+  fcntl(to_sweeper, F_SETFD, FD_CLOEXEC);
+  to_sweeper_ = to_sweeper;
+  // Whoever ends the parent's group does not end the child before it has cleaned up.
+  setpgid(0, 0);
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+  if (getppid() != parent) raise(SIGTERM);
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+}
+
+Keeper::~Keeper() {
+  if (to_sweeper_ >= 0) close(to_sweeper_);
+}
+
+void Keeper::note(const std::filesystem::path& folder, bool guarded) const noexcept {
+  if (to_sweeper_ < 0) return;
+  std::string_view path = folder.native();
+  const char kind = guarded ? kGuarded : kReleased;
+  // Where nobody reads it, there is nobody to clean up.
+  [[maybe_unused]] ssize_t written = write(to_sweeper_, &kind, 1);
+  written = write(to_sweeper_, path.data(), path.size());
+  written = write(to_sweeper_, "", 1);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,46 @@
+#include "apps/job/group_bytes.hpp"
+
+#include <optional>
+
+#include "apps/job/bytes.hpp"
+
+namespace coastmesh {
+
+// Found by the calls of `pass`.
+auto partsOf(auto& seconds) requires std::is_same_v<std::remove_cvref_t<decltype(seconds)>, MeshSeconds> {
+  auto& [triangulate, refine, coarsen, optimise, stitch] = seconds;
+  return std::tie(triangulate, refine, coarsen, optimise, stitch);
+}
+// All but the plane and the log.
+auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, GroupResult> {
+  auto& [grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
+         short_of, quality, plane, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,
+         estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings] = result;
+  return std::tie(grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
+                  short_of, quality, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces,
+                  estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings);
+}
+
+std::string bytesOf(const GroupResult& result) {
+  ByteWriter writer;
+  writer.pass(result);
+  writer.pass(result.plane ? std::optional(result.plane->size_max) : std::nullopt);
+  writer.pass(result.log.work());
+  return writer.take();
+}
+
+GroupResult groupFrom(std::string_view bytes, const std::string& what) {
+  ByteReader reader(bytes, what);
+  GroupResult result;
+  reader.pass(result);
+  std::optional<double> size_max;
+  double work = 0.0;
+  reader.pass(size_max);
+  reader.pass(work);
+  if (!reader.atEnd()) throw InputError(what + " is damaged");
+  if (size_max) result.plane = WorkingPlane{Projection::plane(), *size_max};
+  result.log.addAlone("regions", work);
+  return result;
+}
+
+}  // namespace coastmesh

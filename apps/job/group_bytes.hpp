@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "apps/job/mesh_group.hpp"
+
+namespace coastmesh {
+
+// A group's result as bytes, for one version of coastmesh: all but the projection of its plane, and of its log the
+// work alone.
+std::string bytesOf(const GroupResult& result);
+// `what` names the bytes where they are damaged; throws InputError.
+GroupResult groupFrom(std::string_view bytes, const std::string& what);
+
+}  // namespace coastmesh

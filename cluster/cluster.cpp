@@ -1,0 +1,96 @@
+#include "cluster/cluster.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace coastmesh {
+
+namespace {
+
+// Beside one piece a thread, so that the next is there when one is done: one more a thread where there are few.
+int roomsOf(std::uint64_t threads) { return static_cast<int>(threads + std::min<std::uint64_t>(threads, 8)); }
+
+std::shared_ptr<const std::string> shared(std::string&& bytes) {
+  return std::make_shared<const std::string>(std::move(bytes));
+}
+
+}  // namespace
+
+Cluster::Cluster(Post& post, std::function<bool()> stopped)
+    : post_(post), stopped_(std::move(stopped)), rooms_(static_cast<std::size_t>(post.ranks()), 0) {
+  helpers_.begin = [this](std::string&& context) {
+    std::uint32_t region = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      region = regions_++;
+    }
+    post_.sendToOthers({Message::Kind::Begin, region, 0, 0, shared(std::move(context))});
+    return region;
+  };
+  helpers_.end = [this](std::uint32_t region) { post_.sendToOthers({Message::Kind::End, region, 0, 0, {}}); };
+  helpers_.reserve = [this] {
+    const std::lock_guard lock(mutex_);
+    const auto most = std::ranges::max_element(rooms_);
+    if (*most <= 0) return -1;
+    --*most;
+    return static_cast<int>(most - rooms_.begin());
+  };
+  helpers_.send = [this](int room, std::uint32_t region, std::string&& request, std::function<void(Reply &&)> take) {
+    std::uint64_t number = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      number = requests_++;
+      awaited_.emplace(number, std::move(take));
+    }
+    post_.send(room, {Message::Kind::Request, region, number, 0, shared(std::move(request))});
+  };
+  helpers_.use = [this] {
+    const std::lock_guard lock(mutex_);
+    return HelpersUse{post_.ranks(), requests_, post_.bytesMoved()};
+  };
+  post_.listen([this](Message&& message, int from) { take(std::move(message), from); });
+}
+
+Cluster::~Cluster() {
+  constexpr auto kLook = std::chrono::milliseconds(50);
+  post_.sendToOthers({Message::Kind::Stop, 0, 0, 0, {}});
+  {
+    // Answers that nobody waits for any more may still be on their way.
+    std::unique_lock lock(mutex_);
+    while (gone_ + 1 < post_.ranks() && !stopped_()) changed_.wait_for(lock, kLook);
+  }
+  stopped_() ? post_.leave() : post_.finish();
+}
+
+void Cluster::start(int threads) {
+  post_.sendToOthers({Message::Kind::Start, 0, static_cast<std::uint64_t>(threads), 0, {}});
+}
+
+void Cluster::take(Message&& message, int from) {
+  std::function<void(Reply &&)> keep;
+  {
+    const std::lock_guard lock(mutex_);
+    int& rooms = rooms_[static_cast<std::size_t>(from)];
+    if (message.kind == Message::Kind::Ready) {
+      rooms = roomsOf(message.number);
+      return;
+    }
+    if (message.kind == Message::Kind::Gone) {
+      ++gone_;
+      rooms = 0;
+      changed_.notify_all();
+      return;
+    }
+    const auto awaited = awaited_.find(message.number);
+    if (message.kind != Message::Kind::Reply || awaited == awaited_.end()) return;
+    keep = std::move(awaited->second);
+    awaited_.erase(awaited);
+    ++rooms;
+  }
+  keep({static_cast<Reply::Outcome>(message.outcome), *message.bytes});
+}
+
+}  // namespace coastmesh

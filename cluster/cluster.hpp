@@ -1,0 +1,44 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "cluster/post.hpp"
+#include "parallel/deal.hpp"
+
+namespace coastmesh {
+
+// Rank 0's side of a run on several ranks: the others help with pieces.
+class Cluster {
+ public:
+  // `stopped` says whether the run is being given up, so that the others are not waited for.
+  Cluster(Post& post, std::function<bool()> stopped);
+  // Sends the others away.
+  ~Cluster();
+  Cluster(const Cluster&) = delete;
+  Cluster& operator=(const Cluster&) = delete;
+
+  // Lets the others begin, each with so many threads, or as many as it has cores where that is 0.
+  void start(int threads);
+  const Helpers& helpers() const { return helpers_; }
+
+ private:
+  void take(Message&& message, int from);
+
+  Post& post_;
+  std::function<bool()> stopped_;
+  Helpers helpers_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int gone_ = 0;            // ranks that have said so
+  std::vector<int> rooms_;  // one a rank: requests that it has room for
+  std::map<std::uint64_t, std::function<void(Reply&&)>> awaited_;
+  std::uint64_t requests_ = 0;
+  std::uint32_t regions_ = 0;
+};
+
+}  // namespace coastmesh

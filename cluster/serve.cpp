@@ -1,0 +1,169 @@
+#include "cluster/serve.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "parallel/deal.hpp"
+#include "parallel/piece_context.hpp"
+#include "parallel/piece_task.hpp"
+#include "parallel/workers.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// What pieces of a region share; read by the first who needs it.
+class SharedContext {
+ public:
+  explicit SharedContext(std::shared_ptr<const std::string> bytes) : bytes_(std::move(bytes)) {}
+
+  const PieceContext& get() {
+    const std::lock_guard lock(mutex_);
+    if (!context_) {
+      context_ = contextFrom(*bytes_);
+      bytes_ = nullptr;
+    }
+    return *context_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::shared_ptr<const std::string> bytes_;
+  std::optional<PieceContext> context_;
+};
+
+class Server {
+ public:
+  Server(Post& post, const std::function<bool()>& stopped) : post_(post), stopped_(stopped) {
+    post_.listen([this](Message&& message, int) { take(std::move(message)); });
+  }
+
+  bool run() {
+    const std::optional<int> threads = awaitStart();
+    if (!threads) return !stopped_();
+    withThreads({.threads = *threads}, [&] {
+      const int count = threadCount();
+      post_.send(0, {Message::Kind::Ready, 0, static_cast<std::uint64_t>(count), 0, {}});
+      forEachItem(static_cast<std::size_t>(count), {}, [&](std::size_t) { work(); });
+    });
+    return !stopped_();
+  }
+
+ private:
+  struct Job {
+    std::shared_ptr<SharedContext> context;
+    Message request;
+  };
+
+  // Called by the post.
+  void take(Message&& message) {
+    {
+      const std::lock_guard lock(mutex_);
+      switch (message.kind) {
+        case Message::Kind::Start:
+          threads_ = static_cast<int>(message.number);
+          break;
+        case Message::Kind::Begin:
+          regions_[message.region] = std::make_shared<SharedContext>(std::move(message.bytes));
+          break;
+        case Message::Kind::End:
+          regions_.erase(message.region);
+          break;
+        case Message::Kind::Request:
+          jobs_.push_back({regions_[message.region], std::move(message)});
+          break;
+        default:
+          done_ = true;
+      }
+    }
+    changed_.notify_all();
+  }
+
+  // Whether it is time to end; called under the lock.
+  bool isOver() const { return done_ || stopped_(); }
+
+  template <typename Ready>
+  bool await(std::unique_lock<std::mutex>& lock, const Ready& ready) {
+    constexpr auto kLook = std::chrono::milliseconds(50);
+    while (!isOver() && !ready()) changed_.wait_for(lock, kLook);
+    return !isOver();
+  }
+
+  std::optional<int> awaitStart() {
+    std::unique_lock lock(mutex_);
+    if (!await(lock, [&] { return threads_.has_value(); })) return std::nullopt;
+    return threads_;
+  }
+
+  void work() {
+    const RunControl control{[this] {
+                               const std::lock_guard lock(mutex_);
+                               return isOver();
+                             },
+                             {}};
+    for (;;) {
+      Job job;
+      {
+        std::unique_lock lock(mutex_);
+        if (!await(lock, [&] { return !jobs_.empty(); })) return;
+        job = std::move(jobs_.front());
+        jobs_.pop_front();
+      }
+      Reply reply;
+      try {
+        reply = answer(job, control);
+      } catch (const Cancelled&) {
+        return;
+      }
+      post_.send(0, {Message::Kind::Reply, 0, job.request.number, static_cast<std::uint64_t>(reply.outcome),
+                     std::make_shared<const std::string>(std::move(reply.bytes))});
+    }
+  }
+
+  Reply answer(const Job& job, const RunControl& control) const {
+    const std::string who = "rank " + std::to_string(post_.rank()) + " on " + post_.host() + ": ";
+    try {
+      return {Reply::Outcome::Done, answerPiece(*job.request.bytes, job.context->get(), control)};
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      return {Reply::Outcome::NoMemory, who + "there is not enough memory"};
+    } catch (const std::exception& error) {
+      return {Reply::Outcome::Failed, who + error.what()};
+    }
+  }
+
+  Post& post_;
+  const std::function<bool()>& stopped_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<int> threads_;
+  bool done_ = false;
+  std::map<std::uint64_t, std::shared_ptr<SharedContext>> regions_;
+  std::deque<Job> jobs_;
+};
+
+}  // namespace
+
+bool serveRankZero(Post& post, const std::function<bool()>& stopped) {
+  Server server(post, stopped);
+  const bool sent_away = server.run();
+  if (sent_away) {
+    post.send(0, {Message::Kind::Gone, 0, 0, 0, {}});
+    post.finish();
+  } else {
+    post.leave();
+  }
+  return sent_away;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/point.hpp"
+#include "core/refine/refine_options.hpp"
+
+namespace coastmesh {
+
+// Values as bytes, for one version of coastmesh on one kind of machine: the same bits come back. What is neither plain
+// nor one of the library's types has a function partsOf that names its members.
+
+// All but the list of bounds that are missed, which is made of the whole at the end.
+auto partsOf(auto& stats) requires std::is_same_v<std::remove_cvref_t<decltype(stats)>, RefineStats> {
+  auto& [steiner_points, by_type, segment_splits, relocations, removals, merges, budget_reached, unresolved] = stats;
+  return std::tie(steiner_points, by_type, segment_splits, relocations, removals, merges, budget_reached);
+}
+
+// What is copied as it lies: there are no gaps between members.
+template <typename T>
+struct HasNoGaps : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Point>> {};
+template <typename T, std::size_t N>
+struct HasNoGaps<std::array<T, N>> : HasNoGaps<T> {};
+template <typename T>
+concept Plain = HasNoGaps<T>::value && std::is_trivially_copyable_v<T>;
+
+class ByteWriter {
+ public:
+  std::string take() { return std::move(bytes_); }
+
+  template <Plain T>
+  void pass(const T& value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void pass(const std::string& text) { passAll(text); }
+  template <typename T>
+  void pass(const std::vector<T>& values) {
+    passAll(values);
+  }
+  template <typename A, typename B>
+  void pass(const std::pair<A, B>& both) {
+    pass(both.first);
+    pass(both.second);
+  }
+  template <typename T>
+  void pass(const std::optional<T>& value) {
+    pass(value.has_value());
+    if (value) pass(*value);
+  }
+  template <typename... Ts>
+  void pass(const std::variant<Ts...>& value) {
+    pass(static_cast<std::uint64_t>(value.index()));
+    std::visit([this](const auto& held) { pass(held); }, value);
+  }
+  template <typename T>
+  void pass(const T& whole) requires requires {
+    partsOf(whole);
+  }
+  {
+    std::apply([this](const auto&... parts) { (pass(parts), ...); }, partsOf(whole));
+  }
+
+ private:
+  template <typename Items>
+  void passAll(const Items& items) {
+    pass(static_cast<std::uint64_t>(items.size()));
+    if constexpr (Plain<typename Items::value_type>) {
+      bytes_.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
+    } else {
+      for (const auto& item : items) pass(item);
+    }
+  }
+
+  std::string bytes_;
+};
+
+// Every call throws Error, made from a text, where the bytes end too early; `what` names them in its message.
+template <typename Error>
+class BasicByteReader {
+ public:
+  BasicByteReader(std::string_view bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}
+  bool atEnd() const { return at_ == bytes_.size(); }
+
+  template <Plain T>
+  void pass(T& value) {
+    copy(&value, sizeof value);
+  }
+  void pass(std::string& text) { passAll(text); }
+  template <typename T>
+  void pass(std::vector<T>& values) {
+    passAll(values);
+  }
+  template <typename A, typename B>
+  void pass(std::pair<A, B>& both) {
+    pass(both.first);
+    pass(both.second);
+  }
+  template <typename T>
+  void pass(std::optional<T>& value) {
+    bool has = false;
+    pass(has);
+    if (has) pass(value.emplace());
+  }
+  template <typename... Ts>
+  void pass(std::variant<Ts...>& value) {
+    std::uint64_t index = 0;
+    pass(index);
+    if (index >= sizeof...(Ts)) throw Error(what_ + " is damaged");
+    std::uint64_t i = 0;
+    ((i++ == index ? passAs<Ts>(value) : void()), ...);
+  }
+  template <typename T>
+  void pass(T& whole) requires requires {
+    partsOf(whole);
+  }
+  {
+    std::apply([this](auto&... parts) { (pass(parts), ...); }, partsOf(whole));
+  }
+  // So many bytes as they are, which live as long as all.
+  std::string_view passView(std::uint64_t size) {
+    need(size);
+    const std::string_view view = bytes_.substr(at_, size);
+    at_ += size;
+    return view;
+  }
+
+ private:
+  void need(std::uint64_t size) const {
+    if (size > bytes_.size() - at_) throw Error(what_ + " ends too early");
+  }
+  template <typename T, typename Variant>
+  void passAs(Variant& value) {
+    T held{};
+    pass(held);
+    value = std::move(held);
+  }
+  void copy(void* to, std::size_t size) {
+    need(size);
+    if (size > 0) std::memcpy(to, bytes_.data() + at_, size);
+    at_ += size;
+  }
+  template <typename Items>
+  void passAll(Items& items) {
+    std::uint64_t count = 0;
+    pass(count);
+    // Every item takes a byte at least.
+    need(count);
+    items.resize(count);
+    if constexpr (Plain<typename Items::value_type>) {
+      copy(items.data(), items.size() * sizeof(items[0]));
+    } else {
+      for (auto& item : items) pass(item);
+    }
+  }
+
+  std::string_view bytes_;
+  std::string what_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace coastmesh
