@@ -40,7 +40,7 @@ function kindName(mesh, color, kind) {
   const { facts } = mesh;
   if (color === "feature") return facts.features[kind] ?? String(kind);
   if (color === "region" && facts.regions) return kind === 0 ? "none" : facts.regions[kind - 1];
-  if (color === "region") return "region " + (kind + 1);
+  if (color === "region" || color === "piece") return `${color} ${kind + 1}`;  // as files count pieces
   return color + " " + kind;
 }
 
