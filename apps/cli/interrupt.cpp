@@ -1,19 +1,15 @@
 #include "apps/cli/interrupt.hpp"
 
-#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "apps/cli/exit_codes.hpp"
 #include "core/run_control.hpp"
+#include "gis/file/remove_folder.hpp"
 
 namespace coastmesh {
 
@@ -21,7 +17,6 @@ namespace {
 
 constexpr auto kPatience = std::chrono::milliseconds(400);
 constexpr int kRemovalTries = 100;
-constexpr int kDepth = 4;  // folders within folders; there is one, of files that are replaced
 
 sigset_t stopSignals() {
   sigset_t signals;
@@ -30,31 +25,6 @@ sigset_t stopSignals() {
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGHUP);
   return signals;
-}
-
-// Removes a folder with the files and folders in it, and asks for no memory, as there may be none: entries are read as
-// the system gives them. True where it is not there any more.
-bool removeFolder(int above, const char* name, int depth) {
-  const int folder = openat(above, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (folder < 0) return errno == ENOENT;
-  struct Entry {
-    std::uint64_t number;
-    std::int64_t next;
-    unsigned short size;
-    unsigned char type;
-    char name[1];
-  };
-  alignas(Entry) char entries[4096];
-  for (long size = 0; (size = syscall(SYS_getdents64, folder, entries, sizeof entries)) > 0;) {
-    for (long at = 0; at < size;) {
-      const Entry& entry = *reinterpret_cast<const Entry*>(entries + at);
-      at += entry.size;
-      if (std::strcmp(entry.name, ".") == 0 || std::strcmp(entry.name, "..") == 0) continue;
-      if (unlinkat(folder, entry.name, 0) != 0 && depth > 0) removeFolder(folder, entry.name, depth - 1);
-    }
-  }
-  close(folder);
-  return unlinkat(above, name, AT_REMOVEDIR) == 0 || errno == ENOENT;
 }
 
 }  // namespace
@@ -139,7 +109,7 @@ void Interrupt::watch() {
 // file into a folder that is being emptied: hence the tries. Once a folder is gone nothing can be made in it.
 void Interrupt::emptyGuarded() noexcept {
   for (const auto& [given, folder] : guarded_) {
-    for (int i = 0; i < kRemovalTries && !removeFolder(AT_FDCWD, folder.c_str(), kDepth); ++i) {
+    for (int i = 0; i < kRemovalTries && !removeFolder(folder.c_str()); ++i) {
     }
   }
 }

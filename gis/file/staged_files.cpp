@@ -11,12 +11,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <new>
 #include <ranges>
 #include <utility>
 #include <vector>
 
 #include "gis/error.hpp"
+#include "gis/file/remove_folder.hpp"
 
 namespace coastmesh {
 namespace {
@@ -98,19 +98,6 @@ void flushToDisk(const fs::path& path, const fs::path& target) {
   if (failure != 0 && failure != EINVAL) failToWrite(target, std::strerror(failure));
 }
 
-// Tries it once more where there is no memory for it: what is left over is hidden.
-void removeQuietly(const std::string& folder) noexcept {
-  for (int i = 0; i < 2; ++i) {
-    try {
-      std::error_code ignored;
-      fs::remove_all(folder, ignored);
-      return;
-    } catch (const std::bad_alloc&) {
-      continue;
-    }
-  }
-}
-
 // Renames that can be taken back.
 class Moves {
  public:
@@ -180,7 +167,7 @@ StagedFiles::StagedFiles(std::string path, OutputFiles files, bool overwrite)
 }
 
 StagedFiles::~StagedFiles() {
-  if (!staging_folder_.empty()) removeQuietly(staging_folder_);  // a destructor cannot report
+  if (!staging_folder_.empty()) removeFolder(staging_folder_.c_str());  // a destructor cannot report
 }
 
 StagedFiles::StagedFiles(StagedFiles&& other) noexcept
@@ -281,7 +268,7 @@ void commitTogether(std::span<StagedFiles* const> outputs) {
     throw;
   }
   for (StagedFiles* output : outputs) {
-    removeQuietly(output->staging_folder_);  // all is in place
+    removeFolder(output->staging_folder_.c_str());  // all is in place
     output->staging_folder_.clear();
   }
 }
