@@ -70,7 +70,9 @@ void NetcdfWriter::close(const ItemLoop& loop) {
   const std::vector<std::uint64_t> begins = beginningsOfVariables(path_);
   std::vector<FilePart> parts;
   for (auto& [variable, part] : later_) {
-    part.begin = begins.at(static_cast<std::size_t>(variable));
+    if (static_cast<std::size_t>(variable) >= begins.size())
+      throw OutputError("cannot write '" + path_ + "': the header that was written cannot be read back");
+    part.begin = begins[static_cast<std::size_t>(variable)];
     parts.push_back(std::move(part));
   }
   writeParts(path_, std::move(parts), loop);

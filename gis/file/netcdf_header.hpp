@@ -10,8 +10,8 @@ namespace coastmesh {
 // also for every other file. The NetCDF library allocates and reads whatever a damaged header claims.
 bool headerFitsFile(const std::string& path);
 
-// Where the values of each variable of a classic NetCDF file begin, in bytes, in the order of their numbers. REQUIRES:
-// the header is sound.
+// Where the values of each variable of a classic NetCDF file begin, in bytes, in the order of their numbers; of none
+// where the file cannot be read. REQUIRES: what can be read of the header is sound.
 std::vector<std::uint64_t> beginningsOfVariables(const std::string& path);
 
 }  // namespace coastmesh
