@@ -12,6 +12,7 @@
 #include "core/label_regions.hpp"
 #include "core/lattice/lattice_core.hpp"
 #include "core/refine/bound_violations.hpp"
+#include "core/refine/check_input.hpp"
 #include "core/refine/optimise.hpp"
 #include "core/refine/vertex_notes.hpp"
 #include "core/size/plane_sizes.hpp"

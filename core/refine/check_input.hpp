@@ -6,17 +6,11 @@
 
 #include "core/item_loop.hpp"
 #include "core/pslg.hpp"
+#include "core/refine/check.hpp"
 #include "core/refine/mesh_defect.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
-
-// What of a PSLG its domain has: the rest is not in a mesh of it.
-struct PslgCover {
-  std::vector<bool> vertices;
-  std::vector<bool> segments;
-  double area = 0.0;
-};
 
 // Labels on segments say what the domain is, but not whether a point without segments lies in it.
 bool labelsTellAll(const Pslg& pslg);

@@ -111,10 +111,10 @@ std::size_t sharperThan(double degrees, const Fort14& grid) {
 // A star without a corner below 60 degrees: every smaller angle is the mesh's own. What is made of it holds 42 degrees,
 // until a repair takes a node elsewhere.
 TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
-  const std::vector<std::array<int, 2>> ring{{987, 0},  {706, 229},   {572, 416},   {588, 809},   {233, 718},
-                                             {0, 736},  {-277, 852},  {-472, 650},  {-782, 568},  {-732, 238},
-                                             {-988, 0}, {-757, -246}, {-712, -517}, {-576, -793}, {-280, -861},
-                                             {0, -977}, {282, -868},  {420, -578},  {780, -567},  {834, -271}};
+  const std::vector<std::array<int, 2>> ring{{1000, 0},  {866, 281},   {809, 588},   {526, 724},   {309, 951},
+                                             {0, 758},   {-309, 951},  {-486, 670},  {-809, 588},  {-839, 273},
+                                             {-1000, 0}, {-722, -235}, {-809, -588}, {-442, -608}, {-309, -951},
+                                             {0, -842},  {309, -951},  {531, -731},  {809, -588},  {728, -237}};
   std::ostringstream star;
   star << ring.size() << " 2 0 0\n";
   for (std::size_t i = 0; i < ring.size(); ++i) star << i + 1 << ' ' << ring[i][0] << ' ' << ring[i][1] << '\n';
