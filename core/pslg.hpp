@@ -41,4 +41,11 @@ struct Pslg {
   std::vector<Point> holes;
 };
 
+// What of a PSLG its domain has: the rest is not in a mesh of it.
+struct PslgCover {
+  std::vector<bool> vertices;
+  std::vector<bool> segments;
+  double area = 0.0;
+};
+
 }  // namespace coastmesh

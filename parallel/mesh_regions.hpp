@@ -6,7 +6,6 @@
 
 #include "core/point.hpp"
 #include "core/pslg.hpp"
-#include "core/refine/check.hpp"
 #include "core/refine/refine.hpp"
 #include "core/run_control.hpp"
 #include "core/sphere/close_sphere.hpp"

@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -92,6 +94,17 @@ int statusOf(pid_t process) {
   return status;
 }
 
+// Launchers pass on what ranks say, and drop what they have not read yet once they are told of an end.
+void awaitReaderOfErrors() {
+  constexpr useconds_t kLook = 20'000, kPassedOn = 200'000;  // microseconds
+  constexpr int kMostLooks = 100;
+  struct stat stream {};
+  if (fstat(STDERR_FILENO, &stream) != 0 || !S_ISFIFO(stream.st_mode)) return;
+  int unread = 0;
+  for (int i = 0; i < kMostLooks && ioctl(STDERR_FILENO, FIONREAD, &unread) == 0 && unread > 0; ++i) usleep(kLook);
+  usleep(kPassedOn);
+}
+
 [[noreturn]] void keep(pid_t child, pid_t sweeper, const Keeper::Lost& lost) {
   nameAs("coastmesh-keep");
   signal(SIGPIPE, SIG_IGN);
@@ -100,6 +113,7 @@ int statusOf(pid_t process) {
   if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
   std::fprintf(stderr, "coastmesh: error: rank %d was ended by signal %d (%s): there is no mesh\n", lost.rank,
                WTERMSIG(status), strsignal(WTERMSIG(status)));
+  awaitReaderOfErrors();
   lost.tell(kExitInterrupted);
   _exit(kExitInterrupted);
 }

@@ -14,13 +14,6 @@
 
 namespace coastmesh {
 
-// What of a PSLG its domain has: the rest is not in a mesh of it.
-struct PslgCover {
-  std::vector<bool> vertices;
-  std::vector<bool> segments;
-  double area = 0.0;
-};
-
 struct CheckOptions {
   double min_angle_deg = 0.0;    // degrees; 0 asks nothing
   double max_angle_deg = 180.0;  // degrees; 180 asks nothing

@@ -6,7 +6,6 @@
 
 #include "core/item_loop.hpp"
 #include "core/pslg.hpp"
-#include "core/refine/check.hpp"
 #include "core/refine/mesh_defect.hpp"
 #include "core/tri_mesh.hpp"
 
