@@ -17,9 +17,9 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "apps/cli/exit_codes.hpp"
+#include "gis/file/remove_folder.hpp"
 
 namespace coastmesh {
 
@@ -81,10 +81,7 @@ pid_t makeSweeper(int from_child, int to_sweeper) {
   constexpr int kMostOpen = 1024;
   for (int other = STDERR_FILENO + 1; other < kMostOpen; ++other)
     if (other != from_child) close(other);
-  for (const std::string& folder : foldersLeft(from_child)) {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
-  }
+  for (const std::string& folder : foldersLeft(from_child)) removeFolder(folder.c_str());
   _exit(0);
 }
 

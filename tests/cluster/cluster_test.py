@@ -40,12 +40,14 @@ def hidden(folder):
     return [path.name for path in Path(folder).iterdir() if path.name.startswith(".")]
 
 
-def workers():
-    """The working process of each rank: rank -> process."""
+def workers(folder):
+    """The working process of each rank of the run in a folder: rank -> process."""
     found = {}
     for path in Path("/proc").glob("[0-9]*"):
         try:
             if os.readlink(path / "exe") != os.path.realpath(PROGRAM):
+                continue
+            if os.readlink(path / "cwd") != os.path.realpath(folder):
                 continue
             if (path / "comm").read_text().strip() in ("coastmesh-keep", "coastmesh-sweep"):
                 continue
@@ -155,10 +157,10 @@ class Killed(Folder):
         errors = started.stderr.read()
         started.wait(timeout=60)
         deadline = time.monotonic() + 10
-        while (hidden(self.folder) or workers()) and time.monotonic() < deadline:
+        while (hidden(self.folder) or workers(self.folder)) and time.monotonic() < deadline:
             time.sleep(0.05)
         self.assertEqual(hidden(self.folder), [], errors)
-        self.assertEqual(workers(), {}, errors)
+        self.assertEqual(workers(self.folder), {}, errors)
         self.assertEqual(os.listdir(self.folder), ["out.nc"])
         self.assertEqual(Path(self.path("out.nc")).read_bytes(), self.OLD)
         self.assertEqual(started.returncode, code, errors)
@@ -167,7 +169,7 @@ class Killed(Folder):
     def kill(self, rank, phase):
         started = self.begin()
         self.wait_for(started, phase)
-        os.kill(workers()[rank], signal.SIGKILL)
+        os.kill(workers(self.folder)[rank], signal.SIGKILL)
         errors = self.expect_nothing_left(started, INTERRUPTED)
         self.assertIn(f"coastmesh: error: rank {rank} was ended by signal 9 (Killed)", errors)
 
