@@ -22,8 +22,9 @@ namespace coastmesh {
 
 // All but the list of bounds that are missed, which is made of the whole at the end.
 auto partsOf(auto& stats) requires std::is_same_v<std::remove_cvref_t<decltype(stats)>, RefineStats> {
-  auto& [steiner_points, by_type, segment_splits, relocations, removals, merges, budget_reached, unresolved] = stats;
-  return std::tie(steiner_points, by_type, segment_splits, relocations, removals, merges, budget_reached);
+  auto& [steiner_points, by_type, segment_splits, relocations, removals, merges, unmended, budget_reached, unresolved] =
+      stats;
+  return std::tie(steiner_points, by_type, segment_splits, relocations, removals, merges, unmended, budget_reached);
 }
 
 // What is copied as it lies: there are no gaps between members.

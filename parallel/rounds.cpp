@@ -45,11 +45,9 @@ constexpr double kFirstAngleDeg = 0.5;
 // Rounds of a step, the uncut one at the end not counted. A bound on the run: most steps end sooner, by the next
 // number.
 constexpr int kMostRounds = 8;
-// Bad triangles that a step may leave to the next, or that are mended uncut at the end. More are work for one thread,
-// fewer are rounds for next to nothing.
+// Bad triangles that a step may leave to the next. More are work for one thread, fewer are rounds for next to nothing.
 constexpr double kFewDue = 200.0;
-// In a mesh of so few triangles what is left in the last step is mended uncut; in a larger one rounds near what is left
-// take less time and memory.
+// In a mesh of so few triangles what the pieces of the last rounds could not mend is tried again uncut.
 constexpr std::size_t kSmallMesh = 1'000'000;
 // A round after the first works on what lies so many edges round what is due: fewer leave more at the edge of that to
 // the next round, more are copied for nothing. The rest of the mesh stays where it is.
@@ -328,9 +326,14 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, boo
     if (!mends && (left < kFewDue || round == kMostRounds)) break;
     checkpoint(static_cast<double>(round) / (kMostRounds + 1));
     const bool soon_done = mends && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
-    const bool uncut = whole_first || soon_done || round == kMostRounds;
+    const bool uncut = whole_first || round == kMostRounds;
     const Extent extent = uncut ? Extent::Uncut : round == 0 ? Extent::All : Extent::NearDue;
+    const std::uint64_t unmended = run.stats().unmended;
     refineRound(run, pslg, options, bound, extent, mends);
+    if (!soon_done || uncut || run.stats().unmended == unmended) continue;
+    // What a piece could not mend the whole may.
+    markBad(run, bound);
+    refineRound(run, pslg, options, bound, Extent::Uncut, mends);
   }
 }
 

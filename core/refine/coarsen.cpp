@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -40,17 +41,46 @@ class Waiting {
   std::vector<bool> waits_;
 };
 
-// How often every vertex gets its turn. A sweep shakes the mesh, so that the next finds more; where angles are large,
-// dense places are many, and sweeps pay for longer. Small meshes can afford more, up to as many visits of vertices as
+// What is tried with a vertex when it gets its turn, in this order, until something succeeds.
+struct Sweep {
+  bool removes = false, merges = false, moves = false;
+};
+using Sweeps = std::vector<Sweep>;
+
+constexpr Sweep kMerge{.merges = true}, kMove{.moves = true};
+constexpr Sweep kMergeOrMove{.merges = true, .moves = true}, kRemoveOrMerge{.removes = true, .merges = true};
+constexpr Sweep kAll{.removes = true, .merges = true, .moves = true};
+
+// So many sweeps with all that there is. The last only merges: it removes next to nothing, and moving pays while more
+// sweeps follow.
+Sweeps thorough(int sweeps) {
+  Sweeps all(static_cast<std::size_t>(sweeps), kAll);
+  all.back() = kMerge;
+  return all;
+}
+
+// A sweep shakes the mesh, so that the next finds more; where angles are large, dense places are many, and sweeps pay
+// for longer. Large meshes of smaller angles alone get what takes most out for the time: merging first, while nothing
+// moves, and removing what is left at the end. Small meshes can afford more, up to as many visits of vertices as
 // `work`.
-int sweepsFor(double min_angle_deg, std::size_t vertices) {
-  const auto between = [&](double fewest, double most, double work) {
+Sweeps sweepsFor(const RefineOptions& options, std::size_t vertices) {
+  const double min_angle_deg = options.min_angle_deg;
+  const bool angles_alone = options.size == nullptr && std::isinf(options.size_max) && options.max_angle_deg >= 180.0;
+  const auto affordable = [&](double fewest, double most, double work) {
     return static_cast<int>(std::clamp(work / static_cast<double>(std::max<std::size_t>(1, vertices)), fewest, most));
   };
-  if (min_angle_deg < 32.0) return between(2.0, 5.0, 5000.0);
-  if (min_angle_deg < 37.0) return between(3.0, 6.0, 10000.0);
-  if (min_angle_deg <= 43.0) return between(min_angle_deg <= 41.0 ? 9.0 : 12.0, 64.0, 800000.0);
-  return between(3.0, 16.0, 20000.0);
+  if (min_angle_deg < 32.0) {
+    const int sweeps = affordable(2.0, 5.0, 30000.0);
+    return sweeps > 2 || !angles_alone ? thorough(sweeps) : Sweeps{kMerge, kMove, kRemoveOrMerge};
+  }
+  if (min_angle_deg < 37.0) {
+    const int sweeps = affordable(3.0, 6.0, 40000.0);
+    if (sweeps > 3 || !angles_alone) return thorough(sweeps);
+    if (min_angle_deg < 35.0) return {kMerge, kMergeOrMove, kRemoveOrMerge};
+    return {kMerge, kMergeOrMove, kMergeOrMove, kRemoveOrMerge};
+  }
+  if (min_angle_deg <= 43.0) return thorough(affordable(min_angle_deg <= 41.0 ? 9.0 : 12.0, 64.0, 800000.0));
+  return thorough(affordable(3.0, 16.0, 20000.0));
 }
 
 // Round a vertex that coarsening looks at all edges are shorter than this share of the length wanted: merging two makes
@@ -75,8 +105,8 @@ class Coarsener {
     due_ = std::move(state.due_vertices);
   }
 
-  void run(int sweeps, const RunControl& control) {
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
+  void run(const Sweeps& sweeps, const RunControl& control) {
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
       for (VertexId v = mesh_.inputVertices(); v < mesh_.vertexSlots(); ++v)
         if (mesh_.isLiveVertex(v) && isDue(v)) waiting_.push(v);
       const double first = static_cast<double>(std::max<std::size_t>(1, waiting_.size()));
@@ -84,10 +114,10 @@ class Coarsener {
       for (std::uint64_t steps = 1; waiting_.size() > 0; ++steps) {
         if (steps % 1024 == 0) {
           const double left = std::min(1.0, static_cast<double>(waiting_.size()) / first);
-          control.checkpoint((sweep + 1.0 - left) / sweeps);
+          control.checkpoint((static_cast<double>(i) + 1.0 - left) / static_cast<double>(sweeps.size()));
         }
         const VertexId v = waiting_.pop();
-        if (mesh_.isLiveVertex(v) && (size_ == nullptr || isFinerThanWanted(v))) handle(v, sweep + 1 == sweeps);
+        if (mesh_.isLiveVertex(v) && (size_ == nullptr || isFinerThanWanted(v))) handle(v, sweeps[i]);
       }
     }
   }
@@ -99,16 +129,15 @@ class Coarsener {
  private:
   bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
   bool isFinerThanWanted(VertexId v);
-  // The last sweep only merges: it removes next to nothing, and moving pays while more sweeps follow.
-  void handle(VertexId v, bool is_last) {
+  void handle(VertexId v, const Sweep& sweep) {
     touched_.clear();
-    if (!is_last && ops_.remove(v, touched_)) {
+    if (sweep.removes && ops_.remove(v, touched_)) {
       ++stats_.removals;
-    } else if (ops_.mergeWithNeighbour(v, true, touched_)) {
+    } else if (sweep.merges && ops_.mergeWithNeighbour(v, true, touched_)) {
       ++stats_.merges;
     } else {
       // To the middle of where it may be: that leaves room for its neighbours to go.
-      if (!is_last && ops_.relocate(v, touched_)) ++stats_.relocations;
+      if (sweep.moves && ops_.relocate(v, touched_)) ++stats_.relocations;
       return;
     }
     for (const TriId t : touched_) {
@@ -147,7 +176,7 @@ RefineStats coarsenSubmesh(MeshState& state, const Pslg& pslg, const RefineOptio
                            const RunControl& control) {
   Coarsener coarsener(std::move(state), pslg, options);
   // As many as of the large mesh that it is a part of.
-  coarsener.run(sweepsFor(options.min_angle_deg, std::numeric_limits<std::size_t>::max()), control);
+  coarsener.run(sweepsFor(options, std::numeric_limits<std::size_t>::max()), control);
   state = coarsener.releaseState();
   return std::move(coarsener.stats());
 }
@@ -156,7 +185,7 @@ RefineStats coarsen(TriMesh& mesh, const Pslg& pslg, const RefineOptions& option
   requireInRange(options);
   const std::size_t vertices = mesh.points.size();
   Coarsener coarsener(std::move(mesh), pslg, options);
-  coarsener.run(sweepsFor(options.min_angle_deg, vertices), control);
+  coarsener.run(sweepsFor(options, vertices), control);
   mesh = coarsener.release();
   labelRegions(mesh, pslg);
   RefineStats stats = std::move(coarsener.stats());

@@ -13,6 +13,7 @@ void RefineStats::add(const RefineStats& other) {
   segment_splits += other.segment_splits;
   relocations += other.relocations;
   removals += other.removals;
+  unmended += other.unmended;
   merges += other.merges;
   budget_reached |= other.budget_reached;
   unresolved.insert(unresolved.end(), other.unresolved.begin(), other.unresolved.end());

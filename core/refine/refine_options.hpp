@@ -78,6 +78,7 @@ struct RefineStats {
   std::uint64_t relocations = 0;
   std::uint64_t removals = 0;  // vertices taken out again, by coarsening or on the way of a split
   std::uint64_t merges = 0;    // two vertices replaced by one
+  std::uint64_t unmended = 0;  // places that repair found no way to mend
   bool budget_reached = false;
   std::vector<BoundViolation> unresolved;
 

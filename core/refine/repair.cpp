@@ -234,7 +234,10 @@ void repair(RefineRun& run, const RunControl& control, std::span<const BadTriang
       tally.work += work;
       if (outcome == Outcome::Deferred) continue;
       ++tally.places;
-      if (outcome == Outcome::Failed) failed.add(t);
+      if (outcome == Outcome::Failed) {
+        failed.add(t);
+        ++run.stats.unmended;
+      }
       if (outcome == Outcome::Mended) again = true;
       if (failures.places > hopeless(run.options.min_angle_deg) + 2 * successes.places) return;
     }
