@@ -16,6 +16,7 @@
 #include "apps/cli/interrupt.hpp"
 #include "apps/cli/keeper.hpp"
 #include "apps/cli/last_resort.hpp"
+#include "apps/cli/memory_lacked.hpp"
 #include "apps/cli/program.hpp"
 #include "apps/usage/command_line.hpp"
 #include "cluster/cluster.hpp"
@@ -33,6 +34,12 @@ using namespace coastmesh;
 int fail(ExitCode code, const std::string& message) {
   std::fprintf(stderr, "coastmesh: error: %s\n", oneLine(message).c_str());
   return code;
+}
+
+// An error after memory lacked mostly follows from that, whoever tells of it in what words.
+int failWith(ExitCode code, const std::string& message) {
+  if (!memoryLacked()) return fail(code, message);
+  return fail(kExitInput, code == kExitBug ? kNoMemory : message + " (memory lacked before that: it may be why)");
 }
 
 // A file opened where standard output or error was closed would take what is printed.
@@ -66,7 +73,7 @@ int runAmongRanks(int argc, char** argv, Interrupt& interrupt, int ranks) {
   for (int i = 1; i < argc; ++i) command.append(argv[i]).push_back('\0');
   const auto stopped = [&interrupt] { return interrupt.requested(); };
   Post post(joinRanks, ranks, std::hash<std::string>()(command));
-  if (post.rank() != 0) return serveRankZero(post, stopped) ? kExitDone : kExitInterrupted;
+  if (post.rank() != 0) return serveRankZero(post, stopped, memoryLacked) ? kExitDone : kExitInterrupted;
   Cluster cluster(post, stopped);
   return runProgram(argc, argv, interrupt, &cluster);
 }
@@ -81,27 +88,30 @@ int guardedMain(int argc, char** argv, Interrupt& interrupt, int ranks) {
     } catch (const UsageText& asked) {
       std::fputs(asked.text.c_str(), stdout);
     }
-    return flushOutput(why) ? code : fail(kExitOutput, why);
+    if (!flushOutput(why)) return failWith(kExitOutput, why);
+    // What was printed may be wrong.
+    const bool told = code == kExitDone || code == kExitShort;
+    return told && memoryLackedForOutputs() ? fail(kExitInput, kNoMemory) : code;
   } catch (const CannotJoin& error) {
-    return fail(kExitUsage, error.what());
+    return failWith(kExitUsage, error.what());
   } catch (const OptionError& error) {
-    return fail(kExitUsage, error.what());
+    return failWith(kExitUsage, error.what());
   } catch (const InputError& error) {
-    return fail(kExitInput, error.what());
+    return failWith(kExitInput, error.what());
   } catch (const BadPslg& error) {
-    return fail(kExitInput, error.what());
+    return failWith(kExitInput, error.what());
   } catch (const OutputError& error) {
-    return fail(kExitOutput, error.what());
+    return failWith(kExitOutput, error.what());
   } catch (const Cancelled&) {
     // Whoever reads the progress is gone, or cannot store it.
-    if (!interrupt.requested() && !flushOutput(why)) return fail(kExitOutput, why);
+    if (!interrupt.requested() && !flushOutput(why)) return failWith(kExitOutput, why);
     return fail(kExitInterrupted, "interrupted");
   } catch (const std::bad_alloc&) {
     return fail(kExitInput, kNoMemory);
   } catch (const HelperOutOfMemory& error) {
     return fail(kExitInput, error.what());
   } catch (const std::exception& error) {
-    return fail(kExitBug, std::string("this is a bug of coastmesh, please report it: ") + error.what());
+    return failWith(kExitBug, std::string("this is a bug of coastmesh, please report it: ") + error.what());
   }
 }
 

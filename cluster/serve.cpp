@@ -43,7 +43,8 @@ class SharedContext {
 
 class Server {
  public:
-  Server(Post& post, const std::function<bool()>& stopped) : post_(post), stopped_(stopped) {
+  Server(Post& post, const std::function<bool()>& stopped, const std::function<bool()>& memory_lacked)
+      : post_(post), stopped_(stopped), memory_lacked_(memory_lacked) {
     post_.listen([this](Message&& message, int) { take(std::move(message)); });
   }
 
@@ -132,7 +133,9 @@ class Server {
   Reply answer(const Job& job, const RunControl& control) const {
     const std::string who = "rank " + std::to_string(post_.rank()) + " on " + post_.host() + ": ";
     try {
-      return {Reply::Outcome::Done, answerPiece(*job.request.bytes, job.context->get(), control)};
+      std::string done = answerPiece(*job.request.bytes, job.context->get(), control);
+      if (memory_lacked_()) throw std::bad_alloc();
+      return {Reply::Outcome::Done, std::move(done)};
     } catch (const Cancelled&) {
       throw;
     } catch (const std::bad_alloc&) {
@@ -144,6 +147,7 @@ class Server {
 
   Post& post_;
   const std::function<bool()>& stopped_;
+  const std::function<bool()>& memory_lacked_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<int> threads_;
@@ -154,8 +158,8 @@ class Server {
 
 }  // namespace
 
-bool serveRankZero(Post& post, const std::function<bool()>& stopped) {
-  Server server(post, stopped);
+bool serveRankZero(Post& post, const std::function<bool()>& stopped, const std::function<bool()>& memory_lacked) {
+  Server server(post, stopped, memory_lacked);
   const bool sent_away = server.run();
   if (sent_away) {
     post.send(0, {Message::Kind::Gone, 0, 0, 0, {}});

@@ -5,15 +5,16 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "apps/cli/exit_codes.hpp"
+#include "apps/cli/memory_lacked.hpp"
 
 namespace coastmesh {
 
@@ -21,7 +22,6 @@ namespace {
 
 Interrupt* g_interrupt = nullptr;
 std::optional<int> g_finished;
-std::atomic<bool> g_memory_lacked{false};
 
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr unsigned kSecondsToRemove = 10;  // what crashed may have left a lock closed
@@ -69,7 +69,7 @@ void crashed(int number) {
   signal(SIGALRM, SIG_DFL);
   alarm(kSecondsToRemove);
   removeWhatIsHalfWritten();
-  const char* const lacking = g_memory_lacked || CPLGetLastErrorNo() == CPLE_OutOfMemory ? kNoMemory : nullptr;
+  const char* const lacking = memoryLacked() || CPLGetLastErrorNo() == CPLE_OutOfMemory ? kNoMemory : nullptr;
   rlimit core{};
   // Whoever wants to see what it died of does so.
   if (lacking == nullptr && getrlimit(RLIMIT_CORE, &core) == 0 && core.rlim_cur > 0) raise(number);
@@ -80,12 +80,17 @@ void crashed(int number) {
 void endedFromWithin() {
   if (g_interrupt == nullptr || g_finished) return;
   removeWhatIsHalfWritten();
-  const bool lacking = g_memory_lacked || CPLGetLastErrorNo() == CPLE_OutOfMemory;
+  const bool lacking = memoryLacked() || CPLGetLastErrorNo() == CPLE_OutOfMemory;
   end(lacking ? kNoMemory : nullptr, "a library ended the process, as it may where memory lacks");
 }
 
+}  // namespace
+
 // A stack that has run over leaves no room for this one.
 void catchCrashes() {
+  static bool caught = false;  // in main at the latest, before there are threads
+  if (std::exchange(caught, true)) return;
+  std::set_terminate(endAtOnce);
   static char stack[1 << 16];
   stack_t other{};
   other.ss_sp = stack;
@@ -102,11 +107,13 @@ void catchCrashes() {
   }
 }
 
+namespace {
+
 // Before main, where declarations ask for memory already.
 [[gnu::constructor(101)]] void beforeMain() {
   std::set_terminate(endAtOnce);
   std::set_new_handler([] {
-    g_memory_lacked = true;
+    noteMemoryLacked();
     throw std::bad_alloc();
   });
 }
@@ -124,6 +131,12 @@ LastResort::LastResort(Interrupt& interrupt) {
 }
 
 LastResort::~LastResort() { g_interrupt = nullptr; }
+
+void exitIsCalled() {
+  if (!g_finished && !memoryLacked()) return;
+  removeWhatIsHalfWritten();
+  end(kNoMemory, nullptr);
+}
 
 void finishedWith(int code) { g_finished = code; }
 

@@ -18,6 +18,14 @@ class LastResort {
 // All is done, and the process is about to end with this code: memory that lacks after that changes nothing.
 void finishedWith(int code);
 
+// What LastResort does about terminate and crashes, from now on: for memory that lacks before main, in constructors of
+// libraries. Asks for none itself.
+void catchCrashes();
+
+// Somebody calls exit(), which only a library does: ends the process as main would have where that is done, and as one
+// that lacked memory where it did. Returns otherwise.
+void exitIsCalled();
+
 inline constexpr const char* kNoMemory =
     "this takes more memory than there is; mesh the input in parts, or ask for larger triangles";
 inline constexpr const char* kNoThread =

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "apps/cli/memory_lacked.hpp"
 #include "gis/error.hpp"
 #include "gis/read/virtual_source.hpp"
 
@@ -222,6 +223,7 @@ void RunOutputs::moveIntoPlace() {
     if (grid.files().made()) made.push_back(&grid.files());
   for (const auto& file : files_)
     if (file->made()) made.push_back(file.get());
+  requireMemoryHeld();
   commitTogether(made);
 }
 
@@ -234,6 +236,7 @@ void RunOutputs::commitAndGoOn() {
 void RunOutputs::commit() {
   interrupt_.close();
   moveIntoPlace();
+  if (!guarded_.empty()) outputsAreInPlace();
   std::fputs(report_text_.c_str(), stdout);
 }
 

@@ -46,7 +46,8 @@ class RunOutputs {
   // A warning for each output that cannot hold all of the grid.
   std::vector<std::string> lossWarnings(const Grid& grid, LossesOf of) const;
 
-  // Moves all that was written into place, after Interrupt::close(). Throws OutputError, Cancelled.
+  // Moves all that was written into place, after Interrupt::close(). Throws OutputError, Cancelled, and std::bad_alloc
+  // where memory lacked for anything.
   void commit();
   // The same for some of a run's outputs, after which it goes on: it can be interrupted again.
   void commitAndGoOn();

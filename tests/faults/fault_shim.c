@@ -14,7 +14,8 @@
 //   says `g` through IN; then it is told how that one ended, and says `g`, or `t` to be told the stack.
 // COASTMESH_FAULT_TRACE=1  where memory fails, says from where it was asked for.
 // COASTMESH_FAULT_COUNT=FILE  at its end the program writes there how many calls of each kind there were.
-// COASTMESH_FAULT_LOG=FILE  the program writes there the changes of the disk, one a line: what, and which file.
+// COASTMESH_FAULT_LOG=FILE  the program writes there the changes of the disk, one a line: what, which file, and how many
+//   allocations there were before.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -85,8 +86,16 @@ __attribute__((constructor)) static void readEnvironment(void) {
     if (g_every.kind == kDisk) _exit(99);
     return;
   }
+}
+
+// Constructors of other libraries run before this one's, and ask for memory.
+static void readFault(void) {
+  static int read = 0;
+  if (read) return;
+  read = 1;
   const char* const fault = getenv("COASTMESH_FAULT");
   if (fault == NULL) return;
+  char name[16] = "";
   if (sscanf(fault, "%15[^:]:%ld:%15s", name, &g_at, g_what) != 3) _exit(99);
   g_kind = kindNamed(name);
 }
@@ -203,6 +212,7 @@ static int split(long at) {
 
 static int isDue(enum Kind kind) {
   if (t_inside) return 0;
+  readFault();
   const long at = atomic_fetch_add(&g_counts[kind], 1) + 1;
   if (g_every.kind == (int)kind && at >= g_every.first && (at - g_every.first) % g_every.step == 0) {
     // What another thread asks for cannot be tried so: the main one would not be there.
@@ -280,7 +290,7 @@ void* _Znwm(size_t size) {
 static void logChange(const char* what, const char* path) {
   static char line[4096];
   if (g_log < 0) return;
-  const int size = snprintf(line, sizeof line, "%s\t%s\n", what, path);
+  const int size = snprintf(line, sizeof line, "%s\t%s\t%ld\n", what, path, atomic_load(&g_counts[kMalloc]));
   syscall(SYS_write, g_log, line, (size_t)size);
 }
 

@@ -1,0 +1,139 @@
+// malloc and its family for the whole process: what a program defines itself goes before the C library's, for all
+// libraries, operator new and the C library too. Each asks whoever comes next (the C library, or an allocator, heap
+// profiler or fault that is loaded before it) and notes where there was no memory. So does exit, for libraries that end
+// the process then. Part of the program alone: the libraries and the Python module are guests in others' processes.
+// Steps aside where a sanitizer has an allocator of its own, and where the C library is not glibc: there operator new
+// alone is watched (apps/cli/last_resort).
+
+#if defined(__linux__) && !defined(COASTMESH_SANITIZED)
+#include <features.h>
+#endif
+
+#if defined(__GLIBC__) && !defined(COASTMESH_SANITIZED)
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+
+#include "apps/cli/last_resort.hpp"
+#include "apps/cli/memory_lacked.hpp"
+
+extern "C" {
+void* __libc_malloc(std::size_t size) noexcept;
+void* __libc_calloc(std::size_t count, std::size_t size) noexcept;
+void* __libc_realloc(void* memory, std::size_t size) noexcept;
+void* __libc_memalign(std::size_t alignment, std::size_t size) noexcept;
+}
+
+namespace {
+
+// The next definition of a function, looked up at the first call. `own` is the C library's, for what looking up itself
+// asks for, before the answer is known.
+template <typename Function>
+class Next {
+ public:
+  constexpr Next(const char* name, Function own) : name_(name), own_(own) {}
+
+  Function get() noexcept {
+    const Function known = known_.load(std::memory_order_relaxed);
+    return known != nullptr ? known : lookUp();
+  }
+
+ private:
+  [[gnu::noinline]] Function lookUp() noexcept {
+    static thread_local constinit bool looking = false;
+    if (looking) return own_;
+    looking = true;
+    const int error = errno;
+    void* const found = dlsym(RTLD_NEXT, name_);
+    errno = error;
+    looking = false;
+    const Function next = found != nullptr ? reinterpret_cast<Function>(found) : own_;
+    known_.store(next, std::memory_order_relaxed);
+    return next;
+  }
+
+  const char* name_;
+  Function own_;
+  std::atomic<Function> known_{nullptr};
+};
+
+int alignedByLibc(void** memory, std::size_t alignment, std::size_t size) noexcept {
+  void* const given = __libc_memalign(alignment, size);
+  if (given == nullptr) return ENOMEM;
+  *memory = given;
+  return 0;
+}
+
+constinit Next<void* (*)(std::size_t) noexcept> g_malloc{"malloc", __libc_malloc};
+constinit Next<void* (*)(std::size_t, std::size_t) noexcept> g_calloc{"calloc", __libc_calloc};
+constinit Next<void* (*)(void*, std::size_t) noexcept> g_realloc{"realloc", __libc_realloc};
+constinit Next<void* (*)(std::size_t, std::size_t) noexcept> g_memalign{"memalign", __libc_memalign};
+constinit Next<void* (*)(std::size_t, std::size_t) noexcept> g_aligned{"aligned_alloc", __libc_memalign};
+constinit Next<int (*)(void**, std::size_t, std::size_t) noexcept> g_posix{"posix_memalign", alignedByLibc};
+
+[[gnu::cold, gnu::noinline]] void failed(std::size_t size) noexcept {
+  if (size > PTRDIFF_MAX) return;
+  if (!coastmesh::memoryLacked()) coastmesh::catchCrashes();
+  coastmesh::noteMemoryLacked();
+}
+
+void* noted(void* memory, std::size_t size) noexcept {
+  if (memory == nullptr) [[unlikely]]
+    failed(size);
+  return memory;
+}
+
+}  // namespace
+
+extern "C" {
+
+void* malloc(std::size_t size) noexcept { return noted(g_malloc.get()(size), size); }
+
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  void* const memory = g_calloc.get()(count, size);
+  if (memory == nullptr) [[unlikely]] {
+    std::size_t bytes = 0;
+    failed(__builtin_mul_overflow(count, size, &bytes) ? SIZE_MAX : bytes);
+  }
+  return memory;
+}
+
+// realloc(memory, 0) frees.
+void* realloc(void* memory, std::size_t size) noexcept {
+  void* const given = g_realloc.get()(memory, size);
+  if (given == nullptr && (size > 0 || memory == nullptr)) [[unlikely]]
+    failed(size);
+  return given;
+}
+
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
+  return noted(g_memalign.get()(alignment, size), size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  return noted(g_aligned.get()(alignment, size), size);
+}
+
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
+  const int result = g_posix.get()(memory, alignment, size);
+  if (result == ENOMEM) [[unlikely]]
+    failed(size);
+  return result;
+}
+
+// Libraries end the process where they lack memory, before main even (libnuma, with an exit code that has a meaning
+// here), and while it ends. Coming back from main does not lead here.
+void exit(int status) noexcept {
+  coastmesh::exitIsCalled();
+  if (const auto next = reinterpret_cast<void (*)(int)>(dlsym(RTLD_NEXT, "exit")); next != nullptr) next(status);
+  _exit(status);
+}
+
+}  // extern "C"
+
+#endif

@@ -1,0 +1,82 @@
+#include "apps/cli/memory_lacked.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <string>
+
+#include "apps/cli/interrupt.hpp"
+#include "apps/cli/run_outputs.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What is noted stays noted, so each test runs in a process of its own.
+class MemoryLackedDeathTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    // The same in the process that is started for a death test.
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::path(testing::TempDir()) / ("memory_lacked_" + name);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "out.txt") << "before";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path() const { return (folder_ / "out.txt").string(); }
+  std::string content() const {
+    std::ifstream file(path());
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  fs::path folder_;
+};
+
+// 0 where outputs came into place, 3 where they were refused for memory.
+int commitAfter(const std::string& path, bool lacked) {
+  Interrupt interrupt;
+  RunOutputs outputs(true, {}, interrupt);
+  outputs.addFile(path).write("after");
+  if (lacked) noteMemoryLacked();
+  try {
+    outputs.commit();
+  } catch (const std::bad_alloc&) {
+    return memoryLackedForOutputs() ? 3 : 1;
+  }
+  noteMemoryLacked();  // too late to harm anything
+  return memoryLacked() && !memoryLackedForOutputs() ? 0 : 1;
+}
+
+TEST_F(MemoryLackedDeathTest, NothingComesIntoPlaceAfterAnAllocationFailed) {
+  EXPECT_EXIT(std::_Exit(commitAfter(path(), true)), testing::ExitedWithCode(3), "");
+  EXPECT_EQ(content(), "before");
+}
+
+TEST_F(MemoryLackedDeathTest, AnAllocationThatFailsAfterwardsChangesNothing) {
+  EXPECT_EXIT(std::_Exit(commitAfter(path(), false)), testing::ExitedWithCode(0), "");
+  EXPECT_EQ(content(), "after");
+}
+
+// `check` without an output, `info`: what they print is the result.
+TEST_F(MemoryLackedDeathTest, ARunWithoutOutputsLacksItToItsEnd) {
+  const auto run = [] {
+    Interrupt interrupt;
+    RunOutputs outputs(true, {}, interrupt);
+    outputs.commit();
+    noteMemoryLacked();
+    return memoryLackedForOutputs() ? 3 : 1;
+  };
+  EXPECT_EXIT(std::_Exit(run()), testing::ExitedWithCode(3), "");
+}
+
+}  // namespace
+
+}  // namespace coastmesh
