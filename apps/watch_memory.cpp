@@ -5,11 +5,18 @@
 // Steps aside where a sanitizer has an allocator of its own, and where the C library is not glibc: there operator new
 // alone is watched (apps/cli/last_resort).
 
-#if defined(__linux__) && !defined(COASTMESH_SANITIZED)
-#include <features.h>
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define COASTMESH_OTHER_MALLOC
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define COASTMESH_OTHER_MALLOC
+#endif
+#endif
+#ifdef __linux__
+#include <features.h>  // says whether it is glibc
 #endif
 
-#if defined(__GLIBC__) && !defined(COASTMESH_SANITIZED)
+#if defined(__GLIBC__) && !defined(COASTMESH_OTHER_MALLOC)
 
 #include <dlfcn.h>
 #include <unistd.h>

@@ -294,6 +294,7 @@ def main():
                         "from it on all of 1 KiB and more")
     parser.add_argument("--each", type=int, default=10**9, help="of --every: so many allocations from each place at most")
     parser.add_argument("--first", type=int, default=1, help="of --every: allocations from this one on")
+    parser.add_argument("--step", type=int, default=1, help="of --every: one in so many allocations")
     parser.add_argument("--disk", type=int, default=10**9, help="how many changes of the disk are let fail")
     parser.add_argument("--memory", type=int, default=10**9, help="how many allocations by new are let fail")
     parser.add_argument("--malloc", type=int, default=0, help="how many by malloc, which libraries in C ask too")
@@ -331,8 +332,8 @@ def sweep_case(case, arguments, scratch):
                 work.append(pool.submit(sweep.check, f"malloc:{numbers.randint(1, counts['malloc'])}:int"))
             if arguments.every:
                 for job in range(arguments.jobs):
-                    work.append(pool.submit(sweep.check_every, "malloc", arguments.what, arguments.first + job, arguments.jobs,
-                                            arguments.each))
+                    work.append(pool.submit(sweep.check_every, "malloc", arguments.what, arguments.first + job * arguments.step,
+                                            arguments.jobs * arguments.step, arguments.each))
             else:
                 for kind, most in (("new", arguments.memory), ("malloc", arguments.malloc)):
                     for n in spread(counts[kind], most):
