@@ -96,6 +96,12 @@ class BasicByteReader {
   void pass(T& value) {
     copy(&value, sizeof value);
   }
+  void pass(bool& value) {
+    std::uint8_t byte = 0;
+    pass(byte);
+    if (byte > 1) throw Error(what_ + " is damaged");
+    value = byte == 1;
+  }
   void pass(std::string& text) { passAll(text); }
   template <typename T>
   void pass(std::vector<T>& values) {

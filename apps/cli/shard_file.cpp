@@ -1,6 +1,8 @@
 #include "apps/cli/shard_file.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,6 +22,7 @@ namespace {
 
 constexpr std::string_view kMagic = "coastmesh shard\n";
 constexpr const char* kEnding = ".shard";
+constexpr std::uint64_t kMostNamed = 20;  // of shards that are missing
 
 std::string contentsOf(const std::string& path, std::size_t most) {
   std::ifstream file(path, std::ios::binary);
@@ -44,11 +47,37 @@ ShardHeader readHeader(ByteReader& reader, const std::string& path) {
   return header;
 }
 
+std::uint64_t checksumOf(std::string_view bytes) {
+  std::uint64_t sum = bytes.size();
+  for (std::size_t at = 0; at < bytes.size(); at += sizeof sum) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
+    sum = std::rotl((sum ^ word) * 0x9E3779B97F4A7C15ull, 31);
+  }
+  return sum;
+}
+
+// What is before the checksum. What is read behind it is not looked at by value: a damaged node may be no node.
+std::string_view unsealed(const std::string& bytes, const std::string& path) {
+  std::uint64_t sum = 0;
+  if (bytes.size() < sizeof sum) throw InputError("'" + path + "' ends too early");
+  const std::string_view content = std::string_view(bytes).substr(0, bytes.size() - sizeof sum);
+  std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
+  if (sum != checksumOf(content)) throw InputError("'" + path + "' is damaged, or not whole: make it anew");
+  return content;
+}
+
 std::string numbered(std::uint32_t shard, std::uint32_t shards) {
   return std::to_string(shard + 1) + '/' + std::to_string(shards);
 }
 
 }  // namespace
+
+std::string sealedShard(std::string bytes) {
+  const std::uint64_t sum = checksumOf(bytes);
+  bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+  return bytes;
+}
 
 bool isShardFile(const std::string& path) { return path.ends_with(kEnding); }
 
@@ -111,47 +140,58 @@ std::string ShardWriter::file(int exit_code) const {
     bytes += number.take();
     bytes += group->second;
   }
-  return bytes;
+  return sealedShard(std::move(bytes));
 }
 
 GatheredShards::GatheredShards(const std::vector<std::string>& paths) : paths_(paths) {
   for (const std::string& path : paths_) contents_.push_back(contentsOf(path, std::string::npos));
-  std::vector<std::size_t> file_of;
+  // Nothing here is as long as a header says.
+  std::map<std::uint32_t, std::size_t> file_of;
   for (std::size_t f = 0; f < paths_.size(); ++f) {
-    ByteReader reader(contents_[f], "'" + paths_[f] + "'");
+    ByteReader anything(contents_[f], "'" + paths_[f] + "'");
+    readHeader(anything, paths_[f]);  // of another kind or version: that is said first
+    ByteReader reader(unsealed(contents_[f], paths_[f]), "'" + paths_[f] + "'");
     const ShardHeader header = readHeader(reader, paths_[f]);
-    if (f == 0) {
-      header_ = header;
-      file_of.assign(header.shards, paths_.size());
-      places_.resize(header.groups);
-    }
+    if (f == 0) header_ = header;
     if (!header.ofSameRun(header_) || header.shard >= header.shards)
       throw InputError("'" + paths_[f] + "' is of another run than '" + paths_[0] +
                        "': other options, or another number of shards");
     if (header.input_digest != header_.input_digest || header.groups != header_.groups)
       throw InputError("'" + paths_[f] + "' was made of another input than '" + paths_[0] + "': make it anew");
-    std::size_t& file = file_of[header.shard];
-    if (file != paths_.size())
-      throw InputError("'" + paths_[f] + "' and '" + paths_[file] + "' are both shard " +
+    const auto [file, added] = file_of.emplace(header.shard, f);
+    if (!added)
+      throw InputError("'" + paths_[f] + "' and '" + paths_[file->second] + "' are both shard " +
                        numbered(header.shard, header.shards) + ": give it once");
-    file = f;
     std::uint64_t count = 0;
     reader.pass(count);
     for (std::uint64_t i = 0; i < count; ++i) {
       std::uint64_t group = 0, size = 0;
       reader.pass(group);
       reader.pass(size);
-      if (group >= places_.size() || !places_[group].bytes.empty()) throw InputError("'" + paths_[f] + "' is damaged");
-      places_[group] = {f, reader.passView(size)};
+      if (group >= header_.groups || !places_.emplace(group, Place{f, reader.passView(size)}).second)
+        throw InputError("'" + paths_[f] + "' is damaged");
     }
     if (!reader.atEnd()) throw InputError("'" + paths_[f] + "' is longer than it should be");
   }
+  const std::uint64_t lacking = header_.shards - file_of.size();
   std::string missing;
-  for (std::uint32_t shard = 0; shard < header_.shards; ++shard)
-    if (file_of[shard] == paths_.size()) missing += (missing.empty() ? "" : ", ") + numbered(shard, header_.shards);
-  if (!missing.empty()) throw InputError("these shards are missing: " + missing + "; run them, then gather all");
-  for (std::size_t group = 0; group < places_.size(); ++group)
-    if (places_[group].bytes.empty()) throw InputError("group " + std::to_string(group + 1) + " is in no shard");
+  std::uint64_t named = 0;
+  for (std::uint32_t shard = 0; named < std::min<std::uint64_t>(lacking, kMostNamed); ++shard) {
+    if (file_of.contains(shard)) continue;
+    missing += (missing.empty() ? "" : ", ") + numbered(shard, header_.shards);
+    ++named;
+  }
+  if (lacking > named) missing += " and " + std::to_string(lacking - named) + " more";
+  if (lacking > 0) {
+    throw InputError("of the run of '" + paths_[0] + "' these shards are missing: " + missing +
+                     "; run them, then gather all");
+  }
+  std::uint64_t group = 0;
+  while (places_.contains(group)) ++group;
+  if (group < header_.groups) {
+    throw InputError("group " + std::to_string(group + 1) + " of the run of '" + paths_[0] +
+                     "' is in no shard: make them anew");
+  }
 }
 
 void GatheredShards::begin(std::uint64_t input_digest, std::size_t groups) const {
@@ -160,7 +200,7 @@ void GatheredShards::begin(std::uint64_t input_digest, std::size_t groups) const
 }
 
 GroupResult GatheredShards::take(std::size_t group) const {
-  const Place& place = places_[group];
+  const Place& place = places_.at(group);
   return groupFrom(place.bytes, "'" + paths_[place.file] + "'");
 }
 

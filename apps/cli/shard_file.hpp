@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -38,7 +39,10 @@ struct ShardHeader {
   }
 };
 
-// Throws InputError for what is no shard file of this version.
+// `bytes` with a checksum behind them, as the file of a shard ends.
+std::string sealedShard(std::string bytes);
+
+// Throws InputError for what is no shard file of this version. The checksum is not looked at.
 ShardHeader readShardHeader(const std::string& path);
 
 // Takes the groups of a run as they are made.
@@ -59,7 +63,7 @@ class ShardWriter {
 // All shards of a run.
 class GatheredShards {
  public:
-  // Throws InputError where they are not those of one run, or one is missing or there twice.
+  // Throws InputError where they are damaged, not those of one run, or one is missing or there twice.
   explicit GatheredShards(const std::vector<std::string>& paths);
 
   const GivenOptions& options() const { return header_.options; }
@@ -70,11 +74,11 @@ class GatheredShards {
  private:
   struct Place {
     std::size_t file = 0;
-    std::string_view bytes;  // empty: in no shard
+    std::string_view bytes;
   };
   std::vector<std::string> paths_, contents_;
-  ShardHeader header_;  // of the first
-  std::vector<Place> places_;
+  ShardHeader header_;                     // of the first
+  std::map<std::uint64_t, Place> places_;  // by group
 };
 
 }  // namespace coastmesh

@@ -199,6 +199,12 @@ TEST_F(Shard, WhatDoesNotGoTogetherIsRefused) {
     writeText(file("cut.shard"), bytes.substr(0, size));
     expectRefused(with({shardFile(1), shardFile(2), file("cut.shard")}), 3, "cut.shard");
   }
+  for (const std::size_t at : {bytes.size() - 1, bytes.size() * 2 / 3, bytes.size() / 2, bytes.size() / 3}) {
+    std::string flipped = bytes;
+    flipped[at] = static_cast<char>(flipped[at] ^ 4);
+    writeText(file("flipped.shard"), flipped);
+    expectRefused(with({shardFile(1), shardFile(2), file("flipped.shard")}), 3, "damaged");
+  }
   expectRefused(gather(3, {"-o", input, "--overwrite", "--format", "geojson"}), 2, "input and output at once");
   expectRefused({"mesh", "-", "--shard", "1/2", "-o", file("a.shard")}, 2, "standard input");
   for (const std::string wrong : {"0/3", "4/3", "1", "1/", "/3", "1/3x", "-1/3", "1/9999999"})

@@ -177,6 +177,12 @@ static int* threadNumber(void) {
   _exit(96);
 }
 
+// What pthread_atfork leads to. Nothing is done at a fork: PROJ would lock what this thread may hold.
+int __register_atfork(void (*before)(void), void (*parent)(void), void (*child)(void), void* library) {
+  (void)before, (void)parent, (void)child, (void)library;
+  return 0;
+}
+
 // Splits the process. True in the one that is to fail.
 static int split(long at) {
   void* frames[kFrames];

@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "apps/cli/mesh_file.hpp"
+#include "apps/cli/shard_file.hpp"
 #include "apps/report/file_info.hpp"
 #include "apps/usage/config_entries.hpp"
 #include "apps/usage/config_file.hpp"
@@ -26,6 +28,13 @@
 namespace coastmesh {
 
 namespace {
+
+void write(const std::string& path, std::string_view bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw std::runtime_error("cannot write '" + path + "'");
+}
 
 // What lets a run go on for long without a fault of anyone's: longer inputs are read, and nothing more.
 constexpr std::size_t kMostPoints = 2000;
@@ -65,6 +74,13 @@ void readConfig(const std::string& path) {
   takeConfig(path, table, {"mesh", "clean", "check"}, warnings);
 }
 
+// Where the groups are, and not what they hold: a checksum, which is put behind the bytes here, keeps that.
+void readShard(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  write(path, sealedShard({std::istreambuf_iterator<char>(file), {}}));
+  GatheredShards({path});
+}
+
 void readBoundaries(const std::string& path) {
   Grid grid;
   grid.crs = wgs84();
@@ -86,13 +102,6 @@ void readRaster(const std::string& path) {
   band.read({band.columns() - columns, band.rows() - rows, columns, rows});
   const Point pixel = band.pixelOf(band.geometry().placeOf({0.5, 0.5}));
   if (std::abs(pixel.x) < 1e300 && !(std::abs(pixel.x - std::round(pixel.x)) <= 0.5)) throw std::logic_error("a pixel");
-}
-
-void write(const std::string& path, std::string_view bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw std::runtime_error("cannot write '" + path + "'");
 }
 
 }  // namespace
@@ -121,6 +130,7 @@ const std::vector<ReaderCase>& readerCases() {
       {"boundaries", {"f.geojson"}, readBoundaries},
       {"sizes", {"f.geojson"}, readSizes},
       {"raster", {"f.asc"}, readRaster},
+      {"shard", {"f.shard"}, readShard},
   };
   return cases;
 }

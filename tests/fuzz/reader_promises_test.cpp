@@ -115,6 +115,19 @@ std::string ownUgrid(const std::string& dimension) {
   return bytes.replace(at + name.size(), 4, bigEndian(kMany));
 }
 
+template <typename T>
+std::string native(T value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+// A shard up to its first group.
+std::string shard(std::uint32_t shards, std::uint64_t groups, std::uint64_t here, std::uint64_t options) {
+  const std::string version = COASTMESH_VERSION;
+  return "coastmesh shard\n" + native<std::uint64_t>(version.size()) + version +  // and again, in the header
+         native<std::uint64_t>(version.size()) + version + native(options) + native<std::uint32_t>(0) + native(shards) +
+         native<std::int32_t>(0) + native<std::uint64_t>(0) + native(groups) + native(here);
+}
+
 std::vector<Promise> promises() {
   const std::string many = std::to_string(kMany), next(kNextFile);
   return {
@@ -155,6 +168,10 @@ std::vector<Promise> promises() {
       {"fesom", many + "\n1 0 0 0\n" + next + many + "\n1 2 3\n" + next + many + "\n0\n"},
       {"jigsaw", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=" + many + "\n0;0;0\n"},
       {"jigsaw", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=1\n0;0;0\nTRIA3=" + many + "\n0;0;0;0\n"},
+      {"shard", shard(kMany, 0, 0, 0)},
+      {"shard", shard(1, kMany, kMany, 0)},
+      {"shard", shard(1, 0xffffffffffffffff, 0, 0)},
+      {"shard", shard(1, 1, 1, kMany)},
       {"raster", "ncols " + many + "\nnrows " + many + "\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n"},
   };
 }
