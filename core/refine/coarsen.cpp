@@ -122,6 +122,7 @@ class Coarsener {
     }
   }
 
+  std::size_t vertices() const { return mesh_.vertexCount(); }
   TriMesh release() { return mesh_.release(); }
   MeshState releaseState() { return releaseDue(mesh_, std::move(due_)); }
   RefineStats& stats() { return stats_; }
@@ -179,6 +180,13 @@ RefineStats coarsenSubmesh(MeshState& state, const Pslg& pslg, const RefineOptio
   coarsener.run(sweepsFor(options, std::numeric_limits<std::size_t>::max()), control);
   state = coarsener.releaseState();
   return std::move(coarsener.stats());
+}
+
+std::size_t coarsenedSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
+  const Sweeps sweeps = sweepsFor(options, mesh.points.size());
+  Coarsener coarsener(std::move(mesh), pslg, options);
+  coarsener.run(sweeps, control);
+  return coarsener.vertices();
 }
 
 RefineStats coarsen(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {

@@ -15,6 +15,7 @@ namespace coastmesh {
 
 namespace {
 
+// The regions of the result are not labelled, and nothing is said of what falls short.
 RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                        const RefineVariant& variant, const RunControl& control) {
   if (options.size != nullptr) splitSegments(mesh, pslg, notes, options);
@@ -25,10 +26,13 @@ RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& opt
     repair(run, control);
   }
   mesh = releaseMesh(run);
+  return std::move(run.stats);
+}
+
+RefineStats finish(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, RefineStats&& stats) {
   labelRegions(mesh, pslg);
-  RefineStats stats = std::move(run.stats);
   stats.unresolved = findBoundViolations(mesh, options);
-  return stats;
+  return std::move(stats);
 }
 
 // Up to so many points it costs next to nothing to refine in several ways and to keep what coarsens to the smallest
@@ -48,11 +52,6 @@ std::vector<RefineVariant> furtherVariants(const RefineOptions& options) {
   return variants;
 }
 
-std::size_t coarsenedSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
-  coarsen(mesh, pslg, options, control);
-  return mesh.points.size();
-}
-
 }  // namespace
 
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control) {
@@ -61,15 +60,18 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
       mesh.input_vertices <= kFewPoints && options.algorithm == Algorithm::Relocate && options.size == nullptr;
   const TriMesh unrefined = few ? mesh : TriMesh();
   const VertexNotes notes = noteInput(mesh, boundOf(options));
-  RefineStats stats = refineOnce(mesh, pslg, options, notes, usualVariant(options), control);
+  RefineStats stats = finish(mesh, pslg, options, refineOnce(mesh, pslg, options, notes, usualVariant(options), control));
   if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;
   std::size_t smallest = coarsenedSize(mesh, pslg, options, control);
   for (const RefineVariant& variant : furtherVariants(options)) {
+    if (smallest == mesh.input_vertices) break;  // none is smaller
     TriMesh other = unrefined;
     RefineStats other_stats = refineOnce(other, pslg, options, notes, variant, control);
-    if (!other_stats.unresolved.empty() || other_stats.budget_reached) continue;
+    if (other_stats.budget_reached) continue;
     const std::size_t size = coarsenedSize(other, pslg, options, control);
     if (size >= smallest) continue;
+    other_stats = finish(other, pslg, options, std::move(other_stats));
+    if (!other_stats.unresolved.empty()) continue;
     smallest = size;
     mesh = std::move(other);
     stats = std::move(other_stats);
@@ -80,7 +82,7 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                    const RunControl& control) {
   requireInRange(options);
-  return refineOnce(mesh, pslg, options, std::move(notes), usualVariant(options), control);
+  return finish(mesh, pslg, options, refineOnce(mesh, pslg, options, std::move(notes), usualVariant(options), control));
 }
 
 }  // namespace coastmesh

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -29,5 +30,8 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
 // Takes out and merges vertices that the bounds do not need. REQUIRES: `mesh` as `refine` left it, with the same
 // options. `unresolved` in the result replaces that of `refine`. Throws Cancelled.
 RefineStats coarsen(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
+
+// How many vertices that leaves.
+std::size_t coarsenedSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
 
 }  // namespace coastmesh
