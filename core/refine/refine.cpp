@@ -60,7 +60,8 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
       mesh.input_vertices <= kFewPoints && options.algorithm == Algorithm::Relocate && options.size == nullptr;
   const TriMesh unrefined = few ? mesh : TriMesh();
   const VertexNotes notes = noteInput(mesh, boundOf(options));
-  RefineStats stats = finish(mesh, pslg, options, refineOnce(mesh, pslg, options, notes, usualVariant(options), control));
+  RefineStats stats =
+      finish(mesh, pslg, options, refineOnce(mesh, pslg, options, notes, usualVariant(options), control));
   if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;
   std::size_t smallest = coarsenedSize(mesh, pslg, options, control);
   for (const RefineVariant& variant : furtherVariants(options)) {
