@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,13 +36,16 @@ struct HasNoGaps<std::array<T, N>> : HasNoGaps<T> {};
 template <typename T>
 concept Plain = HasNoGaps<T>::value && std::is_trivially_copyable_v<T>;
 
-class ByteWriter {
+// `Sink::append(data, size)` takes the bytes.
+template <typename Sink>
+class BasicByteWriter {
  public:
-  std::string take() { return std::move(bytes_); }
+  explicit BasicByteWriter(Sink sink = {}) : sink_(std::move(sink)) {}
+  Sink take() { return std::move(sink_); }
 
   template <Plain T>
   void pass(const T& value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    sink_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   void pass(const std::string& text) { passAll(text); }
   template <typename T>
@@ -70,19 +74,35 @@ class ByteWriter {
   {
     std::apply([this](const auto&... parts) { (pass(parts), ...); }, partsOf(whole));
   }
+  // Eight flags a byte.
+  template <typename Flags>
+  void passFlags(const Flags& flags) {
+    pass(static_cast<std::uint64_t>(flags.size()));
+    std::vector<std::uint8_t> bytes((flags.size() + 7) / 8, 0);
+    for (std::size_t i = 0; i < flags.size(); ++i)
+      if (flags[i]) bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | (1u << (i % 8)));
+    pass(bytes);
+  }
 
  private:
   template <typename Items>
   void passAll(const Items& items) {
     pass(static_cast<std::uint64_t>(items.size()));
     if constexpr (Plain<typename Items::value_type>) {
-      bytes_.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
+      sink_.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
     } else {
       for (const auto& item : items) pass(item);
     }
   }
 
-  std::string bytes_;
+  Sink sink_;
+};
+using ByteWriter = BasicByteWriter<std::string>;
+
+// Hands bytes on as they come. What it is given outlives it.
+struct PutSink {
+  const std::function<void(std::string_view)>* put = nullptr;
+  void append(const char* bytes, std::size_t size) const { (*put)({bytes, size}); }
 };
 
 // Every call throws Error, made from a text, where the bytes end too early; `what` names them in its message.
@@ -132,6 +152,16 @@ class BasicByteReader {
   }
   {
     std::apply([this](auto&... parts) { (pass(parts), ...); }, partsOf(whole));
+  }
+  template <typename Flags>
+  void passFlags(Flags& flags) {
+    std::uint64_t count = 0;
+    std::vector<std::uint8_t> bytes;
+    pass(count);
+    pass(bytes);
+    if (count / 8 + (count % 8 != 0) != bytes.size()) throw Error(what_ + " is damaged");
+    flags.resize(count);
+    for (std::size_t i = 0; i < count; ++i) flags[i] = (bytes[i / 8] >> (i % 8) & 1u) != 0;
   }
   // So many bytes as they are, which live as long as all.
   std::string_view passView(std::uint64_t size) {

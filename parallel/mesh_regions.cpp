@@ -16,9 +16,12 @@
 #include "core/refine/optimise.hpp"
 #include "core/refine/vertex_notes.hpp"
 #include "core/size/plane_sizes.hpp"
+#include "parallel/byte_hash.hpp"
+#include "parallel/bytes.hpp"
 #include "parallel/deal.hpp"
 #include "parallel/piece_context.hpp"
 #include "parallel/recorder.hpp"
+#include "parallel/round_keeper.hpp"
 #include "parallel/rounds.hpp"
 
 namespace coastmesh {
@@ -198,6 +201,22 @@ void mendBesideCores(TriMesh& mesh, std::vector<TriId> bad, const Pslg& pslg, co
   }
 }
 
+// Stands for all that the mesh of a region depends on. The memory that there is does not count: it is not the same
+// tomorrow.
+std::uint64_t fingerprintOf(const TriMesh& seeded, const Pslg& pslg, const MeshOptions& options,
+                            const VertexNotes& notes) {
+  RefineOptions lasting = options.refine;
+  lasting.most_in_memory = 0;
+  ByteHash hash;
+  hash.add(contextBytes(pslg, lasting, notes.corners.get()));
+  ByteWriter further;
+  further.pass(options.coarsen);
+  further.pass(optimiseSweeps(options));
+  further.pass(digestOf(seeded));
+  hash.add(further.take());
+  return hash.value();
+}
+
 void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   CutTree cuts;
   const auto add = [&](RoundsReport&& report) {
@@ -216,16 +235,31 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   if (options.helpers != nullptr)
     helped.emplace(*options.helpers, contextBytes(pslg, options.refine, seeds.notes.corners.get()));
   const HelpedRegion* const helpers = helped ? &*helped : nullptr;
+  std::optional<RoundKeeper> keeper;
+  if (options.checkpoint != nullptr)
+    keeper.emplace(*options.checkpoint, fingerprintOf(region.mesh, pslg, options, seeds.notes), seeds.notes);
   RoundsWorkspace workspace;
   workspace.helpers = helpers;
+  workspace.keeper = keeper ? &*keeper : nullptr;
+  // Whether there is anything of that stage to be done.
+  const auto begins = [&](RoundsStage stage) {
+    if (!keeper) return true;
+    if (keeper->isPast(stage)) return false;
+    const RoundsTally& before = keeper->begin(stage, {region.stats, region.pieces, cuts, 0});
+    region.stats = before.stats;
+    region.pieces = before.pieces;
+    cuts = before.cuts;
+    return true;
+  };
   region.seconds.triangulate += watch.lap();
-  add(refineInRounds(region.mesh, pslg, around, std::move(seeds.notes), control, workspace));
+  if (begins(RoundsStage::Refine))
+    add(refineInRounds(region.mesh, pslg, around, std::move(seeds.notes), control, workspace));
   region.seconds.refine = watch.lap();
-  if (options.coarsen) {
+  if (options.coarsen && begins(RoundsStage::Coarsen)) {
     add(coarsenInRounds(region.mesh, pslg, around, control, workspace));
     region.seconds.coarsen = watch.lap();
   }
-  if (const int sweeps = optimiseSweeps(options); sweeps > 0) {
+  if (const int sweeps = optimiseSweeps(options); sweeps > 0 && begins(RoundsStage::Optimise)) {
     add(optimiseInRounds(region.mesh, pslg, around, sweeps, control, workspace));
     region.seconds.optimise = watch.lap();
   }

@@ -15,6 +15,7 @@
 namespace coastmesh {
 
 struct Helpers;
+struct RegionCheckpoint;
 
 struct MeshOptions {
   RefineOptions refine;
@@ -24,6 +25,9 @@ struct MeshOptions {
   bool mark_pieces = false;  // fill `MeshedRegion::piece_of`
   // Who may take pieces off this process's hands; outlives the run. The mesh is the same. Null: nobody.
   const Helpers* helpers = nullptr;
+  // Where the mesh of a region that is cut is kept after each round, and what an earlier run kept there, of which this
+  // one goes on; outlives the run. The mesh is the same. Null: nowhere.
+  const RegionCheckpoint* checkpoint = nullptr;
   // Of a mesh that is all of a sphere, as `refine.surface` says; where it is not empty, the region is what lies within
   // its ring, nothing of the input may lie beyond that, and the mesh is closed.
   SphereCap cap;
@@ -55,8 +59,8 @@ struct MeshedRegion {
 };
 
 // Triangulates, refines and coarsens one region; a large one is cut into pieces for that. A closed mesh has the
-// vertices of the PSLG first, as any other, and no edge with one triangle alone. Throws BadPslg, Cancelled, and
-// std::invalid_argument for options beyond their ranges.
+// vertices of the PSLG first, as any other, and no edge with one triangle alone. Throws BadPslg, Cancelled,
+// BadCheckpoint where what was kept is of something else, and std::invalid_argument for options beyond their ranges.
 MeshedRegion meshRegion(const Pslg& pslg, MeshOptions options, const RunControl& control = {});
 
 }  // namespace coastmesh

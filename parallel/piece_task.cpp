@@ -24,30 +24,6 @@ struct BadPiece : std::runtime_error {
 };
 using Reader = BasicByteReader<BadPiece>;
 
-// Eight flags a byte.
-template <typename Flags>
-std::vector<std::uint8_t> packed(const Flags& flags) {
-  std::vector<std::uint8_t> bytes((flags.size() + 7) / 8, 0);
-  for (std::size_t i = 0; i < flags.size(); ++i)
-    if (flags[i]) bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | (1u << (i % 8)));
-  return bytes;
-}
-template <typename Flags>
-void passFlags(ByteWriter& writer, const Flags& flags) {
-  writer.pass(static_cast<std::uint64_t>(flags.size()));
-  writer.pass(packed(flags));
-}
-template <typename Flags>
-void passFlags(Reader& reader, Flags& flags) {
-  std::uint64_t count = 0;
-  std::vector<std::uint8_t> bytes;
-  reader.pass(count);
-  reader.pass(bytes);
-  if ((count + 7) / 8 != bytes.size()) throw BadPiece("the flags of a piece are damaged");
-  flags.resize(count);
-  for (std::size_t i = 0; i < count; ++i) flags[i] = (bytes[i / 8] >> (i % 8) & 1u) != 0;
-}
-
 // An edge that carries a segment.
 struct SegmentEdge {
   EdgeRef edge;
@@ -170,9 +146,9 @@ std::string requestFor(const PieceTask& task, const MeshState& state) {
   writer.pass(state.notes.corners != nullptr);
   writer.pass(state.notes.spacing);
   writer.pass(state.notes.shell_unit);
-  passFlags(writer, state.notes.small_angle);
-  passFlags(writer, state.due_triangles);
-  passFlags(writer, state.due_vertices);
+  writer.passFlags(state.notes.small_angle);
+  writer.passFlags(state.due_triangles);
+  writer.passFlags(state.due_vertices);
   return writer.take();
 }
 
@@ -194,9 +170,9 @@ std::string answerPiece(std::string_view request, const PieceContext& context, c
     throw BadPiece("a piece is of another input than the one that is here");
   reader.pass(state.notes.spacing);
   reader.pass(state.notes.shell_unit);
-  passFlags(reader, state.notes.small_angle);
-  passFlags(reader, state.due_triangles);
-  passFlags(reader, state.due_vertices);
+  reader.passFlags(state.notes.small_angle);
+  reader.passFlags(state.due_triangles);
+  reader.passFlags(state.due_vertices);
   if (!reader.atEnd()) throw BadPiece("a request is longer than it should be");
 
   ByteWriter writer;
@@ -214,8 +190,8 @@ std::string answerPiece(std::string_view request, const PieceContext& context, c
   writer.pass(std::vector<Point>(state.mesh.points.begin() + state.mesh.input_vertices, state.mesh.points.end()));
   passTriangles(writer, state.mesh);
   writer.pass(state.notes.spacing);
-  passFlags(writer, state.due_triangles);
-  passFlags(writer, state.due_vertices);
+  writer.passFlags(state.due_triangles);
+  writer.passFlags(state.due_vertices);
   return writer.take();
 }
 
@@ -238,8 +214,8 @@ RefineStats takePiece(Reply&& reply, MeshState& state) {
   state.mesh.points.insert(state.mesh.points.end(), free.begin(), free.end());
   passTriangles(reader, state.mesh);
   reader.pass(state.notes.spacing);
-  passFlags(reader, state.due_triangles);
-  passFlags(reader, state.due_vertices);
+  reader.passFlags(state.due_triangles);
+  reader.passFlags(state.due_vertices);
   if (!reader.atEnd()) throw BadPiece("a reply is longer than it should be");
   return stats;
 }

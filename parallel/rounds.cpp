@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/refine/split_segments.hpp"
@@ -14,6 +15,7 @@
 #include "parallel/near_due.hpp"
 #include "parallel/piece_task.hpp"
 #include "parallel/recorder.hpp"
+#include "parallel/round_keeper.hpp"
 #include "parallel/stitch.hpp"
 
 namespace coastmesh {
@@ -127,7 +129,16 @@ class Rounds {
 
   MeshState& whole() { return whole_; }
   Recorder& recorder() { return recorder_; }
-  RefineStats& stats() { return stats_; }
+  RefineStats& stats() { return tally_.stats; }
+
+  // Where an earlier run was, with all as it was then.
+  std::optional<RoundPlace> goOn() {
+    return workspace_.keeper != nullptr ? workspace_.keeper->goOn(whole_, tally_) : std::nullopt;
+  }
+  // Keeps all as it is, for another run to go on from.
+  void keep(const RoundPlace& next) const {
+    if (workspace_.keeper != nullptr) workspace_.keeper->keep(next, whole_, tally_);
+  }
 
   // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `taskOf(state, share)` what is done to a piece with
   // that share of the whole weight where any of it is due.
@@ -137,9 +148,9 @@ class Rounds {
     const RunControl inner{control_.cancelled, {}};
     if (extent == Extent::Uncut) {
       recorder_.forEach(name, 1, inner, [&](std::size_t) {
-        if (isDue(whole_)) stats_.add(workOn(taskOf(whole_, 1.0), whole_, pslg, options, inner));
+        if (isDue(whole_)) tally_.stats.add(workOn(taskOf(whole_, 1.0), whole_, pslg, options, inner));
       });
-      most_pieces_ = std::max<std::size_t>(most_pieces_, 1);
+      tally_.pieces = std::max<std::uint64_t>(tally_.pieces, 1);
       return;
     }
     const std::size_t count = whole_.mesh.triangles.size();
@@ -151,10 +162,10 @@ class Rounds {
     const double weight =
         some.empty() ? total(count, weigh) : total(some.size(), [&](TriId i) { return weigh(some[i]); });
     Partition& parts = workspace_.parts;
-    partition(whole_.mesh, some, piecesFor(weight), cutAngle(count_++), weigh, recorder_, parts);
-    if (parts.pieces > most_pieces_) {
-      most_pieces_ = parts.pieces;
-      most_cuts_ = parts.tree;
+    partition(whole_.mesh, some, piecesFor(weight), cutAngle(tally_.cut_rounds++), weigh, recorder_, parts);
+    if (parts.pieces > tally_.pieces) {
+      tally_.pieces = parts.pieces;
+      tally_.cuts = parts.tree;
     }
     std::vector<double> weights(parts.pieces, 0.0);
     recorder_.forEach("cut", parts.pieces, {}, [&](std::size_t p) {
@@ -204,7 +215,7 @@ class Rounds {
     } else {
       stitchInPlace(std::move(pieces), parts, recorder_, whole_);
     }
-    for (const RefineStats& of_piece : stats) stats_.add(of_piece);
+    for (const RefineStats& of_piece : stats) tally_.stats.add(of_piece);
   }
 
   // The weights of so many triangles, summed in a fixed order.
@@ -221,7 +232,7 @@ class Rounds {
 
   RoundsReport finish(TriMesh& mesh) {
     mesh = std::move(whole_.mesh);
-    return {std::move(stats_), most_pieces_, std::move(most_cuts_), recorder_.finish()};
+    return {std::move(tally_.stats), tally_.pieces, std::move(tally_.cuts), recorder_.finish()};
   }
 
  private:
@@ -229,10 +240,7 @@ class Rounds {
   RoundsWorkspace& workspace_;
   const RunControl& control_;
   Recorder recorder_;
-  RefineStats stats_;
-  std::size_t most_pieces_ = 0;
-  CutTree most_cuts_;
-  int count_ = 0;
+  RoundsTally tally_;
 };
 
 // What is asked, step after step. At first small angles, of the whole: long thin triangles from shore to shore, as a
@@ -310,15 +318,16 @@ double expectedTriangles(const TriMesh& mesh, const RefineOptions& options) {
 
 namespace {
 
-// Rounds of one step, of which the last is not cut. `mends` where nothing may be left; `checkpoint(share)` reports how
-// far it is.
-template <typename Checkpoint>
-void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, bool whole_first, bool mends,
-                const Checkpoint& checkpoint) {
+// Rounds of one step from `first` on, of which the last is not cut. `mends` where nothing may be left;
+// `checkpoint(share)` reports how far it is, `keep(round)` keeps what there is before that round.
+template <typename Checkpoint, typename Keep>
+void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int first, bool whole_first, bool mends,
+                const Checkpoint& checkpoint, const Keep& keep) {
   MeshState& whole = run.whole();
   const TriangleBound bound = boundOf(options);
-  markBad(run, bound);
-  for (int round = 0; round <= kMostRounds; ++round) {
+  // Later rounds are left what is due by those before them.
+  if (first == 0) markBad(run, bound);
+  for (int round = first; round <= kMostRounds; ++round) {
     const double left =
         run.total(whole.mesh.triangles.size(), [&](TriId t) { return static_cast<double>(whole.due_triangles[t]); });
     // Only the last step has to leave nothing: its last round is not cut. The first step is not cut at all.
@@ -330,10 +339,12 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, boo
     const Extent extent = uncut ? Extent::Uncut : round == 0 ? Extent::All : Extent::NearDue;
     const std::uint64_t unmended = run.stats().unmended;
     refineRound(run, pslg, options, bound, extent, mends);
-    if (!soon_done || uncut || run.stats().unmended == unmended) continue;
     // What a piece could not mend the whole may.
-    markBad(run, bound);
-    refineRound(run, pslg, options, bound, Extent::Uncut, mends);
+    if (soon_done && !uncut && run.stats().unmended != unmended) {
+      markBad(run, bound);
+      refineRound(run, pslg, options, bound, Extent::Uncut, mends);
+    }
+    keep(round + 1);
   }
 }
 
@@ -345,11 +356,19 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   Rounds run(std::move(mesh), control, workspace);
   MeshState& whole = run.whole();
   whole.notes = std::move(notes);
-  if (options.size != nullptr) splitSegments(whole.mesh, pslg, whole.notes, options);
-  for (std::size_t step = 0; step < steps.size() && !run.stats().budget_reached; ++step) {
-    refineStep(run, pslg, steps[step], step == 0, step + 1 == steps.size(), [&](double share) {
-      control.checkpoint((static_cast<double>(step) + share) / static_cast<double>(steps.size()));
-    });
+  const std::optional<RoundPlace> before = run.goOn();
+  if (options.size != nullptr && !before) splitSegments(whole.mesh, pslg, whole.notes, options);
+  const RoundPlace from = before.value_or(RoundPlace{});
+  for (std::uint32_t step = from.step; step < steps.size() && !run.stats().budget_reached; ++step) {
+    refineStep(
+        run, pslg, steps[step], step == from.step ? static_cast<int>(from.round) : 0, step == 0,
+        step + 1 == steps.size(),
+        [&](double share) {
+          control.checkpoint((static_cast<double>(step) + share) / static_cast<double>(steps.size()));
+        },
+        [&](int round) {
+          run.keep({step, static_cast<std::uint32_t>(round)});
+        });
   }
   return run.finish(mesh);
 }
@@ -374,7 +393,8 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
       });
     }
   } else {
-    refineStep(run, pslg, options, false, true, [&](double share) { control.checkpoint(share); });
+    refineStep(
+        run, pslg, options, 0, false, true, [&](double share) { control.checkpoint(share); }, [](int) {});
   }
   return run.finish(mesh);
 }
@@ -387,9 +407,12 @@ RoundsReport sweepInRounds(std::string_view name, const PieceTask& task, TriMesh
   constexpr int kRounds = 3;
   Rounds run(std::move(mesh), control, workspace);
   MeshState& whole = run.whole();
-  whole.due_vertices.assign(whole.mesh.points.size(), 1);
-  std::fill_n(whole.due_vertices.begin(), whole.mesh.input_vertices, std::uint8_t{0});
-  for (int r = 0; r < kRounds && anyOf(whole.due_vertices); ++r) {
+  const std::optional<RoundPlace> before = run.goOn();
+  if (!before) {
+    whole.due_vertices.assign(whole.mesh.points.size(), 1);
+    std::fill_n(whole.due_vertices.begin(), whole.mesh.input_vertices, std::uint8_t{0});
+  }
+  for (int r = before ? static_cast<int>(before->round) : 0; r < kRounds && anyOf(whole.due_vertices); ++r) {
     control.checkpoint(static_cast<double>(r) / kRounds);
     const auto weigh = [&](TriId t) {
       const auto& v = whole.mesh.triangle(t).v;
@@ -397,6 +420,7 @@ RoundsReport sweepInRounds(std::string_view name, const PieceTask& task, TriMesh
     };
     run.round(name, weigh, r == 0 ? Extent::All : Extent::NearDue, pslg, options,
               [&](const MeshState&, double) { return task; });
+    run.keep({0, static_cast<std::uint32_t>(r + 1)});
   }
   return run.finish(mesh);
 }

@@ -11,6 +11,8 @@
 
 namespace coastmesh {
 
+class RoundKeeper;
+
 // About how many triangles refinement will make of a mesh.
 double expectedTriangles(const TriMesh& mesh, const RefineOptions& options);
 
@@ -20,6 +22,8 @@ struct RoundsWorkspace {
   MeshState spare;
   Partition parts;
   const HelpedRegion* helpers = nullptr;  // who may take pieces off this process's hands
+  // Where the mesh is kept after each round, and is gone on from; null: nowhere. Mending is not kept.
+  RoundKeeper* keeper = nullptr;
 };
 
 // What rounds did, besides the mesh.

@@ -32,6 +32,10 @@ OptionTable declareOptions(MeshRunUsage& usage) {
              "run. With .shard files as outputs gather puts them together");
   declarePerFeature(table, usage);
   declareRunOutputs(table, usage);
+  table.section(Section::Run);
+  table.text({"--checkpoint", "Checkpoint"}, usage.checkpoint, "DIR",
+             "keep what is done in this folder, after each round: where the run is killed, the same command goes on "
+             "from there, to the same bytes; the folder goes when the run is done");
   table.example("coastmesh mesh lake.geojson -o lake.gpkg -o lake.nc", "a lake as GIS layers and as a UGRID grid");
   table.example("coastmesh mesh sea.shp -o fort.14 --min-angle 35 --size-max 5000",
                 "a sea for ADCIRC: angles of 35 degrees and more, no edge longer than 5 km");
@@ -41,6 +45,8 @@ OptionTable declareOptions(MeshRunUsage& usage) {
                 "all of the Earth, closed: no pole and no meridian is special");
   table.example("coastmesh mesh lakes.gpkg --shard 3/7 -o lakes-3.shard --skip-existing",
                 "the third of seven shares of many lakes, for coastmesh gather");
+  table.example("coastmesh mesh ocean.gpkg -o ocean.nc --size-max 500 --checkpoint ocean.kept",
+                "a mesh that takes hours: where it is killed, the same line again goes on");
   table.example("coastmesh mesh lakes.gpkg --per-feature -o lake-{}.nc --skip-existing",
                 "a file for each lake; the same line again makes what is missing");
   return table;

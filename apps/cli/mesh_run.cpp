@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "apps/cli/checkpoint_folder.hpp"
 #include "apps/cli/cleaned_output.hpp"
 #include "apps/cli/exit_codes.hpp"
 #include "apps/cli/partition_outputs.hpp"
@@ -156,7 +157,10 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   if (to_shard && std::ranges::count(job.input.files, "-") > 0)
     throw OptionError("a .shard is gathered with its input, which standard input is not: give a file");
   MeshUsage of_job;
-  const GivenOptions given = to_shard ? givenOptions(run.options, meshJobOptions(of_job)) : GivenOptions();
+  const bool keeps = !usage.checkpoint.empty();
+  if (keeps && std::ranges::count(job.input.files, "-") > 0)
+    throw OptionError("--checkpoint reads the input again to go on, which standard input allows once: give a file");
+  const GivenOptions given = to_shard || keeps ? givenOptions(run.options, meshJobOptions(of_job)) : GivenOptions();
   const bool skips = usage.skip_existing && !usage.overwrite;
   if (skips) {
     if (const std::optional<int> code = doneBefore(usage, run, given)) {
@@ -177,11 +181,26 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
     if (isShardFile(path)) shard_files.push_back(&outputs.addFile(path));
   outputs.addReport(usage.report);
   ShardWriter shard(given, job.exchange.shard, job.exchange.shards);
-  if (to_shard) {
-    job.exchange.begin = [&shard](std::uint64_t digest, std::size_t groups) { shard.begin(digest, groups); };
-    job.exchange.keep = [&shard](std::size_t group, const GroupResult& result) { shard.keep(group, result); };
+  std::optional<CheckpointFolder> checkpoint;
+  if (keeps) {
+    CheckpointHeader header{COASTMESH_VERSION, given, job.exchange.shard, job.exchange.shards, {}, 0, 0};
+    for (const std::string& path : run.inputs) header.files.push_back(stampOf(path));
+    checkpoint.emplace(usage.checkpoint, std::move(header));
+    job.exchange.has = [&checkpoint](std::size_t group) { return checkpoint->has(group); };
+    job.exchange.take = [&checkpoint](std::size_t group) { return checkpoint->take(group); };
+    job.exchange.checkpoint = [&checkpoint](std::size_t group) { return checkpoint->rounds(group); };
   }
-  job.keep_edits = edits != nullptr || to_shard;  // gather may be asked for them
+  if (to_shard || keeps) {
+    job.exchange.begin = [&](std::uint64_t digest, std::size_t groups) {
+      if (to_shard) shard.begin(digest, groups);
+      if (checkpoint) checkpoint->begin(digest, groups);
+    };
+    job.exchange.keep = [&](std::size_t group, const GroupResult& result) {
+      if (to_shard) shard.keep(group, result);
+      if (checkpoint) checkpoint->keep(group, result);
+    };
+  }
+  job.keep_edits = edits != nullptr || to_shard || keeps;  // another run may be asked for them
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
   const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
                            [&display](std::string_view phase, double share) { display.show(phase, share); }};
@@ -189,7 +208,13 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
     run.cluster->start(job.parallel.threads);
     job.mesh.helpers = &run.cluster->helpers();
   }
-  MeshJobResult result = runMeshJob(job, control);
+  MeshJobResult result;
+  try {
+    result = runMeshJob(job, control);
+  } catch (const BadCheckpoint& error) {
+    throw InputError(error.what() + checkpoint->remedy());
+  }
+  if (checkpoint) result.checkpoint = checkpoint->use();
   display.clear();
   for (const std::string& warning : warningsOf(result)) run.warn(warning);
 
@@ -220,6 +245,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   const bool silent = usage.quiet || usage.progress == "json" || usage.report == "-";
   const std::string summary = any && !silent ? summaryOf(usage, job, result) : "";
   outputs.commit();
+  if (checkpoint) checkpoint->finish();
   // Other shards may have what this one has not.
   if (!any && to_shard) {
     display.clear();

@@ -24,6 +24,7 @@ struct MeshRunUsage {
   std::string shard;  // "I/N"; empty: all
   bool per_feature = false;
   std::string name_field;  // of --per-feature; empty: numbers
+  std::string checkpoint;  // a folder; empty: nothing is kept
   std::string progress = "auto";
   bool overwrite = false;
   bool skip_existing = false;

@@ -49,6 +49,8 @@ void requirePossible(const MeshRunUsage& usage) {
         "--per-feature meshes the inside of each feature: leave out --domain, --bbox, --clip and --water-at");
   if (job.input.dissolve) throw OptionError("--per-feature and --dissolve: leave out one of them");
   if (!usage.edits.empty()) throw OptionError("--edits is of one mesh: leave it out with --per-feature");
+  if (!usage.checkpoint.empty())
+    throw OptionError("--checkpoint is of one mesh: with --per-feature --skip-existing goes on where a run ended");
   if (usage.report == "-" && usage.progress == "json")
     throw OptionError("--report - and --progress json both write to standard output: give the report a file");
   for (const std::string& file : job.input.files)

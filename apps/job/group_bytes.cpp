@@ -21,12 +21,25 @@ auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(
                   estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings);
 }
 
-std::string bytesOf(const GroupResult& result) {
-  ByteWriter writer;
+namespace {
+
+void passGroup(auto& writer, const GroupResult& result) {
   writer.pass(result);
   writer.pass(result.plane ? std::optional(result.plane->size_max) : std::nullopt);
   writer.pass(result.log.work());
+}
+
+}  // namespace
+
+std::string bytesOf(const GroupResult& result) {
+  ByteWriter writer;
+  passGroup(writer, result);
   return writer.take();
+}
+
+void putBytesOf(const GroupResult& result, const std::function<void(std::string_view)>& put) {
+  BasicByteWriter<PutSink> writer({&put});
+  passGroup(writer, result);
 }
 
 GroupResult groupFrom(std::string_view bytes, const std::string& what) {

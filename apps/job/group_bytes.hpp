@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,8 @@ namespace coastmesh {
 // A group's result as bytes, for one version of coastmesh: all but the projection of its plane, and of its log the
 // work alone.
 std::string bytesOf(const GroupResult& result);
+// The same, handed on as they are made.
+void putBytesOf(const GroupResult& result, const std::function<void(std::string_view)>& put);
 // `what` names the bytes where they are damaged; throws InputError.
 GroupResult groupFrom(std::string_view bytes, const std::string& what);
 

@@ -6,6 +6,7 @@
 namespace coastmesh {
 
 struct GroupResult;
+struct RegionCheckpoint;
 
 // Where groups' meshes go, and come from, where not all of them are made in this run.
 struct GroupExchange {
@@ -15,8 +16,12 @@ struct GroupExchange {
   // Gives a group that was meshed before, less the projection of its plane; called from several threads. Empty: groups
   // are meshed here. May throw.
   std::function<GroupResult(std::size_t group)> take;
-  // Called with each group that was meshed here, from several threads.
+  // Whether `take` has a group; those that it has not are meshed here. Empty: it has all.
+  std::function<bool(std::size_t group)> has;
+  // Called with each group, from several threads. May throw.
   std::function<void(std::size_t group, const GroupResult& result)> keep;
+  // Where a group's mesh is kept from round to round, and gone on with. Empty: nowhere. May throw.
+  std::function<RegionCheckpoint(std::size_t group)> checkpoint;
 };
 
 }  // namespace coastmesh

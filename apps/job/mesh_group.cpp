@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <tuple>
 
@@ -29,6 +30,7 @@
 #include "gis/size/node_sizes.hpp"
 #include "gis/size/size_choice.hpp"
 #include "parallel/recorder.hpp"
+#include "parallel/region_checkpoint.hpp"
 
 namespace coastmesh {
 
@@ -345,6 +347,11 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
 MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&& options, GroupResult& result) {
   MeshedRegion region;
   const std::uint64_t most = options.refine.most_in_memory;
+  std::optional<RegionCheckpoint> checkpoint;
+  if (task.job.exchange.checkpoint) {
+    checkpoint = task.job.exchange.checkpoint(task.group);
+    options.checkpoint = &*checkpoint;
+  }
   try {
     region = meshRegion(domain.pslg, std::move(options), task.control);
   } catch (const OutOfRoom& error) {

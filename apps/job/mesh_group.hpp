@@ -43,7 +43,8 @@ struct GroupRoom {
 };
 
 // Projects, cleans, meshes and checks a group. What cannot be meshed is reported in `refusal`: so is that its sizes ask
-// for clearly more than there is room for, before that is taken. Throws Cancelled, BadMesh.
+// for clearly more than there is room for, before that is taken. Throws Cancelled, BadMesh,
+// BadCheckpoint, and what the job's exchange throws.
 GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
                       const GroupRoom& room, const RunControl& control);
 

@@ -257,11 +257,12 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     const std::size_t g = order[i];
     const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
-    GroupResult part = exchange.take ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, memory}, inner);
+    const bool taken = exchange.take && (!exchange.has || exchange.has(g));
+    GroupResult part = taken ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, memory}, inner);
     if (exchange.keep) exchange.keep(g, part);
     // Planes are looked at again after repairs only, and where nodes of a frame were moved on the Earth.
     const bool again = mends || part.surface != SurfaceKind::Plane;
-    if (exchange.take && part.plane && again && !input.isPoly()) part.plane->projection = input.projectionOf(g);
+    if (taken && part.plane && again && !input.isPoly()) part.plane->projection = input.projectionOf(g);
     merge.add(g, std::move(part));
     progress.report(g, 1.0);
   });

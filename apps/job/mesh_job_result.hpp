@@ -64,6 +64,14 @@ struct PhaseSeconds {
   double total = 0.0;
 };
 
+// What a run kept for another to go on from, and went on from itself.
+struct CheckpointUse {
+  std::uint64_t groups_taken = 0;     // groups of features that an earlier run had done
+  std::uint64_t regions_gone_on = 0;  // of which an earlier run had done some rounds
+  std::uint64_t rounds_kept = 0;
+  std::uint64_t bytes_kept = 0;  // written in all
+};
+
 struct MeshJobResult {
   Grid grid;  // without a triangle where every feature was refused
   ReadReport read;
@@ -91,9 +99,10 @@ struct MeshJobResult {
   double mesh_area_m2 = 0.0;
   std::uint64_t digest = 0;
   PhaseSeconds seconds;
-  FinishReport finish;                       // depths, boundaries and repairs
-  StepOutcome step;                          // of the finished grid
-  PartitionReport partition;                 // for a solver, where one is asked for
+  FinishReport finish;        // depths, boundaries and repairs
+  StepOutcome step;           // of the finished grid
+  PartitionReport partition;  // for a solver, where one is asked for
+  CheckpointUse checkpoint;
   std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
 
   bool complete() const {

@@ -183,6 +183,13 @@ Json clusterSection(const Helpers* helpers) {
   return {{"ranks", use.ranks}, {"pieces_dealt", use.pieces_dealt}, {"bytes_moved", use.bytes_moved}};
 }
 
+Json checkpointSection(const CheckpointUse& use) {
+  return {{"groups_taken", use.groups_taken},
+          {"regions_gone_on", use.regions_gone_on},
+          {"rounds_kept", use.rounds_kept},
+          {"bytes_kept", use.bytes_kept}};
+}
+
 }  // namespace
 
 std::string digestText(std::uint64_t digest) {
@@ -209,6 +216,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"time_s", timeSection(result.seconds)},
                     {"parallel", parallelSection(result.log)},
                     {"cluster", clusterSection(job.mesh.helpers)},
+                    {"checkpoint", checkpointSection(result.checkpoint)},
                     {"peak_memory_mib", peakMemoryMib()},
                     {"threads", threads}};
   return textOf(report);

@@ -90,6 +90,13 @@ ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::st
   return child.wait();
 }
 
+ProgramRun runAndKill(const std::vector<std::string>& arguments, const std::function<bool()>& due) {
+  Child child(withProgram(arguments));
+  while (!child.ended() && !due()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  child.signal(SIGKILL);
+  return child.wait();
+}
+
 std::string inputFile(const std::string& name) {
   const fs::path path = fs::path(COASTMESH_CLI_INPUTS) / name;
   if (!fs::exists(path)) throw std::runtime_error("no input " + path.string());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ ProgramRun runShell(const std::string& script);
 
 // Starts the program, sends `signal_number` once its standard output holds `awaited`, and waits for its end.
 ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::string& awaited, int signal_number);
+
+// Starts the program, kills it as soon as `due` says so, asked every millisecond, and waits for its end.
+ProgramRun runAndKill(const std::vector<std::string>& arguments, const std::function<bool()>& due);
 
 // A file of tests/cli/inputs.
 std::string inputFile(const std::string& name);

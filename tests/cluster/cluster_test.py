@@ -195,5 +195,75 @@ class Killed(Folder):
         self.assertNotEqual(started.returncode, 0)
 
 
+class GoesOn(Folder):
+    """A run that lost a rank, begun again with what --checkpoint kept."""
+    COMMAND = ("mesh", LAKE, "--size-max", "400", "--threads", "1", "--progress", "json")
+    KEEPING = (*COMMAND, "--checkpoint", "kept", "--report", "kept.json", "-o", "out.nc")
+
+    def begin(self, due, rank, *outputs):
+        """Kills that rank of three as soon as `due(started)` comes back; `outputs` are written besides."""
+        done = run([ALONE, *self.COMMAND, "-o", "whole.nc"], self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        started = subprocess.Popen(on_ranks(3, PROGRAM, *self.KEEPING, *outputs), cwd=self.folder, env=ENVIRONMENT,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(started.stdout.close)
+        self.addCleanup(started.stderr.close)
+        due(started)
+        os.kill(workers(self.folder)[rank], signal.SIGKILL)
+        errors = started.communicate(timeout=60)[1]
+        self.assertEqual(started.returncode, INTERRUPTED, errors)
+        deadline = time.monotonic() + 10
+        while (hidden(self.folder) or workers(self.folder)) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        self.assertEqual(workers(self.folder), {}, errors)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["kept", "whole.nc"], errors)
+
+    def expect_rest(self, command):
+        """What the next run says of what it went on from."""
+        done = run(command, self.folder)
+        self.assertEqual((done.returncode, own_lines(done.stderr)), (0, []))
+        self.assertEqual(Path(self.path("out.nc")).read_bytes(), Path(self.path("whole.nc")).read_bytes())
+        self.assertEqual(sorted(os.listdir(self.folder)), ["kept.json", "out.nc", "whole.nc"])
+        return json.loads(Path(self.path("kept.json")).read_text())["checkpoint"]
+
+    def until_kept(self, reached):
+        """Waits for a mesh whose stage and rounds are as wanted: they stand behind eight bytes."""
+        def due(started):
+            while started.poll() is None:
+                try:
+                    with open(self.path("kept/rounds-0"), "rb") as file:
+                        head = file.read(17)
+                except FileNotFoundError:
+                    head = b""
+                if len(head) == 17 and reached(head[8], int.from_bytes(head[13:17], "little")):
+                    return
+                time.sleep(0.001)
+            self.fail("the run ended before")
+        return due
+
+    def test_killed_in_refine(self):
+        self.begin(self.until_kept(lambda stage, rounds: True), 2)
+        use = self.expect_rest(on_ranks(2, PROGRAM, *self.KEEPING))
+        self.assertEqual((use["regions_gone_on"], use["groups_taken"]), (1, 0))
+        self.assertGreater(use["rounds_kept"], 0)
+
+    def test_killed_in_stitch(self):
+        # There is no third round but the last.
+        self.begin(self.until_kept(lambda stage, rounds: (stage, rounds) == (1, 3)), 0)
+        use = self.expect_rest(on_ranks(3, PROGRAM, *self.KEEPING))
+        self.assertEqual((use["regions_gone_on"], use["groups_taken"], use["rounds_kept"]), (1, 0, 0))
+
+    def test_killed_in_write(self):
+        def due(started):
+            for line in started.stdout:
+                if line.startswith("{") and json.loads(line)["phase"] == "write":
+                    return
+            self.fail("the run ended before")
+        # One that takes long enough to be killed in.
+        self.begin(due, 1, "-o", "new.gpkg")
+        use = self.expect_rest([ALONE, *self.KEEPING])
+        self.assertEqual((use["regions_gone_on"], use["groups_taken"], use["rounds_kept"]), (0, 1, 0))
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -201,6 +201,7 @@ def cases():
         "--per-feature": Case(extra=["--output", "lake-{}.nc"]),
         "--name-field": Case("name", extra=["--per-feature", "--output", "lake-{}.nc"]),
         "--skip-existing": Case(exists=["out.nc"]),
+        "--checkpoint": Case("kept", report="checkpoint"),
         "--threads": Case("1", report="threads"),
         "--report": Case("report2.json"),
         "--edits": Case("edits.gpkg"),

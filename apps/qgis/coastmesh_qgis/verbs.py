@@ -23,7 +23,7 @@ VERBS = {
 # How the program is run is the provider's affair
 # (which layer and which of its features, QGIS knows already).
 NEVER_SHOWN = ("--output", "--overwrite", "--progress", "--quiet", "--assume-crs", "--layer", "--where", "--shard",
-               "--skip-existing", "--per-feature", "--name-field")
+               "--skip-existing", "--checkpoint", "--per-feature", "--name-field")
 
 # What most users look for; the others are under "Advanced parameters".
 BASIC = (

@@ -1,0 +1,254 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+constexpr int kKilled = 128 + SIGKILL;
+
+// Which file has that name now.
+std::tuple<ino_t, time_t, long> fileAt(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return {0, 0, 0};
+  return {status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+class Checkpoint : public ProgramTest {
+ protected:
+  std::string kept(const std::string& name) const { return file("kept/" + name); }
+
+  // A lake that is cut into pieces, and one that is not.
+  std::string lakes() const {
+    const LonLatRing shore{{-87.50, 41.600}, {-87.49, 41.598}, {-87.478, 41.601}, {-87.475, 41.61},
+                           {-87.48, 41.617}, {-87.49, 41.619}, {-87.501, 41.614}};
+    const LonLatRing pond{{-87.47, 41.600}, {-87.4699, 41.600}, {-87.4699, 41.6001}};
+    return write("lakes.geojson", geoJsonPolygons({{pond}, {shore}}));
+  }
+  std::vector<std::string> command(const std::string& input, std::vector<std::string> further = {}) const {
+    std::vector<std::string> words{
+        "mesh",       input, "--size-max",  "9",  "--min-angle",  "33",       "--progress",   "json",         "-o",
+        file("x.nc"), "-o",  file("x.2dm"), "-o", file("x.gpkg"), "--report", file("x.json"), "--mark-pieces"};
+    words.insert(words.end(), further.begin(), further.end());
+    return words;
+  }
+  std::vector<std::string> keeping(const std::string& input, std::vector<std::string> further = {}) const {
+    further.insert(further.begin(), {"--checkpoint", file("kept")});
+    return command(input, further);
+  }
+  // The files of a run that nothing was kept of, and then without them.
+  std::vector<std::string> plainBytes(const std::string& input) const {
+    const ProgramRun run = runProgram(command(input));
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return takeBytes();
+  }
+  std::vector<std::string> takeBytes() const {
+    std::vector<std::string> all;
+    for (const char* name : {"x.nc", "x.2dm", "x.gpkg"}) all.push_back(readText(file(name)));
+    for (const char* name : {"x.nc", "x.2dm", "x.gpkg"}) std::filesystem::remove(file(name));
+    last_use_ = Json::parse(readText(file("x.json")))["checkpoint"];
+    std::filesystem::remove(file("x.json"));
+    return all;
+  }
+  std::uint64_t used(const char* key) const { return last_use_[key].get<std::uint64_t>(); }
+  void expectSame(const std::vector<std::string>& bytes, const std::vector<std::string>& expected) const {
+    ASSERT_EQ(bytes.size(), expected.size());
+    for (std::size_t i = 0; i < bytes.size(); ++i) EXPECT_TRUE(bytes[i] == expected[i]) << i;
+  }
+  // A run that was killed when it had done a round.
+  void killInRounds(const std::string& input) const {
+    const ProgramRun run = runAndKill(keeping(input), [&] { return std::filesystem::exists(roundsFile()); });
+    ASSERT_EQ(run.code, kKilled) << run.errors;
+  }
+  // Those of the large lake.
+  std::string roundsFile() const {
+    return std::filesystem::exists(kept("rounds-0")) ? kept("rounds-0") : kept("rounds-1");
+  }
+  void expectRefused(const std::vector<std::string>& words, int code, const std::string& why) const {
+    const ProgramRun run = runProgram(words);
+    EXPECT_EQ(run.code, code) << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr(why));
+  }
+
+ private:
+  mutable Json last_use_;
+};
+
+TEST_F(Checkpoint, ChangesNoByteAndLeavesNothing) {
+  const std::string input = lakes();
+  const std::vector<std::string> expected = plainBytes(input);
+  EXPECT_EQ(used("rounds_kept"), 0u);
+  const ProgramRun run = runProgram(keeping(input));
+  EXPECT_EQ(run.code, 0) << run.errors;
+  expectSame(takeBytes(), expected);
+  EXPECT_GT(used("rounds_kept"), 3u);
+  EXPECT_EQ(names(), (std::set<std::string>{"lakes.geojson", "x.prj"}));
+}
+
+// Each run does one round more and is killed, until what is left is done before that.
+TEST_F(Checkpoint, KilledAgainAndAgainInRounds) {
+  const std::string input = lakes();
+  const std::vector<std::string> expected = plainBytes(input);
+  constexpr int kEnough = 100;
+  int runs = 0;
+  for (; runs < kEnough; ++runs) {
+    const auto before = fileAt(roundsFile());
+    const ProgramRun run = runAndKill(keeping(input), [&] {
+      const auto now = fileAt(roundsFile());
+      return now != before && now != decltype(now){};
+    });
+    if (run.code == 0) break;
+    ASSERT_EQ(run.code, kKilled) << run.errors;
+  }
+  EXPECT_GT(runs, 2);
+  expectSame(takeBytes(), expected);
+  EXPECT_GT(used("regions_gone_on") + used("groups_taken"), 0u);
+  EXPECT_FALSE(std::filesystem::exists(file("kept")));
+}
+
+TEST_F(Checkpoint, KilledWhileTheMeshIsBeingKept) {
+  const std::string input = lakes();
+  const std::vector<std::string> expected = plainBytes(input);
+  const auto unfinished = [&] {
+    return std::filesystem::exists(kept("rounds-0")) && std::filesystem::exists(kept("rounds-0.new"));
+  };
+  const ProgramRun killed = runAndKill(keeping(input), [&] {
+    return unfinished() || (std::filesystem::exists(kept("rounds-1")) && std::filesystem::exists(kept("rounds-1.new")));
+  });
+  ASSERT_EQ(killed.code, kKilled) << killed.errors;
+  EXPECT_EQ(runProgram(keeping(input)).code, 0);
+  expectSame(takeBytes(), expected);
+  EXPECT_EQ(used("regions_gone_on"), 1u);
+}
+
+TEST_F(Checkpoint, KilledWhileWriting) {
+  const std::string input = lakes();
+  const std::vector<std::string> expected = plainBytes(input);
+  const ProgramRun killed = runAndSignal(keeping(input), R"("phase":"write")", SIGKILL);
+  ASSERT_EQ(killed.code, kKilled) << killed.errors;
+  EXPECT_FALSE(std::filesystem::exists(file("x.nc")));
+  // The number of threads is no matter.
+  EXPECT_EQ(runProgram(keeping(input, {"--threads", "1"})).code, 0);
+  expectSame(takeBytes(), expected);
+  EXPECT_EQ(used("groups_taken"), 2u);
+  EXPECT_EQ(used("rounds_kept"), 0u);
+}
+
+// What was being appended when the run was killed is made again.
+TEST_F(Checkpoint, TakesTheGroupsThatAreWhole) {
+  const std::string input = lakes();
+  const std::vector<std::string> expected = plainBytes(input);
+  ASSERT_EQ(runAndSignal(keeping(input), R"("phase":"write")", SIGKILL).code, kKilled);
+  const std::string whole = readText(kept("groups"));
+  for (const std::size_t less : {std::size_t{1}, whole.size() / 2, whole.size() - 5}) {
+    std::filesystem::copy(file("kept"), file("copy"));
+    std::filesystem::resize_file(kept("groups"), whole.size() - less);
+    EXPECT_EQ(runProgram(keeping(input)).code, 0);
+    expectSame(takeBytes(), expected);
+    EXPECT_LT(used("groups_taken"), 2u) << less;
+    std::filesystem::rename(file("copy"), file("kept"));
+  }
+}
+
+TEST_F(Checkpoint, AnInterruptedRunGoesOn) {
+  const std::string input = lakes();
+  const std::vector<std::string> expected = plainBytes(input);
+  EXPECT_EQ(runAndSignal(keeping(input), R"("phase":"write")", SIGTERM).code, 5);
+  EXPECT_TRUE(std::filesystem::exists(kept("run")));
+  EXPECT_EQ(runProgram(keeping(input)).code, 0);
+  expectSame(takeBytes(), expected);
+  EXPECT_EQ(used("groups_taken"), 2u);
+}
+
+TEST_F(Checkpoint, IsOfOneCommandAndInput) {
+  const std::string input = lakes();
+  killInRounds(input);
+  expectRefused(keeping(input, {"--no-coarsen"}), 2, "was begun with another --coarsen: remove the folder '");
+  expectRefused(keeping(input, {"--shard", "1/2"}), 2, "was begun with another --shard");
+  expectRefused(keeping(lake()), 2, "was begun with another INPUT");
+  const std::string text = readText(input);
+  writeText(input, text + "\n");
+  expectRefused(keeping(input), 3, "lakes.geojson' is not what it was");
+  EXPECT_TRUE(std::filesystem::exists(kept("run")));
+}
+
+TEST_F(Checkpoint, WhatIsDamagedIsNotGoneOnFrom) {
+  const std::string input = lakes();
+  killInRounds(input);
+  for (const std::string& name : {std::string("run"), std::filesystem::path(roundsFile()).filename().string()}) {
+    const std::string whole = readText(kept(name));
+    std::string damaged = whole;
+    damaged[whole.size() / 2] ^= 4;
+    writeText(kept(name), damaged);
+    expectRefused(keeping(input), 3, name + "' is damaged: remove the folder '");
+    writeText(kept(name), whole);
+  }
+}
+
+TEST_F(Checkpoint, TheFolderIsItsOwn) {
+  const std::string input = lake();
+  std::filesystem::create_directory(file("kept"));
+  write("kept/precious", "text");
+  expectRefused(keeping(input), 2, "there are other files in it");
+  EXPECT_EQ(readText(kept("precious")), "text");
+  std::filesystem::remove(kept("precious"));
+  // One that is there already, and empty, will do.
+  EXPECT_EQ(runProgram(keeping(input)).code, 0);
+  write("text", "text");
+  expectRefused(command(input, {"--overwrite", "--checkpoint", file("text")}), 2, "is no folder");
+  expectRefused(command(input, {"--overwrite", "--checkpoint", file("no/kept")}), 4, "cannot be made");
+}
+
+TEST_F(Checkpoint, BelongsToOneRunAtATime) {
+  const std::string input = lakes();
+  killInRounds(input);
+  const int lock = open(kept("coastmesh.lock").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_GE(lock, 0);
+  ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
+  expectRefused(keeping(input), 2, "another run is at work there");
+  close(lock);
+  EXPECT_EQ(runProgram(keeping(input)).code, 0);
+}
+
+TEST_F(Checkpoint, AFailureBeforeAnythingIsKeptLeavesNoFolder) {
+  expectRefused(keeping(file("nothing.geojson")), 3, "nothing.geojson");
+  EXPECT_TRUE(names().empty());
+  const ProgramRun piped = runShell("\"$0\" mesh - -o " + file("x.nc") + " --checkpoint " + file("kept"));
+  EXPECT_EQ(piped.code, 2) << piped.errors;
+  EXPECT_THAT(piped.errors, HasSubstr("standard input"));
+  expectRefused({"mesh", lake(), "--per-feature", "-o", file("l-{}.nc"), "--checkpoint", file("kept")}, 2,
+                "--skip-existing");
+}
+
+// A shard's file is the same too.
+TEST_F(Checkpoint, OfAShard) {
+  const std::string input = lakes();
+  const auto words = [&](const std::string& out) {
+    return std::vector<std::string>{"mesh",    input, "--size-max",   "9",          "-o",         out,
+                                    "--shard", "1/1", "--checkpoint", file("kept"), "--progress", "json"};
+  };
+  ASSERT_EQ(runAndKill(words(file("a.shard")), [&] { return std::filesystem::exists(roundsFile()); }).code, kKilled);
+  EXPECT_EQ(runProgram(words(file("a.shard"))).code, 0);
+  EXPECT_EQ(runProgram({"gather", file("a.shard"), "-o", file("g.nc")}).code, 0);
+  EXPECT_EQ(runProgram({"mesh", input, "--size-max", "9", "-o", file("m.nc")}).code, 0);
+  EXPECT_TRUE(readText(file("g.nc")) == readText(file("m.nc")));
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test
