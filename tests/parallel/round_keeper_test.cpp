@@ -78,9 +78,10 @@ void expectSame(const MeshedRegion& region, const MeshedRegion& expected) {
   EXPECT_EQ(region.pieces, expected.pieces);
   EXPECT_EQ(region.piece_of, expected.piece_of);
   const RefineStats &a = region.stats, &b = expected.stats;
-  EXPECT_EQ(
-      std::tie(a.steiner_points, a.by_type, a.segment_splits, a.relocations, a.removals, a.merges, a.budget_reached),
-      std::tie(b.steiner_points, b.by_type, b.segment_splits, b.relocations, b.removals, b.merges, b.budget_reached));
+  EXPECT_EQ(std::tie(a.steiner_points, a.by_type, a.segment_splits, a.relocations, a.removals, a.merges, a.unmended,
+                     a.budget_reached),
+            std::tie(b.steiner_points, b.by_type, b.segment_splits, b.relocations, b.removals, b.merges, b.unmended,
+                     b.budget_reached));
   EXPECT_EQ(a.unresolved.size(), b.unresolved.size());
 }
 
