@@ -10,12 +10,12 @@
 #include <thread>
 
 #include "apps/cli/exit_codes.hpp"
-#include "apps/cli/feature_names.hpp"
 #include "apps/cli/partition_outputs.hpp"
 #include "apps/cli/progress.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/cli/shard_file.hpp"
 #include "apps/job/deal_groups.hpp"
+#include "apps/job/feature_file_names.hpp"
 #include "apps/job/mesh_job.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "apps/report/mesh_warnings.hpp"

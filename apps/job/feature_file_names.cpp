@@ -1,4 +1,4 @@
-#include "apps/cli/feature_names.hpp"
+#include "apps/job/feature_file_names.hpp"
 
 #include <algorithm>
 #include <filesystem>
