@@ -157,11 +157,11 @@ void requireOutputsApart(const std::vector<OptionTable::NamedOutput>& outputs,
 RunOutputs::~RunOutputs() {
   grids_.clear();
   files_.clear();
-  for (const std::string& folder : guarded_) interrupt_.release(folder);
+  for (const fs::path& folder : guarded_) interrupt_.release(folder);
 }
 
 void RunOutputs::guard(const StagedFiles& files) {
-  guarded_.push_back(files.stagingFolder());
+  guarded_.emplace_back(files.stagingFolder());
   interrupt_.guard(guarded_.back());
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,7 +67,7 @@ class RunOutputs {
   bool report_to_stdout_ = false;
   std::string report_text_;
   std::vector<std::string> depth_paths_;  // of formats that say a depth at each node
-  std::vector<std::string> guarded_;
+  std::vector<std::filesystem::path> guarded_;  // to be released without asking for memory
 };
 
 }  // namespace coastmesh
