@@ -66,7 +66,7 @@ class RunOutputs {
   StagedFiles* report_ = nullptr;
   bool report_to_stdout_ = false;
   std::string report_text_;
-  std::vector<std::string> depth_paths_;  // of formats that say a depth at each node
+  std::vector<std::string> depth_paths_;        // of formats that say a depth at each node
   std::vector<std::filesystem::path> guarded_;  // to be released without asking for memory
 };
 
