@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/links.hpp"
-#include "core/refine/optimise.hpp"
+#include "core/optimise/optimise.hpp"
 #include "core/refine/submesh_runs.hpp"
 #include "parallel/bytes.hpp"
 

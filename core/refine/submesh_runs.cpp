@@ -62,7 +62,7 @@ RefineStats repairSubmesh(MeshState& state, const Pslg& pslg, const RefineOption
   return giveBack(run, state);
 }
 
-MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due) {
+MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due, std::span<const VertexId> waiting) {
   std::vector<EdgeRef> star;
   const auto isAtFrozenEdge = [&](VertexId v) {
     mesh.star(v, star);
@@ -70,6 +70,7 @@ MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due) {
   };
   for (VertexId v = 0; v < mesh.vertexSlots(); ++v)
     due[v] = due[v] && mesh.isLiveVertex(v) && (v < mesh.inputVertices() || isAtFrozenEdge(v));
+  for (const VertexId v : waiting) due[v] = mesh.isLiveVertex(v);
   MeshState state;
   Renumbering by;
   state.mesh = mesh.release(by, false);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/edit_mesh.hpp"
@@ -30,7 +31,7 @@ RefineStats coarsenSubmesh(MeshState& state, const Pslg& pslg, const RefineOptio
                            const RunControl& control = {});
 
 // The submesh that was worked on in `mesh`. Of its due vertices (one a slot) those stay due that a frozen edge holds,
-// or runs beside.
-MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due);
+// or runs beside, and those that are `waiting`.
+MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due, std::span<const VertexId> waiting = {});
 
 }  // namespace coastmesh

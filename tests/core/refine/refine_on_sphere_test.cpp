@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/delaunay.hpp"
+#include "core/optimise/optimise.hpp"
 #include "core/quality.hpp"
-#include "core/refine/optimise.hpp"
 #include "core/refine/refine.hpp"
 #include "core/space_point.hpp"
 #include "tests/support/mesh_checks.hpp"

@@ -17,10 +17,12 @@ inline double shapeOf(const Point& a, const Point& b, const Point& c) {
          (squaredDistance(a, b) + squaredDistance(b, c) + squaredDistance(c, a));
 }
 
+// To which part sizes count in what follows, and the least that it can be.
+inline constexpr double kSizeShare = 0.1, kLeastTriangleCost = 1.0 + 2.0 * kSizeShare;
+
 // What the optimiser makes small in the sum: the inverse of the shape, and to a smaller part how far the area is from
 // that of an equilateral triangle with edges of the length wanted. Infinite of a triangle that is turned over.
 inline double costOf(const Point& a, const Point& b, const Point& c, double wanted) {
-  constexpr double kSizeShare = 0.1;
   const double area = cross(b - a, c - a);  // twice it
   if (area <= 0.0) return std::numeric_limits<double>::infinity();
   const double squares = squaredDistance(a, b) + squaredDistance(b, c) + squaredDistance(c, a);

@@ -1,12 +1,12 @@
-#include "core/refine/exchange_diagonal.hpp"
+#include "core/optimise/exchange_diagonal.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/optimise/triangle_cost.hpp"
 #include "core/predicates.hpp"
-#include "core/refine/triangle_cost.hpp"
 
 namespace coastmesh {
 

@@ -14,9 +14,10 @@ inline constexpr int kOptimiseSweeps = 10, kMostOptimiseSweeps = 30;
 
 // Makes triangles as near to equilateral, vertices as near to six neighbours and edges as near to the lengths wanted as
 // it can: moves free vertices, merges those too near to one another or with too few neighbours, exchanges diagonals.
-// Where no lengths are wanted, those that edges have are. Every triangle holds the bounds throughout, and vertices
-// never get more. REQUIRES: `mesh` as `refine` or `coarsen` left it, with the same options. `unresolved` in the result
-// replaces that of before. Throws Cancelled.
+// Where no lengths are wanted, those that edges have are. Where they are, vertices slide along segments besides, and at
+// poor triangles one may come in, unless `max_vertices` is given. Every triangle holds the bounds throughout. REQUIRES:
+// `mesh` as `refine` or `coarsen` left it, with the same options. `unresolved` in the result replaces that of before.
+// Throws Cancelled.
 RefineStats optimise(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
                      const RunControl& control = {});
 

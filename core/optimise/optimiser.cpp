@@ -1,22 +1,11 @@
-#include "core/refine/optimise.hpp"
+#include "core/optimise/optimiser.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include "core/edit_mesh.hpp"
-#include "core/label_regions.hpp"
-#include "core/metric.hpp"
+#include "core/optimise/triangle_cost.hpp"
 #include "core/predicates.hpp"
 #include "core/refine/bound_violations.hpp"
-#include "core/refine/exchange_diagonal.hpp"
-#include "core/refine/triangle_cost.hpp"
-#include "core/refine/vertex_ops.hpp"
+#include "core/refine/submesh_runs.hpp"
 
 namespace coastmesh {
 
@@ -26,6 +15,8 @@ namespace {
 constexpr double kShortest = 0.7;
 // A move that breaks a bound or costs more is tried at half the way, and at a quarter.
 constexpr int kAttempts = 3;
+// More triangles than that are not looked at round a vertex.
+constexpr std::size_t kMostRound = 64;
 // Moves by less than this share of the length wanted are not worth it.
 constexpr double kStill = 0.01;
 // Vertices rest for so many sweeps before their numbers of neighbours count, and for so many at the end.
@@ -34,132 +25,150 @@ constexpr int kFirstBalance = 2, kSettle = 3;
 // much and their star costs no more than a little more.
 constexpr double kPoorShape = 0.9, kLeastGain = 0.002, kMostCost = 1.005;
 
-class Optimiser {
- public:
-  Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
-      : size_(options.size),
-        goal_(options.goal),
-        bound_(strictBoundOf(options)),
-        mesh_(std::move(mesh)),
-        ops_(mesh_, pslg, bound_),
-        exchange_(mesh_, ops_, bound_, wanted_),
-        flips_may_harm_(bound_.max_angle < std::numbers::pi || !std::isinf(bound_.squared_size)),
-        wanted_(mesh_.vertexSlots(), 0.0) {
-    ops_.keepBadInPlace();
-    for (VertexId v = 0; v < mesh_.vertexSlots(); ++v)
-      if (mesh_.isLiveVertex(v)) wanted_[v] = wantedAt(v);
-    for (TriId t = 0; t < mesh_.triangleSlots() && !any_bad_; ++t)
-      any_bad_ = isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_);
-  }
+// Beside a shore that is finer than wanted lengths grow by no more than this times the distance from it.
+constexpr double kGrowth = 0.3;
 
-  Optimiser(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
-      : Optimiser(std::move(state.mesh), pslg, options) {
-    ops_.keepClearOfFrozen();
-    is_submesh_ = true;
-    due_ = std::move(state.due_vertices);
-  }
+}  // namespace
 
-  void run(int sweeps, const RunControl& control) {
-    std::uint64_t steps = 0;
-    active_.assign(mesh_.vertexSlots(), 1);
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      mends_poor_ = sweep >= sweeps / 2;
-      if (sweep == sweeps / 2) active_.assign(mesh_.vertexSlots(), 1);
-      const bool merges = sweep + 1 < sweeps;  // after a merge the vertices round it have to move
-      const bool balances = sweep >= kFirstBalance && sweep + kSettle < sweeps;
-      for (VertexId v = mesh_.inputVertices(); v < mesh_.vertexSlots(); ++v) {
-        if (++steps % 1024 == 0) control.checkpoint((sweep + static_cast<double>(v) / mesh_.vertexSlots()) / sweeps);
-        if (!active_[v] || !mesh_.isLiveVertex(v) || !isDue(v) || mesh_.kind(v) != VertexKind::Free) continue;
-        active_[v] = 0;
-        if (!gatherRing(v) || (merges && mergeShort(v))) continue;
-        const bool moved = move(v);
-        if (balances && (!moved || gatherRing(v))) balance(v);
-      }
+Optimiser::Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
+    : pslg_(pslg),
+      options_(options),
+      size_(options.size),
+      goal_(options.goal),
+      bound_(strictBoundOf(options)),
+      mesh_(std::move(mesh)),
+      ops_(mesh_, pslg, bound_),
+      exchange_(mesh_, ops_, bound_, wanted_),
+      flips_may_harm_(bound_.max_angle < std::numbers::pi || !std::isinf(bound_.squared_size)),
+      wanted_(mesh_.vertexSlots(), 0.0),
+      active_(mesh_.vertexSlots(), 1) {
+  ops_.keepBadInPlace();
+  noteWanted();
+  for (TriId t = 0; t < mesh_.triangleSlots() && !any_bad_; ++t)
+    any_bad_ = isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_);
+}
+
+Optimiser::Optimiser(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
+    : Optimiser(std::move(state.mesh), pslg, options) {
+  ops_.keepClearOfFrozen();
+  is_submesh_ = true;
+  due_ = std::move(state.due_vertices);
+}
+
+void Optimiser::run(int sweeps, const RunControl& control) {
+  const int all = sweeps + (size_ == nullptr ? 0 : kSettle);
+  const auto shareOf = [&](int done) { return static_cast<double>(done) / all; };
+  for (int k = 0; k < sweeps; ++k) {
+    mends_poor_ = k >= sweeps / 2;
+    if (k == sweeps / 2) active_.assign(mesh_.vertexSlots(), 1);
+    const bool merges = k + 1 < sweeps;  // after a merge the vertices round it have to move
+    sweep(merges, k >= kFirstBalance && k + kSettle < sweeps, control, shareOf(k), shareOf(k + 1));
+  }
+  if (size_ == nullptr) return;  // as few vertices as can be is what is wanted
+  mendPoorest(control, shareOf(sweeps));
+  for (int k = sweeps; k < all; ++k) sweep(false, false, control, shareOf(k), shareOf(k + 1));
+}
+
+void Optimiser::sweep(bool merges, bool balances, const RunControl& control, double from, double to) {
+  for (VertexId v = mesh_.inputVertices(); v < mesh_.vertexSlots(); ++v) {
+    if (v % 1024 == 0) control.checkpoint(from + (to - from) * static_cast<double>(v) / mesh_.vertexSlots());
+    if (!active_[v] || !mesh_.isLiveVertex(v) || !isDue(v)) continue;
+    active_[v] = 0;
+    if (mesh_.kind(v) != VertexKind::Free) {
+      if (size_ != nullptr && gatherOnSegment(v)) move(v);
+      continue;
     }
+    if (!gatherRing(v) || (merges && mergeShort(v))) continue;
+    const bool moved = move(v);
+    if (balances && (!moved || gatherRing(v))) balance(v);
   }
+}
 
-  TriMesh release() { return mesh_.release(); }
-  MeshState releaseState() { return releaseDue(mesh_, std::move(due_)); }
-  RefineStats& stats() { return stats_; }
+MeshState Optimiser::releaseState() { return releaseDue(mesh_, std::move(due_), waiting_); }
 
- private:
-  bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
+// The triangles round a free vertex; false where a frozen edge is opposite, or there are too many.
+bool Optimiser::gatherRing(VertexId v) {
+  segment_ = kNone;
+  is_open_ = false;
+  return mesh_.ring(v, mesh_.triangleOf(v), kMostRound, ring_) == StarKind::Closed && look(v);
+}
 
-  // The triangles round a free vertex; false where a frozen edge is opposite, or there are too many.
-  bool gatherRing(VertexId v) {
-    constexpr std::size_t kMost = 64;
-    if (mesh_.ring(v, mesh_.triangleOf(v), kMost, ring_) != StarKind::Closed) return false;
-    frame_ = Frame(bound_.surface, mesh_.point(v));
-    if (frame_.isCurved()) {
-      seen_.clear();
-      for (const VertexId w : ring_.corners) seen_.push_back(frame_.to(mesh_.point(w)));
-    }
-    const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
-    return !is_submesh_ || std::ranges::none_of(ring_.triangles, isFrozen);
+// Sees the ring from its vertex. False where a frozen edge is opposite.
+bool Optimiser::look(VertexId v) {
+  frame_ = Frame(bound_.surface, mesh_.point(v));
+  if (frame_.isCurved()) {
+    seen_.clear();
+    for (const VertexId w : ring_.corners) seen_.push_back(frame_.to(mesh_.point(w)));
   }
+  const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
+  return !is_submesh_ || std::ranges::none_of(ring_.triangles, isFrozen);
+}
 
-  double wantedAt(VertexId v);
-  double costRound(const Point& place, double wanted, double limit) const;
-  double costHere(VertexId v, Point& centre) const;
-  double goalAt(VertexId v, const Point& place) const;
-  std::optional<Point> placeForGoal(VertexId v, double cost) const;
-  double leastShape(const Point& place, std::size_t& at) const;
-  std::optional<Point> betterPlace(VertexId v) const;
-  bool flipsAt(VertexId v, const Point& place) const;
-  bool move(VertexId v);
-  bool mergeShort(VertexId v);
-  bool mergeInto(VertexId v, VertexId stays);
-  int excess(VertexId v);
-  int imbalanceAdded(VertexId v, int more);
-  void balance(VertexId v);
-  void mergeTooFew(VertexId v);
-  void exchangeTooMany(VertexId v);
-  void wake();
+// The segment that the edge from the ring's vertex to a corner is of.
+SegmentId Optimiser::segmentTo(VertexId v, std::size_t i) const {
+  const bool is_last = i == ring_.triangles.size();
+  const TriId t = ring_.triangles[is_last ? i - 1 : i];
+  const unsigned at = mesh_.cornerOf(t, v);
+  return mesh_.segment(edgeRef(t, is_last ? next3(at) : prev3(at)));
+}
 
-  const Point& corner(std::size_t i) const {
-    return mesh_.point(ring_.corners[i < ring_.corners.size() ? i : i - ring_.corners.size()]);
+// The same as gatherRing of a vertex inside an input segment; false where it is not.
+bool Optimiser::gatherOnSegment(VertexId v) {
+  const StarKind kind = mesh_.star(v, star_, kMostRound);
+  if (kind == StarKind::TooMany) return false;
+  is_open_ = kind == StarKind::Open;
+  ring_.corners.clear();
+  ring_.triangles.clear();
+  for (const EdgeRef e : star_) {
+    ring_.corners.push_back(mesh_.origin(e));
+    ring_.triangles.push_back(triOf(e));
   }
-  // The same in the frame.
-  const Point& seen(std::size_t i) const {
-    return frame_.isCurved() ? seen_[i < seen_.size() ? i : i - seen_.size()] : corner(i);
+  if (is_open_) ring_.corners.push_back(mesh_.target(star_.back()));
+  segment_ = kNone;
+  std::size_t ends = 0;
+  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
+    const SegmentId seg = segmentTo(v, i);
+    if (seg == kNone) continue;
+    if (seg >= pslg_.segments.size() || ends == 2 || (ends == 1 && seg != segment_)) return false;
+    segment_ = seg;
+    along_[ends++] = i;
   }
-  double squaredLengthOf(VertexId v, VertexId w) const {
-    return bound_.surface.squaredChord(mesh_.point(v), mesh_.point(w));
+  return ends == 2 && look(v);
+}
+
+// Those of all vertices: what shores have comes first.
+void Optimiser::noteWanted() {
+  const auto isOnShore = [&](VertexId v) { return mesh_.kind(v) != VertexKind::Free; };
+  for (VertexId v = 0; v < mesh_.vertexSlots(); ++v) {
+    if (!mesh_.isLiveVertex(v)) continue;
+    wanted_[v] = size_ == nullptr || isOnShore(v) ? wantedAt(v) : size_->at(mesh_.point(v));
   }
-  double wantedOf(std::size_t i) const {
-    return wanted_[ring_.corners[i < ring_.corners.size() ? i : i - ring_.corners.size()]];
+  for (VertexId w = 0; size_ != nullptr && w < mesh_.vertexSlots(); ++w) {
+    if (!mesh_.isLiveVertex(w) || !isOnShore(w)) continue;
+    mesh_.star(w, star_);
+    for (const EdgeRef e : star_)
+      for (const VertexId v : {mesh_.origin(e), mesh_.target(e)})
+        if (!isOnShore(v)) wanted_[v] = wantedBeside(wanted_[v], v, w);
   }
+}
 
-  const SizeFunction* size_;  // may be null
-  QualityGoal goal_;
-  TriangleBound bound_;
-  EditMesh mesh_;
-  VertexOps ops_;
-  DiagonalExchange exchange_;
-  bool flips_may_harm_;  // they keep the smallest angle, but not the largest, nor the longest edge
-  bool is_submesh_ = false;
-  bool any_bad_ = false;  // whether there is a triangle, excused by the input, that nothing may change
-  bool mends_poor_ = false;
-  RefineStats stats_;
-  std::vector<double> wanted_;        // one a vertex: the length wanted there
-  std::vector<std::uint8_t> active_;  // one a vertex: whether anything changed round it since its last turn
-  std::vector<std::uint8_t> due_;     // one a vertex; empty where all are
+// The same length, or what may be wanted beside a vertex of the shore if that is less.
+double Optimiser::wantedBeside(double wanted, VertexId v, VertexId w) const {
+  if (wanted <= wanted_[w]) return wanted;
+  return std::min(wanted, wanted_[w] + kGrowth * std::sqrt(squaredLengthOf(v, w)));
+}
 
-  // Scratch.
-  Ring ring_;  // of the vertex whose turn it is
-  // Where that vertex lay when the ring was gathered: in this frame places are moved and costs are reckoned.
-  Frame frame_{{}, {}};
-  std::vector<Point> seen_;  // the ring's corners in the frame, on a sphere
-  std::vector<EdgeRef> star_;
-  std::vector<TriId> touched_;
-};
-
-// The length wanted at a vertex. On a shore that is finer no more than its edges have, where no size is given the mean
-// of its edges.
+// The length wanted at a vertex. On a shore that is finer no more than its edges have, and beside it little more; where
+// no size is given the mean of its edges.
 double Optimiser::wantedAt(VertexId v) {
-  const double wanted = size_ == nullptr ? std::numeric_limits<double>::infinity() : size_->at(mesh_.point(v));
+  double wanted = size_ == nullptr ? std::numeric_limits<double>::infinity() : size_->at(mesh_.point(v));
   const bool is_free = mesh_.kind(v) == VertexKind::Free;
-  if (is_free && size_ != nullptr) return wanted;
+  if (is_free && size_ != nullptr) {
+    mesh_.star(v, star_);
+    for (const EdgeRef e : star_)
+      if (const VertexId w = mesh_.origin(e); mesh_.kind(w) != VertexKind::Free) wanted = wantedBeside(wanted, v, w);
+    return wanted;
+  }
   double sum = 0.0;
   int count = 0;
   const auto add = [&](EdgeRef e) {
@@ -184,7 +193,7 @@ double Optimiser::costRound(const Point& place, double wanted, double limit) con
   double sum = 0.0;
   Point a = mesh_.point(ring_.corners.front());
   double size = wanted_[ring_.corners.front()];
-  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
+  for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const Point& b = corner(i + 1);
     const double next = wantedOf(i + 1), mean = (wanted + size + next) / 3.0;
     if (orient2d(a, b, in_plane) <= 0 || isBad(a, b, in_plane, bound_)) return kTooMuch;
@@ -203,7 +212,7 @@ double Optimiser::costHere(VertexId v, Point& centre) const {
   Point mean, a = seen(0);
   double sum = 0.0, weight = 0.0, size = wanted_[ring_.corners.front()];
   bool breaks = false;
-  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
+  for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const Point& b = seen(i + 1);
     const double next = wantedOf(i + 1), wanted = (wanted_[v] + size + next) / 3.0;
     breaks = breaks || isBad(corner(i), corner(i + 1), mesh_.point(v), bound_);
@@ -220,7 +229,7 @@ double Optimiser::costHere(VertexId v, Point& centre) const {
 
 double Optimiser::leastShape(const Point& place, std::size_t& at) const {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
+  for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const double shape = shapeOf(seen(i), seen(i + 1), place);
     if (shape < least) {
       least = shape;
@@ -233,16 +242,16 @@ double Optimiser::leastShape(const Point& place, std::size_t& at) const {
 // The least of what the goal asks round a vertex at `place`, over what is enough: 1 where nothing is left to do.
 // REQUIRES: every triangle of the star is counter-clockwise there.
 double Optimiser::goalAt(VertexId v, const Point& place) const {
-  constexpr double kEnoughCentred = 0.035;  // the cotangent of 88 degrees
-  const double enough_link = goal_ == QualityGoal::Links ? 0.22 : 0.12;
+  const double enough_link = enoughLink();
   double least = 1.0;
-  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
-    const Point &a = seen(i), &b = seen(i + 1), &c = seen(i + 2);
+  for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
+    const Point &a = seen(i), &b = seen(i + 1);
     if (goal_ == QualityGoal::Centred) {
       least = std::min(least, centrednessOf(place, a, b) / kEnoughCentred);
       continue;
     }
-    least = std::min(least, linkShareOf(place, b, c, a) / enough_link);
+    if (!is_open_ || i + 1 < ring_.triangles.size())
+      least = std::min(least, linkShareOf(place, b, seen(i + 2), a) / enough_link);
     const EdgeRef beyond = mesh_.twin(edgeRef(ring_.triangles[i], mesh_.cornerOf(ring_.triangles[i], v)));
     if (beyond == kNone) continue;
     least = std::min(least, linkShareOf(a, b, place, frame_.to(mesh_.point(mesh_.apex(beyond)))) / enough_link);
@@ -279,6 +288,7 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   Point to;
   const double cost = costHere(v, to);
   if (!std::isfinite(to.x) || !std::isfinite(to.y)) return std::nullopt;
+  if (segment_ != kNone) return betterPlaceOnSegment(v, to, cost);
   const double held = mends_poor_ ? goalAt(v, here) : 1.0;
   if (held < 1.0)
     if (const std::optional<Point> place = placeForGoal(v, cost)) return place;
@@ -305,12 +315,45 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   return std::nullopt;
 }
 
+// The same along the segment that the vertex is on, `to` being where it would go if it were free.
+std::optional<Point> Optimiser::betterPlaceOnSegment(VertexId v, Point to, double cost) const {
+  const Point here = frame_.to(mesh_.point(v));
+  // On the input segment itself, lest rounding adds up.
+  const Point &from = pslg_.points[pslg_.segments[segment_].a], &end = pslg_.points[pslg_.segments[segment_].b];
+  const auto onSegment = [&](const Point& place) { return frame_.to(projectedOnLine(frame_.from(place), from, end)); };
+  const double held = mends_poor_ ? goalAt(v, here) : 1.0, still = kStill * wanted_[v];
+  const auto keepsGoal = [&](const Point& place) { return !mends_poor_ || goalAt(v, place) >= held; };
+  to = onSegment(to);
+  for (int attempt = 0; attempt < kAttempts && squaredDistance(here, to) >= still * still; ++attempt) {
+    if (costRound(to, wanted_[v], cost) < cost && keepsGoal(to)) return to;
+    to = onSegment(midpoint(here, to));
+  }
+  if (!mends_poor_) return std::nullopt;
+  std::size_t any = 0;
+  double best = leastShape(here, any);
+  if (best > kPoorShape) return std::nullopt;
+  best += kLeastGain;
+  const Point along = seen(along_[1]) - seen(along_[0]);
+  std::optional<Point> place;
+  for (const double share : {0.2, -0.2, 0.1, -0.1, 0.05, -0.05}) {
+    to = onSegment(here + share * along);
+    const double shape = leastShape(to, any);
+    if (shape <= best || !(costRound(to, wanted_[v], kMostCost * cost) < kMostCost * cost) || !keepsGoal(to)) continue;
+    best = shape;
+    place = to;
+  }
+  return place;
+}
+
 // Whether the Delaunay property would ask for flips round a vertex at `place`.
 bool Optimiser::flipsAt(VertexId v, const Point& place) const {
-  for (std::size_t i = 0; i < ring_.corners.size(); ++i) {
+  for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const TriId t = ring_.triangles[i];
     const EdgeRef opposite = edgeRef(t, mesh_.cornerOf(t, v));
-    if (inCircle(place, corner(i), corner(i + 1), corner(i + 2)) > 0) return true;
+    const bool is_last = is_open_ && i + 1 == ring_.triangles.size();
+    if (!is_last && (segment_ == kNone || segmentTo(v, (i + 1) % ring_.corners.size()) == kNone) &&
+        inCircle(place, corner(i), corner(i + 1), corner(i + 2)) > 0)
+      return true;
     if (!mesh_.isConstrained(opposite) &&
         inCircle(place, corner(i), corner(i + 1), mesh_.point(mesh_.apex(mesh_.twin(opposite)))) > 0)
       return true;
@@ -327,9 +370,18 @@ bool Optimiser::move(VertexId v) {
   if ((any_bad_ && std::ranges::any_of(ring_.triangles, isBesideBad)) || (flips_may_harm_ && flipsAt(v, to)))
     return false;
   mesh_.setPoint(v, to);
-  if (size_ != nullptr) wanted_[v] = size_->at(to);
+  if (segment_ != kNone) {
+    wanted_[v] = wantedAt(v);
+  } else if (size_ != nullptr) {
+    wanted_[v] = size_->at(to);
+    for (const VertexId w : ring_.corners)
+      if (mesh_.kind(w) != VertexKind::Free) wanted_[v] = wantedBeside(wanted_[v], v, w);
+  }
   touched_.assign(ring_.triangles.begin(), ring_.triangles.end());
-  mesh_.restoreDelaunayRound(v, touched_);
+  if (segment_ == kNone)
+    mesh_.restoreDelaunayRound(v, touched_);
+  else
+    mesh_.restoreDelaunay(touched_);
   ++stats_.relocations;
   wake();
   return true;
@@ -411,7 +463,7 @@ void Optimiser::exchangeTooMany(VertexId v) {
     touched_.clear();
     if (!exchange_.tryExchange(v, w, left, right, touched_)) continue;
     for (const VertexId u : {v, w, left, right}) {
-      if (size_ != nullptr) wanted_[u] = size_->at(mesh_.point(u));
+      if (size_ != nullptr) wanted_[u] = wantedAt(u);
       ++stats_.relocations;
     }
     wake();
@@ -424,28 +476,6 @@ void Optimiser::wake() {
   for (const TriId t : touched_)
     if (mesh_.isLive(t))
       for (const VertexId w : mesh_.triangle(t).v) active_[w] = 1;
-}
-
-}  // namespace
-
-RefineStats optimiseSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, int sweeps,
-                            const RunControl& control) {
-  Optimiser optimiser(std::move(state), pslg, options);
-  optimiser.run(sweeps, control);
-  state = optimiser.releaseState();
-  return std::move(optimiser.stats());
-}
-
-RefineStats optimise(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
-                     const RunControl& control) {
-  requireInRange(options);
-  Optimiser optimiser(std::move(mesh), pslg, options);
-  optimiser.run(sweeps, control);
-  mesh = optimiser.release();
-  labelRegions(mesh, pslg);
-  RefineStats stats = std::move(optimiser.stats());
-  stats.unresolved = findBoundViolations(mesh, options);
-  return stats;
 }
 
 }  // namespace coastmesh

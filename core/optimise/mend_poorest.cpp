@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <limits>
+#include <utility>
+
+#include "core/optimise/optimiser.hpp"
+#include "core/optimise/triangle_cost.hpp"
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Triangles of a shape below this get a patch of their own.
+constexpr double kPoorShape = 0.9;
+// That they are poor counts this many times what they fall short of it, besides what any triangle costs. A patch is
+// taken where it gains so much.
+constexpr double kPoorWeight = 5.0, kLeastGain = 0.02;
+// A patch holds what touches the triangle, and what touches that; in it every vertex gets so many turns.
+constexpr unsigned kRings = 2;
+constexpr int kTurns = 5;
+// What costs so much more than it should after the first of them is given up.
+constexpr int kFirstTurns = 2;
+constexpr double kHopeless = 0.25;
+// So many patches at most, as a share of the triangles: where more are poor the input is finer than what is wanted.
+constexpr double kMostPatches = 0.03;
+// In place of a corner: a vertex comes into the middle, not to where an edge is that of an equilateral triangle.
+constexpr unsigned kCentre = 3;
+
+}  // namespace
+
+Optimiser::Optimiser(const Submesh& patch, const Optimiser& parent)
+    : pslg_(parent.pslg_),
+      options_(parent.options_),
+      size_(parent.size_),
+      goal_(parent.goal_),
+      bound_(parent.bound_),
+      mesh_(TriMesh(patch.mesh)),
+      ops_(mesh_, pslg_, bound_),
+      exchange_(mesh_, ops_, bound_, wanted_),
+      flips_may_harm_(parent.flips_may_harm_),
+      is_submesh_(true),
+      mends_poor_(true),
+      active_(mesh_.vertexSlots(), 1) {
+  ops_.keepClearOfFrozen();
+  for (const VertexId v : patch.parent) wanted_.push_back(parent.wanted_[v]);
+}
+
+double Optimiser::shapeOfTriangle(TriId t) const {
+  const Corners& v = mesh_.triangle(t).v;
+  const Frame frame(bound_.surface, mesh_.point(v[0]));
+  return shapeOf(frame.to(mesh_.point(v[0])), frame.to(mesh_.point(v[1])), frame.to(mesh_.point(v[2])));
+}
+
+// What all triangles cost beyond equilateral ones; infinite where one breaks a bound.
+double Optimiser::costOfAll() const {
+  double sum = 0.0;
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    if (!mesh_.isLive(t)) continue;
+    const Corners& v = mesh_.triangle(t).v;
+    if (isBad(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), bound_))
+      return std::numeric_limits<double>::infinity();
+    const Frame frame(bound_.surface, mesh_.point(v[0]));
+    const Point a = frame.to(mesh_.point(v[0])), b = frame.to(mesh_.point(v[1])), c = frame.to(mesh_.point(v[2]));
+    sum += costOf(a, b, c, (wanted_[v[0]] + wanted_[v[1]] + wanted_[v[2]]) / 3.0) - kLeastTriangleCost +
+           kPoorWeight * std::max(0.0, kPoorShape - shapeOf(a, b, c));
+  }
+  return sum;
+}
+
+// The least of what the goal asks in all triangles, as `goalAt`.
+double Optimiser::goalOfAll() const {
+  double least = 1.0;
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    if (!mesh_.isLive(t)) continue;
+    const Corners& v = mesh_.triangle(t).v;
+    const Frame frame(bound_.surface, mesh_.point(v[0]));
+    const std::array seen{frame.to(mesh_.point(v[0])), frame.to(mesh_.point(v[1])), frame.to(mesh_.point(v[2]))};
+    if (goal_ == QualityGoal::Centred) {
+      least = std::min(least, centrednessOf(seen[0], seen[1], seen[2]) / kEnoughCentred);
+      continue;
+    }
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef beyond = mesh_.twin(edgeRef(t, i));
+      if (beyond == kNone || beyond < edgeRef(t, i)) continue;
+      const Point apex = frame.to(mesh_.point(mesh_.apex(beyond)));
+      least = std::min(least, linkShareOf(seen[next3(i)], seen[prev3(i)], seen[i], apex) / enoughLink());
+    }
+  }
+  return least;
+}
+
+void Optimiser::noteAdded(VertexId v) {
+  wanted_.resize(mesh_.vertexSlots());
+  active_.resize(mesh_.vertexSlots(), 1);
+  if (!due_.empty()) due_.resize(mesh_.vertexSlots(), 1);
+  active_[v] = 1;
+  if (!due_.empty()) due_[v] = 1;
+  wanted_[v] = wantedAt(v);
+}
+
+// Does to the first triangle of a patch what is to be tried. Returns false where that cannot be.
+bool Optimiser::change(const Trial& trial) {
+  constexpr TriId kFirst = 0;
+  touched_.clear();
+  const Corners v = mesh_.triangle(kFirst).v;
+  switch (trial.change) {
+    case Change::None:
+      return true;
+    case Change::Remove:
+      return mesh_.kind(v[trial.corner]) != VertexKind::Input && ops_.removeAnyway(v[trial.corner], touched_);
+    case Change::Insert: {
+      Patch cavity;
+      Point x = centroid(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]));
+      TriId home = kFirst;
+      if (trial.corner != kCentre) {
+        const Point &a = mesh_.point(v[next3(trial.corner)]), &b = mesh_.point(v[prev3(trial.corner)]);
+        x = midpoint(a, b) + 0.5 * kRootOfThree * Point{a.y - b.y, b.x - a.x};
+        home = mesh_.locate(x, kFirst).triangle;
+        if (home == kNone) return false;
+      }
+      if (!mesh_.findCavity(x, home, cavity)) return false;
+      noteAdded(mesh_.insertInCavity(x, cavity, touched_));
+      return true;
+    }
+    case Change::Split: {
+      const EdgeRef e = edgeRef(kFirst, trial.corner);
+      const SegmentId seg = mesh_.segment(e);
+      if (seg >= pslg_.segments.size()) return false;
+      const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+      const Segment& whole = pslg_.segments[seg];
+      const Point x =
+          projectedOnLine(midpoint(mesh_.point(a), mesh_.point(b)), pslg_.points[whole.a], pslg_.points[whole.b]);
+      const VertexId middle = mesh_.splitSegment(e, x, touched_);
+      if (middle == kNone) return false;
+      noteAdded(middle);
+      wanted_[a] = wantedAt(a);
+      wanted_[b] = wantedAt(b);
+      return true;
+    }
+  }
+  return false;
+}
+
+// Whether a frozen edge is in a patch's way: of the mesh, where that is a part of a larger one.
+bool Optimiser::isHeldByFrozen(const Submesh& patch) const {
+  return std::ranges::any_of(patch.frozen, [&](EdgeRef e) { return mesh_.segment(e) == kFrozen; });
+}
+
+// Whether the Delaunay property would ask for flips between a patch and what lies round it.
+bool Optimiser::wouldFlip(const Submesh& patch, const TriMesh& solved) const {
+  for (const Triangle& t : solved.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      if (t.seg[i] != kFrozen) continue;
+      const VertexId a = patch.parent[t.v[next3(i)]], b = patch.parent[t.v[prev3(i)]];
+      const auto e =
+          std::ranges::find_if(patch.frozen, [&](EdgeRef f) { return mesh_.origin(f) == a && mesh_.target(f) == b; });
+      if (e == patch.frozen.end() || mesh_.isConstrained(*e)) continue;
+      const Point& beyond = mesh_.point(mesh_.apex(mesh_.twin(*e)));
+      if (inCircle(solved.points[t.v[0]], solved.points[t.v[1]], solved.points[t.v[2]], beyond) > 0) return true;
+    }
+  }
+  return false;
+}
+
+// The best of what can be tried in a patch, if any is better than what is there.
+std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const {
+  constexpr std::array kTrials = {Trial{Change::None},      Trial{Change::Remove, 0},       Trial{Change::Remove, 1},
+                                  Trial{Change::Remove, 2}, Trial{Change::Insert, kCentre}, Trial{Change::Insert, 0},
+                                  Trial{Change::Insert, 1}, Trial{Change::Insert, 2},       Trial{Change::Split, 0},
+                                  Trial{Change::Split, 1},  Trial{Change::Split, 2}};
+  std::optional<TriMesh> best;
+  const Optimiser as_it_is(patch, *this);
+  double least = as_it_is.costOfAll() - kLeastGain;
+  if (std::isinf(least)) return best;
+  const double held = as_it_is.goalOfAll();
+  // Pieces of a mesh cannot know what is left of a budget that they share.
+  const bool may_grow = options_.max_vertices > std::numeric_limits<std::uint64_t>::max() / 2;
+  for (const Trial& trial : kTrials) {
+    if (!may_grow && (trial.change == Change::Insert || trial.change == Change::Split)) continue;
+    Optimiser other(patch, *this);
+    if (!other.change(trial)) continue;
+    const auto turn = [&](int times) {
+      for (int k = 0; k < times; ++k) other.sweep(false, false, {}, 0.0, 1.0);
+    };
+    turn(kFirstTurns);
+    if (other.costOfAll() > least + kHopeless) continue;
+    turn(kTurns - kFirstTurns);
+    const double cost = other.costOfAll();
+    if (!(cost < least) || other.goalOfAll() < held) continue;
+    TriMesh solved = other.release();
+    if (wouldFlip(patch, solved)) continue;
+    least = cost;
+    by = trial.change;
+    best = std::move(solved);
+  }
+  return best;
+}
+
+// Puts a patch in, in place of what is there.
+void Optimiser::takePatch(const Submesh& patch, const TriMesh& solved) {
+  std::vector<VertexId> added;
+  touched_.clear();
+  putBack(mesh_, patch, solved, added, touched_);
+  const auto isOnShore = [&](VertexId v) { return mesh_.kind(v) != VertexKind::Free; };
+  for (const VertexId v : added) noteAdded(v);
+  // What shores have now, and after it what lies beside them.
+  for (const TriId t : touched_)
+    for (const VertexId v : mesh_.triangle(t).v)
+      if (isOnShore(v)) wanted_[v] = wantedAt(v);
+  for (const VertexId v : added)
+    if (!isOnShore(v)) wanted_[v] = wantedAt(v);
+  wake();
+}
+
+// Returns whether the mesh is another.
+bool Optimiser::mendPlace(TriId t) {
+  const Submesh patch = extractAround(mesh_, {}, {&t, 1}, kRings);
+  if (isHeldByFrozen(patch)) {
+    if (is_submesh_) waiting_.insert(waiting_.end(), mesh_.triangle(t).v.begin(), mesh_.triangle(t).v.end());
+    return false;
+  }
+  Change by = Change::None;
+  const std::optional<TriMesh> best = bestOf(patch, by);
+  if (!best) return false;
+  takePatch(patch, *best);
+  stats_.removals += by == Change::Remove;
+  stats_.segment_splits += by == Change::Split;
+  ++stats_.relocations;
+  return true;
+}
+
+// Tries, where triangles are still poor, what moving their vertices one by one cannot do: several move in a patch, one
+// is taken out, or one comes in. The poorest first.
+void Optimiser::mendPoorest(const RunControl& control, double share) {
+  std::deque<PoorTriangle> poor;
+  const auto add = [&](TriId t) {
+    const Corners& v = mesh_.triangle(t).v;
+    if (std::ranges::none_of(v, [this](VertexId w) { return isDue(w); })) return;
+    if (const double shape = shapeOfTriangle(t); shape < kPoorShape) poor.push_back({shape, t, v});
+  };
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
+    if (mesh_.isLive(t)) add(t);
+  std::ranges::sort(poor, {}, [](const PoorTriangle& p) { return std::pair(p.shape, p.triangle); });
+  auto left = static_cast<std::size_t>(kMostPatches * mesh_.triangleSlots());
+  while (left > 0 && !poor.empty()) {
+    control.checkpoint(share);
+    const PoorTriangle next = poor.front();
+    poor.pop_front();
+    if (!mesh_.isLive(next.triangle) || mesh_.triangle(next.triangle).v != next.corners) continue;
+    --left;
+    if (!mendPlace(next.triangle)) continue;
+    for (const TriId t : touched_)
+      if (mesh_.isLive(t)) add(t);
+  }
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/edit_mesh.hpp"
+#include "core/metric.hpp"
+#include "core/optimise/exchange_diagonal.hpp"
+#include "core/pslg.hpp"
+#include "core/refine/refine_options.hpp"
+#include "core/refine/submesh.hpp"
+#include "core/refine/vertex_ops.hpp"
+#include "core/run_control.hpp"
+
+namespace coastmesh {
+
+// One run over a mesh. In optimiser.cpp what is done at a vertex, in mend_poorest.cpp what is tried where that leaves
+// a poor triangle.
+class Optimiser {
+  static constexpr double kEnoughCentred = 0.035;  // the cotangent of 88 degrees
+
+ public:
+  Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options);
+  // Of a part of a larger mesh: only the due vertices, and clear of frozen edges.
+  Optimiser(MeshState&& state, const Pslg& pslg, const RefineOptions& options);
+  Optimiser(const Optimiser&) = delete;
+  Optimiser& operator=(const Optimiser&) = delete;
+
+  // Gives every due vertex its turn so many times, then the poorest triangles theirs.
+  void run(int sweeps, const RunControl& control);
+
+  TriMesh release() { return mesh_.release(); }
+  MeshState releaseState();
+  RefineStats& stats() { return stats_; }
+
+ private:
+  // What is tried at a poor triangle, at one of its corners or the edge opposite.
+  enum class Change { None, Remove, Insert, Split };
+  struct Trial {
+    Change change = Change::None;
+    unsigned corner = 0;
+  };
+  struct PoorTriangle {
+    double shape;
+    TriId triangle;
+    Corners corners;
+  };
+
+  // A patch of another's mesh, to try something in.
+  Optimiser(const Submesh& patch, const Optimiser& parent);
+
+  bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
+
+  void sweep(bool merges, bool balances, const RunControl& control, double from, double to);
+  bool gatherRing(VertexId v);
+  bool gatherOnSegment(VertexId v);
+  bool look(VertexId v);
+  SegmentId segmentTo(VertexId v, std::size_t i) const;
+
+  void noteWanted();
+  double wantedAt(VertexId v);
+  double wantedBeside(double wanted, VertexId v, VertexId w) const;
+  double costRound(const Point& place, double wanted, double limit) const;
+  double costHere(VertexId v, Point& centre) const;
+  double goalAt(VertexId v, const Point& place) const;
+  double enoughLink() const { return goal_ == QualityGoal::Links ? 0.22 : 0.12; }
+  std::optional<Point> placeForGoal(VertexId v, double cost) const;
+  double leastShape(const Point& place, std::size_t& at) const;
+  std::optional<Point> betterPlace(VertexId v) const;
+  std::optional<Point> betterPlaceOnSegment(VertexId v, Point to, double cost) const;
+  bool flipsAt(VertexId v, const Point& place) const;
+  bool move(VertexId v);
+  bool mergeShort(VertexId v);
+  bool mergeInto(VertexId v, VertexId stays);
+  int excess(VertexId v);
+  int imbalanceAdded(VertexId v, int more);
+  void balance(VertexId v);
+  void mergeTooFew(VertexId v);
+  void exchangeTooMany(VertexId v);
+  void wake();
+
+  void mendPoorest(const RunControl& control, double share);
+  bool mendPlace(TriId t);
+  std::optional<TriMesh> bestOf(const Submesh& patch, Change& by) const;
+  void takePatch(const Submesh& patch, const TriMesh& solved);
+  bool change(const Trial& trial);
+  void noteAdded(VertexId v);
+  double costOfAll() const;
+  double goalOfAll() const;
+  double shapeOfTriangle(TriId t) const;
+  bool isHeldByFrozen(const Submesh& patch) const;
+  bool wouldFlip(const Submesh& patch, const TriMesh& solved) const;
+
+  const Point& corner(std::size_t i) const {
+    return mesh_.point(ring_.corners[i < ring_.corners.size() ? i : i - ring_.corners.size()]);
+  }
+  // The same in the frame.
+  const Point& seen(std::size_t i) const {
+    return frame_.isCurved() ? seen_[i < seen_.size() ? i : i - seen_.size()] : corner(i);
+  }
+  double squaredLengthOf(VertexId v, VertexId w) const {
+    return bound_.surface.squaredChord(mesh_.point(v), mesh_.point(w));
+  }
+  double wantedOf(std::size_t i) const {
+    return wanted_[ring_.corners[i < ring_.corners.size() ? i : i - ring_.corners.size()]];
+  }
+
+  const Pslg& pslg_;
+  const RefineOptions& options_;
+  const SizeFunction* size_;  // may be null
+  QualityGoal goal_;
+  TriangleBound bound_;
+  EditMesh mesh_;
+  VertexOps ops_;
+  DiagonalExchange exchange_;
+  bool flips_may_harm_;  // they keep the smallest angle, but not the largest, nor the longest edge
+  bool is_submesh_ = false;
+  bool any_bad_ = false;  // whether there is a triangle, excused by the input, that nothing may change
+  bool mends_poor_ = false;
+  RefineStats stats_;
+  std::vector<double> wanted_;        // one a vertex: the length wanted there
+  std::vector<std::uint8_t> active_;  // one a vertex: whether anything changed round it since its last turn
+  std::vector<std::uint8_t> due_;     // one a vertex; empty where all are
+  std::vector<VertexId> waiting_;     // corners of poor triangles that wait for the next round
+
+  // Scratch.
+  Ring ring_;  // of the vertex whose turn it is, of one on the boundary with a corner more than triangles
+  // Where that vertex lay when the ring was gathered: in this frame places are moved and costs are reckoned.
+  Frame frame_{{}, {}};
+  std::vector<Point> seen_;             // the ring's corners in the frame, on a sphere
+  bool is_open_ = false;                // whether that vertex is on the boundary
+  SegmentId segment_ = kNone;           // that it lies on; kNone where it is free
+  std::array<std::size_t, 2> along_{};  // the ends of its two subsegments, in the ring
+  std::vector<EdgeRef> star_;
+  std::vector<TriId> touched_;
+};
+
+}  // namespace coastmesh
