@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <functional>
+#include <iomanip>
 #include <iterator>
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <sstream>
 #include <utility>
 
 #include "apps/job/available_memory.hpp"
@@ -14,6 +16,8 @@
 #include "apps/job/grid_pieces.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/stopwatch.hpp"
+#include "core/quality.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/grid/frame_box.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
@@ -211,6 +215,26 @@ bool isMeasuredOnEarth(const MeshJobResult& result) {
   return std::ranges::any_of(result.surfaces, [](const auto& each) { return each.first != SurfaceKind::Plane; });
 }
 
+// What was not short when it was measured, and is in the file.
+void noteFallenShort(const FrameMoves& moves, double min_angle_deg, MeshJobResult& result) {
+  if (moves.fell_short.empty()) return;
+  double worst = 180.0;
+  Point where;
+  for (const std::uint32_t t : moves.fell_short) {
+    const std::vector<Point> p = localPlane(result.grid, result.grid.triangles[t]);
+    const double least = leastAngleDeg(p[0], p[1], p[2]);
+    if (least >= worst) continue;
+    worst = least;
+    where = middleOf(result.grid, t);
+  }
+  std::ostringstream text;
+  text << std::setprecision(4) << moves.fell_short.size()
+       << (moves.fell_short.size() == 1 ? " triangle at the frame is" : " triangles at the frame are") << " short of "
+       << min_angle_deg << " degrees in the file, the worst with " << worst << " at " << placeInWords(where)
+       << ": their nodes were moved onto the box";
+  result.read.notes.push_back(text.str());
+}
+
 // In the coordinates that are written: what is right in the working plane need not be so there.
 void findTurned(MeshJobResult& result, const ItemLoop& loop) {
   for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2, loop)) {
@@ -270,9 +294,14 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.grid.crs = result.crs;
   Recorder recorder;
   const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});
-  const std::size_t moved = input.isPoly() ? 0 : keepInFrame(result.grid, input.coastline(), loop);
-  // In the plane it is what was made there that counts; on the Earth, where every node lies.
-  if (moved > 0 && isMeasuredOnEarth(result)) measureAgain(job, merge.planes(), false, result);
+  const FrameMoves moves =
+      input.isPoly() ? FrameMoves{} : keepInFrame(result.grid, input.coastline(), job.mesh.refine.min_angle_deg, loop);
+  // In the plane it is what was made there that counts, less what this spoilt; on the Earth, where every node lies.
+  if (moves.nodes > 0 && isMeasuredOnEarth(result)) {
+    measureAgain(job, merge.planes(), false, result);
+  } else {
+    noteFallenShort(moves, job.mesh.refine.min_angle_deg, result);
+  }
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   result.log.append(recorder.finish("grid"));
   FinishOptions finish = job.finish;

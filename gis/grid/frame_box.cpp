@@ -13,8 +13,8 @@
 
 namespace coastmesh {
 
-std::size_t keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& loop) {
-  if (!coastline.framed_by_box) return 0;
+FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, double min_angle_deg, const ItemLoop& loop) {
+  if (!coastline.framed_by_box) return {};
   Box box;
   bool in_parts = false;
   for (const Feature& feature : coastline.features) {
@@ -32,14 +32,9 @@ std::size_t keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& 
           if (!(inBox(grid.nodes[n]) == grid.nodes[n])) some.push_back(static_cast<std::uint32_t>(n));
         return some;
       }));
-  if (outside.empty()) return 0;
+  if (outside.empty()) return {};
   std::vector<std::uint8_t> moves(grid.nodes.size(), 0);
-  std::vector<Point> before;
-  for (const std::uint32_t n : outside) {
-    moves[n] = 1;
-    before.push_back(grid.nodes[n]);
-    grid.nodes[n] = inBox(grid.nodes[n]);
-  }
+  for (const std::uint32_t n : outside) moves[n] = 1;
   const std::vector<std::size_t> changed =  // triangles
       joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
         std::vector<std::size_t> some;
@@ -47,10 +42,21 @@ std::size_t keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& 
           if (std::ranges::any_of(grid.triangles[t], [&](std::uint32_t n) { return moves[n] != 0; })) some.push_back(t);
         return some;
       }));
+  const auto isShort = [&](std::size_t t) {
+    const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
+    return leastAngleDeg(p[0], p[1], p[2]) < min_angle_deg - kAngleSlackDeg;
+  };
   const auto isTurned = [&](std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
     return orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) <= 0;
   };
+  std::vector<std::uint8_t> was_short;  // one of `changed` each
+  for (const std::size_t t : changed) was_short.push_back(isShort(t));
+  std::vector<Point> before;
+  for (const std::uint32_t n : outside) {
+    before.push_back(grid.nodes[n]);
+    grid.nodes[n] = inBox(grid.nodes[n]);
+  }
   // Nodes that go back may turn over what was looked at before; each can go back once.
   for (bool again = true; again;) {
     again = false;
@@ -65,19 +71,22 @@ std::size_t keepInFrame(Grid& grid, const Coastline& coastline, const ItemLoop& 
       }
     }
   }
-  const auto moved = static_cast<std::size_t>(std::ranges::count(moves, std::uint8_t{1}));
+  FrameMoves result;
+  result.nodes = static_cast<std::size_t>(std::ranges::count(moves, std::uint8_t{1}));
+  for (std::size_t k = 0; k < changed.size(); ++k)
+    if (!was_short[k] && isShort(changed[k])) result.fell_short.push_back(static_cast<std::uint32_t>(changed[k]));
   std::vector<std::array<std::uint32_t, 3>> corners;
   for (const std::size_t t : changed) corners.push_back(grid.triangles[t]);
   if (!grid.area_m2.empty() && !corners.empty()) {
     const std::vector<double> areas = triangleAreas(grid.nodes, corners, grid.crs);
     for (std::size_t k = 0; k < changed.size(); ++k) grid.area_m2[changed[k]] = areas[k];
   }
-  if (grid.min_angle_deg.empty()) return moved;
+  if (grid.min_angle_deg.empty()) return result;
   for (const std::size_t t : changed) {
     const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
     grid.min_angle_deg[t] = leastAngleDeg(p[0], p[1], p[2]);
   }
-  return moved;
+  return result;
 }
 
 }  // namespace coastmesh
