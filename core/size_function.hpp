@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "core/point.hpp"
 
 namespace coastmesh {
@@ -13,6 +16,11 @@ class SizeFunction {
 
   // The length wanted at x: finite, above 0, for every finite x.
   virtual double at(const Point& x) const = 0;
+  // `sizes[i]` becomes the length at `places[i]`: where places that follow one another are near to one another this may
+  // cost less.
+  virtual void sample(std::span<const Point> places, std::span<double> sizes) const {
+    for (std::size_t i = 0; i < places.size(); ++i) sizes[i] = at(places[i]);
+  }
   // Bounds of what `at` returns anywhere.
   virtual double least() const = 0;
   virtual double most() const = 0;

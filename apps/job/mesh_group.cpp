@@ -232,14 +232,17 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
 // replaced.
 template <typename MakeSizes>
 Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
-                   const ShoreGuides& guides, const Coastline& coastline, CleanReport& report, const ItemLoop& loop) {
+                   const ShoreGuides& guides, const Coastline& coastline, CleanReport& report, FollowStart start,
+                   const ItemLoop& loop) {
   constexpr double kSame = 1.05, kSameAtShores = 1.15;  // between the places that they are known at sizes are off
-  Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides, loop);
+  start.rate = sized.rate, start.shore_m = sized.shore_m;
+  Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides, loop, start);
   DomainSizes again = makeSizes(followed, SizeAccuracy::Fine);
-  const SizeGrowth growth = growthOf(followed.pslg, *sized.function, *again.function);
+  const SizeGrowth growth = growthOf(followed.pslg, *sized.function, *again.function, loop);
   if (growth.shore > kSameAtShores) {
     report = {};
-    followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides, loop);
+    start.rate = again.rate, start.shore_m = again.shore_m;
+    followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides, loop, start);
   } else if (growth.elsewhere > kSame) {
     followed = coarsenFurther(std::move(followed), *again.function, coastline, report);
   }
@@ -320,14 +323,22 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     return makeSizeFunction(wanted, sizes, of, mostVertices(room), loop, accuracy);
   };
   const bool follows = job.sizes.coast == CoastDetail::Follow;
-  DomainSizes sized = makeSizes(domain, follows ? SizeAccuracy::Rough : SizeAccuracy::Fine);
-  if (follows) {
+  DomainSizes sized;
+  if (!follows) {
+    sized = makeSizes(domain, SizeAccuracy::Fine);
+  } else {
     FollowOptions follow = job.sizes.follow;
     if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Modelled;
     const ShoreGuides guides{projected(sizes.passages, domain.projection),
                              projected(sizes.barriers, domain.projection)};
-    CleanReport coarser;
-    domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), coarser, loop);
+    CleanReport coarser, followed;
+    FollowStart start;
+    if (const double least = leastWanted(wanted, sizes); least > 0.0)
+      domain = thinToLeast(std::move(domain), least, follow, input.coastline(), guides, coarser, start, loop);
+    sized = makeSizes(domain, SizeAccuracy::Rough);
+    domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), followed,
+                         std::move(start), loop);
+    coarser.append(std::move(followed));
     std::ranges::move(coarser.notes, std::back_inserter(result.notes));
     std::ranges::move(coarser.warnings, std::back_inserter(result.warnings));
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];

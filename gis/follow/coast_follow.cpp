@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -94,11 +96,9 @@ void addGain(const ShoreChains& chains, VertexId v, const Point* x, const ScaleT
   gained[chains.leaving[v].left] += 0.5 * twice / scale / scale;
 }
 
-// `thinShores`, and then `sampleShores`.
-void evenOut(ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guides, const FollowOptions& options,
-             const EditLog& log, WaterAreas& gained, const ItemLoop& loop) {
-  const BoxTree lines = guides.tree();
-  ShoreChains chains = chainsOf(std::move(graph), sizes.wanted);
+// `thinShores`. `before` is what that was done for already, or none.
+void thin(ShoreChains& chains, const ShoreSizes& sizes, const BoxTree& lines, const FollowOptions& options,
+          const SizeFunction* before, const EditLog& log, WaterAreas& gained, const ItemLoop& loop) {
   const auto dropped = [&](VertexId v, double area) {
     const double scale = sizes.scale.at(chains.at[v]);
     log.add(EditKind::SmallIsland, chains, v);
@@ -108,15 +108,51 @@ void evenOut(ShoreGraph& graph, const ShoreSizes& sizes, const ShoreGuides& guid
     log.add(EditKind::SimplifiedPoint, chains, v);
     addGain(chains, v, nullptr, sizes.scale, gained);
   };
-  thinShores(chains, {lines, options.channel_min < 1.0, dropped}, gone, loop);
-  graph = graphOf(std::move(chains));
-  sampleShores(graph, sizes.wanted, lines, loop);
+  // Where hardly more is wanted than before there is nothing to thin.
+  const auto isMore = [&](VertexId v) { return chains.size[v] >= kMuchMore * before->at(chains.at[v]); };
+  const auto vertices = std::views::iota(VertexId{0}, static_cast<VertexId>(chains.at.size()));
+  if (before != nullptr && std::ranges::none_of(vertices, isMore)) return;
+  thinShores(chains, {lines, options.channel_min < 1.0, dropped, before}, gone, loop);
 }
+
+// One length on the ground, as lengths in the plane.
+class SameOnGround final : public SizeFunction {
+ public:
+  SameOnGround(double length_m, const ScaleTable& scales) : length_m_(length_m), scales_(scales) {}
+
+  double at(const Point& x) const override { return length_m_ * scales_.at(x); }
+  double least() const override { return 0.0; }
+  double most() const override { return std::numeric_limits<double>::infinity(); }
+
+ private:
+  double length_m_;
+  const ScaleTable& scales_;
+};
 
 }  // namespace
 
+Domain thinToLeast(Domain&& domain, double least_m, const FollowOptions& options, const Coastline& coastline,
+                   const ShoreGuides& guides, CleanReport& report, FollowStart& start, const ItemLoop& loop) {
+  constexpr double kMuchFiner = 0.45;  // shares of the size, in the mean of segments: else hardly any would go
+  Box box;
+  for (const Point& p : domain.pslg.points) box.add(p);
+  const ScaleTable scales(domain.projection, box);
+  const SameOnGround least(least_m, scales);
+  double length = 0.0;
+  for (const Segment& s : domain.pslg.segments) length += distance(domain.pslg.points[s.a], domain.pslg.points[s.b]);
+  const double elements = length / least.at(midpoint(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}));
+  if (!(elements < kMuchFiner * static_cast<double>(domain.pslg.segments.size()))) return std::move(domain);
+  labelSegments(domain.pslg);
+  start.thinned_m = least_m;
+  const EditLog log{domain, coastline, report};
+  ShoreChains chains = chainsOf(takeGraph(domain), least, loop);
+  thin(chains, {least, scales}, guides.tree(), options, nullptr, log, start.gained, loop);
+  return domainOf(graphOf(std::move(chains)), std::move(domain));
+}
+
 Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOptions& options,
-                   const Coastline& coastline, CleanReport& report, const ShoreGuides& guides, const ItemLoop& loop) {
+                   const Coastline& coastline, CleanReport& report, const ShoreGuides& guides, const ItemLoop& loop,
+                   FollowStart known) {
   labelSegments(domain.pslg);
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
@@ -126,10 +162,20 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   const ShoreSizes sizes{size, scales};
   const EditLog log{domain, coastline, report};
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) { log.add(kind, place, water); };
-  ShoreGraph graph = takeGraph(domain);
+  const BoxTree lines = guides.tree();
+  const SameOnGround thinned(known.thinned_m, scales), on_shore(known.shore_m, scales);
+  const EvenSizes growing{known.rate, on_shore};
+  const EvenSizes* const even = std::isnan(known.rate) ? nullptr : &growing;
   ShoreStart start;
-  evenOut(graph, sizes, guides, options, log, start.gained, loop);
-  start.triangles = triangulateShores(std::move(graph), size, loop);
+  start.gained = std::move(known.gained);
+  ShoreGraph graph;
+  {
+    ShoreChains chains = chainsOf(takeGraph(domain), size, loop, even);
+    thin(chains, sizes, lines, options, known.thinned_m > 0.0 ? &thinned : nullptr, log, start.gained, loop);
+    graph = graphOf(std::move(chains));
+  }
+  sampleShores(graph, size, lines, loop, even);
+  start.triangles = triangulateShores(std::move(graph), size, loop, even);
   FollowNotes noted;
   if (!guides.passages.empty() || !guides.barriers.empty()) {
     WaterAreas by_the_user;
@@ -139,7 +185,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   JoinedShores joined = openJoined(std::move(start), sizes, guides, options);
   OpenedShores& opened = joined.opened;
   for (const auto& [kind, place, water] : opened.edits) edit(kind, place, water);
-  noted.straits = std::move(opened.straits);
+  noted.straits = allStraits(opened, sizes);
   noted.joined = std::move(joined.joined);
   for (std::size_t i = 0; i < opened.waters.size(); ++i) {
     noted.area += opened.waters[i].area;
@@ -147,7 +193,8 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   }
   noteFollowing(std::move(noted), guides, options, domain.projection, report);
 
-  ShoreChains chains = chainsOf(settledGraph(std::move(opened.after), size), size);
+  ShoreChains chains = chainsOf(settledGraph(std::move(opened.after), size), size, loop, even);
+  dropSamples(chains);
   const ShoreLoss gone = [&](VertexId v) {
     log.add(EditKind::SimplifiedPoint, chains, v);
     addGain(chains, v, nullptr, scales, opened.gained);
@@ -166,14 +213,16 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   return domainOf(graphOf(std::move(chains)), std::move(domain));
 }
 
-SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunction& after) {
+SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunction& after, const ItemLoop& loop) {
+  const std::vector<double> was = sizesAt(pslg.points, {}, before, nullptr, loop),
+                            is = sizesAt(pslg.points, {}, after, nullptr, loop);
   std::vector<bool> on_shore(pslg.points.size(), false);
   for (const Segment& s : pslg.segments)
     if (isBoundary(s) && s.tag != kOpenTag) on_shore[s.a] = on_shore[s.b] = true;
   SizeGrowth growth;
   for (VertexId v = 0; v < pslg.points.size(); ++v) {
     double& most = on_shore[v] ? growth.shore : growth.elsewhere;
-    most = std::max(most, after.at(pslg.points[v]) / before.at(pslg.points[v]));
+    most = std::max(most, is[v] / was[v]);
   }
   return growth;
 }

@@ -39,19 +39,24 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   };
   OpenedWater water = close(first < 1.0 ? KeepWater::All : options.keep);
   if (first < 1.0) {
-    opened.straits = std::move(water.straits);
+    opened.straits = closedStraits(triangles, sizes.scale);
     settleShores(triangles, sizes.wanted);
     openLand(triangles, sizes, guides, options.land_min, edit, opened.gained);
     water = close(options.keep);
   }
   opened.waters = std::move(water.waters);
   opened.areas = std::move(water.areas);
-  std::ranges::move(water.straits, std::back_inserter(opened.straits));
   double gained = 0.0, area = 0.0;
   for (const auto& [region, more] : opened.gained) gained += more;
   for (const auto& [region, there] : opened.areas) area += there;
   opened.error = gained / area;
   return opened;
+}
+
+std::vector<ClosedStrait> allStraits(const OpenedShores& opened, const ShoreSizes& sizes) {
+  std::vector<ClosedStrait> straits = opened.straits;
+  std::ranges::move(closedStraits(opened.after, sizes.scale), std::back_inserter(straits));
+  return straits;
 }
 
 OpenedShores balanceShores(OpenedShores&& opened, const ShoreStart& start, const ShoreSizes& sizes,

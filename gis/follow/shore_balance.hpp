@@ -6,6 +6,7 @@
 
 #include "gis/follow/follow_options.hpp"
 #include "gis/follow/shore_opening.hpp"
+#include "gis/follow/shore_straits.hpp"
 
 namespace coastmesh {
 
@@ -24,7 +25,7 @@ struct OpenedShores {
   std::size_t edits_before = 0;
   ShoreTriangles after;  // not settled
   std::vector<WaterPart> waters;
-  std::vector<ClosedStrait> straits;
+  std::vector<ClosedStrait> straits;  // by what was closed before the rest of the land went: see `allStraits`
   WaterAreas areas, gained;
   ShoreEdits edits;
   double first = 1.0;  // how narrow land went before water, as a share of the narrowest that stays
@@ -35,6 +36,9 @@ struct OpenedShores {
 // narrow water, then the rest of the land, and again water.
 OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const ShoreGuides& guides,
                         const FollowOptions& options, double first);
+
+// All straits that were closed. REQUIRES: `after` is not settled.
+std::vector<ClosedStrait> allStraits(const OpenedShores& opened, const ShoreSizes& sizes);
 
 // Where both are narrow, what goes first leaves room for the other: the less land goes before water is closed, the less
 // water there is in the end. As much goes first as brings the water's area near to what it was. `opened` was made with

@@ -6,6 +6,7 @@
 
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
+#include "gis/follow/shore_triangles.hpp"
 
 namespace coastmesh {
 
@@ -21,18 +22,17 @@ bool isCorner(const Point& from, const Point& at, const Point& to) {
 
 }  // namespace
 
-ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size) {
+ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop, const EvenSizes* even) {
   ShoreChains chains;
   const std::size_t count = graph.pslg.points.size();
   chains.at = std::move(graph.pslg.points);
   chains.source = std::move(graph.source);
   chains.next.assign(count, kNone);
   chains.prev.assign(count, kNone);
-  chains.leaving.resize(count);
+  chains.leaving.assign(count, {kNone, kNone, 0, kOutside, kOutside});
   chains.stays.assign(count, 0);
   chains.open.assign(count, 0);
   chains.alive.assign(count, 1);
-  for (const Point& p : chains.at) chains.size.push_back(size.at(p));
   std::vector<std::uint8_t> degree(count, 0);
   for (const Segment& s : graph.pslg.segments) {
     if (!isBoundary(s)) {
@@ -65,6 +65,10 @@ ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size) {
     chains.open[v] = 1;
     if (isCorner(chains.at[chains.prev[v]], chains.at[v], chains.at[chains.next[v]])) chains.stays[v] = 1;
   }
+  std::vector<char> on_shore(even != nullptr ? count : 0, 0);
+  for (const Segment& s : chains.leaving)
+    if (even != nullptr && s.a != kNone && s.tag != kOpenTag) on_shore[s.a] = on_shore[s.b] = 1;
+  chains.size = sizesAt(chains.at, on_shore, size, even, loop);
   return chains;
 }
 
@@ -103,6 +107,16 @@ bool canTakeOut(const ShoreChains& chains, VertexId v) {
   const VertexId p = chains.prev[v], q = chains.next[v];
   return chains.next[q] != p &&
          !std::ranges::binary_search(chains.line_ends, std::pair<VertexId, VertexId>(std::minmax(p, q)));
+}
+
+void dropSamples(ShoreChains& chains) {
+  constexpr double kNothing = 1e-9;  // of the size: what rounding takes a place off a straight line
+  for (VertexId v = 0; v < chains.at.size(); ++v) {
+    if (!chains.alive[v] || chains.source[v] != kNone || !canTakeOut(chains, v)) continue;
+    const Point &a = chains.at[chains.prev[v]], &b = chains.at[chains.next[v]];
+    const double most = kNothing * chains.size[v];
+    if (squaredDistanceToSegment(chains.at[v], a, b) <= most * most) takeOut(chains, v);
+  }
 }
 
 void drop(ShoreChains& chains, VertexId v) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/size_function.hpp"
 #include "gis/follow/shore_graph.hpp"
 
@@ -29,7 +30,9 @@ struct ShoreChains {
 using ShoreLoss = std::function<void(VertexId)>;
 using ShoreMove = std::function<void(VertexId, const Point&)>;
 
-ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size);
+// `even`: the same sizes, where they are such.
+ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop = inOrder,
+                     const EvenSizes* even = nullptr);
 ShoreGraph graphOf(ShoreChains&& chains);
 
 // The angle on the water's side on the way a, b, c with the water to the left: 0 to two pi.
@@ -37,6 +40,10 @@ double waterAngle(const Point& a, const Point& b, const Point& c);
 
 // Whether v may go and its neighbours be joined: a boundary or a line that joins them already would run twice.
 bool canTakeOut(const ShoreChains& chains, VertexId v);
+
+// Takes out vertices that are none of the domain's and lie on the straight way between their neighbours: those that
+// shores were cut at for a while.
+void dropSamples(ShoreChains& chains);
 
 // REQUIRES: its neighbours are dropped too, or joined.
 void drop(ShoreChains& chains, VertexId v);

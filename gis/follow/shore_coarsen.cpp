@@ -105,7 +105,9 @@ class Coarsener {
     // On a straight shore nothing comes nearer.
     const double reach = costOf(v) < kNothing ? 0.0 : kApart * c_.size[v];
     if (reach > 0.0) findNear(v);
-    tree_.visit(box.grownBy(reach), [&](std::uint32_t item) {
+    const Box around = box.grownBy(reach);
+    const auto enter = [&](const Box& node, std::size_t, std::size_t) { return !found && node.meets(around); };
+    tree_.descend(enter, [&](std::uint32_t item) {
       const VertexId w = held_[item];
       if (found || w == v || w == p || w == q || !c_.alive[w]) return;
       const Point& y = c_.at[w];

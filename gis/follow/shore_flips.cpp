@@ -59,20 +59,20 @@ void ShoreFlips::remove(VertexId v) {
 std::size_t ShoreFlips::earOf(const std::vector<Side>& hole) const {
   const std::size_t count = hole.size();
   const auto at = [&](std::size_t i) -> const Point& { return t_.mesh.point(hole[i % count].from); };
-  std::size_t any = count;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Point &a = at(i), &b = at(i + 1), &c = at(i + 2);
-    if (orient2d(a, b, c) <= 0) continue;
-    bool is_empty = true, is_round = true;
-    for (std::size_t k = 3; k < count && (is_empty || is_round); ++k) {
-      const Point& x = at(i + k);
-      is_round = is_round && inCircle(a, b, c, x) <= 0;
-      is_empty = is_empty && (orient2d(a, b, x) < 0 || orient2d(b, c, x) < 0 || orient2d(c, a, x) < 0);
+  for (const bool by_circle : {true, false}) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point &a = at(i), &b = at(i + 1), &c = at(i + 2);
+      if (orient2d(a, b, c) <= 0) continue;
+      bool is_ear = true;
+      for (std::size_t k = 3; k < count && is_ear; ++k) {
+        const Point& x = at(i + k);
+        is_ear = by_circle ? inCircle(a, b, c, x) <= 0
+                           : orient2d(a, b, x) < 0 || orient2d(b, c, x) < 0 || orient2d(c, a, x) < 0;
+      }
+      if (is_ear) return i;
     }
-    if (is_round) return i;
-    if (is_empty && any == count) any = i;
   }
-  return any;
+  return count;
 }
 
 // A polygon whose corners all see one place inside has ears until it is a triangle.

@@ -50,6 +50,41 @@ bool isIn(const Point& x, const Point& a, const Point& b, const Point& c) {
   return orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 && orient2d(c, a, x) >= 0;
 }
 
+// Tells at little cost that none of many boxes comes near: by the squares of a grid that they touch.
+class BoxGrid {
+ public:
+  explicit BoxGrid(const std::vector<Box>& boxes) {
+    for (const Box& box : boxes) bounds_.add(box);
+    for (const Box& box : boxes) forSquares(box, [&](std::size_t square) { touched_[square] = true; });
+  }
+
+  bool mayMeet(const Box& box) const {
+    if (!bounds_.meets(box)) return false;
+    bool any = false;
+    forSquares(box, [&](std::size_t square) { any = any || touched_[square]; });
+    return any;
+  }
+
+ private:
+  static constexpr std::size_t kSide = 512;
+
+  template <typename Visit>
+  void forSquares(const Box& box, Visit&& visit) const {
+    const auto number = [](double x, double low, double high) {
+      const double share = high > low ? (x - low) / (high - low) : 0.0;
+      return static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(kSide - 1));
+    };
+    const std::size_t left = number(box.xmin, bounds_.xmin, bounds_.xmax);
+    const std::size_t right = number(box.xmax, bounds_.xmin, bounds_.xmax);
+    const std::size_t above = number(box.ymax, bounds_.ymin, bounds_.ymax);
+    for (std::size_t j = number(box.ymin, bounds_.ymin, bounds_.ymax); j <= above; ++j)
+      for (std::size_t i = left; i <= right; ++i) visit(j * kSide + i);
+  }
+
+  Box bounds_;
+  std::vector<bool> touched_ = std::vector<bool>(kSide * kSide, false);
+};
+
 // What of the water the samples of all lines lie in.
 void locate(std::vector<std::vector<Sample>>& lines, const std::vector<ShoreLine>& passages, const ShoreTriangles& t) {
   std::vector<Box> boxes;
@@ -61,12 +96,14 @@ void locate(std::vector<std::vector<Sample>>& lines, const std::vector<ShoreLine
     }
   }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  const BoxGrid grid(boxes);
   for (TriId i = 0; i < t.mesh.triangles.size(); ++i) {
     if (t.mesh.regions[i] == t.land) continue;
     const auto& v = t.mesh.triangles[i].v;
     const Point &a = t.mesh.point(v[0]), &b = t.mesh.point(v[1]), &c = t.mesh.point(v[2]);
     Box box = Box::of(a, b);
     box.add(c);
+    if (!grid.mayMeet(box)) continue;
     tree.visit(box, [&](std::uint32_t s) {
       auto& [sample, elements] = samples[s];
       if (!isIn(sample->at, a, b, c)) return;
@@ -242,11 +279,13 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
   if (pieces.empty()) return;
   helpers.finish(sizes.wanted);
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  const BoxGrid grid(boxes);
   for (TriId t = 0; t < triangles.mesh.triangles.size(); ++t) {
     if (triangles.mesh.regions[t] != triangles.land || (usesOf(triangles, t) & (kAround | kOnOpen)) != 0) continue;
     const auto& v = triangles.mesh.triangles[t].v;
     const Point &a = triangles.mesh.point(v[0]), &b = triangles.mesh.point(v[1]), &c = triangles.mesh.point(v[2]);
     const Point centre = centroid(a, b, c);
+    if (!grid.mayMeet(Box::of(centre, centre))) continue;
     double nearest = kLittleMore * 0.5 * triangles.size[t];  // for an element across
     tree.visit(Box::of(centre, centre), [&](std::uint32_t i) {
       const double far = std::sqrt(squaredDistanceToSegment(centre, pieces[i].a, pieces[i].b)) / pieces[i].elements;

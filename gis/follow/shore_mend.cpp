@@ -52,6 +52,7 @@ class Mender {
           ShorePieces near = near_;
           for (auto v = static_cast<VertexId>(first); v < last; ++v) {
             if (!is_new_[v] || c_.next[v] == kNone || c_.prev[v] == kNone) continue;
+            if (near.isFine(v)) continue;
             near.gather(v, 0.0);
             const double quality = near.qualityOf(v, c_.at[v]);
             if (quality < 1.0) bad.emplace_back(quality, v);

@@ -83,13 +83,15 @@ class Opening {
   }
 
   void openWater(double narrowest) {
-    const auto narrow = [&](TriId t) {
-      const std::uint8_t use = usesOf(t);
-      return !isLand(t) && t_.width[t] < narrowest && (use & kInWater) == 0 && !allOpen(t) &&
-             !isAt(passages_, t, kPassage * t_.size[t]);
-    };
+    std::vector<char> is_narrow(mesh().triangles.size(), 0);
     bool any_wide = false;
-    for (TriId t = 0; t < mesh().triangles.size() && !any_wide; ++t) any_wide = !isLand(t) && !narrow(t);
+    for (TriId t = 0; t < is_narrow.size(); ++t) {
+      if (isLand(t)) continue;
+      is_narrow[t] = t_.width[t] < narrowest && (usesOf(t) & kInWater) == 0 && !allOpen(t) &&
+                     !isAt(passages_, t, kPassage * t_.size[t]);
+      any_wide = any_wide || is_narrow[t] == 0;
+    }
+    const auto narrow = [&](TriId t) { return is_narrow[t] != 0; };
     if (!any_wide) {
       parts_ = patchesOf(mesh(), [&](TriId t) { return !isLand(t); }).triangles;
       return;
@@ -132,13 +134,6 @@ class Opening {
       gained_[water.region] += water.area;
       flip(parts_[i], t_.land, EditKind::CutOffWater, firstVertexOf(parts_[i]));
     }
-  }
-
-  WaterAreas areas() const {
-    WaterAreas areas;
-    for (TriId t = 0; t < mesh().triangles.size(); ++t)
-      if (!isLand(t)) areas[mesh().regions[t]] += groundAreaOf(t);
-    return areas;
   }
 
  private:
@@ -328,8 +323,8 @@ OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const 
   Opening opening(triangles, sizes, guides, edit, gained);
   opening.openWater(narrowest);
   opening.keepWater(keep, opened.waters);
-  opened.straits = closedStraits(triangles, sizes.scale);
-  opened.areas = opening.areas();
+  for (const WaterPart& water : opened.waters)
+    if (water.kept || keep == KeepWater::All) opened.areas[water.region] += water.area;
   return opened;
 }
 

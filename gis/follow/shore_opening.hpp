@@ -6,7 +6,6 @@
 #include "gis/clean/clean.hpp"
 #include "gis/follow/follow_options.hpp"
 #include "gis/follow/shore_guides.hpp"
-#include "gis/follow/shore_straits.hpp"
 #include "gis/follow/shore_triangles.hpp"
 
 namespace coastmesh {
@@ -29,7 +28,6 @@ struct WaterPart {
 
 struct OpenedWater {
   std::vector<WaterPart> waters;
-  std::vector<ClosedStrait> straits;
   WaterAreas areas;
 };
 

@@ -14,6 +14,8 @@ namespace {
 // Lengths are shares of the size wanted.
 constexpr double kShort = 0.5;
 constexpr double kNarrow = 0.5;
+constexpr double kLittleMore = 1.0 + 1e-9;  // rounding
+const double kSharp = std::pow(std::cos(kSmallShoreAngle), 2) * (1.0 - 1e-9);
 
 bool crosses(const Point& a, const Point& b, const Point& c, const Point& d) {
   return orient2d(a, b, c) * orient2d(a, b, d) <= 0 && orient2d(c, d, a) * orient2d(c, d, b) <= 0 &&
@@ -116,6 +118,48 @@ double ShorePieces::qualityOf(VertexId v, const std::optional<Point>& x) const {
          (c_.next[s] == e && orient2d(c_.at[s], c_.at[e], *x) <= 0 ? 1e9 : 1.0) / least);
   }
   return quality;
+}
+
+bool ShorePieces::isFine(VertexId v) const {
+  const VertexId p = c_.prev[v], q = c_.next[v], pp = c_.prev[p], qq = c_.next[q];
+  const Point &a = c_.at[p], &x = c_.at[v], &b = c_.at[q];
+  const double shortest = kLittleMore * kShort * c_.size[v], least = kLittleMore * kNarrow * c_.size[v];
+  if (std::min(squaredDistance(a, x), squaredDistance(x, b)) < shortest * shortest) return false;
+  const auto isSharp = [&](const Point& from, const Point& at, const Point& to) {
+    const Point in = from - at, out = to - at;
+    const double along = dot(in, out);
+    return along > 0.0 && along * along > kSharp * squaredLength(in) * squaredLength(out);
+  };
+  if (isSharp(a, x, b) || (pp != kNone && isSharp(c_.at[pp], a, x)) || (qq != kNone && isSharp(x, b, c_.at[qq])))
+    return false;
+  const Box first = Box::of(a, x).grownBy(least), second = Box::of(x, b).grownBy(least);
+  const auto isOwn = [&](VertexId w) { return w == v || w == p || w == q; };
+  // Across the water.
+  const auto isNear = [&](const Point& y, const Box& box, const Point& from, const Point& to) {
+    return box.meets(Box::of(y, y)) && squaredDistanceToSegment(y, from, to) < least * least &&
+           orient2d(from, to, y) > 0;
+  };
+  const auto isAway = [&](VertexId w) {
+    return w == kNone || isOwn(w) ||
+           ((w == pp || !isNear(c_.at[w], first, a, x)) && (w == qq || !isNear(c_.at[w], second, x, b)));
+  };
+  if (!isAway(pp) || !isAway(qq)) return false;
+  bool fine = true;
+  const auto enter = [&](const Box& box, std::size_t, std::size_t) {
+    return fine && (box.meets(first) || box.meets(second));
+  };
+  trees_->points.descend(enter, [&](std::uint32_t i) { fine = fine && isAway(trees_->loose[i]); });
+  trees_->segments.descend(enter, [&](std::uint32_t i) {
+    const auto& [s, e] = trees_->ends[i];
+    if (isOwn(s) && isOwn(e)) return;
+    fine = fine && isAway(s) && isAway(e);
+    if (!fine || isOwn(s) || isOwn(e)) return;
+    const double apart = squaredDistanceToSegment(x, c_.at[s], c_.at[e]);
+    // A shore with its land on this side does not matter, unless x lies on it.
+    const bool is_beyond = c_.next[s] == e && orient2d(c_.at[s], c_.at[e], x) < 0;
+    fine = apart >= (is_beyond ? 1e-16 : 1.0) * least * least;
+  });
+  return fine;
 }
 
 bool ShorePieces::canMove(VertexId v, const Point& x) const {

@@ -33,6 +33,10 @@ class ShorePieces {
   // the water, widths of the water.
   double qualityOf(VertexId v, const std::optional<Point>& x) const;
 
+  // True only where `qualityOf` v's place is 1: found for most such vertices without `gather`, at a share of its cost.
+  // REQUIRES: `buildTrees`, since when nothing was moved.
+  bool isFine(VertexId v) const;
+
   // Whether nothing crosses then, nor lies between the piece as it is and as it would be.
   bool canMove(VertexId v, const Point& x) const;
 

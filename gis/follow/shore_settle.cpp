@@ -187,6 +187,7 @@ class Settler {
                      "water that touches itself has no room for a vertex of its own"});
     }
     mesh().points.push_back(x + shift);
+    if (!t_.size_at.empty()) t_.size_at.push_back(t_.size_at[copy.of]);
     t_.source.push_back(kNone);
     t_.home.push_back(kNone);
     t_.use.push_back(0);
@@ -254,6 +255,7 @@ void insertPoints(ShoreTriangles& triangles, const std::vector<Point>& points, c
     if (!is_free) continue;
     const auto v = static_cast<VertexId>(mesh.points.size());
     triangles.mesh.points.push_back(x);
+    if (!triangles.size_at.empty()) triangles.size_at.push_back(size.at(x));
     triangles.source.push_back(kNone);
     triangles.home.push_back(kNone);
     triangles.use.push_back(kInWater | kLoose);

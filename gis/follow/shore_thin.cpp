@@ -68,6 +68,7 @@ class Thinner {
 
   const Point& at(std::uint32_t place) const { return c_.at[order_[place]]; }
   double sizeAt(std::uint32_t place) const { return c_.size[order_[place]]; }
+  double sizeBefore(std::uint32_t place) const { return thinning_.before ? thinning_.before->at(at(place)) : 0.0; }
   bool isShore(VertexId v) const { return c_.next[v] != kNone && c_.leaving[v].tag != kOpenTag; }
   bool isInner(VertexId v) const {  // between two segments of the same shore
     return !c_.stays[v] && c_.prev[v] != kNone && isShore(v) && c_.leaving[c_.prev[v]].tag != kOpenTag;
@@ -107,7 +108,8 @@ class Thinner {
     const std::uint32_t most = std::max(1u, (stretch.last - stretch.first) / 3);
     for (std::uint32_t i = stretch.first; i < stretch.last;) {
       const Point& a = at(i);
-      const double size = sizeAt(i), off = kMoved * size, longest = kLongest * size;
+      const double size = sizeAt(i), before = sizeBefore(i), off = kMoved * (size - before);
+      const double longest = size >= kMuchMore * before ? kLongest * size : 0.0;
       std::uint32_t end = i + 1;
       double farthest = 0.0;
       bool is_open = true;  // any direction will do
@@ -136,7 +138,7 @@ class Thinner {
   }
 
   void indexRuns(const std::vector<Run>& runs) {
-    std::vector<Box> boxes;
+    std::vector<Box>& boxes = boxes_;
     for (const Run& run : runs) {
       Box& box = boxes.emplace_back();
       for (std::uint32_t i = run.first; i <= run.last; ++i) box.add(at(i));
@@ -223,33 +225,53 @@ class Thinner {
   // After `measure`: whether the run may become its segment.
   bool isFree(const Run& run) const {
     const Point &a = at(run.first), &b = at(run.last);
-    if (run.off > kMoved * sizeAt(run.first)) return false;
+    if (run.off > kMoved * (sizeAt(run.first) - sizeBefore(run.first))) return false;
     const double reach = run.off * (1.0 + 1.0 / kMovedOfWidth);
     const Box box = Box::of(a, b).grownBy(reach);
+    const double hair = 2.0 * kGrain * (std::abs(a.x) + std::abs(a.y) + reach);
+    const Box beside = Box::of(a, b).grownBy(run.off + hair);
     bool is_free = true;
     thinning_.lines.visit(box, [&](std::uint32_t) { is_free = false; });
     if (!is_free) return false;
-    tree_.visit(box, [&](std::uint32_t item) {
-      if (!is_free) return;
-      if (item >= runs_.size())
-        is_free = squaredDistanceToSegment(c_.at[others_[item - runs_.size()]], a, b) > reach * reach;
-      else
-        is_free = isFreeOf(run, runs_[item], box, reach);
-    });
+    tree_.descend([&](const Box& node, std::size_t, std::size_t) { return is_free && node.meets(box); },
+                  [&](std::uint32_t item) {
+                    if (item >= runs_.size())
+                      is_free = squaredDistanceToSegment(c_.at[others_[item - runs_.size()]], a, b) > reach * reach;
+                    else
+                      is_free = !(boxes_[item].meets(beside) && holdsAnyOf(runs_[item], run, beside)) &&
+                                (isAllNearAlong(run, runs_[item]) || isFreeOf(run, runs_[item], box, reach));
+                  });
     return is_free;
   }
 
+  // Whether a vertex of the other lies between the run and its segment; `beside` holds all that may.
+  bool holdsAnyOf(const Run& other, const Run& run, const Box& beside) const {
+    if (stretches_[other.stretch].is_gone) return false;
+    const bool is_same = other.stretch == run.stretch;
+    for (std::uint32_t i = other.first; i <= other.last; ++i) {
+      if (is_same && i > run.first && i < run.last) continue;
+      if (order_[i] == order_[run.first] || order_[i] == order_[run.last]) continue;
+      if (beside.meets(Box::of(at(i), at(i))) && isNear(at(i), run) && isBetween(at(i), run)) return true;
+    }
+    return false;
+  }
+
+  // Whether all of the other belongs to the same piece of shore.
+  bool isAllNearAlong(const Run& run, const Run& other) const {
+    if (other.stretch != run.stretch || (other.first < run.last && run.first < other.last)) return false;
+    const double way =
+        other.first >= run.last ? way_[other.last] - way_[run.last] : way_[run.first] - way_[other.first];
+    return way <= kNearAlong * sizeAt(run.first);
+  }
+
+  // `box` holds all within `reach` of the run's segment.
   bool isFreeOf(const Run& run, const Run& other, const Box& box, double reach) const {
     if (stretches_[other.stretch].is_gone) return true;
+    const bool is_same = other.stretch == run.stretch;
     for (std::uint32_t i = other.first; i < other.last; ++i) {
-      if (other.stretch == run.stretch && i >= run.first && i < run.last) continue;
-      if (!box.meets(Box::of(at(i), at(i + 1)))) continue;
-      for (const std::uint32_t end : {i, i + 1})
-        if (order_[end] != order_[run.first] && order_[end] != order_[run.last] && isNear(at(end), run) &&
-            isBetween(at(end), run))
-          return false;
-      if (isAcrossLand(run, i) && isWithin(reach, at(run.first), at(run.last), at(i), at(i + 1)) &&
-          !isNearAlong(run, other.stretch, i))
+      if (is_same && i >= run.first && i < run.last) continue;
+      if (box.meets(Box::of(at(i), at(i + 1))) && isAcrossLand(run, i) && !isNearAlong(run, other.stretch, i) &&
+          isWithin(reach, at(run.first), at(run.last), at(i), at(i + 1)))
         return false;
     }
     return true;
@@ -320,7 +342,8 @@ class Thinner {
   std::vector<Stretch> stretches_;
   std::vector<VertexId> others_;  // vertices on no shore
   std::vector<Run> runs_;
-  BoxTree tree_;  // of `runs_`, then of `others_`
+  std::vector<Box> boxes_;
+  BoxTree tree_;  // of `boxes_`: of `runs_`, then of `others_`
 };
 
 }  // namespace

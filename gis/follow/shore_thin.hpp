@@ -8,11 +8,15 @@
 
 namespace coastmesh {
 
+inline constexpr double kMuchMore = 1.5;  // than what shores were thinned for before: they are thinned again
+
 struct ShoreThinning {
   const BoxTree& lines;             // of boxes: shores stay there
   bool keeps_narrow_water = false;  // else water narrower than an element will be closed
   // A vertex of an island that is dropped, before it is, and its area in the plane.
   std::function<void(VertexId, double)> dropped;
+  // What shores were thinned for before, if they were: they are thinned again only where more is wanted (`kMuchMore`).
+  const SizeFunction* before = nullptr;
 };
 
 // Takes out of shores what is much finer than the sizes wanted, so that all that follows costs by the elements and not

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSampling = 3.0;       // samples to a length of the size wanted
 constexpr double kMostSamples = 256.0;  // to a segment
+constexpr std::size_t kFollowing = 8;   // segments before and after one
 
 std::uint8_t useOf(const Segment& s) { return !isBoundary(s) ? kInWater : s.tag == kOpenTag ? kOnOpen : kOnShore; }
 
@@ -35,25 +36,37 @@ bool isBeside(const Point& p, const Point& q, const Point& a, const Point& b, do
 
 }  // namespace
 
-void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines, const ItemLoop& loop) {
+void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines, const ItemLoop& loop,
+                  const EvenSizes* even) {
   Pslg& pslg = graph.pslg;
   std::vector<Box> boxes;
   for (const Segment& s : pslg.segments) boxes.push_back(Box::of(pslg.points[s.a], pslg.points[s.b]));
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  std::vector<Point> middles;
+  std::vector<char> on_shore;
+  for (const Segment& s : pslg.segments) {
+    middles.push_back(midpoint(pslg.points[s.a], pslg.points[s.b]));
+    on_shore.push_back(isBoundary(s) && s.tag != kOpenTag ? 1 : 0);
+  }
+  const std::vector<double> sizes = sizesAt(middles, on_shore, size, even, loop);
   // How many pieces become of a segment.
   const auto countOf = [&](SegmentId s) {
     const Segment& segment = pslg.segments[s];
     const Point &a = pslg.points[segment.a], &b = pslg.points[segment.b];
-    const double wanted = size.at(midpoint(a, b)), length = distance(a, b);
+    const double wanted = sizes[s], length = distance(a, b);
     const double count = std::min(kMostSamples, std::ceil(kSampling * length / wanted));
     if (!isBoundary(segment) || !(count >= 2.0)) return 1.0;
     bool cut = false;
     const Box around = boxes[s].grownBy(wanted);
-    tree.descend([&](const Box& box, std::size_t, std::size_t) { return !cut && box.meets(around); },
-                 [&](std::uint32_t other) {
-                   const Segment& near = pslg.segments[other];
-                   cut = other != s && isBeside(pslg.points[near.a], pslg.points[near.b], a, b, wanted);
-                 });
+    const auto look = [&](std::size_t other) {
+      const Segment& near = pslg.segments[other];
+      cut = other != s && isBeside(pslg.points[near.a], pslg.points[near.b], a, b, wanted);
+    };
+    // A shore that winds is beside itself: mostly what follows is enough.
+    const std::size_t first = s - std::min<std::size_t>(s, kFollowing);
+    for (std::size_t other = first; other <= s + kFollowing && other < boxes.size() && !cut; ++other)
+      if (boxes[other].meets(around)) look(other);
+    if (!cut) tree.descend([&](const Box& box, std::size_t, std::size_t) { return !cut && box.meets(around); }, look);
     lines.visit(around, [&](std::uint32_t) { cut = true; });
     return cut ? count : 1.0;
   };
@@ -78,7 +91,22 @@ void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& li
   pslg.segments = std::move(pieces);
 }
 
-ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop) {
+std::vector<double> sizesAt(std::span<const Point> places, std::span<const char> on_shore, const SizeFunction& size,
+                            const EvenSizes* even, const ItemLoop& loop) {
+  std::vector<double> sizes(places.size());
+  forStretches(loop, places.size(), [&](std::size_t first, std::size_t last) {
+    if (even == nullptr) {
+      size.sample(places.subspan(first, last - first), std::span(sizes).subspan(first, last - first));
+      return;
+    }
+    for (std::size_t i = first; i < last; ++i)
+      sizes[i] = on_shore[i] != 0 ? even->on_shore.at(places[i]) : size.at(places[i]);
+  });
+  return sizes;
+}
+
+ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop,
+                                 const EvenSizes* even) {
   ShoreTriangles result;
   Pslg pslg = std::move(graph.pslg);
   result.source = std::move(graph.source);
@@ -106,6 +134,13 @@ ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, c
   }
   for (VertexId i = 0; i < 4; ++i) pslg.segments.push_back({first + i, first + (i + 1) % 4, 0, result.land, kOutside});
   result.tags.resize(pslg.segments.size() + 1, 0);
+  if (even != nullptr) {
+    std::vector<char> on_shore(result.use.size());
+    std::ranges::transform(result.use, on_shore.begin(),
+                           [](std::uint8_t use) { return (use & kOnShore) != 0 ? 1 : 0; });
+    result.rate = even->rate;
+    result.size_at = sizesAt(pslg.points, on_shore, size, even, loop);
+  }
   result.mesh = constrainedDelaunay(pslg);
   result.region_was = result.mesh.regions;
   result.home.assign(pslg.points.size(), kNone);
@@ -121,7 +156,16 @@ ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, c
 void measureTriangle(ShoreTriangles& triangles, TriId t, const SizeFunction& size) {
   const auto& v = triangles.mesh.triangles[t].v;
   const Point &a = triangles.mesh.point(v[0]), &b = triangles.mesh.point(v[1]), &c = triangles.mesh.point(v[2]);
-  triangles.size[t] = size.at((1.0 / 3.0) * (a + b + c));
+  const Point centre = (1.0 / 3.0) * (a + b + c);
+  double wanted = size.most();
+  if (std::isnan(triangles.rate)) {
+    wanted = size.at(centre);
+  } else {
+    for (const VertexId corner : v)
+      wanted =
+          std::min(wanted, triangles.size_at[corner] + triangles.rate * distance(centre, triangles.mesh.point(corner)));
+  }
+  triangles.size[t] = wanted;
   triangles.width[t] = 2.0 * std::sqrt(squaredLength(circumcenterOffset(a, b, c))) / triangles.size[t];
 }
 

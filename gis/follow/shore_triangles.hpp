@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "core/item_loop.hpp"
@@ -18,14 +20,18 @@ enum VertexUse : std::uint8_t { kOnShore = 1, kOnOpen = 2, kInWater = 4, kAround
 // large. Who opens land or water gives triangles other regions; `settleShores` then makes it what it would be of the
 // shores that are left.
 struct ShoreTriangles {
-  TriMesh mesh;                      // regions: of water its own, `land` everywhere else
-  RegionId land = 0;                 // no region of the graph
-  std::vector<std::int32_t> tags;    // of the segments that edges are pieces of; the last is any that was made
-  std::vector<VertexId> source;      // of each point: the domain's that it is, or kNone
-  std::vector<TriId> home;           // of each point: a triangle round it; kNone of one that is gone
-  std::vector<std::uint8_t> use;     // of each point
-  std::vector<double> width;         // of each triangle: the diameter of its circumcircle over the size wanted there
-  std::vector<double> size;          // of each triangle: the size wanted at its centre
+  TriMesh mesh;                    // regions: of water its own, `land` everywhere else
+  RegionId land = 0;               // no region of the graph
+  std::vector<std::int32_t> tags;  // of the segments that edges are pieces of; the last is any that was made
+  std::vector<VertexId> source;    // of each point: the domain's that it is, or kNone
+  std::vector<TriId> home;         // of each point: a triangle round it; kNone of one that is gone
+  std::vector<std::uint8_t> use;   // of each point
+  std::vector<double> width;       // of each triangle: the diameter of its circumcircle over the size wanted there
+  std::vector<double> size;        // of each triangle: the size wanted at its centre
+  // Where sizes grow evenly with the distance from the shore: how fast, and the size of each point, from which those of
+  // triangles follow. Else NaN, and nothing.
+  double rate = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> size_at;
   std::vector<RegionId> region_was;  // what `mesh.regions` was when all was settled
   std::vector<VertexId> helpers;     // points that are there for a while: those on no segment go when all is settled
   bool is_new = true;                // never settled: water may touch itself anywhere
@@ -34,10 +40,11 @@ struct ShoreTriangles {
 // Cuts segments between water and land where another shore is about as near as the size wanted, so that triangles
 // between them are as wide as the water or the land there. So are those at `lines`.
 void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines = {},
-                  const ItemLoop& loop = inOrder);
+                  const ItemLoop& loop = inOrder, const EvenSizes* even = nullptr);
 
 // REQUIRES: a labelled graph.
-ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop = inOrder);
+ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop = inOrder,
+                                 const EvenSizes* even = nullptr);
 
 // Calls `visit(t)` with the triangles round v, counter-clockwise. REQUIRES: v is no corner of what is around.
 template <typename Visit>
@@ -52,6 +59,10 @@ void forTrianglesRound(const ShoreTriangles& triangles, VertexId v, Visit&& visi
 
 // Sets `width` and `size` of a triangle.
 void measureTriangle(ShoreTriangles& triangles, TriId t, const SizeFunction& size);
+
+// Sizes at places, by all threads. `on_shore`: which of them lie there, where sizes are `even`.
+std::vector<double> sizesAt(std::span<const Point> places, std::span<const char> on_shore, const SizeFunction& size,
+                            const EvenSizes* even, const ItemLoop& loop);
 
 // The bits of a vertex, from the segments that end in it.
 std::uint8_t useOf(const ShoreTriangles& triangles, VertexId v);

@@ -73,7 +73,7 @@ class WayFinder {
 
   // From these, and from all that hangs together with them by water as wide as is wanted: that costs nothing.
   void start(const std::vector<TriId>& places) {
-    std::vector<TriId> reached;
+    std::vector<TriId> reached;  // and not yet gone on from: the last first, which mostly is the nearest in memory
     const auto reach = [&](TriId t) {
       if (cost_[t] == 0.0) return;
       cost_[t] = 0.0;
@@ -82,13 +82,18 @@ class WayFinder {
     };
     const auto isBeside = [&](TriId t, EdgeRef e) { return mesh().regions[triOf(e)] == mesh().regions[t]; };
     for (const TriId t : places) reach(t);
-    for (std::size_t i = 0; i < reached.size(); ++i)
-      for (const EdgeRef e : mesh().triangles[reached[i]].adj)
-        if (isBeside(reached[i], e) && t_.width[triOf(e)] >= narrowest_) reach(triOf(e));
-    for (const TriId t : reached) {
-      if (std::ranges::any_of(mesh().triangles[t].adj,
-                              [&](EdgeRef e) { return isBeside(t, e) && cost_[triOf(e)] > 0.0; }))
-        queue_.emplace(0.0, t);
+    while (!reached.empty()) {
+      const TriId t = reached.back();
+      reached.pop_back();
+      bool goes_on = false;
+      for (const EdgeRef e : mesh().triangles[t].adj) {
+        if (!isBeside(t, e)) continue;
+        if (t_.width[triOf(e)] >= narrowest_)
+          reach(triOf(e));
+        else
+          goes_on = goes_on || cost_[triOf(e)] > 0.0;
+      }
+      if (goes_on) queue_.emplace(0.0, t);
     }
   }
 

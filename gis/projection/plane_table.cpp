@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -10,7 +11,7 @@ namespace coastmesh {
 
 PlaneTable::PlaneTable(std::function<Point(const Point&)> map, const Box& box, double tolerance)
     : map_(std::move(map)), box_(box) {
-  for (const std::size_t cells : {std::size_t{8}, std::size_t{64}, std::size_t{512}})
+  for (const std::size_t cells : std::initializer_list<std::size_t>{8, 16, 32, 64, 128, 256, 512})
     if (tabulate(cells, tolerance)) return;
   values_ = {};
 }

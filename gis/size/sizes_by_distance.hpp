@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "core/size_function.hpp"
+#include "gis/projection/scale_table.hpp"
+#include "gis/size/size_distance.hpp"
+
+namespace coastmesh {
+
+// Sizes that grow with the distance from lines, within bounds, and that nothing else decides on: found anew for each
+// place, where a map of them would cost more than the places that are asked for.
+class SizesByDistance final : public SizeFunction {
+ public:
+  // Bounds are metres on the ground, and so are the field's sizes; `scales` is that of the plane, which stands for no
+  // sphere, within `box`. REQUIRES: least_m <= most_m, finite.
+  SizesByDistance(std::unique_ptr<DistanceField> field, double least_m, double most_m,
+                  std::shared_ptr<const ScaleTable> scales, const Box& box);
+
+  double at(const Point& x) const override;
+  double least() const override { return least_; }
+  double most() const override { return most_; }
+  void sample(std::span<const Point> places, std::span<double> sizes) const override;
+
+ private:
+  std::unique_ptr<DistanceField> field_;
+  double least_m_, most_m_;
+  std::shared_ptr<const ScaleTable> scales_;
+  double least_, most_;  // of lengths in the plane
+};
+
+}  // namespace coastmesh
