@@ -33,8 +33,10 @@ class HeaderWalk {
       name();
       skip(count(), countSize());  // dimensions
       attributes();
-      number(4);  // type
-      count();    // size of a record
+      constexpr std::uint64_t kTypes = 11;  // strings, the twelfth, have no size: the library divides by it
+      const std::uint64_t type = number(4);
+      sound_ = sound_ && type >= 1 && type <= kTypes;
+      count();  // size of a record
       begins_.push_back(number(version_ == 1 ? 4 : 8));
     });
     return sound_;
