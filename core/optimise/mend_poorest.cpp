@@ -23,6 +23,9 @@ constexpr int kTurns = 5;
 // What costs so much more than it should after the first of them is given up.
 constexpr int kFirstTurns = 2;
 constexpr double kHopeless = 0.25;
+// No edge gets shorter than this share of the length wanted, and where one is, no vertex comes in: the shortest one
+// decides on a model's time step.
+constexpr double kShort = 0.6;
 // So many patches at most, as a share of the triangles: where more are poor the input is finer than what is wanted.
 constexpr double kMostPatches = 0.03;
 // In place of a corner: a vertex comes into the middle, not to where an edge is that of an equilateral triangle.
@@ -164,6 +167,21 @@ bool Optimiser::wouldFlip(const Submesh& patch, const TriMesh& solved) const {
   return false;
 }
 
+// The shortest edge, as a share of the length wanted there.
+double Optimiser::shortestShare() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    if (!mesh_.isLive(t)) continue;
+    const Corners& v = mesh_.triangle(t).v;
+    for (unsigned i = 0; i < 3; ++i) {
+      const VertexId a = v[next3(i)], b = v[prev3(i)];
+      const Point middle = midpoint(mesh_.point(a), mesh_.point(b));
+      least = std::min(least, bound_.surface.chord(mesh_.point(a), mesh_.point(b)) / size_->at(middle));
+    }
+  }
+  return least;
+}
+
 // The best of what can be tried in a patch, if any is better than what is there.
 std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const {
   constexpr std::array kTrials = {Trial{Change::None},      Trial{Change::Remove, 0},       Trial{Change::Remove, 1},
@@ -174,9 +192,9 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
   const Optimiser as_it_is(patch, *this);
   double least = as_it_is.costOfAll() - kLeastGain;
   if (std::isinf(least)) return best;
-  const double held = as_it_is.goalOfAll();
+  const double held = as_it_is.goalOfAll(), shortest = std::min(kShort, as_it_is.shortestShare());
   // Pieces of a mesh cannot know what is left of a budget that they share.
-  const bool may_grow = options_.max_vertices > std::numeric_limits<std::uint64_t>::max() / 2;
+  const bool may_grow = options_.max_vertices > std::numeric_limits<std::uint64_t>::max() / 2 && shortest >= kShort;
   for (const Trial& trial : kTrials) {
     if (!may_grow && (trial.change == Change::Insert || trial.change == Change::Split)) continue;
     Optimiser other(patch, *this);
@@ -188,7 +206,7 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
     if (other.costOfAll() > least + kHopeless) continue;
     turn(kTurns - kFirstTurns);
     const double cost = other.costOfAll();
-    if (!(cost < least) || other.goalOfAll() < held) continue;
+    if (!(cost < least) || other.goalOfAll() < held || other.shortestShare() < shortest) continue;
     TriMesh solved = other.release();
     if (wouldFlip(patch, solved)) continue;
     least = cost;

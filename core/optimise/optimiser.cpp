@@ -25,9 +25,6 @@ constexpr int kFirstBalance = 2, kSettle = 3;
 // much and their star costs no more than a little more.
 constexpr double kPoorShape = 0.9, kLeastGain = 0.002, kMostCost = 1.005;
 
-// Beside a shore that is finer than wanted lengths grow by no more than this times the distance from it.
-constexpr double kGrowth = 0.3;
-
 }  // namespace
 
 Optimiser::Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options)
@@ -143,32 +140,14 @@ void Optimiser::noteWanted() {
     if (!mesh_.isLiveVertex(v)) continue;
     wanted_[v] = size_ == nullptr || isOnShore(v) ? wantedAt(v) : size_->at(mesh_.point(v));
   }
-  for (VertexId w = 0; size_ != nullptr && w < mesh_.vertexSlots(); ++w) {
-    if (!mesh_.isLiveVertex(w) || !isOnShore(w)) continue;
-    mesh_.star(w, star_);
-    for (const EdgeRef e : star_)
-      for (const VertexId v : {mesh_.origin(e), mesh_.target(e)})
-        if (!isOnShore(v)) wanted_[v] = wantedBeside(wanted_[v], v, w);
-  }
 }
 
-// The same length, or what may be wanted beside a vertex of the shore if that is less.
-double Optimiser::wantedBeside(double wanted, VertexId v, VertexId w) const {
-  if (wanted <= wanted_[w]) return wanted;
-  return std::min(wanted, wanted_[w] + kGrowth * std::sqrt(squaredLengthOf(v, w)));
-}
-
-// The length wanted at a vertex. On a shore that is finer no more than its edges have, and beside it little more; where
-// no size is given the mean of its edges.
+// The length wanted at a vertex. On a shore that is finer no more than its edges have; where no size is given the mean
+// of its edges.
 double Optimiser::wantedAt(VertexId v) {
   double wanted = size_ == nullptr ? std::numeric_limits<double>::infinity() : size_->at(mesh_.point(v));
   const bool is_free = mesh_.kind(v) == VertexKind::Free;
-  if (is_free && size_ != nullptr) {
-    mesh_.star(v, star_);
-    for (const EdgeRef e : star_)
-      if (const VertexId w = mesh_.origin(e); mesh_.kind(w) != VertexKind::Free) wanted = wantedBeside(wanted, v, w);
-    return wanted;
-  }
+  if (is_free && size_ != nullptr) return wanted;
   double sum = 0.0;
   int count = 0;
   const auto add = [&](EdgeRef e) {
@@ -374,8 +353,6 @@ bool Optimiser::move(VertexId v) {
     wanted_[v] = wantedAt(v);
   } else if (size_ != nullptr) {
     wanted_[v] = size_->at(to);
-    for (const VertexId w : ring_.corners)
-      if (mesh_.kind(w) != VertexKind::Free) wanted_[v] = wantedBeside(wanted_[v], v, w);
   }
   touched_.assign(ring_.triangles.begin(), ring_.triangles.end());
   if (segment_ == kNone)

@@ -62,7 +62,6 @@ class Optimiser {
 
   void noteWanted();
   double wantedAt(VertexId v);
-  double wantedBeside(double wanted, VertexId v, VertexId w) const;
   double costRound(const Point& place, double wanted, double limit) const;
   double costHere(VertexId v, Point& centre) const;
   double goalAt(VertexId v, const Point& place) const;
@@ -90,6 +89,7 @@ class Optimiser {
   void noteAdded(VertexId v);
   double costOfAll() const;
   double goalOfAll() const;
+  double shortestShare() const;
   double shapeOfTriangle(TriId t) const;
   bool isHeldByFrozen(const Submesh& patch) const;
   bool wouldFlip(const Submesh& patch, const TriMesh& solved) const;
