@@ -357,7 +357,7 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   MeshState& whole = run.whole();
   whole.notes = std::move(notes);
   const std::optional<RoundPlace> before = run.goOn();
-  if (options.size != nullptr && !before) splitSegments(whole.mesh, pslg, whole.notes, options);
+  if (!before && wantsSplitSegments(whole.mesh, options)) splitSegments(whole.mesh, pslg, whole.notes, options);
   const RoundPlace from = before.value_or(RoundPlace{});
   for (std::uint32_t step = from.step; step < steps.size() && !run.stats().budget_reached; ++step) {
     refineStep(

@@ -18,7 +18,7 @@ namespace {
 // The regions of the result are not labelled, and nothing is said of what falls short.
 RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                        const RefineVariant& variant, const RunControl& control) {
-  if (options.size != nullptr) splitSegments(mesh, pslg, notes, options);
+  if (wantsSplitSegments(mesh, options)) splitSegments(mesh, pslg, notes, options);
   RefineRun run(std::move(mesh), pslg, options, std::move(notes), variant);
   refineAll(run, control);
   if (options.algorithm == Algorithm::Relocate) {

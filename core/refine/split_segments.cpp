@@ -22,11 +22,15 @@ struct Cut {
 // Steps along a segment in which lengths are added up, a wanted length: enough where it changes by a third from one
 // edge to the next.
 constexpr double kStepsALength = 4.0;
+// So much longer is no longer.
+constexpr double kSameLength = 1e-9;
 
-// Shares of the way from a to b that lie one wanted length apart, stretched to fit. What needs clearly more than `most`
-// of them is looked at as far as these go.
-void evenShares(const Point& a, const Point& b, const SizeFunction& size, const Surface& surface, std::uint64_t most,
-                std::vector<double>& shares) {
+enum class Fit { Nearest, AtMost };
+
+// Shares of the way from a to b that lie one wanted length apart, stretched to fit: to the nearest, or to no longer
+// ones. What needs clearly more than `most` of them is looked at as far as these go.
+void evenShares(const Point& a, const Point& b, const SizeFunction& size, Fit fit, const Surface& surface,
+                std::uint64_t most, std::vector<double>& shares) {
   const auto wantedAt = [&](const Point& x) { return size.at(x) / surface.shrinkAt(x); };  // in the plane
   shares.clear();
   const double length = distance(a, b);
@@ -44,9 +48,10 @@ void evenShares(const Point& a, const Point& b, const SizeFunction& size, const 
     here = there;
     marks.push_back({along, count});
   }
-  // As many as make the pieces' ratio to what is wanted nearest to 1, either way.
   double pieces = std::max(1.0, std::floor(count));
-  if (count * count > pieces * (pieces + 1.0)) pieces += 1.0;
+  // To the nearest: as many as make the pieces' ratio to what is wanted nearest to 1, either way.
+  const double one_more_from = fit == Fit::Nearest ? std::sqrt(pieces * (pieces + 1.0)) : pieces * (1.0 + kSameLength);
+  if (count > one_more_from) pieces += 1.0;
   std::size_t i = 0;
   for (double k = 1.0; k < pieces; k += 1.0) {
     const double target = count * k / pieces;
@@ -70,7 +75,15 @@ EdgeRef findEdge(const EditMesh& mesh, const std::vector<TriId>& among, VertexId
 
 }  // namespace
 
+bool wantsSplitSegments(const TriMesh& mesh, const RefineOptions& options) {
+  const bool has_lattice = mesh.points.size() > mesh.input_vertices;
+  return options.size != nullptr || (has_lattice && std::isfinite(options.size_max));
+}
+
 std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes, const RefineOptions& options) {
+  const ConstantSize longest(options.size_max);
+  const SizeFunction& size = options.size != nullptr ? *options.size : longest;
+  const Fit fit = options.size != nullptr ? Fit::Nearest : Fit::AtMost;
   std::vector<Cut> cuts;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
@@ -89,7 +102,7 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
   for (const Cut& cut : cuts) {
     if (edit.vertexCount() >= most) break;
     const Point a = edit.point(cut.a), b = edit.point(cut.b);
-    evenShares(a, b, *options.size, options.surface, most - edit.vertexCount(), shares);
+    evenShares(a, b, size, fit, options.surface, most - edit.vertexCount(), shares);
     VertexId from = cut.a;
     for (const double share : shares) {
       if (edit.vertexCount() >= most) break;
@@ -106,7 +119,7 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
       if (v == kNone) break;
       notes.spacing.resize(edit.vertexSlots());
       notes.spacing[v] = std::min({options.surface.chord(on, a) + notes.spacing[cut.a],
-                                   options.surface.chord(on, b) + notes.spacing[cut.b], options.size->at(on)});
+                                   options.surface.chord(on, b) + notes.spacing[cut.b], size.at(on)});
       from = v;
     }
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
@@ -34,6 +35,39 @@ TEST(SplitSegments, PiecesAreEven) {
       }
     }
   }
+}
+
+// Pieces of the fewest that are no longer than the longest edge asked.
+TEST(SplitSegments, PiecesHoldALongestEdge) {
+  Pslg square;
+  square.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  for (std::uint32_t i = 0; i < 4; ++i) square.segments.push_back({i, (i + 1) % 4});
+  const std::pair<double, std::size_t> cases[] = {{0.3, 4}, {0.25, 4}, {0.24, 5}, {1.0, 1}, {3.0, 1}};
+  for (const auto& [longest, pieces] : cases) {
+    SCOPED_TRACE(longest);
+    const RefineOptions options{.size_max = longest};
+    TriMesh mesh = constrainedDelaunay(square);
+    VertexNotes notes = noteInput(mesh, boundOf(options));
+    EXPECT_EQ(splitSegments(mesh, square, notes, options), 4 * (pieces - 1));
+    for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (mesh.segment(edgeRef(t, i)) == kNone) continue;
+        const Point &a = mesh.points[mesh.origin(edgeRef(t, i))], &b = mesh.points[mesh.target(edgeRef(t, i))];
+        EXPECT_NEAR(std::hypot(b.x - a.x, b.y - a.y), 1.0 / static_cast<double>(pieces), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(SplitSegments, AreWantedForLengthsAndBesideALattice) {
+  TriMesh mesh = constrainedDelaunay(wideLake());
+  const ConstantSize size(0.1);
+  EXPECT_TRUE(wantsSplitSegments(mesh, {.size = &size}));
+  EXPECT_FALSE(wantsSplitSegments(mesh, {.size_max = 0.1}));
+  EXPECT_FALSE(wantsSplitSegments(mesh, {}));
+  mesh.points.push_back({0.5, 0.5});  // of a lattice
+  EXPECT_TRUE(wantsSplitSegments(mesh, {.size_max = 0.1}));
+  EXPECT_FALSE(wantsSplitSegments(mesh, {}));
 }
 
 TEST(SplitSegments, KeepsToTheBudget) {
