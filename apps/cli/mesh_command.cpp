@@ -45,7 +45,7 @@ OptionTable declareOptions(MeshRunUsage& usage) {
                 "all of the Earth, closed: no pole and no meridian is special");
   table.example("coastmesh mesh lakes.gpkg --shard 3/7 -o lakes-3.shard --skip-existing",
                 "the third of seven shares of many lakes, for coastmesh gather");
-  table.example("coastmesh mesh ocean.gpkg -o ocean.nc --size-max 500 --checkpoint ocean.kept",
+  table.example("coastmesh mesh sea.shp -o sea.nc --size-max 500 --checkpoint sea.kept",
                 "a mesh that takes hours: where it is killed, the same line again goes on");
   table.example("coastmesh mesh lakes.gpkg --per-feature -o lake-{}.nc --skip-existing",
                 "a file for each lake; the same line again makes what is missing");
