@@ -190,6 +190,18 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
   return areas;
 }
 
+std::vector<double> areasOfFew(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
+                               const Crs& crs) {
+  std::vector<Point> own;
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  for (const auto& triangle : triangles) {
+    const auto first = static_cast<std::uint32_t>(own.size());
+    corners.push_back({first, first + 1, first + 2});
+    for (const std::uint32_t n : triangle) own.push_back(nodes[n]);
+  }
+  return triangleAreas(own, corners, crs);
+}
+
 EdgeMeter::EdgeMeter(std::span<const Point> nodes, const Crs& crs, const ItemLoop& loop) : nodes_(nodes) {
   if (crs.isPlane()) return;
   const Geodetic geodetic = toGeodetic(nodes, crs);

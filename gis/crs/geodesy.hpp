@@ -26,6 +26,9 @@ void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::stri
 // ten million. Throws InputError where a node has no place on the ellipsoid.
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const Crs& crs, const ItemLoop& loop = inOrder);
+// The same of few triangles among many nodes: only theirs are looked at.
+std::vector<double> areasOfFew(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
+                               const Crs& crs);
 
 // Measures edges between nodes, which must live as long as it: in metres on the ellipsoid of `crs`, to 1e-6 of them up
 // to 1000 km; in a plane: in its units. Throws InputError as `triangleAreas` does.

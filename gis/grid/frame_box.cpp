@@ -78,7 +78,7 @@ FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, double min_angle_
   std::vector<std::array<std::uint32_t, 3>> corners;
   for (const std::size_t t : changed) corners.push_back(grid.triangles[t]);
   if (!grid.area_m2.empty() && !corners.empty()) {
-    const std::vector<double> areas = triangleAreas(grid.nodes, corners, grid.crs);
+    const std::vector<double> areas = areasOfFew(grid.nodes, corners, grid.crs);
     for (std::size_t k = 0; k < changed.size(); ++k) grid.area_m2[changed[k]] = areas[k];
   }
   if (grid.min_angle_deg.empty()) return result;

@@ -146,7 +146,7 @@ void measureChanged(Grid& grid, const std::vector<bool>& changed) {
     if (!grid.min_angle_deg.empty()) grid.min_angle_deg[t] = smallestAngle(grid, t);
   }
   if (grid.area_m2.empty() || which.empty()) return;
-  const std::vector<double> areas = triangleAreas(grid.nodes, corners, grid.crs);
+  const std::vector<double> areas = areasOfFew(grid.nodes, corners, grid.crs);
   for (std::size_t k = 0; k < which.size(); ++k) grid.area_m2[which[k]] = areas[k];
 }
 

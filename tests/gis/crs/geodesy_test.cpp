@@ -65,6 +65,13 @@ INSTANTIATE_TEST_SUITE_P(Places, TriangleAreas,
                                            Extent{{-30.0, -30.0}, 5.0}, Extent{{179.5, -17.0}, 0.1},
                                            Extent{{0.0, 80.0}, 0.1}, Extent{{0.0, -89.9}, 0.008}));
 
+TEST(TriangleAreas, OfFewAreThoseOfAll) {
+  const std::vector<Point> nodes{{5.0, 60.0}, {5.12, 60.01}, {5.05, 60.14}, {5.2, 60.1}, {12.0, 61.0}};
+  const std::vector<std::array<std::uint32_t, 3>> all{{0, 1, 2}, {1, 3, 2}, {3, 4, 2}}, few{{3, 4, 2}, {0, 1, 2}};
+  const std::vector<double> areas = triangleAreas(nodes, all, wgs84());
+  EXPECT_EQ(areasOfFew(nodes, few, wgs84()), (std::vector<double>{areas[2], areas[0]}));
+}
+
 // Triangles of 10 to 15 km against the exact formula on its own.
 TEST(TriangleAreas, AgreeWithTheExactFormulaOneByOne) {
   for (const double latitude : {0.0, 30.0, 60.0, 85.0}) {
