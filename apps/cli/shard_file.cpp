@@ -1,7 +1,6 @@
 #include "apps/cli/shard_file.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include "apps/job/bytes.hpp"
 #include "apps/job/group_bytes.hpp"
 #include "gis/error.hpp"
+#include "parallel/byte_hash.hpp"
 
 namespace coastmesh {
 
@@ -48,13 +48,9 @@ ShardHeader readHeader(ByteReader& reader, const std::string& path) {
 }
 
 std::uint64_t checksumOf(std::string_view bytes) {
-  std::uint64_t sum = bytes.size();
-  for (std::size_t at = 0; at < bytes.size(); at += sizeof sum) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
-    sum = std::rotl((sum ^ word) * 0x9E3779B97F4A7C15ull, 31);
-  }
-  return sum;
+  ByteHash hash;
+  hash.add(bytes);
+  return hash.value();
 }
 
 // What is before the checksum. What is read behind it is not looked at by value: a damaged node may be no node.

@@ -12,9 +12,7 @@ namespace coastmesh {
 
 namespace {
 
-// Triangles of a shape below this get a patch of their own.
-constexpr double kPoorShape = 0.9;
-// That they are poor counts this many times what they fall short of it, besides what any triangle costs. A patch is
+// That triangles are poor counts this many times what they fall short of the shape asked, besides what any triangle costs. A patch is
 // taken where it gains so much.
 constexpr double kPoorWeight = 5.0, kLeastGain = 0.02;
 // A patch holds what touches the triangle, and what touches that; in it every vertex gets so many turns.

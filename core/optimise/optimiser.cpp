@@ -21,9 +21,9 @@ constexpr std::size_t kMostRound = 64;
 constexpr double kStill = 0.01;
 // Vertices rest for so many sweeps before their numbers of neighbours count, and for so many at the end.
 constexpr int kFirstBalance = 2, kSettle = 3;
-// Triangles of a shape below this are mended for themselves in the second half of the sweeps, as long as they gain so
-// much and their star costs no more than a little more.
-constexpr double kPoorShape = 0.9, kLeastGain = 0.002, kMostCost = 1.005;
+// Poor triangles are mended in the second half of the sweeps, as long as they gain so much and their star costs no more
+// than a little more.
+constexpr double kLeastGain = 0.002, kMostCost = 1.005;
 
 }  // namespace
 

@@ -17,6 +17,9 @@
 
 namespace coastmesh {
 
+// Triangles of a shape below this are mended for themselves.
+inline constexpr double kPoorShape = 0.9;
+
 // One run over a mesh. In optimiser.cpp what is done at a vertex, in mend_poorest.cpp what is tried where that leaves
 // a poor triangle.
 class Optimiser {
