@@ -12,8 +12,8 @@ namespace coastmesh {
 
 namespace {
 
-// That triangles are poor counts this many times what they fall short of the shape asked, besides what any triangle costs. A patch is
-// taken where it gains so much.
+// That triangles are poor counts this many times what they fall short of the shape asked, besides what any triangle
+// costs. A patch is taken where it gains so much.
 constexpr double kPoorWeight = 5.0, kLeastGain = 0.02;
 // A patch holds what touches the triangle, and what touches that; in it every vertex gets so many turns.
 constexpr unsigned kRings = 2;
