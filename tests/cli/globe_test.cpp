@@ -177,7 +177,9 @@ TEST_F(Globe, TwoPointsNearToOneAnotherNeedNoSize) {
     const Closed made = closed();
     expectClosed(made);
     EXPECT_GE(made.least_angle, std::stod(angle));
-    if (std::string(angle) == "30") EXPECT_LE(made.nodes, 302u);
+    if (std::string(angle) == "30") {
+      EXPECT_LE(made.nodes, 302u);
+    }
   }
 }
 

@@ -90,10 +90,11 @@ ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::st
   return child.wait();
 }
 
-ProgramRun runAndKill(const std::vector<std::string>& arguments, const std::function<bool()>& due) {
+ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::function<bool()>& due,
+                        int signal_number) {
   Child child(withProgram(arguments));
   while (!child.ended() && !due()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  child.signal(SIGKILL);
+  child.signal(signal_number);
   return child.wait();
 }
 

@@ -26,8 +26,23 @@ ProgramRun runShell(const std::string& script);
 // Starts the program, sends `signal_number` once its standard output holds `awaited`, and waits for its end.
 ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::string& awaited, int signal_number);
 
-// Starts the program, kills it as soon as `due` says so, asked every millisecond, and waits for its end.
-ProgramRun runAndKill(const std::vector<std::string>& arguments, const std::function<bool()>& due);
+// Starts the program, sends `signal_number` as soon as `due` says so, asked every millisecond, and waits for its end.
+ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::function<bool()>& due, int signal_number);
+
+// The same, for what may be over before the signal comes on a busy machine: then `undo` takes away what was made, and
+// it is run again, up to a bound.
+template <class Awaited>
+ProgramRun runUntilSignalled(const std::vector<std::string>& arguments, const Awaited& awaited, int signal_number,
+                             const std::function<void()>& undo) {
+  constexpr int kMostRuns = 20;
+  ProgramRun run;
+  for (int i = 0; i < kMostRuns; ++i) {
+    run = runAndSignal(arguments, awaited, signal_number);
+    if (run.code != 0) break;
+    undo();
+  }
+  return run;
+}
 
 // A file of tests/cli/inputs.
 std::string inputFile(const std::string& name);

@@ -160,7 +160,8 @@ TEST_F(Shard, KilledIsRunAgain) {
                                        "--progress", "json"};
   std::vector<std::string> longer = words;
   longer.insert(longer.end(), {"--size", "2"});  // long enough to be killed in it
-  const ProgramRun killed = runAndSignal(longer, "\"refine\"", SIGKILL);
+  const ProgramRun killed =
+      runUntilSignalled(longer, std::string("\"refine\""), SIGKILL, [&] { std::filesystem::remove(shardFile(2)); });
   ASSERT_EQ(killed.code, 128 + SIGKILL) << killed.output;
   EXPECT_EQ(names().count("s2.shard"), 0u);
   EXPECT_LE(runProgram(words).code, 1);
