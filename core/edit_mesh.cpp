@@ -18,12 +18,14 @@ EditMesh::EditMesh(TriMesh&& mesh)
       points_(std::move(mesh.points)),
       kinds_(points_.size(), VertexKind::Free),
       triangle_of_(points_.size(), kNone),
+      triangles_round_(points_.size(), 0),
       input_vertices_(mesh.input_vertices) {
   assert(findBrokenLink(triangles) == kNone);
   std::fill_n(kinds_.begin(), input_vertices_, VertexKind::Input);
   for (TriId t = 0; t < triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       triangle_of_[triangles[t].v[i]] = t;
+      ++triangles_round_[triangles[t].v[i]];
       if (triangles[t].seg[i] == kNone) continue;
       for (const VertexId v : {origin(edgeRef(t, i)), target(edgeRef(t, i))})
         if (v >= input_vertices_) kinds_[v] = VertexKind::Segment;
@@ -261,6 +263,7 @@ VertexId EditMesh::addVertex(const Point& x, VertexKind kind) {
     points_.push_back(x);
     kinds_.push_back(kind);
     triangle_of_.push_back(kNone);
+    triangles_round_.push_back(0);
   } else {
     v = free_vertices_.back();
     free_vertices_.pop_back();
@@ -278,13 +281,22 @@ void EditMesh::kill(TriId t) {
 void EditMesh::noteCorners(TriId t) {
   const Corners& corners = triangles[t].v;
   assert(corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]);
-  for (const VertexId v : corners) triangle_of_[v] = t;
+  for (const VertexId v : corners) {
+    triangle_of_[v] = t;
+    ++triangles_round_[v];
+  }
+}
+
+// Before a live triangle gets other corners, or none.
+void EditMesh::forgetCorners(TriId t) {
+  for (const VertexId v : triangles[t].v) --triangles_round_[v];
 }
 
 // Triangles (x, a, b) over the boundary edges a -> b, linked to what lies beyond and to one another, but not first to
 // last.
 void EditMesh::fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan) {
   fan.clear();
+  for (const TriId t : cavity.triangles) forgetCorners(t);
   for (std::size_t i = 0; i < cavity.boundary.size(); ++i)
     fan.push_back(i < cavity.triangles.size() ? cavity.triangles[i] : newTriangle());
   for (std::size_t i = 0; i < fan.size(); ++i) {
@@ -333,6 +345,7 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
                        std::vector<TriId>& touched, std::span<const BoundaryEdge> inner) {
   std::vector<TriId>& slots = fan_[0];
   slots.clear();
+  for (const TriId t : patch.triangles) forgetCorners(t);
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     slots.push_back(i < patch.triangles.size() ? patch.triangles[i] : newTriangle());
     triangles[slots[i]] = unlinked(fresh[i]);
@@ -395,8 +408,13 @@ void EditMesh::flipStack(std::vector<TriId>& touched) {
   flipWaiting(
       points_, triangles, stack_, [this](EdgeRef e) { return !isConstrained(e); },
       [&](TriId t, TriId n) {
-        noteCorners(t);
-        noteCorners(n);
+        const VertexId a = triangles[t].v[0], b = triangles[t].v[1], d = triangles[t].v[2], c = triangles[n].v[2];
+        triangle_of_[a] = triangle_of_[d] = triangle_of_[c] = n;
+        triangle_of_[b] = t;
+        ++triangles_round_[a];
+        ++triangles_round_[d];
+        --triangles_round_[b];
+        --triangles_round_[c];
         touched.push_back(t);
         touched.push_back(n);
       });

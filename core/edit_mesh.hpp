@@ -69,6 +69,8 @@ class EditMesh : private LinkedTriangles {
   bool isLiveVertex(VertexId v) const { return triangle_of_[v] != kNone; }
   VertexKind kind(VertexId v) const { return kinds_[v]; }
   TriId triangleOf(VertexId v) const { return triangle_of_[v]; }
+  // How many triangles have v as a corner.
+  std::size_t trianglesRound(VertexId v) const { return triangles_round_[v]; }
   TriId triangleSlots() const { return static_cast<TriId>(triangles.size()); }
   VertexId vertexSlots() const { return static_cast<VertexId>(points_.size()); }
   std::size_t vertexCount() const { return points_.size() - free_vertices_.size(); }
@@ -156,6 +158,7 @@ class EditMesh : private LinkedTriangles {
   TriId newTriangle();
   void kill(TriId t);
   void noteCorners(TriId t);
+  void forgetCorners(TriId t);
   void moveTriangles(const std::vector<TriId>& slot);
   void flipStack(std::vector<TriId>& touched);
   void collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const;
@@ -164,7 +167,8 @@ class EditMesh : private LinkedTriangles {
 
   std::vector<Point> points_;
   std::vector<VertexKind> kinds_;
-  std::vector<TriId> triangle_of_;  // one of the triangles round a vertex
+  std::vector<TriId> triangle_of_;              // one of the triangles round a vertex
+  std::vector<std::uint32_t> triangles_round_;  // one a vertex: how many
   std::vector<TriId> free_triangles_;
   std::vector<VertexId> free_vertices_;
   VertexId input_vertices_ = 0;

@@ -7,8 +7,9 @@
 
 namespace coastmesh {
 
-// Replaces an edge by the other diagonal of its two triangles, which keep their slots. The edge must have a triangle on
-// both sides. Returns false where these make no convex quadrilateral.
+// Replaces an edge by the other diagonal of its two triangles, which keep their slots: of the edge b -> c of a triangle
+// a b c, beyond which d lies, that triangle becomes a b d and the other a d c. The edge must have a triangle on both
+// sides. Returns false where these make no convex quadrilateral.
 bool flipEdge(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e);
 
 // The same where that makes the edge Delaunay; returns false where it is so already.

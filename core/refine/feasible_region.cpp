@@ -85,16 +85,16 @@ std::size_t clip(Point*& polygon, std::size_t corners, Point*& clipped, double* 
 inline double larger(double a, double b) { return a > b ? a : b; }
 inline double smaller(double a, double b) { return a < b ? a : b; }
 
-// Above 0 where the angle of the triangle x, y, c there is too small; over the edge's length each is how far c is from
+// Above 0 where the angle of the triangle x, x + d, c there is too small, |d|² being `squared`; over the edge's length each is how far c is from
 // where it may be, nearly so for the petal.
 struct Lacks {
   double at_x, at_y, at_c;
 };
 
-inline Lacks lacksOf(const LinkEdge& e, const Point& c, const TriangleBound& bound) {
-  const Point d = e.y - e.x, g = c - e.x;
+inline Lacks lacksOf(const Point& x, const Point& d, double squared, const Point& c, const TriangleBound& bound) {
+  const Point g = c - x;
   const double height = bound.cos_min * cross(d, g), along = dot(d, g);
-  return {bound.sin_min * along - height, bound.sin_min * (squaredLength(d) - along) - height,
+  return {bound.sin_min * along - height, bound.sin_min * (squared - along) - height,
           bound.sin_min * (squaredLength(g) - along) - height};
 }
 
@@ -124,12 +124,20 @@ FeasibleRegion::Look FeasibleRegion::look(std::span<const LinkEdge> link) {
   // A box round the petals' common part: that alone is empty most of the time.
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Point low{-kFar, -kFar}, high{kFar, kFar};
+  if (edges_.size() < link.size()) edges_.resize(link.size());
+  Edge* edge = edges_.data();
   for (const LinkEdge& e : link) {
-    const Disk petal = petalOf(e, petal_);
-    low = {larger(low.x, petal.centre.x - petal.radius), larger(low.y, petal.centre.y - petal.radius)};
-    high = {smaller(high.x, petal.centre.x + petal.radius), smaller(high.y, petal.centre.y + petal.radius)};
+    const Point d = e.y - e.x;
+    const double squared = squaredLength(d);
+    const double radius = petal_.radius * std::sqrt(squared);
+    const Point mid = midpoint(e.x, e.y);
+    const Point centre{mid.x - petal_.height * d.y, mid.y + petal_.height * d.x};
+    low = {larger(low.x, centre.x - radius), larger(low.y, centre.y - radius)};
+    high = {smaller(high.x, centre.x + radius), smaller(high.y, centre.y + radius)};
+    *edge++ = {e.x, d, squared};
   }
   if (low.x >= high.x || low.y >= high.y) return {std::nullopt, true};
+  const std::span<Edge> edges(edges_.data(), link.size());
   constexpr std::size_t kMostCuts = 12;
   makeRoom(4 + kMostCuts);
   Point *polygon = polygon_.data(), *clipped = clipped_.data();
@@ -139,27 +147,29 @@ FeasibleRegion::Look FeasibleRegion::look(std::span<const LinkEdge> link) {
   polygon[1] = {high.x, low.y};
   polygon[2] = high;
   polygon[3] = {low.x, high.y};
+  for (Edge& e : edges) e.inverse = 1.0 / e.squared;
   // Cuts by the constraint that the middle of what is left breaks most.
   for (std::size_t cuts = 0; cuts < kMostCuts; ++cuts) {
     const Point c = centreOf(polygon, corners);
     double worst = 0.0;
-    const LinkEdge* worst_edge = nullptr;
-    for (const LinkEdge& e : link) {
-      const Lacks lacks = lacksOf(e, c, bound_);
+    const Edge* worst_edge = nullptr;
+    for (const Edge& e : edges) {
+      const Lacks lacks = lacksOf(e.from, e.along, e.squared, c, bound_);
       const double lack = larger(larger(lacks.at_x, lacks.at_y), larger(lacks.at_c, 0.0));
-      const double share = lack * lack * (1.0 / squaredDistance(e.x, e.y));
+      const double share = lack * lack * e.inverse;
       worst_edge = share > worst ? &e : worst_edge;
       worst = larger(worst, share);
     }
     if (worst_edge == nullptr) return {c, false};
-    const Lacks lacks = lacksOf(*worst_edge, c, bound_);
-    const Point d = worst_edge->y - worst_edge->x;
+    const Point x = worst_edge->from, d = worst_edge->along;
+    const Point y = link[static_cast<std::size_t>(worst_edge - edges.data())].y;
+    const Lacks lacks = lacksOf(x, d, worst_edge->squared, c, bound_);
     if (lacks.at_x >= lacks.at_y && lacks.at_x >= lacks.at_c) {
-      corners = clip(polygon, corners, clipped, sides, worst_edge->x, turned(d, bound_.cos_min, bound_.sin_min));
+      corners = clip(polygon, corners, clipped, sides, x, turned(d, bound_.cos_min, bound_.sin_min));
     } else if (lacks.at_y >= lacks.at_c) {
-      corners = clip(polygon, corners, clipped, sides, worst_edge->y, turned(d, bound_.cos_min, -bound_.sin_min));
+      corners = clip(polygon, corners, clipped, sides, y, turned(d, bound_.cos_min, -bound_.sin_min));
     } else {
-      const Disk petal = petalOf(*worst_edge, petal_);
+      const Disk petal = petalOf({x, y}, petal_);
       const Point outward = c - petal.centre;
       const Point on = petal.centre + (petal.radius / std::sqrt(squaredLength(outward))) * outward;
       corners = clip(polygon, corners, clipped, sides, on, {-outward.y, outward.x});

@@ -53,7 +53,14 @@ class FeasibleRegion {
   TriangleBound bound_;
   PetalShape petal_;
 
+  struct Edge {  // of the link, from one end along it
+    Point from, along;
+    double squared;        // length
+    double inverse = 0.0;  // of that
+  };
+
   // Scratch.
+  std::vector<Edge> edges_;
   std::vector<Point> polygon_;
   std::vector<Point> clipped_;
   std::vector<double> sides_;

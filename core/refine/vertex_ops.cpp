@@ -78,6 +78,16 @@ VertexOps::VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& boun
       flips_may_harm_(bound.max_angle < std::numbers::pi || !std::isinf(bound.squared_size)),
       region_(bound) {}
 
+void VertexOps::keepBadInPlace() {
+  bad_stays_ = true;
+  if (bound_.surface.isCurved()) return;
+  at_bad_.assign(mesh_.vertexSlots(), 0);
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    if (!mesh_.isLive(t) || !isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_)) continue;
+    for (const VertexId v : mesh_.triangle(t).v) at_bad_[v] = 1;
+  }
+}
+
 void VertexOps::Star::clear() {
   patch.triangles.clear();
   patch.boundary.clear();
@@ -216,12 +226,17 @@ bool VertexOps::mayNotFlip(const Star& star) const {
                              }));
 }
 
+// Whether there would be too many triangles round one vertex in place of two neighbours: four of theirs at most are of
+// both, or of none.
+bool VertexOps::hasTooManyTogether(VertexId v, VertexId w) const {
+  const std::size_t both = mesh_.trianglesRound(v) + mesh_.trianglesRound(w);
+  return both > 4 && hasTooManyToMerge(both - 4, bound_);
+}
+
 // A quick test of two free vertices, v with its ring and w beside it, that rules most merges out.
 bool VertexOps::cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside) {
   Ring& other = memory_.other_ring;
   if (mesh_.ring(w, beside, most_triangles_ + kMergedAway, other) != StarKind::Closed) return true;
-  const std::size_t edges = ring.corners.size() + other.corners.size() - 4;
-  if (edges < 3 || hasTooManyToMerge(edges, bound_)) return true;
   Link& link = memory_.link;
   link.clear();
   appendLink(mesh_, ring, w, link);
@@ -237,15 +252,62 @@ bool VertexOps::cannotMergeOnto(VertexId v, const Ring& ring, VertexId w) {
   return region_.look(framed(Frame(bound_.surface, mesh_.point(v)), link)).is_empty;
 }
 
+// The same as `fits` where smallest angles alone are asked for; in the plane it leaves the triangles in `fan`. There a
+// triangle of good angles is so far from flat that the sign of its area is certain.
+bool VertexOps::fitsAt(const Point& place, std::span<const LinkEdge> link) {
+  if (bound_.surface.isCurved()) return fits(link, place, bound_);
+  std::vector<FanTriangle>& fan = memory_.fan;
+  if (fan.size() < link.size()) fan.resize(link.size());
+  FanTriangle* out = fan.data();
+  for (const LinkEdge& e : link) {
+    const Point xy = e.y - e.x, yp = place - e.y, px = e.x - place;
+    const FanTriangle t{-dot(xy, px), -dot(xy, yp), -dot(yp, px), -cross(xy, px)};
+    const double more = t.at_x > t.at_y ? t.at_x : t.at_y;
+    const double most = more > t.at_vertex ? more : t.at_vertex;
+    if (!(most <= bound_.cot_min * t.area)) return false;
+    *out++ = t;
+  }
+  return true;
+}
+
 // A feasible place on the way to `to`, which is one of the frame at the vertex.
 std::optional<Point> VertexOps::placeTowards(const Point& to, const Frame& frame, const Point& here,
-                                             std::span<const LinkEdge> link) const {
+                                             std::span<const LinkEdge> link) {
   const Point from = frame.to(here);
   for (const double share : kShares) {
     const Point place = frame.from(from + share * (to - from));
-    if (fits(link, place, bound_)) return place;
+    if (fitsAt(place, link)) return place;
   }
   return std::nullopt;
+}
+
+// Whether a bad triangle lies beyond the ring of a vertex.
+bool VertexOps::isBesideBad(VertexId v, const Ring& ring) const {
+  if (!at_bad_.empty() && std::ranges::none_of(ring.corners, [&](VertexId w) { return at_bad_[w] != 0; })) return false;
+  return std::ranges::any_of(
+      ring.triangles, [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); });
+}
+
+// Whether an edge of a free vertex's star may not be Delaunay, the vertex being where `fitsAt` was last asked for:
+// angles opposite an edge add up to less than a half turn where their cotangents are above zero together. In the plane.
+bool VertexOps::needsFlips(VertexId v, const Ring& ring) const {
+  constexpr double kRounding = 1e-14;
+  const std::vector<FanTriangle>& fan = memory_.fan;
+  const std::size_t count = ring.corners.size();
+  const FanTriangle* before = &fan[count - 1];
+  for (std::size_t i = 0; i < count; ++i) {
+    const FanTriangle& t = fan[i];
+    if (!(before->at_x * t.area + t.at_y * before->area > kRounding * before->area * t.area)) return true;
+    before = &t;
+  }
+  const Point& here = mesh_.point(v);
+  return std::ranges::any_of(ring.triangles, [&](TriId t) {
+    const unsigned i = mesh_.cornerOf(t, v);
+    const EdgeRef e = edgeRef(t, i);
+    if (mesh_.isConstrained(e)) return false;
+    const Point& beyond = mesh_.point(mesh_.apex(mesh_.twin(e)));
+    return inCircle(here, mesh_.corner(t, next3(i)), mesh_.corner(t, prev3(i)), beyond) > 0;
+  });
 }
 
 bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
@@ -254,8 +316,8 @@ bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
   Link& link = memory_.link;
   link.clear();
   appendLink(mesh_, ring, kNone, link);
-  const Point& here = mesh_.point(v);
-  const bool good = std::ranges::none_of(link, [&](const LinkEdge& e) { return isBad(e.x, e.y, here, bound_); });
+  const Point here = mesh_.point(v);
+  const bool good = fitsAt(here, link);
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   if (clear_of_frozen_ && std::ranges::any_of(ring.triangles, isFrozen)) return false;
   const Frame frame(bound_.surface, here);
@@ -267,15 +329,14 @@ bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
     if (!inside) return false;
     if (good)
       place = placeTowards(*inside, frame, here, link);
-    else if (const Point there = frame.from(*inside); fits(link, there, bound_))
+    else if (const Point there = frame.from(*inside); fitsAt(there, link))
       place = there;
   }
   if (!place) return false;
-  const auto isBesideBad = [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
-  if (bad_stays_ && std::ranges::any_of(ring.triangles, isBesideBad)) return relocateWatchingFlips(v, touched);
+  if (bad_stays_ && isBesideBad(v, ring)) return relocateWatchingFlips(v, touched);
   mesh_.setPoint(v, *place);
   touched.insert(touched.end(), ring.triangles.begin(), ring.triangles.end());
-  mesh_.restoreDelaunayRound(v, touched);
+  if (bound_.surface.isCurved() || needsFlips(v, ring)) mesh_.restoreDelaunayRound(v, touched);
   return true;
 }
 
@@ -388,15 +449,17 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
     Ring& ring = memory_.ring;
     if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring) != StarKind::Closed) return false;
     const Point here = mesh_.point(v);
-    double longest = 0.0;
-    for (const VertexId w : ring.corners) longest += bound_.surface.squaredChord(here, mesh_.point(w));
-    longest *= kLongestToMerge / static_cast<double>(ring.corners.size());
+    double longest = 0.0;  // known once it is needed
     for (std::size_t k = 0; k < ring.corners.size(); ++k) {
       const VertexId w = ring.corners[k];
       const VertexKind kind = mesh_.kind(w);
-      if (kind == VertexKind::Input) continue;
+      if (kind == VertexKind::Input || hasTooManyTogether(v, w)) continue;
       if (kind == VertexKind::Free) {
         if (each_gets_its_turn && w < v) continue;
+        if (longest == 0.0) {
+          for (const VertexId u : ring.corners) longest += bound_.surface.squaredChord(here, mesh_.point(u));
+          longest *= kLongestToMerge / static_cast<double>(ring.corners.size());
+        }
         if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest || cannotMerge(v, ring, w, ring.triangles[k]))
           continue;
       } else if (cannotMergeOnto(v, ring, w)) {
@@ -416,6 +479,7 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
     const VertexKind kind = mesh_.kind(w);
     // A free vertex tries to join one on a segment when its own turn comes.
     if (kind == VertexKind::Input || (each_gets_its_turn && (w < v || kind == VertexKind::Free))) continue;
+    if (hasTooManyTogether(v, w)) continue;
     // The vertex that stays is the one on the segment.
     if (mesh_.kind(w) == VertexKind::Free ? merge(w, v, touched) : merge(v, w, touched)) return true;
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -26,7 +27,7 @@ class VertexOps {
 
   // From now on rejects any flip that involves a bad triangle: an input angle may excuse that triangle but not the one
   // that the flip would make.
-  void keepBadInPlace() { bad_stays_ = true; }
+  void keepBadInPlace();
 
   // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
   // differ: the region of good places is found exactly, and a vertex on a segment slides along it.
@@ -62,6 +63,11 @@ class VertexOps {
 
     void clear();
   };
+  // A triangle of the star of a free vertex: scalar products at its corners, of link edge x -> y and the vertex, and
+  // twice its area.
+  struct FanTriangle {
+    double at_x, at_y, at_vertex, area;
+  };
   // Whether the flips that follow a change may make triangles that no one has tested.
   enum class Flips { Watched, Any };
 
@@ -70,10 +76,14 @@ class VertexOps {
   bool appendStar(VertexId v, VertexId other, VertexId stays, Star& star);
   bool relocateFree(VertexId v, std::vector<TriId>& touched);
   bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
+  bool hasTooManyTogether(VertexId v, VertexId w) const;
   bool cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside);
   bool cannotMergeOnto(VertexId v, const Ring& ring, VertexId w);
   std::optional<Point> placeTowards(const Point& to, const Frame& frame, const Point& here,
-                                    std::span<const LinkEdge> link) const;
+                                    std::span<const LinkEdge> link);
+  bool fitsAt(const Point& place, std::span<const LinkEdge> link);
+  bool isBesideBad(VertexId v, const Ring& ring) const;
+  bool needsFlips(VertexId v, const Ring& ring) const;
   template <typename Accept>
   bool removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
   template <typename Accept>
@@ -97,6 +107,9 @@ class VertexOps {
   const TriangleBound& bound_;
   bool clear_of_frozen_ = false;
   bool bad_stays_ = false;
+  // One a vertex, in the plane: whether it was a corner of a bad triangle when these were to stay. No other triangle
+  // gets bad: flips keep the smallest angle.
+  std::vector<std::uint8_t> at_bad_;
   std::size_t most_triangles_;  // no vertex can have more round it without a bad one among them
   bool flips_may_harm_;         // they keep the smallest angle, but not the largest, nor the longest edge
 
@@ -111,6 +124,7 @@ class VertexOps {
     std::vector<VertexId> neighbours, polygon;
     std::vector<Corners> fresh, fresh_beyond;
     std::vector<LinkEdge> link, framed_link;
+    std::vector<FanTriangle> fan;
   } memory_;
 };
 
