@@ -22,10 +22,20 @@ double leastAngleDeg(const Point& a, const Point& b, const Point& c) {
   return toDegrees(at_b >= at_c ? angleAt(b, c, a) : angleAt(c, a, b));
 }
 
+namespace {
+
+// Products of sides, of which the smallest is at the largest angle. Never the negative zero that corners at one place
+// have: its angle would be 180° at every corner.
+std::array<double, 3> cornerProducts(const SpacePoint& ab, const SpacePoint& bc, const SpacePoint& ca) {
+  return {0.0 - dot(ab, ca), 0.0 - dot(ab, bc), 0.0 - dot(bc, ca)};
+}
+
+}  // namespace
+
 std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
   const SpacePoint ab = b - a, bc = c - b, ca = a - c;
   const double twice_area = lengthOf(cross(ab, bc));
-  const std::array<double, 3> cosines{-dot(ab, ca), -dot(ab, bc), -dot(bc, ca)};
+  const std::array<double, 3> cosines = cornerProducts(ab, bc, ca);
   const auto largest = static_cast<std::size_t>(std::ranges::min_element(cosines) - cosines.begin());
   std::array<double, 3> angles{};
   double left = 180.0;
@@ -37,7 +47,7 @@ std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, c
 
 double leastSpaceAngleDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
   const SpacePoint ab = b - a, bc = c - b, ca = a - c;
-  return toDegrees(std::atan2(lengthOf(cross(ab, bc)), std::max({-dot(ab, ca), -dot(ab, bc), -dot(bc, ca)})));
+  return toDegrees(std::atan2(lengthOf(cross(ab, bc)), std::ranges::max(cornerProducts(ab, bc, ca))));
 }
 
 std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Point& c, const Surface& surface) {

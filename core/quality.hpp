@@ -19,7 +19,8 @@ std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c);
 // The smallest of them.
 double leastAngleDeg(const Point& a, const Point& b, const Point& c);
 
-// The same of the flat triangle between places in space, and on the sphere that a plane stands for.
+// The same of the flat triangle between places in space, and on the sphere that a plane stands for. Places may be
+// equal: the angles are 0°, 0° and 180° then.
 std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);
 double leastSpaceAngleDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);
 std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Point& c, const Surface& surface);

@@ -144,7 +144,7 @@ void writeVectorLayers(const std::string& path, const Crs& crs, const std::vecto
   OgrErrors errors;
   // A GeoPackage notes when it was written; the same input has to give the same bytes.
   const OgrOption date("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
-  GDALAllRegister();
+  registerDrivers();
 
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(formatOf(path).driver);
   if (driver == nullptr) {

@@ -112,18 +112,24 @@ std::vector<ConfigEntry> readJson(const std::string& file, const std::string& te
 struct BareParts {
   std::size_t dots = 0;
   std::optional<std::size_t> foreign;  // the first byte that is no ASCII
+  std::optional<std::size_t> stray;    // the first quote that begins no text, as it stands within a word
 };
 
 // The library frees tables within tables by recursion, and dotted names may nest as many as there are dots, each of
-// which opens at most one. And letters beyond ASCII it takes for what cannot be, where it looks for the end of a name.
+// which opens at most one. And letters beyond ASCII it takes for what cannot be, where it looks for the end of a name
+// or of a number, quotes and all.
 BareParts barePartsOf(std::string_view text) {
   BareParts parts;
-  for (std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < text.size(); ++at) {
+  const std::size_t first = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  for (std::size_t at = first; at < text.size(); ++at) {
     const char c = text[at];
     if (c == '.') ++parts.dots;
     if (static_cast<unsigned char>(c) >= 0x80 && !parts.foreign) parts.foreign = at;
     if (c == '#') at = std::min(text.find('\n', at), text.size());
     if (c != '"' && c != '\'') continue;
+    constexpr std::string_view kBeforeTexts = " \t\n=[{,.";
+    const bool within_word = at > first && kBeforeTexts.find(text[at - 1]) == std::string_view::npos;
+    if (within_word && !parts.stray) parts.stray = at;
     const bool tripled = text.substr(at, 3) == std::string(3, c);
     const std::string end(tripled ? 3 : 1, c);
     for (at += end.size(); at < text.size() && text.substr(at, end.size()) != end; ++at) {
@@ -178,11 +184,12 @@ std::vector<ConfigEntry> readToml(const std::string& file, const std::string& te
   constexpr std::size_t kMostDots = 10'000;
   const BareParts bare = barePartsOf(text);
   if (bare.dots > kMostDots) refuseDepth(file);
-  if (bare.foreign) {
-    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*bare.foreign), '\n') + 1;
-    throw OptionError(file + ": line " + std::to_string(line) +
-                      " is not TOML: letters beyond ASCII stand in texts and comments alone");
-  }
+  const auto refuseAt = [&](std::size_t at, const std::string& why) {
+    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+    throw OptionError(file + ": line " + std::to_string(line) + " is not TOML: " + why);
+  };
+  if (bare.foreign) refuseAt(*bare.foreign, "letters beyond ASCII stand in texts and comments alone");
+  if (bare.stray) refuseAt(*bare.stray, "a quote stands within a word");
   toml::table table;
   try {
     table = toml::parse(text);

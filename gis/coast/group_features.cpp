@@ -82,7 +82,8 @@ bool belongTogether(const FeatureIndex& small, const FeatureIndex& large) {
   if (!near) {  // the whole of `small` lies in one face of `large`: any of its points tells
     if (large.rings.edgeCount() == 0) return false;
     const ChainIndex& any = small.rings.edgeCount() > 0 ? small.rings : small.lines;
-    return large.rings.locate(any.chainStart(0)) == Location::Inside;
+    // A ring of one point has no edges: nothing is known to belong to it.
+    return any.chainCount() > 0 && large.rings.locate(any.chainStart(0)) == Location::Inside;
   }
   return edgesMeet(small.rings, large.rings) || edgesMeet(small.rings, large.lines) ||
          edgesMeet(small.lines, large.rings) || edgesMeet(small.lines, large.lines) ||

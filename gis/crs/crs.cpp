@@ -66,7 +66,10 @@ Crs parseCrs(const std::string& text) {
   return crs;
 }
 
-Crs wgs84() { return parseCrs("EPSG:4326"); }
+Crs wgs84() {
+  static const Crs crs = parseCrs("EPSG:4326");  // PROJ looks it up in a database
+  return crs;
+}
 
 bool sameCrs(const Crs& a, const Crs& b) {
   if (a.wkt == b.wkt) return true;

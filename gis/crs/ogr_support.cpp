@@ -2,6 +2,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <gdal.h>
 
 #include <cassert>
 #include <exception>
@@ -34,6 +35,8 @@ void OgrErrors::clear() {
   failed_ = false;
   text_.clear();
 }
+
+void registerDrivers() { [[maybe_unused]] static const bool registered = (GDALAllRegister(), true); }
 
 OgrOption::OgrOption(const char* name, const char* value) : name_(name) {
   const char* before = CPLGetThreadLocalConfigOption(name, nullptr);

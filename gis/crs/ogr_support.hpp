@@ -41,6 +41,10 @@ class OgrOption {
   bool was_set_;
 };
 
+// Makes GDAL's drivers known. GDAL itself goes through all of them whenever it is asked, which takes as long as opening
+// a small file does; here only the first call does anything.
+void registerDrivers();
+
 // With x = easting or longitude. REQUIRES: not a plane.
 OGRSpatialReference toOgr(const Crs& crs);
 

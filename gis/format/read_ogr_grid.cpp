@@ -64,7 +64,7 @@ class LayerReader {
 };
 
 DatasetPtr open(const std::string& path, const OgrErrors& errors) {
-  GDALAllRegister();
+  registerDrivers();
   DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!dataset) throw InputError("cannot read '" + path + "'" + (errors.text().empty() ? "" : ": " + errors.text()));
   return dataset;

@@ -141,7 +141,7 @@ void failToWrite(const std::string& path, const OgrErrors& errors) {
 }
 
 DatasetPtr createDataset(const OgrWriter& writer, const std::string& path, const OgrErrors& errors) {
-  GDALAllRegister();
+  registerDrivers();
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(writer.driver);
   if (driver == nullptr) throw OutputError("cannot write '" + path + "': this GDAL has no driver " + writer.driver);
   DatasetPtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));

@@ -50,7 +50,7 @@ struct RasterBand::Dataset {
 RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>()) {
   geometry_.path = std::move(path);
   const std::string& name = geometry_.path;
-  GDALAllRegister();
+  registerDrivers();
   const OgrErrors errors;
   if (GDALGetCacheMax64() > kCacheBytes) GDALSetCacheMax64(kCacheBytes);
   Dataset& raster = *dataset_;

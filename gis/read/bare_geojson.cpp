@@ -1,10 +1,13 @@
 #include "gis/read/bare_geojson.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -209,7 +212,13 @@ class GeometryHandler : public nlohmann::json_sax<nlohmann::json> {
 // half of its time on that.
 class FileBytes {
  public:
-  explicit FileBytes(const std::string& path) : file_(path, std::ios::binary), block_(kBlock) { next(); }
+  // A small file takes no more than its size, and no memory is cleared that is written next.
+  FileBytes(const std::string& path, std::uintmax_t size)
+      : file_(path, std::ios::binary),
+        block_size_(static_cast<std::size_t>(std::clamp<std::uintmax_t>(size, kLeastBlock, kBlock))),
+        block_(std::make_unique_for_overwrite<char[]>(block_size_)) {
+    next();
+  }
 
   bool atEnd() const { return at_ == end_; }
   char byte() const { return block_[at_]; }
@@ -218,16 +227,17 @@ class FileBytes {
   }
 
  private:
-  static constexpr std::size_t kBlock = 1 << 18;
+  static constexpr std::size_t kLeastBlock = 1 << 12, kBlock = 1 << 18;
 
   void next() {
-    file_.read(block_.data(), kBlock);
+    file_.read(block_.get(), static_cast<std::streamsize>(block_size_));
     at_ = 0;
     end_ = static_cast<std::size_t>(file_.gcount());
   }
 
   std::ifstream file_;
-  std::vector<char> block_;
+  std::size_t block_size_;
+  std::unique_ptr<char[]> block_;
   std::size_t at_ = 0, end_ = 0;
 };
 
@@ -258,7 +268,9 @@ class ByteIterator {
 std::optional<GeometryParts> readBareGeojson(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe can be read but once
-  FileBytes file(path);
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return std::nullopt;
+  FileBytes file(path, size);
   GeometryHandler handler;
   if (!nlohmann::json::sax_parse(ByteIterator(&file), ByteIterator(nullptr), &handler)) return std::nullopt;
   return std::move(handler).result();

@@ -143,7 +143,7 @@ std::pair<std::string, std::string> splitLayer(const std::string& path) {
 }  // namespace
 
 OpenSource openSource(const std::string& given, const std::vector<std::string>& wanted, const OgrErrors& errors) {
-  GDALAllRegister();
+  registerDrivers();
   const auto [file, layer_of_file] = splitLayer(given);
   OpenSource source;
   source.name = isStandardInput(file) ? "standard input" : file;

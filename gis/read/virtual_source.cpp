@@ -32,7 +32,7 @@ bool isVirtual(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> filesBehind(const std::string& name) {
-  GDALAllRegister();
+  registerDrivers();
   const OgrErrors caught;  // who reads it will report what is wrong
   std::vector<std::string> names{name};
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -168,7 +168,7 @@ class FeatureReader {
 }  // namespace
 
 SizedFeatures readSizedFeatures(const std::string& source, const Crs& crs, double usual_rate) {
-  GDALAllRegister();
+  registerDrivers();
   const OgrErrors errors;
   const std::unique_ptr<GDALDataset> dataset(
       GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));

@@ -109,6 +109,18 @@ TEST(MeasureQuality, InSpaceTheTrianglesThereCount) {
   EXPECT_EQ(measureQuality(mesh, 60.1, 180.0, inOrder, places).bounds.below, 1u);
 }
 
+// Readers hand in what a file has: corners at one place of the Earth, and all three of them there.
+TEST(SpaceAnglesDeg, OfEqualCornersAddUpTo180) {
+  const SpacePoint a{0.3, -0.4, 0.5}, b{0.1, 0.2, -0.9};
+  for (const auto& [p, q, r] : {std::array{a, a, a}, {b, a, a}, {a, b, a}, {a, a, b}}) {
+    const auto angles = spaceAnglesDeg(p, q, r);
+    EXPECT_EQ(angles[0] + angles[1] + angles[2], 180.0);
+    EXPECT_EQ(std::ranges::min(angles), 0.0);
+    EXPECT_EQ(std::ranges::max(angles), 180.0);
+    EXPECT_EQ(leastSpaceAngleDeg(p, q, r), 0.0);
+  }
+}
+
 // Of a sphere of radius 1: its places by the formula of the projection.
 TEST(SurfaceAnglesDeg, AreThoseOfChords) {
   const Surface sphere = Surface::sphere(1.0);

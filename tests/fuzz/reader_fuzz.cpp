@@ -1,19 +1,40 @@
 // libFuzzer target: bytes become the files of a reader, which `--reader=NAME` says; see reader_cases.hpp.
+#include <gdal_priv.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <string>
+#include <string_view>
 
+#include "gis/crs/ogr_support.hpp"
 #include "tests/fuzz/reader_cases.hpp"
 
 namespace {
 
 const coastmesh::ReaderCase* g_reader = nullptr;
+
+// GDAL asks each of its two hundred drivers what a file is; what others than ours do with files that are none of theirs
+// is not looked for here.
+void keepDrivers() {
+  constexpr std::string_view kOurs[] = {"GPKG",           "GeoJSON", "GeoJSONSeq", "ESRIJSON", "TopoJSON",
+                                        "ESRI Shapefile", "AAIGrid", "GTiff",      "MEM",      "Memory"};
+  coastmesh::registerDrivers();
+  GDALDriverManager& drivers = *GetGDALDriverManager();
+  for (int i = drivers.GetDriverCount() - 1; i >= 0; --i) {
+    GDALDriver* const driver = drivers.GetDriver(i);
+    if (std::ranges::find(kOurs, std::string_view(driver->GetDescription())) == std::end(kOurs)) {
+      drivers.DeregisterDriver(driver);
+      GDALDestroyDriver(driver);
+    }
+  }
+}
 
 // A folder of this process in memory, removed at its end.
 class Folder {
@@ -45,6 +66,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     std::fprintf(stderr, "\n");
     std::exit(2);
   }
+  keepDrivers();
   return 0;
 }
 

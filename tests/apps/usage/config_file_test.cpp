@@ -156,6 +156,21 @@ TEST_F(ConfigFile, LettersBeyondAsciiStandInTextsAndComments) {
   }
 }
 
+// Nor would the library see the end of the number before the letter.
+TEST_F(ConfigFile, AQuoteWithinAWordBeginsNoText) {
+  for (const char* const text : {"\nsize-max = 2_'\u00e9'\n", "\ntitle = it's \u00e9\n", "\noutput = \"a\"'b'\n"}) {
+    try {
+      taken(write("b.toml", text));
+      ADD_FAILURE() << text;
+    } catch (const OptionError& error) {
+      EXPECT_NE(std::string(error.what()).find("line 2 is not TOML: a quote stands within a word"), std::string::npos)
+          << error.what();
+    }
+  }
+  const auto job = taken(write("a.toml", "output=['a.nc',\"b.nc\"]\n\"quiet\"=true\n"));
+  EXPECT_THAT(job->outputs, ElementsAre("a.nc", "b.nc"));
+}
+
 TEST_F(ConfigFile, SwitchesByTheirOtherName) {
   EXPECT_FALSE(taken(write("a.toml", "no-coarsen = true\n"))->coarsen);
   EXPECT_TRUE(taken(write("a.toml", "no_coarsen = false\n"))->coarsen);

@@ -55,6 +55,12 @@ TEST(GroupFeatures, AFeatureOfWhichOnlyAPartLiesInAnother) {
   EXPECT_EQ(group({two_parts, polygonFeature(1, square(0, 0, 9))}), (Groups{{0, 1}}));
 }
 
+// Such a ring has no edges, by which the others are told.
+TEST(GroupFeatures, ARingOfOnePointBelongsToNothing) {
+  EXPECT_EQ(group({polygonFeature(0, square(0, 0, 9)), polygonFeature(1, {{2, 1}}), polygonFeature(2, {})}),
+            (Groups{{0}, {1}, {2}}));
+}
+
 TEST(GroupFeatures, LinesJoinWhatTheyTouch) {
   EXPECT_EQ(group({polygonFeature(0, square(0, 0, 1)), polygonFeature(1, square(4, 0, 1)),
                    lineFeature(2, {{1, 0.5}, {4, 0.5}})}),

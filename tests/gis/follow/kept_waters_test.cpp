@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gis/coast/segment_tags.hpp"
+#include "gis/follow/coast_follow.hpp"
+#include "tests/support/followed_coasts.hpp"
+
+namespace coastmesh {
+namespace {
+
+TEST(FollowSizes, OfWaterThatIsCutApartWhatIsAskedForStays) {
+  const auto followed = [](KeepWater keep, bool open_to_the_east) {
+    Domain domain = twoLakes(0.6);
+    for (const VertexId v : {0u, 11u, 10u})
+      domain.pslg.points[v].x -= v == 10 ? 0.0 : 5.0;  // the western one is larger
+    domain.input_points = domain.pslg.points;
+    if (open_to_the_east) domain.pslg.segments[5].tag = kOpenTag;
+    CleanReport report;
+    Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
+    const std::vector<std::string>& texts = keep == KeepWater::All ? report.notes : report.warnings;
+    EXPECT_EQ(texts.size(), 1u);
+    EXPECT_NE(texts.front().find("behind water 0.6 wide at ("), std::string::npos) << texts.front();
+    EXPECT_NE(texts.front().find("--passages"), std::string::npos) << texts.front();
+    EXPECT_EQ(countOf(report, EditKind::CutOffWater), keep == KeepWater::All ? 0u : 1u);
+    return coarse;
+  };
+  EXPECT_EQ(parts(followed(KeepWater::All, true)), 2u);
+  const Domain largest = followed(KeepWater::Largest, true), open = followed(KeepWater::Open, true),
+               none_open = followed(KeepWater::Open, false);
+  for (const Point& p : largest.pslg.points) EXPECT_LT(p.x, 25.0);
+  for (const Point& p : open.pslg.points) EXPECT_GT(p.x, 25.0);
+  for (const Point& p : none_open.pslg.points) EXPECT_LT(p.x, 25.0);
+}
+
+// A large lake, and one beside it at an open boundary.
+TEST(FollowSizes, AFrameThatGrazesAnotherWaterDoesNotDropTheOneThatIsMeant) {
+  for (const double side : {12.0, 20.0}) {
+    Domain domain;
+    addShore(domain, {{0, 0}, {40, 0}, {40, 40}, {0, 40}});
+    addShore(domain, {{50, 0}, {50 + side, 0}, {50 + side, side}, {50, side}});
+    domain.pslg.segments[5].tag = kOpenTag;
+    for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open}) {
+      CleanReport report;
+      const Domain coarse = followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
+      const bool grazed = side == 12.0 && keep == KeepWater::Modelled;  // 144 of 1744, 400 of 2000
+      for (const Point& p : coarse.pslg.points) EXPECT_EQ(p.x < 45.0, grazed) << side;
+      ASSERT_EQ(report.warnings.size(), 1u);
+      EXPECT_NE(report.warnings[0].find(grazed ? "144 (8.3 %) of the water is left out" : "1.6e+03"), std::string::npos)
+          << report.warnings[0];
+      EXPECT_EQ(report.warnings[0].find("which has an open boundary") != std::string::npos, grazed);
+      EXPECT_NE(report.warnings[0].find("nothing joins to them in the data"), std::string::npos);
+    }
+  }
+}
+
+// Two lakes of two features: each is judged by itself, whichever comes first.
+TEST(FollowSizes, TheLakeOfAnotherFeatureStays) {
+  for (const bool large_first : {true, false}) {
+    Domain domain;
+    addShore(domain, {{0, 0}, {40, 0}, {40, 40}, {0, 40}});
+    addShore(domain, {{50, 0}, {62, 0}, {62, 12}, {50, 12}});
+    for (SegmentId s = 0; s < 8; ++s) domain.pslg.segments[s].left = (s < 4) == large_first ? 0 : 1;
+    Coastline coast = oneFeature();
+    coast.features.emplace_back();
+    for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open, KeepWater::Largest}) {
+      CleanReport report;
+      const Domain coarse = followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, coast, report);
+      EXPECT_EQ(parts(coarse), 2u);
+      EXPECT_EQ(countOf(report, EditKind::CutOffWater), 0u);
+    }
+  }
+}
+
+// The same with an open boundary at both: the small one is left out, unless it is asked for.
+TEST(FollowSizes, AFrameThatGrazesAWaterBesideTheSeaLeavesOneWater) {
+  Domain domain;
+  addShore(domain, {{0, 0}, {40, 0}, {40, 40}, {0, 40}});
+  addShore(domain, {{50, 0}, {62, 0}, {62, 12}, {50, 12}});
+  for (const SegmentId s : {3u, 5u}) domain.pslg.segments[s].tag = kOpenTag;
+  for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open}) {
+    CleanReport report;
+    EXPECT_EQ(parts(followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report)),
+              keep == KeepWater::Open ? 2u : 1u);
+    EXPECT_EQ(countOf(report, EditKind::CutOffWater), keep == KeepWater::Open ? 0u : 1u);
+  }
+}
+
+// Water whose opening is too short for an element would be left without any.
+TEST(FollowSizes, AShortOpeningKeepsNoWater) {
+  Domain domain = twoLakes(0.6);
+  domain.pslg.segments[5].tag = kOpenTag;  // the eastern side of the eastern lake
+  const auto count = static_cast<VertexId>(domain.pslg.points.size());
+  domain.pslg.points.push_back({0, 10.3});
+  domain.pslg.points.push_back({0, 9.7});
+  domain.pslg.segments[11].b = count;
+  domain.pslg.segments.push_back({count, count + 1, kOpenTag, 0, kOutside});
+  domain.pslg.segments.push_back({count + 1, 0, 0, 0, kOutside});
+  domain.input_points = domain.pslg.points;
+  CleanReport report;
+  const Domain coarse =
+      followSizes(std::move(domain), ConstantSize(2.0), {.keep = KeepWater::Open}, oneFeature(), report);
+  EXPECT_EQ(countOf(report, EditKind::CutOffWater), 1u);
+  for (const Point& p : coarse.pslg.points) EXPECT_GT(p.x, 25.0);
+}
+
+}  // namespace
+}  // namespace coastmesh
