@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/optimise/optimiser.hpp"
-#include "core/optimise/triangle_cost.hpp"
 #include "core/predicates.hpp"
 
 namespace coastmesh {
@@ -18,6 +17,11 @@ constexpr double kPoorWeight = 5.0, kLeastGain = 0.02;
 // A patch holds what touches the triangle, and what touches that; in it every vertex gets so many turns.
 constexpr unsigned kRings = 2;
 constexpr int kTurns = 5;
+// A vertex is not taken out where more triangles meet than these, or its edges are shorter in the mean than this share
+// of the length wanted; none comes into a triangle with a smaller share of the area wanted. Of what else was tried one
+// in a thousand was taken.
+constexpr std::size_t kMostTriangles = 6;
+constexpr double kLeastRemoved = 0.8, kLeastDivided = 0.8;
 // What costs so much more than it should after the first of them is given up.
 constexpr int kFirstTurns = 2;
 constexpr double kHopeless = 0.25;
@@ -25,7 +29,7 @@ constexpr double kHopeless = 0.25;
 // decides on a model's time step.
 constexpr double kShort = 0.6;
 // So many patches at most, as a share of the triangles: where more are poor the input is finer than what is wanted.
-constexpr double kMostPatches = 0.03;
+constexpr double kMostPatches = 0.02;
 // In place of a corner: a vertex comes into the middle, not to where an edge is that of an equilateral triangle.
 constexpr unsigned kCentre = 3;
 
@@ -40,6 +44,7 @@ Optimiser::Optimiser(const Submesh& patch, const Optimiser& parent)
       mesh_(TriMesh(patch.mesh)),
       ops_(mesh_, pslg_, bound_),
       exchange_(mesh_, ops_, bound_, wanted_),
+      clear_shape_(parent.clear_shape_),
       flips_may_harm_(parent.flips_may_harm_),
       is_submesh_(true),
       mends_poor_(true),
@@ -54,18 +59,31 @@ double Optimiser::shapeOfTriangle(TriId t) const {
   return shapeOf(frame.to(mesh_.point(v[0])), frame.to(mesh_.point(v[1])), frame.to(mesh_.point(v[2])));
 }
 
+// Whether a triangle's shape is poor, or it lacks what the goal asks. Links between two triangles that are not poor are
+// long enough but where the goal is links.
+bool Optimiser::isPoor(TriId t) const {
+  if (goal_ == QualityGoal::Links || shapeOfTriangle(t) < kPoorShape) return true;
+  if (goal_ != QualityGoal::Centred) return false;
+  const Corners& v = mesh_.triangle(t).v;
+  const Frame frame(bound_.surface, mesh_.point(v[0]));
+  return centrednessOf(frame.to(mesh_.point(v[0])), frame.to(mesh_.point(v[1])), frame.to(mesh_.point(v[2]))) <
+         kEnoughCentred;
+}
+
 // What all triangles cost beyond equilateral ones; infinite where one breaks a bound.
 double Optimiser::costOfAll() const {
   double sum = 0.0;
   for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
     if (!mesh_.isLive(t)) continue;
     const Corners& v = mesh_.triangle(t).v;
-    if (isBad(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), bound_))
-      return std::numeric_limits<double>::infinity();
     const Frame frame(bound_.surface, mesh_.point(v[0]));
     const Point a = frame.to(mesh_.point(v[0])), b = frame.to(mesh_.point(v[1])), c = frame.to(mesh_.point(v[2]));
-    sum += costOf(a, b, c, (wanted_[v[0]] + wanted_[v[1]] + wanted_[v[2]]) / 3.0) - kLeastTriangleCost +
-           kPoorWeight * std::max(0.0, kPoorShape - shapeOf(a, b, c));
+    const double doubled = cross(b - a, c - a), squares = squaresOf(a, b, c);
+    if (doubled <= 0.0 ||
+        (!isClear(doubled, squares) && isBad(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), bound_)))
+      return std::numeric_limits<double>::infinity();
+    sum += costOf(doubled, squares, (wanted_[v[0]] + wanted_[v[1]] + wanted_[v[2]]) / 3.0) - kLeastTriangleCost +
+           kPoorWeight * std::max(0.0, kPoorShape - 2.0 * kRootOfThree * doubled / squares);
   }
   return sum;
 }
@@ -86,7 +104,7 @@ double Optimiser::goalOfAll() const {
       const EdgeRef beyond = mesh_.twin(edgeRef(t, i));
       if (beyond == kNone || beyond < edgeRef(t, i)) continue;
       const Point apex = frame.to(mesh_.point(mesh_.apex(beyond)));
-      least = std::min(least, linkShareOf(seen[next3(i)], seen[prev3(i)], seen[i], apex) / enoughLink());
+      least = std::min(least, linkGoal(seen[next3(i)], seen[prev3(i)], seen[i], apex));
     }
   }
   return least;
@@ -99,6 +117,27 @@ void Optimiser::noteAdded(VertexId v) {
   active_[v] = 1;
   if (!due_.empty()) due_[v] = 1;
   wanted_[v] = wantedAt(v);
+}
+
+// Whether a change of the first triangle of a patch may do any good.
+bool Optimiser::isWorthTrying(const Trial& trial) {
+  constexpr TriId kFirst = 0;
+  const Corners& v = mesh_.triangle(kFirst).v;
+  if (trial.change == Change::Insert) {
+    const double wanted = (wanted_[v[0]] + wanted_[v[1]] + wanted_[v[2]]) / 3.0;
+    const Frame frame(bound_.surface, mesh_.point(v[0]));
+    const Point a = frame.to(mesh_.point(v[0])), b = frame.to(mesh_.point(v[1])), c = frame.to(mesh_.point(v[2]));
+    return cross(b - a, c - a) > kLeastDivided * 0.5 * kRootOfThree * wanted * wanted;
+  }
+  if (trial.change == Change::Split) return mesh_.segment(edgeRef(kFirst, trial.corner)) < pslg_.segments.size();
+  if (trial.change != Change::Remove) return true;
+  const VertexId u = v[trial.corner];
+  if (mesh_.kind(u) != VertexKind::Free) return mesh_.kind(u) != VertexKind::Input;
+  mesh_.star(u, star_);
+  if (star_.size() > kMostTriangles) return false;
+  double sum = 0.0;
+  for (const EdgeRef e : star_) sum += std::sqrt(squaredLengthOf(u, mesh_.origin(e)));
+  return sum > kLeastRemoved * wanted_[u] * static_cast<double>(star_.size());
 }
 
 // Does to the first triangle of a patch what is to be tried. Returns false where that cannot be.
@@ -165,18 +204,20 @@ bool Optimiser::wouldFlip(const Submesh& patch, const TriMesh& solved) const {
   return false;
 }
 
-// The shortest edge, as a share of the length wanted there.
+// The shortest edge, as a share of the length wanted there. What is noted at vertices of a shore is less where the
+// shore is finer.
 double Optimiser::shortestShare() const {
   double least = std::numeric_limits<double>::infinity();
-  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
-    if (!mesh_.isLive(t)) continue;
-    const Corners& v = mesh_.triangle(t).v;
-    for (unsigned i = 0; i < 3; ++i) {
-      const VertexId a = v[next3(i)], b = v[prev3(i)];
-      const Point middle = midpoint(mesh_.point(a), mesh_.point(b));
-      least = std::min(least, bound_.surface.chord(mesh_.point(a), mesh_.point(b)) / size_->at(middle));
-    }
-  }
+  const auto look = [&](EdgeRef e) {
+    if (const EdgeRef twin = mesh_.twin(e); twin != kNone && twin < e) return;
+    const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+    const bool is_inside = mesh_.kind(a) == VertexKind::Free && mesh_.kind(b) == VertexKind::Free;
+    const double wanted =
+        is_inside ? 0.5 * (wanted_[a] + wanted_[b]) : size_->at(midpoint(mesh_.point(a), mesh_.point(b)));
+    least = std::min(least, bound_.surface.chord(mesh_.point(a), mesh_.point(b)) / wanted);
+  };
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
+    for (unsigned i = 0; i < 3 && mesh_.isLive(t); ++i) look(edgeRef(t, i));
   return least;
 }
 
@@ -187,14 +228,22 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
                                   Trial{Change::Insert, 1}, Trial{Change::Insert, 2},       Trial{Change::Split, 0},
                                   Trial{Change::Split, 1},  Trial{Change::Split, 2}};
   std::optional<TriMesh> best;
-  const Optimiser as_it_is(patch, *this);
+  Optimiser as_it_is(patch, *this);
   double least = as_it_is.costOfAll() - kLeastGain;
   if (std::isinf(least)) return best;
-  const double held = as_it_is.goalOfAll(), shortest = std::min(kShort, as_it_is.shortestShare());
+  const double held = as_it_is.goalOfAll();
+  // Worked out once anything is to be compared with it.
+  double known_shortest = std::numeric_limits<double>::quiet_NaN();
+  const auto shortest = [&] {
+    if (std::isnan(known_shortest)) known_shortest = std::min(kShort, as_it_is.shortestShare());
+    return known_shortest;
+  };
   // Pieces of a mesh cannot know what is left of a budget that they share.
-  const bool may_grow = options_.max_vertices > std::numeric_limits<std::uint64_t>::max() / 2 && shortest >= kShort;
+  const bool is_free_to_grow = options_.max_vertices > std::numeric_limits<std::uint64_t>::max() / 2;
   for (const Trial& trial : kTrials) {
-    if (!may_grow && (trial.change == Change::Insert || trial.change == Change::Split)) continue;
+    if (!as_it_is.isWorthTrying(trial)) continue;
+    const bool grows = trial.change == Change::Insert || trial.change == Change::Split;
+    if (grows && (!is_free_to_grow || shortest() < kShort)) continue;
     Optimiser other(patch, *this);
     if (!other.change(trial)) continue;
     const auto turn = [&](int times) {
@@ -204,7 +253,7 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
     if (other.costOfAll() > least + kHopeless) continue;
     turn(kTurns - kFirstTurns);
     const double cost = other.costOfAll();
-    if (!(cost < least) || other.goalOfAll() < held || other.shortestShare() < shortest) continue;
+    if (!(cost < least) || other.goalOfAll() < held || other.shortestShare() < shortest()) continue;
     TriMesh solved = other.release();
     if (wouldFlip(patch, solved)) continue;
     least = cost;

@@ -10,7 +10,7 @@ namespace coastmesh {
 
 // How often every vertex gets its turn: where lengths are wanted, and where a mesh as good as it gets is asked for
 // besides. Vertices at rest are passed over, so that later sweeps cost less.
-inline constexpr int kOptimiseSweeps = 10, kMostOptimiseSweeps = 30;
+inline constexpr int kOptimiseSweeps = 6, kMostOptimiseSweeps = 30;
 
 // Makes triangles as near to equilateral, vertices as near to six neighbours and edges as near to the lengths wanted as
 // it can: moves free vertices, merges those too near to one another or with too few neighbours, exchanges diagonals.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/optimise/triangle_cost.hpp"
 #include "core/predicates.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/submesh_runs.hpp"
@@ -17,13 +16,30 @@ constexpr double kShortest = 0.7;
 constexpr int kAttempts = 3;
 // More triangles than that are not looked at round a vertex.
 constexpr std::size_t kMostRound = 64;
-// Moves by less than this share of the length wanted are not worth it.
-constexpr double kStill = 0.01;
+// Moves by less than this share of the length wanted are not worth it; by less than the other, no neighbour has to look
+// again.
+constexpr double kStill = 0.02, kStirs = 0.05;
+// In the first sweeps vertices are tried so much farther than the place they aim at, which their neighbours' moves will
+// shift the same way: successive over-relaxation.
+constexpr double kBeyond = 1.5;
+constexpr int kFarSweeps = 4;
 // Vertices rest for so many sweeps before their numbers of neighbours count, and for so many at the end.
-constexpr int kFirstBalance = 2, kSettle = 3;
+constexpr int kFirstBalance = 1, kSettle = 2;
 // Poor triangles are mended in the second half of the sweeps, as long as they gain so much and their star costs no more
 // than a little more.
 constexpr double kLeastGain = 0.002, kMostCost = 1.005;
+
+// What so many more triangles round a vertex add to the square of its excess.
+int imbalanceAdded(int excess, int more) { return more * (2 * excess + more); }
+
+// Shapes from which on no angle can break its bound; infinite where lengths are bound too.
+double clearShapeOf(const TriangleBound& bound) {
+  constexpr double kRounding = 1e-9, kCurved = 1e-3;  // of shapes in the plane, and of those that a frame shows
+  if (!std::isinf(bound.squared_size)) return std::numeric_limits<double>::infinity();
+  double shape = bestShapeWith(bound.min_angle);
+  if (bound.max_angle < std::numbers::pi) shape = std::max(shape, bestShapeWith(bound.max_angle));
+  return shape + (bound.surface.isCurved() ? kCurved : kRounding);
+}
 
 }  // namespace
 
@@ -36,6 +52,7 @@ Optimiser::Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& opti
       mesh_(std::move(mesh)),
       ops_(mesh_, pslg, bound_),
       exchange_(mesh_, ops_, bound_, wanted_),
+      clear_shape_(clearShapeOf(bound_)),
       flips_may_harm_(bound_.max_angle < std::numbers::pi || !std::isinf(bound_.squared_size)),
       wanted_(mesh_.vertexSlots(), 0.0),
       active_(mesh_.vertexSlots(), 1) {
@@ -57,10 +74,12 @@ void Optimiser::run(int sweeps, const RunControl& control) {
   const auto shareOf = [&](int done) { return static_cast<double>(done) / all; };
   for (int k = 0; k < sweeps; ++k) {
     mends_poor_ = k >= sweeps / 2;
-    if (k == sweeps / 2) active_.assign(mesh_.vertexSlots(), 1);
+    if (k == sweeps / 2) wakePoor();
+    goes_far_ = k < kFarSweeps;
     const bool merges = k + 1 < sweeps;  // after a merge the vertices round it have to move
     sweep(merges, k >= kFirstBalance && k + kSettle < sweeps, control, shareOf(k), shareOf(k + 1));
   }
+  goes_far_ = false;
   if (size_ == nullptr) return;  // as few vertices as can be is what is wanted
   mendPoorest(control, shareOf(sweeps));
   for (int k = sweeps; k < all; ++k) sweep(false, false, control, shareOf(k), shareOf(k + 1));
@@ -167,16 +186,18 @@ double Optimiser::wantedAt(VertexId v) {
 // more than `limit` is due.
 double Optimiser::costRound(const Point& place, double wanted, double limit) const {
   constexpr double kTooMuch = std::numeric_limits<double>::infinity();
-  const bool curved = frame_.isCurved();
   const Point in_plane = frame_.from(place);
   double sum = 0.0;
-  Point a = mesh_.point(ring_.corners.front());
-  double size = wanted_[ring_.corners.front()];
+  Point a = seen(0);
+  double size = wantedOf(0);
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
-    const Point& b = corner(i + 1);
-    const double next = wantedOf(i + 1), mean = (wanted + size + next) / 3.0;
-    if (orient2d(a, b, in_plane) <= 0 || isBad(a, b, in_plane, bound_)) return kTooMuch;
-    sum += curved ? costOf(seen(i), seen(i + 1), place, mean) : costOf(a, b, place, mean);
+    const Point& b = seen(i + 1);
+    const double next = wantedOf(i + 1), doubled = cross(b - a, place - a), squares = squaresOf(a, b, place);
+    if (doubled <= 0.0) return kTooMuch;
+    if (!isClear(doubled, squares) &&
+        (orient2d(corner(i), corner(i + 1), in_plane) <= 0 || isBad(corner(i), corner(i + 1), in_plane, bound_)))
+      return kTooMuch;
+    sum += costOf(doubled, squares, (wanted + size + next) / 3.0);
     if (sum > limit) return kTooMuch;
     a = b;
     size = next;
@@ -189,14 +210,16 @@ double Optimiser::costRound(const Point& place, double wanted, double limit) con
 double Optimiser::costHere(VertexId v, Point& centre) const {
   const Point here = frame_.to(mesh_.point(v));
   Point mean, a = seen(0);
-  double sum = 0.0, weight = 0.0, size = wanted_[ring_.corners.front()];
+  double sum = 0.0, weight = 0.0, size = wantedOf(0);
+  const double own_size = wanted_[v];
   bool breaks = false;
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const Point& b = seen(i + 1);
-    const double next = wantedOf(i + 1), wanted = (wanted_[v] + size + next) / 3.0;
-    breaks = breaks || isBad(corner(i), corner(i + 1), mesh_.point(v), bound_);
-    sum += costOf(a, b, here, wanted);
-    const double own = cross(a - here, b - here) / (wanted * wanted);
+    const double next = wantedOf(i + 1), wanted = (own_size + size + next) / 3.0;
+    const double doubled = cross(b - a, here - a), squares = squaresOf(a, b, here);
+    breaks = breaks || (!isClear(doubled, squares) && isBad(corner(i), corner(i + 1), mesh_.point(v), bound_));
+    sum += doubled > 0.0 ? costOf(doubled, squares, wanted) : std::numeric_limits<double>::infinity();
+    const double own = doubled / (wanted * wanted);
     mean = mean + own * (a - here + (b - here));
     weight += own;
     a = b;
@@ -221,7 +244,6 @@ double Optimiser::leastShape(const Point& place, std::size_t& at) const {
 // The least of what the goal asks round a vertex at `place`, over what is enough: 1 where nothing is left to do.
 // REQUIRES: every triangle of the star is counter-clockwise there.
 double Optimiser::goalAt(VertexId v, const Point& place) const {
-  const double enough_link = enoughLink();
   double least = 1.0;
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const Point &a = seen(i), &b = seen(i + 1);
@@ -229,11 +251,10 @@ double Optimiser::goalAt(VertexId v, const Point& place) const {
       least = std::min(least, centrednessOf(place, a, b) / kEnoughCentred);
       continue;
     }
-    if (!is_open_ || i + 1 < ring_.triangles.size())
-      least = std::min(least, linkShareOf(place, b, seen(i + 2), a) / enough_link);
+    if (!is_open_ || i + 1 < ring_.triangles.size()) least = std::min(least, linkGoal(place, b, seen(i + 2), a));
     const EdgeRef beyond = mesh_.twin(edgeRef(ring_.triangles[i], mesh_.cornerOf(ring_.triangles[i], v)));
     if (beyond == kNone) continue;
-    least = std::min(least, linkShareOf(a, b, place, frame_.to(mesh_.point(mesh_.apex(beyond)))) / enough_link);
+    least = std::min(least, linkGoal(a, b, place, frame_.to(mesh_.point(mesh_.apex(beyond)))));
   }
   return least;
 }
@@ -273,6 +294,10 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
     if (const std::optional<Point> place = placeForGoal(v, cost)) return place;
   const auto keepsGoal = [&](const Point& place) { return !mends_poor_ || goalAt(v, place) >= held; };
   const double still = kStill * wanted_[v];
+  if (goes_far_ && squaredDistance(here, to) >= still * still) {
+    const Point beyond = here + kBeyond * (to - here);
+    if (costRound(beyond, wanted_[v], cost) < cost && keepsGoal(beyond)) return beyond;
+  }
   for (int attempt = 0; attempt < kAttempts && squaredDistance(here, to) >= still * still; ++attempt) {
     if (costRound(to, wanted_[v], cost) < cost && keepsGoal(to)) return to;
     to = midpoint(here, to);
@@ -348,10 +373,12 @@ bool Optimiser::move(VertexId v) {
   const auto isBesideBad = [&](TriId t) { return ops_.isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
   if ((any_bad_ && std::ranges::any_of(ring_.triangles, isBesideBad)) || (flips_may_harm_ && flipsAt(v, to)))
     return false;
+  const double stirs = kStirs * wanted_[v];
+  const bool is_far = bound_.surface.squaredChord(mesh_.point(v), to) >= stirs * stirs;
   mesh_.setPoint(v, to);
   if (segment_ != kNone) {
     wanted_[v] = wantedAt(v);
-  } else if (size_ != nullptr) {
+  } else if (size_ != nullptr && is_far) {
     wanted_[v] = size_->at(to);
   }
   touched_.assign(ring_.triangles.begin(), ring_.triangles.end());
@@ -360,7 +387,10 @@ bool Optimiser::move(VertexId v) {
   else
     mesh_.restoreDelaunay(touched_);
   ++stats_.relocations;
-  wake();
+  if (is_far)
+    wake();
+  else
+    active_[v] = 1;
   return true;
 }
 
@@ -394,8 +424,11 @@ int Optimiser::excess(VertexId v) {
   return static_cast<int>(star_.size()) - ideal;
 }
 
-// What so many more triangles round a vertex add to the square of its excess.
-int Optimiser::imbalanceAdded(VertexId v, int more) { return more * (2 * excess(v) + more); }
+// Those of the ring's corners, in its order.
+void Optimiser::countExcesses() {
+  excesses_.clear();
+  for (const VertexId w : ring_.corners) excesses_.push_back(excess(w));
+}
 
 // Mends the numbers of neighbours at a vertex, which ring_ is of.
 void Optimiser::balance(VertexId v) {
@@ -411,6 +444,7 @@ void Optimiser::mergeTooFew(VertexId v) {
   const std::vector<VertexId>& corners = ring_.corners;
   const int count = static_cast<int>(corners.size());
   const int own = (count - 6) * (count - 6);
+  countExcesses();
   int best = 0;
   VertexId with = kNone;
   for (int i = 0; i < count; ++i) {
@@ -418,8 +452,8 @@ void Optimiser::mergeTooFew(VertexId v) {
     if (mesh_.kind(w) == VertexKind::Input || !isDue(w)) continue;
     const double longest = 0.5 * (wanted_[v] + wanted_[w]);
     if (squaredLengthOf(v, w) > longest * longest) continue;
-    const int added = imbalanceAdded(w, count - 4) - own + imbalanceAdded(corners[(i + 1) % count], -1) +
-                      imbalanceAdded(corners[(i + count - 1) % count], -1);
+    const int added = imbalanceAdded(excesses_[i], count - 4) - own + imbalanceAdded(excesses_[(i + 1) % count], -1) +
+                      imbalanceAdded(excesses_[(i + count - 1) % count], -1);
     if (added < best) {
       best = added;
       with = w;
@@ -432,11 +466,16 @@ void Optimiser::exchangeTooMany(VertexId v) {
   const std::vector<VertexId>& corners = ring_.corners;
   const auto isOurs = [&](VertexId u) { return mesh_.kind(u) == VertexKind::Free && isDue(u); };
   const std::size_t count = corners.size();
-  const int own = imbalanceAdded(v, -1);
+  const int own = imbalanceAdded(static_cast<int>(count) - 6, -1);
+  countExcesses();
   for (std::size_t i = 0; i < count; ++i) {
-    const VertexId w = corners[i], left = corners[(i + 1) % count], right = corners[(i + count - 1) % count];
+    const std::size_t after = (i + 1) % count, before = (i + count - 1) % count;
+    const VertexId w = corners[i], left = corners[after], right = corners[before];
     if (!isOurs(w) || !isOurs(left) || !isOurs(right)) continue;
-    if (own + imbalanceAdded(w, -1) + imbalanceAdded(left, 1) + imbalanceAdded(right, 1) >= 0) continue;
+    if (own + imbalanceAdded(excesses_[i], -1) + imbalanceAdded(excesses_[after], 1) +
+            imbalanceAdded(excesses_[before], 1) >=
+        0)
+      continue;
     touched_.clear();
     if (!exchange_.tryExchange(v, w, left, right, touched_)) continue;
     for (const VertexId u : {v, w, left, right}) {
@@ -446,6 +485,13 @@ void Optimiser::exchangeTooMany(VertexId v) {
     wake();
     return;
   }
+}
+
+// Poor triangles get another turn: what is done about them begins now.
+void Optimiser::wakePoor() {
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
+    if (mesh_.isLive(t) && isPoor(t))
+      for (const VertexId v : mesh_.triangle(t).v) active_[v] = 1;
 }
 
 // Everything round what changed gets another turn.

@@ -9,6 +9,7 @@
 #include "core/edit_mesh.hpp"
 #include "core/metric.hpp"
 #include "core/optimise/exchange_diagonal.hpp"
+#include "core/optimise/triangle_cost.hpp"
 #include "core/pslg.hpp"
 #include "core/refine/refine_options.hpp"
 #include "core/refine/submesh.hpp"
@@ -68,6 +69,9 @@ class Optimiser {
   double costRound(const Point& place, double wanted, double limit) const;
   double costHere(VertexId v, Point& centre) const;
   double goalAt(VertexId v, const Point& place) const;
+  double linkGoal(const Point& p, const Point& q, const Point& left, const Point& right) const {
+    return isLinkClearOf(enoughLink(), p, q, left, right) ? 1.0 : linkShareOf(p, q, left, right) / enoughLink();
+  }
   double enoughLink() const { return goal_ == QualityGoal::Links ? 0.22 : 0.12; }
   std::optional<Point> placeForGoal(VertexId v, double cost) const;
   double leastShape(const Point& place, std::size_t& at) const;
@@ -78,25 +82,34 @@ class Optimiser {
   bool mergeShort(VertexId v);
   bool mergeInto(VertexId v, VertexId stays);
   int excess(VertexId v);
-  int imbalanceAdded(VertexId v, int more);
+  void countExcesses();
   void balance(VertexId v);
   void mergeTooFew(VertexId v);
   void exchangeTooMany(VertexId v);
+  void wakePoor();
   void wake();
 
   void mendPoorest(const RunControl& control, double share);
   bool mendPlace(TriId t);
   std::optional<TriMesh> bestOf(const Submesh& patch, Change& by) const;
   void takePatch(const Submesh& patch, const TriMesh& solved);
+  bool isWorthTrying(const Trial& trial);
   bool change(const Trial& trial);
   void noteAdded(VertexId v);
   double costOfAll() const;
   double goalOfAll() const;
   double shortestShare() const;
   double shapeOfTriangle(TriId t) const;
+  bool isPoor(TriId t) const;
   bool isHeldByFrozen(const Submesh& patch) const;
   bool wouldFlip(const Submesh& patch, const TriMesh& solved) const;
 
+  // Whether a triangle of such an area, doubled, and such squared edges in the frame is certainly counter-clockwise and
+  // within the angles asked.
+  bool isClear(double doubled, double squares) const {
+    constexpr double kSmall = 1e-4;  // of the frame: beyond it shapes there are not those on the sphere
+    return 2.0 * kRootOfThree * doubled > clear_shape_ * squares && bound_.surface.curvature * squares < kSmall;
+  }
   const Point& corner(std::size_t i) const {
     return mesh_.point(ring_.corners[i < ring_.corners.size() ? i : i - ring_.corners.size()]);
   }
@@ -119,10 +132,12 @@ class Optimiser {
   EditMesh mesh_;
   VertexOps ops_;
   DiagonalExchange exchange_;
+  double clear_shape_;   // triangles of a better shape hold the bound
   bool flips_may_harm_;  // they keep the smallest angle, but not the largest, nor the longest edge
   bool is_submesh_ = false;
   bool any_bad_ = false;  // whether there is a triangle, excused by the input, that nothing may change
   bool mends_poor_ = false;
+  bool goes_far_ = false;  // whether vertices are tried beyond the place they aim at
   RefineStats stats_;
   std::vector<double> wanted_;        // one a vertex: the length wanted there
   std::vector<std::uint8_t> active_;  // one a vertex: whether anything changed round it since its last turn
@@ -138,6 +153,7 @@ class Optimiser {
   SegmentId segment_ = kNone;           // that it lies on; kNone where it is free
   std::array<std::size_t, 2> along_{};  // the ends of its two subsegments, in the ring
   std::vector<EdgeRef> star_;
+  std::vector<int> excesses_;  // of the ring's corners
   std::vector<TriId> touched_;
 };
 

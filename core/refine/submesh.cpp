@@ -11,14 +11,18 @@ namespace coastmesh {
 std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings) {
   std::vector<TriId> patch(centre.begin(), centre.end());
   std::vector<EdgeRef> star;
+  std::vector<VertexId> corners;
   std::size_t done = 0;
   for (unsigned ring = 0; ring < rings; ++ring) {
     const std::size_t end = patch.size();
-    for (; done < end; ++done) {
-      for (const VertexId v : mesh.triangle(patch[done]).v) {
-        mesh.star(v, star);
-        for (const EdgeRef e : star) patch.push_back(triOf(e));
-      }
+    corners.clear();
+    for (; done < end; ++done)
+      for (const VertexId v : mesh.triangle(patch[done]).v) corners.push_back(v);
+    std::ranges::sort(corners);
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    for (const VertexId v : corners) {
+      mesh.star(v, star);
+      for (const EdgeRef e : star) patch.push_back(triOf(e));
     }
     // Keep those that are new, in order.
     std::sort(patch.begin() + static_cast<std::ptrdiff_t>(end), patch.end());
