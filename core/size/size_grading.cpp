@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/ids.hpp"
@@ -27,6 +28,26 @@ constexpr std::size_t kMostVisits = 64;
 constexpr std::array<std::uint32_t, 4> kNowhere = {kNone, kNone, kNone, kNone};
 
 const ItemLoop kInOrder = inOrder;
+
+// As `SizeGrading::forEachSlope`, by sizes in a cell's slots. `f` may change these.
+template <typename F>
+void forEachSlopeOf(const LeafVertices& leaf, const std::array<double, 9>& h, F&& f) {
+  constexpr std::array<std::array<std::size_t, 3>, 4> kSides = {{{0, 1, 2}, {2, 5, 8}, {8, 7, 6}, {6, 3, 0}}};
+  const auto square = [](double x) { return x * x; };
+  for (const auto& [a, m, b] : kSides) {
+    if (leaf[m] == kNone) {
+      f(std::size_t{4}, a, b, 0.5 * (square(h[a] - h[4]) + square(h[b] - h[4])));
+      continue;
+    }
+    f(std::size_t{4}, a, m, square(h[m] - h[4]) + square(h[a] - h[m]));
+    f(std::size_t{4}, m, b, square(h[m] - h[4]) + square(h[b] - h[m]));
+  }
+}
+
+// Of sizes on a triangle, from one corner to the two others.
+Point gradient(const Point& ab, const Point& ac, double hb, double hc) {
+  return (1.0 / cross(ab, ac)) * (hb * Point{ac.y, -ac.x} + hc * Point{-ab.y, ab.x});
+}
 
 void sortOnce(std::vector<std::uint32_t>& numbers) {
   std::ranges::sort(numbers);
@@ -60,32 +81,43 @@ double SizeGrid::slopeIn(const LeafVertices& leaf) const {
 SizeGrading::SizeGrading(GradedSizes& sizes, const SizeGrid& grid, std::span<const LeafVertices> leaves,
                          const ItemLoop& loop)
     : sizes_(sizes), grid_(grid), leaves_(leaves), loop_(loop) {
+  reserveOn(loop_, round_, grid_.places.size());
+  round_.assign(grid_.places.size(), kNowhere);
+  forEachByStretches(loop_, leaves_.size(), [&](std::size_t l) { takeIn(static_cast<std::uint32_t>(l)); });
+}
+
+void SizeGrading::update(std::span<const LeafVertices> leaves, std::span<const std::uint32_t> changed) {
+  leaves_ = leaves;
+  round_.resize(grid_.places.size(), kNowhere);
+  for (const std::uint32_t l : changed) takeIn(l);
+}
+
+void SizeGrading::takeIn(std::uint32_t leaf) {
   // The quadrants of each vertex that lie in its cell, as bits.
   constexpr std::array<unsigned, 9> kQuadrants = {1, 3, 2, 5, 15, 10, 4, 12, 8};
-  round_.assign(grid_.places.size(), kNowhere);
-  forEachByStretches(loop_, leaves_.size(), [&](std::size_t l) {
-    for (std::size_t i = 0; i < 9; ++i)
-      for (std::size_t k = 0; k < 4; ++k)
-        if (leaves_[l][i] != kNone && (kQuadrants[i] >> k & 1) != 0)
-          round_[leaves_[l][i]][k] = static_cast<std::uint32_t>(l);
-  });
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (leaves_[leaf][i] != kNone && (kQuadrants[i] >> k & 1) != 0) round_[leaves_[leaf][i]][k] = leaf;
 }
 
-// Of sizes on a triangle.
-Point SizeGrading::gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  return gradient(placeOf(b) - placeOf(a), placeOf(c) - placeOf(a), sizes_.size[b] - sizes_.size[a],
-                  sizes_.size[c] - sizes_.size[a]);
+// Of a cell's side, in the plane.
+double SizeGrading::halfOf(const LeafVertices& leaf) const {
+  return grid_.unit * (grid_.places[leaf[4]].x - grid_.places[leaf[0]].x);
 }
 
-Point SizeGrading::gradient(const Point& ab, const Point& ac, double hb, double hc) {
-  return (1.0 / cross(ab, ac)) * (hb * Point{ac.y, -ac.x} + hc * Point{-ab.y, ab.x});
+// `f(a, b, c, square)` of a cell's triangles, by slots of their vertices: the square of sizes' gradient times that of
+// half the cell's side, which is the sum of the squares of what sizes differ by along the legs, where these are halves.
+template <typename F>
+void SizeGrading::forEachSlope(const LeafVertices& leaf, F&& f) const {
+  std::array<double, 9> h;
+  for (std::size_t i = 0; i < 9; ++i) h[i] = leaf[i] == kNone ? 0.0 : sizes_.size[leaf[i]];
+  forEachSlopeOf(leaf, h, f);
 }
 
 bool SizeGrading::isSteep(std::uint32_t leaf) const {
-  const double slope = grid_.slopeIn(leaves_[leaf]);
+  const double rise = grid_.slopeIn(leaves_[leaf]) * halfOf(leaves_[leaf]);
   bool is = false;
-  forEachTriangle(leaves_[leaf],
-                  [&](auto a, auto b, auto c) { is = is || !(squaredLength(gradient(a, b, c)) <= slope * slope); });
+  forEachSlope(leaves_[leaf], [&](auto, auto, auto, double square) { is = is || !(square <= rise * rise); });
   return is;
 }
 
@@ -106,6 +138,7 @@ double SizeGrading::lowestOf(std::uint32_t leaf) const {
 }
 
 void SizeGrading::spread() {
+  findLargest();
   // First to where nothing is wanted, from the boundary of that.
   const auto isFree = [&](std::uint32_t v) { return v != kNone && !std::isfinite(sizes_.size[v]); };
   grow(joined(overStretches(loop_, leaves_.size(),
@@ -125,10 +158,11 @@ void SizeGrading::spread() {
       joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
         std::vector<std::uint32_t> lowest;
         for (const LeafVertices& leaf : leaves_.subspan(first, last - first)) {
-          const double limit = kMuchTooSteep * grid_.slopeIn(leaf);
-          forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            if (squaredLength(gradient(a, b, c)) > limit * limit)
-              lowest.push_back(std::min({a, b, c}, [&](auto v, auto w) { return sizes_.size[v] < sizes_.size[w]; }));
+          const double limit = kMuchTooSteep * grid_.slopeIn(leaf) * halfOf(leaf);
+          forEachSlope(leaf, [&](std::size_t a, std::size_t b, std::size_t c, double square) {
+            if (square > limit * limit)
+              lowest.push_back(std::min({leaf[a], leaf[b], leaf[c]},
+                                        [&](auto v, auto w) { return sizes_.size[v] < sizes_.size[w]; }));
           });
         }
         return lowest;
@@ -157,12 +191,48 @@ std::vector<std::uint32_t> SizeGrading::besideNew() const {
   }));
 }
 
+// Of the largest cell round each vertex.
+void SizeGrading::findLargest() {
+  halves_.resize(grid_.places.size());
+  forEachByStretches(loop_, grid_.places.size(), [&](std::size_t v) {
+    std::uint32_t half = 0;
+    for (const std::uint32_t l : round_[v])
+      if (l != kNone) half = std::max(half, grid_.places[leaves_[l][4]].x - grid_.places[leaves_[l][0]].x);
+    halves_[v] = half;
+  });
+}
+
 // The longest leg of the triangles round a vertex, on the surface.
 double SizeGrading::legAt(std::uint32_t v) const {
-  double leg = 0.0;
-  forLeavesRound(
-      v, [&](std::uint32_t l) { leg = std::max(leg, distance(placeOf(leaves_[l][4]), placeOf(leaves_[l][0]))); });
-  return leg * grid_.shrinkAt(v);
+  return std::numbers::sqrt2 * grid_.unit * halves_[v] * grid_.shrinkAt(v);
+}
+
+// Starts to bring what those that follow will need from memory: what waits by size lies all over it.
+void SizeGrading::fetchAhead(std::span<const SizeQueue::Entry> batch) const {
+  constexpr std::size_t kSteps = 8;
+  if (batch.size() > 3 * kSteps) {
+    const std::uint32_t v = batch[3 * kSteps].number;
+    __builtin_prefetch(&sizes_.size[v]);
+    __builtin_prefetch(&sizes_.source[v]);
+    __builtin_prefetch(&round_[v]);
+  }
+  if (batch.size() > 2 * kSteps) {
+    const std::uint32_t v = batch[2 * kSteps].number;
+    const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
+    __builtin_prefetch(&sizes_.own[origin]);
+    __builtin_prefetch(&grid_.places[origin]);
+    __builtin_prefetch(&halves_[origin]);
+    for (const std::uint32_t l : round_[v])
+      if (l != kNone) __builtin_prefetch(&leaves_[l]);
+  }
+  if (batch.size() > kSteps) {
+    forLeavesRound(batch[kSteps].number, [&](std::uint32_t l) {
+      for (const std::size_t i : {0, 2, 4, 6, 8}) {
+        __builtin_prefetch(&sizes_.size[leaves_[l][i]]);
+        __builtin_prefetch(&grid_.places[leaves_[l][i]]);
+      }
+    });
+  }
 }
 
 // From each place sizes grow with the distance from it on the surface, not with that along edges: every vertex knows
@@ -176,14 +246,19 @@ void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
   // What a batch allows is found for all of it at once, and then taken over in its order.
   std::vector<SizeQueue::Entry> batch;
   while (queue.take(batch)) {
-    constexpr std::size_t kWorthThreads = 20'000;
+    std::ranges::sort(batch, {}, [](const SizeQueue::Entry& e) { return e.number; });
+    constexpr std::size_t kWorthThreads = 2'000, kStretch = 512;
     const std::vector<std::vector<Growth>> found = overStretches(
-        batch.size() < kWorthThreads ? inOrder : loop_, batch.size(), [&](std::size_t first, std::size_t last) {
+        batch.size() < kWorthThreads ? kInOrder : loop_, batch.size(),
+        [&](std::size_t first, std::size_t last) {
           std::vector<Growth> some;
-          for (const SizeQueue::Entry& e : std::span(batch).subspan(first, last - first))
-            if (e.size == sizes_.size[e.number]) findGrowth(e.number, mayLower, some);
+          for (std::size_t i = first; i < last; ++i) {
+            fetchAhead(std::span(batch).subspan(i, last - i));
+            if (batch[i].size == sizes_.size[batch[i].number]) findGrowth(batch[i].number, mayLower, some);
+          }
           return some;
-        });
+        },
+        kStretch);
     for (const std::vector<Growth>& some : found) {
       for (const auto& [allowed, to, origin] : some) {
         if (!(allowed < sizes_.size[to] * (1.0 - 1e-9))) continue;
@@ -199,13 +274,19 @@ void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
 template <typename F>
 void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const {
   const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
-  const double flat = kFlatFoot * legAt(origin);
+  const double own = sizes_.own[origin], flat = kFlatFoot * legAt(origin), rate = kSizeGrowth * grid_.gradation;
+  const Point from = placeOf(origin);
+  const bool curved = grid_.surface.isCurved();
+  constexpr double kSurely = 1.0 + 1e-12;
   forLeavesRound(v, [&](std::uint32_t l) {
     for (const std::uint32_t w : leaves_[l]) {
       if (w == kNone || !mayLower(w)) continue;
+      const double limit = sizes_.size[w] * (1.0 - 1e-9), reach = (limit - own) / rate + flat;
+      // Most are no larger than that: seen without a root.
+      if (!curved && !(reach > 0.0 && squaredDistance(from, placeOf(w)) < kSurely * reach * reach)) continue;
       const double way = std::max(grid_.distanceBetween(origin, w) - flat, 0.0);
-      const double allowed = sizes_.own[origin] + kSizeGrowth * grid_.gradation * way;
-      if (allowed < sizes_.size[w] * (1.0 - 1e-9)) found.push_back({allowed, w, origin});
+      const double allowed = own + rate * way;
+      if (allowed < limit) found.push_back({allowed, w, origin});
     }
   });
 }
@@ -269,15 +350,12 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered)
   std::array<double, 9> size{};
   for (std::size_t i = 0; i < size.size(); ++i)
     if (vertices[i] != kNone) size[i] = sizes_.size[vertices[i]];
-  const auto slotOf = [&](std::uint32_t v) {
-    return static_cast<std::size_t>(std::ranges::find(vertices, v) - vertices.begin());
-  };
-  forEachTriangle(vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const std::array<std::size_t, 3> slots = {slotOf(a), slotOf(b), slotOf(c)};
-    const std::array<Point, 3> places = {placeOf(a), placeOf(b), placeOf(c)};
-    const Point slope = gradient(places[1] - places[0], places[2] - places[0], size[slots[1]] - size[slots[0]],
-                                 size[slots[2]] - size[slots[0]]);
-    if (squaredLength(slope) <= steepest * steepest) return;
+  const double rise = steepest * halfOf(vertices);
+  forEachSlopeOf(vertices, size, [&](std::size_t a, std::size_t b, std::size_t c, double square) {
+    if (square <= rise * rise) return;
+    const std::array<std::size_t, 3> slots = {a, b, c};
+    const std::array<Point, 3> places = {placeOf(vertices[a]), placeOf(vertices[b]), placeOf(vertices[c])};
+    const Point slope = gradient(places[1] - places[0], places[2] - places[0], size[b] - size[a], size[c] - size[a]);
     // How the gradient changes while each corner goes down as fast as the square of the slope falls with it.
     std::array<double, 3> down;
     Point change;

@@ -11,6 +11,7 @@
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "core/size/size_places.hpp"
+#include "core/size/size_queue.hpp"
 #include "core/surface.hpp"
 
 namespace coastmesh {
@@ -60,6 +61,10 @@ class SizeGrading {
  public:
   SizeGrading(GradedSizes& sizes, const SizeGrid& grid, std::span<const LeafVertices> leaves, const ItemLoop& loop);
 
+  // Takes over cells that were split: `changed` are those of `leaves` that are new or have other vertices than before;
+  // the others are where they were.
+  void update(std::span<const LeafVertices> leaves, std::span<const std::uint32_t> changed);
+
   // From the feet of triangles that are much too steep, and from what grew before next to vertices that are new, sizes
   // grow with the distance on the surface; where none are wanted, they grow from those round it.
   void spread();
@@ -79,12 +84,16 @@ class SizeGrading {
   };
 
   Point placeOf(std::uint32_t v) const { return grid_.placeOf(v); }
-  Point gradient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
-  static Point gradient(const Point& ab, const Point& ac, double hb, double hc);
+  void takeIn(std::uint32_t leaf);
+  double halfOf(const LeafVertices& leaf) const;
+  template <typename F>
+  void forEachSlope(const LeafVertices& leaf, F&& f) const;
   bool isSteep(std::uint32_t leaf) const;
   std::vector<std::uint32_t> findSteep() const;
   double lowestOf(std::uint32_t leaf) const;
+  void findLargest();
   double legAt(std::uint32_t v) const;
+  void fetchAhead(std::span<const SizeQueue::Entry> batch) const;
   template <typename F>
   void grow(std::vector<std::uint32_t>&& from, const F& mayLower);
   template <typename F>
@@ -105,6 +114,7 @@ class SizeGrading {
   std::span<const LeafVertices> leaves_;
   // The cells round a vertex, by quadrants from the upper right one; twice one that meets it with the middle of a side.
   std::vector<std::array<std::uint32_t, 4>> round_;
+  std::vector<std::uint32_t> halves_;  // of the side of the largest cell round a vertex, when sizes were spread last
   const ItemLoop& loop_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/ids.hpp"
@@ -29,6 +30,18 @@ class SizePlaces {
       places_.push_back(place);
     }
     return number;
+  }
+  // Numbers all anew: `order` holds the numbers that places have, each once, in the order of those that they get.
+  void reorder(const std::vector<std::uint32_t>& order) {
+    std::vector<Place> places(order.size());
+    std::vector<std::uint32_t> numbers(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+      places[i] = places_[order[i]];
+      numbers[order[i]] = i;
+    }
+    places_ = std::move(places);
+    for (std::uint32_t& number : table_)
+      if (number != kNone) number = numbers[number];
   }
 
  private:

@@ -19,6 +19,8 @@ struct SizeRange {
   double high = 0.0;
   // What `sample` says of the middle of the box, where finding the bounds found that; else NaN.
   double at_centre = std::numeric_limits<double>::quiet_NaN();
+  // Whether all that decides in the box grows by a rate that is at most the gradation, from place to place.
+  bool is_graded = false;
 };
 
 // Where wanted lengths come from: asked for many places at once, so that whoever computes them can share the work out.
@@ -51,7 +53,9 @@ struct SizeTreeOptions {
   // as large as the length.
   double coarsest = 3.0;
   double finest = 0.25;
-  double tolerance = 0.04;                // relative
+  double tolerance = 0.04;  // relative
+  // The same two for cells in which sizes are graded as they come.
+  double finest_graded = 0.25, tolerance_graded = 0.04;
   std::uint32_t most_cells = 64'000'000;  // past that no cell is split
   // Where the lengths certainly ask for more vertices, the tree is not finished.
   double most_vertices = std::numeric_limits<double>::infinity();

@@ -51,7 +51,7 @@ class SizeTreeBuilder {
     known_.push_back(kNone);
     refine();
     if (!tree_.complete_) return;
-    balance();
+    balance(0);
     number();
     limitGradation();
     tree_.demand_ = demandOfLeaves();
@@ -96,11 +96,22 @@ class SizeTreeBuilder {
   void split(std::uint32_t c) {
     const Square square = squares_[c];
     const std::uint32_t half = square.side() / 2;
+    const std::uint32_t leaf = tree_.cells_[c].below;
     tree_.cells_[c] = {static_cast<std::uint32_t>(tree_.cells_.size()), false};
     for (unsigned k = 0; k < 4; ++k) {
+      const auto child = static_cast<std::uint32_t>(tree_.cells_.size());
       tree_.cells_.push_back({});
       squares_.push_back({square.x + (k % 2) * half, square.y + (k / 2) * half, square.level + 1});
-      known_.push_back(kNone);
+      if (leaf_cells_.empty()) {
+        known_.push_back(kNone);
+        continue;
+      }
+      // The first takes its parent's number.
+      tree_.cells_.back().below = k == 0 ? leaf : static_cast<std::uint32_t>(leaf_cells_.size());
+      if (k == 0)
+        leaf_cells_[leaf] = child;
+      else
+        leaf_cells_.push_back(child);
     }
   }
 
@@ -235,11 +246,11 @@ class SizeTreeBuilder {
       unsure_ranges.clear();
       for (std::size_t k = 0; k < wanted.size() && !isFull(); ++k) {
         const double low = ranges[k].low, high = ranges[k].high;
-        if (!(high > low * (1.0 + options_.tolerance))) continue;
+        if (!(high > low * (1.0 + toleranceOf(ranges[k])))) continue;
         const double side = sideOf(boxes[k]);
         if (side > options_.coarsest * low || isStretched(boxes[k], kGradedStretch)) {
           split(wanted[k]);
-        } else if (side > options_.finest * low) {
+        } else if (side > (ranges[k].is_graded ? options_.finest_graded : options_.finest) * low) {
           unsure.push_back(wanted[k]);
           unsure_ranges.push_back(ranges[k]);
         }
@@ -251,6 +262,10 @@ class SizeTreeBuilder {
       first = end;
     }
     if (too_much) abandon(settled);
+  }
+
+  double toleranceOf(const SizeRange& range) const {
+    return range.is_graded ? options_.tolerance_graded : options_.tolerance;
   }
 
   // Splits cells whose centre or sides differ from what the corners give, or that hold something much smaller than all
@@ -274,7 +289,7 @@ class SizeTreeBuilder {
                             std::abs(0.5 * (v[2] + v[8]) - v[5]), std::abs(0.5 * (v[6] + v[8]) - v[7])});
       const double least = std::ranges::min(v), side = sideOf(boxOf(cells[k]));
       if (least > kHidden * ranges[k].low) return true;
-      return std::isfinite(off) ? off * side > options_.tolerance * least * least : std::isfinite(least);
+      return std::isfinite(off) ? off * side > toleranceOf(ranges[k]) * least * least : std::isfinite(least);
     };
     const std::vector<std::uint32_t> bent =
         joined(overStretches(loop_, cells.size(), [&](std::size_t first, std::size_t last) {
@@ -327,106 +342,164 @@ class SizeTreeBuilder {
     return c;
   }
 
+  // The cell beside one side of this, as large or larger; kNone beyond the root. The sides are the left, the right, the
+  // lower and the upper one.
+  std::uint32_t beside(std::uint32_t c, unsigned side) const {
+    const Square& s = squares_[c];
+    const bool is_across = side < 2, is_up = side % 2 != 0;
+    const std::uint32_t along = is_across ? s.x : s.y;
+    // Brothers stand in a row behind the root.
+    if (s.level > 0 && ((along & s.side()) != 0) != is_up) return ((c - 1) ^ (is_across ? 1u : 2u)) + 1;
+    if (is_up ? along + s.side() >= kUnits : along == 0) return kNone;
+    const std::uint32_t to = is_up ? along + s.side() : along - s.side();
+    return is_across ? find(to, s.y, s.level) : find(s.x, to, s.level);
+  }
+  static constexpr unsigned kSides = 4;
+  // Of a cell's vertices the middle of that side.
+  static constexpr std::array<unsigned, kSides> kMiddleOf = {3, 5, 1, 7};
+
   // A leaf beside this one, two levels coarser or more; kNone where there is none.
   std::uint32_t tooLargeBeside(std::uint32_t c) const {
-    const Square s = squares_[c];
-    for (int k = 0; k < 4; ++k) {
-      const std::int64_t x = std::int64_t{s.x} + (k == 0 ? -1 : k == 1 ? std::int64_t{s.side()} : 0);
-      const std::int64_t y = std::int64_t{s.y} + (k == 2 ? -1 : k == 3 ? std::int64_t{s.side()} : 0);
-      if (x < 0 || y < 0 || x >= kUnits || y >= kUnits) continue;
-      const std::uint32_t beside = find(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), s.level);
-      if (tree_.cells_[beside].is_leaf && squares_[beside].level + 1 < s.level) return beside;
+    for (unsigned side = 0; side < kSides; ++side) {
+      const std::uint32_t other = beside(c, side);
+      if (other != kNone && tree_.cells_[other].is_leaf && squares_[other].level + 1 < squares_[c].level) return other;
     }
     return kNone;
   }
 
-  // Splits leaves until those side by side differ by one level at most.
-  void balance() {
+  // Splits leaves until those side by side differ by one level at most. Those before `first` do.
+  void balance(std::size_t first) {
     std::vector<std::uint32_t> waiting =
-        joined(overStretches(loop_, tree_.cells_.size(), [&](std::size_t first, std::size_t last) {
+        joined(overStretches(loop_, tree_.cells_.size() - first, [&](std::size_t from, std::size_t to) {
           std::vector<std::uint32_t> here;
-          for (auto c = static_cast<std::uint32_t>(first); c < last; ++c)
+          for (auto c = static_cast<std::uint32_t>(first + from); c < first + to; ++c)
             if (tree_.cells_[c].is_leaf && tooLargeBeside(c) != kNone) here.push_back(c);
           return here;
         }));
     while (!waiting.empty()) {
       const std::uint32_t c = waiting.back();
-      const std::uint32_t beside = tree_.cells_[c].is_leaf ? tooLargeBeside(c) : kNone;
-      if (beside == kNone) {
+      const std::uint32_t other = tree_.cells_[c].is_leaf ? tooLargeBeside(c) : kNone;
+      if (other == kNone) {
         waiting.pop_back();
         continue;
       }
-      split(beside);
-      for (std::uint32_t child = 0; child < 4; ++child) waiting.push_back(tree_.cells_[beside].below + child);
+      split(other);
+      for (std::uint32_t child = 0; child < 4; ++child) waiting.push_back(tree_.cells_[other].below + child);
     }
   }
 
-  // Numbers leaves, their corners, centres and middles of sides; asks for the sizes at those that are new.
+  // Numbers leaves, their corners, centres and middles of sides, so that what lies near in the plane lies near in
+  // memory; asks for the sizes at those that are new.
   void number() {
-    leaf_cells_.clear();
-    for (std::uint32_t c = 0; c < tree_.cells_.size(); ++c) {
-      if (!tree_.cells_[c].is_leaf) continue;
-      tree_.cells_[c].below = static_cast<std::uint32_t>(leaf_cells_.size());
+    const auto list = [&](const auto& self, std::uint32_t c) -> void {
+      SizeTree::Cell& cell = tree_.cells_[c];
+      if (!cell.is_leaf) {
+        for (std::uint32_t k = 0; k < 4; ++k) self(self, cell.below + k);
+        return;
+      }
+      cell.below = static_cast<std::uint32_t>(leaf_cells_.size());
       leaf_cells_.push_back(c);
-    }
-    is_wanted_.assign(leaf_cells_.size(), 0);
-    forEachByStretches(loop_, leaf_cells_.size(),
-                       [&](std::size_t l) { is_wanted_[l] = source_.isWanted(boxOf(leaf_cells_[l])); });
+    };
+    list(list, 0);
     for (const std::uint32_t c : leaf_cells_) addOwnVertices(c);
     sample();
-
-    // The middle of a side where smaller leaves meet it, or where that on the other side is as large and knows of it.
-    constexpr std::uint8_t kMeeting = 2;
+    is_wanted_.resize(leaf_cells_.size());
     leaf_vertices_.resize(leaf_cells_.size());
     forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
-      for (std::size_t k = 0; k < kOwn.size(); ++k)
-        leaf_vertices_[l][kOwn[k]] = own_vertices_[known_[leaf_cells_[l]]][k];
-      for (const unsigned i : kMiddles) leaf_vertices_[l][i] = vertices_.find(vertexOf(leaf_cells_[l], i));
+      const std::uint32_t c = leaf_cells_[l];
+      is_wanted_[l] = source_.isWanted(boxOf(c));
+      for (std::size_t k = 0; k < kOwn.size(); ++k) leaf_vertices_[l][kOwn[k]] = own_vertices_[known_[c]][k];
+      findMiddles(static_cast<std::uint32_t>(l));
     });
-    std::vector<std::uint8_t> sides(vertices_.size(), 0);
-    for (const LeafVertices& leaf : leaf_vertices_) {
-      for (const unsigned i : {0u, 2u, 6u, 8u}) sides[leaf[i]] = kMeeting;
-      for (const unsigned i : kMiddles) {
-        if (leaf[i] == kNone || sides[leaf[i]] == kMeeting) continue;
-        const auto [x, y] = vertices_[leaf[i]];
-        const bool at_boundary = x == 0 || y == 0 || x == kUnits || y == kUnits;
-        sides[leaf[i]] = at_boundary || sides[leaf[i]] > 0 ? kMeeting : std::uint8_t{1};
+    known_ = {};
+    own_vertices_ = {};
+    putInOrder();
+    sizes_.size = sizes_.own;
+    sizes_.source.assign(vertices_.size(), kNone);
+  }
+
+  // The middle of a side is a vertex where smaller leaves meet it, or where that on the other side is as large and its
+  // size is known.
+  void findMiddles(std::uint32_t l) {
+    const std::uint32_t c = leaf_cells_[l];
+    for (unsigned side = 0; side < kSides; ++side) {
+      const unsigned i = kMiddleOf[side];
+      const std::uint32_t other = beside(c, side);
+      const bool is_larger = other != kNone && squares_[other].level < squares_[c].level;
+      leaf_vertices_[l][i] = is_larger ? kNone : vertices_.find(vertexOf(c, i));
+    }
+  }
+
+  // Vertices as leaves come upon them; last those that none has.
+  void putInOrder() {
+    std::vector<std::uint32_t> order, numbers(vertices_.size(), kNone);
+    order.reserve(vertices_.size());
+    const auto numberOf = [&](std::uint32_t v) {
+      if (numbers[v] != kNone) return numbers[v];
+      order.push_back(v);
+      return numbers[v] = static_cast<std::uint32_t>(order.size() - 1);
+    };
+    for (LeafVertices& leaf : leaf_vertices_)
+      for (std::uint32_t& v : leaf)
+        if (v != kNone) v = numberOf(v);
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v) numberOf(v);
+    vertices_.reorder(order);
+    std::vector<double> own(order.size());
+    forEachByStretches(loop_, order.size(), [&](std::size_t v) { own[v] = sizes_.own[order[v]]; });
+    sizes_.own = std::move(own);
+  }
+
+  // Numbers what `split` made of leaves since there were so many cells. Returns the leaves that are new or have other
+  // vertices.
+  std::vector<std::uint32_t> numberNew(std::size_t first) {
+    is_wanted_.resize(leaf_cells_.size());
+    leaf_vertices_.resize(leaf_cells_.size());
+    std::vector<std::uint32_t> changed;
+    for (auto c = static_cast<std::uint32_t>(first); c < tree_.cells_.size(); ++c) {
+      if (!tree_.cells_[c].is_leaf) continue;
+      const std::uint32_t l = tree_.cells_[c].below;
+      is_wanted_[l] = source_.isWanted(boxOf(c));
+      for (const unsigned i : kOwn) leaf_vertices_[l][i] = vertices_.add(vertexOf(c, i));
+      changed.push_back(l);
+      for (unsigned side = 0; side < kSides; ++side) {
+        const std::uint32_t other = beside(c, side);
+        if (other != kNone && tree_.cells_[other].is_leaf) changed.push_back(tree_.cells_[other].below);
       }
     }
-    forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
-      for (const unsigned i : kMiddles) {
-        std::uint32_t& v = leaf_vertices_[l][i];
-        if (v != kNone && sides[v] < kMeeting) v = kNone;
-      }
-    });
+    std::ranges::sort(changed);
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    sample();
+    for (const std::uint32_t l : changed) findMiddles(l);
     sizes_.size.insert(sizes_.size.end(), sizes_.own.begin() + static_cast<std::ptrdiff_t>(sizes_.size.size()),
                        sizes_.own.end());
     sizes_.source.resize(vertices_.size(), kNone);
+    return changed;
   }
 
   void limitGradation() {
-    const auto grading = [&] {
-      const SizeGrid grid{vertices_, unit(), tree_.origin_, options_.surface, kSafely * options_.gradation};
-      return SizeGrading(sizes_, grid, leaf_vertices_, loop_);
-    };
+    const SizeGrid grid{vertices_, unit(), tree_.origin_, options_.surface, kSafely * options_.gradation};
+    SizeGrading grading(sizes_, grid, leaf_vertices_, loop_);
     for (int round = 0; round < kLevels; ++round) {
-      grading().spread();
+      grading.spread();
+      const std::size_t before = tree_.cells_.size();
       if (!splitGraded()) break;
-      balance();
-      number();
+      balance(before);
+      const std::vector<std::uint32_t> changed = numberNew(before);
+      grading.update(leaf_vertices_, changed);
     }
     // Where nothing is wanted anywhere: as large as the whole.
     const double whole =
         options_.surface.isCurved() ? std::min(tree_.side_, 2.0 * options_.surface.radius()) : tree_.side_;
     for (double& size : sizes_.size) size = std::min(size, whole);
-    grading().flatten();
+    grading.flatten();
   }
 
   // Splits leaves that are too large for what grows into them, or too stretched; of those that nobody will ask for the
   // latter alone, since through them sizes grow as well.
   bool splitGraded() {
     const std::size_t before = tree_.cells_.size();
-    for (std::size_t l = 0; l < leaf_cells_.size(); ++l) {
+    const std::size_t leaves = leaf_cells_.size();
+    for (std::size_t l = 0; l < leaves; ++l) {
       if (!is_wanted_[l] && !options_.surface.isCurved()) continue;
       std::array<std::uint32_t, 9> sources;
       std::size_t count = 0;

@@ -37,6 +37,7 @@ class DistanceField final : public SizeField {
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
   double least() const override { return least_size_m_; }
   void limitRate(double rate) override;
+  bool isGraded() const override { return true; }
 
  private:
   static constexpr std::size_t kFanout = 8;

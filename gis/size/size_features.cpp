@@ -58,6 +58,8 @@ class PolygonField final : public SizeField {
     }
   }
 
+  // From the edges, which are lines of a `DistanceField` besides.
+  bool isGraded() const override { return true; }
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const Point& c = boxes[i].centre;

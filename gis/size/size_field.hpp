@@ -23,6 +23,8 @@ class SizeField {
   virtual double least() const { return 0.0; }
   // What grows with a distance grows no faster: so it is graded before it is interpolated.
   virtual void limitRate(double) {}
+  // Whether all of it does.
+  virtual bool isGraded() const { return false; }
 };
 
 }  // namespace coastmesh

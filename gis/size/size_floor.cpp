@@ -134,7 +134,7 @@ void SizeFloor::bound(std::span<const SizeBox> boxes, std::span<SizeRange> range
   field_->bound(boxes, ranges);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const SizeBox& box = boxes[i];
-    auto& [low, high, at_centre] = ranges[i];
+    auto& [low, high, at_centre, is_graded] = ranges[i];
     at_centre = kUnknown;
     const bool none = low == kInfinity, part = !none && high == kInfinity;
     const double change = rate_ * std::numbers::sqrt2 * box.half * shrinkIn(surface_, box).high / measureAt(box.centre);

@@ -101,7 +101,7 @@ class ComposedSizes final : public SizeSource {
       const auto here = boxes.subspan(first, last - first);
       const auto out = ranges.subspan(first, last - first);
       std::vector<SizeRange> own(here.size());
-      std::ranges::fill(out, SizeRange{options_.size_m, options_.size_m, options_.size_m});
+      std::ranges::fill(out, SizeRange{options_.size_m, options_.size_m, options_.size_m, true});
       std::vector<SizeBox> asked;
       std::vector<std::size_t> which;
       for (const auto& field : fields_) {
@@ -116,8 +116,10 @@ class ComposedSizes final : public SizeSource {
         for (std::size_t k = 0; k < which.size(); ++k) {
           SizeRange& range = out[which[k]];
           const double a = range.at_centre, b = own[k].at_centre;
+          const bool is_graded =
+              (range.is_graded || own[k].high <= range.low) && (field->isGraded() || range.high <= own[k].low);
           range = {std::min(range.low, own[k].low), std::min(range.high, own[k].high),
-                   std::isnan(a) || std::isnan(b) ? kUnknown : std::min(a, b)};
+                   std::isnan(a) || std::isnan(b) ? kUnknown : std::min(a, b), is_graded};
         }
       }
       std::ranges::fill(own, SizeRange{0.0, 0.0, 0.0});
@@ -126,7 +128,8 @@ class ComposedSizes final : public SizeSource {
         const double measure = measure_(here[i].centre);
         const bool known = !std::isnan(out[i].at_centre) && !std::isnan(own[i].at_centre);
         out[i] = {bounded(out[i].low, own[i].low) * measure, bounded(out[i].high, own[i].high) * measure,
-                  known ? bounded(out[i].at_centre, own[i].at_centre) * measure : kUnknown};
+                  known ? bounded(out[i].at_centre, own[i].at_centre) * measure : kUnknown,
+                  out[i].is_graded && own[i].high <= out[i].low};
       }
     });
   }
@@ -401,14 +404,11 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   SizeTreeOptions tree;
   // What grows with a distance alone is hardly off by as much: its kinks lie where two lines are as near.
   constexpr double kRough = 0.1, kRoughOfLines = 0.2, kFineOfLines = 0.1;
-  const bool lines_alone = inputs.rasters.empty() && !options.depth.any() && !(options.time_step_s > 0.0);
-  if (accuracy == SizeAccuracy::Rough)
-    tree.tolerance = lines_alone ? kRoughOfLines : kRough;
-  else if (lines_alone)
-    tree.tolerance = kFineOfLines;
+  tree.tolerance_graded = accuracy == SizeAccuracy::Rough ? kRoughOfLines : kFineOfLines;
+  if (accuracy == SizeAccuracy::Rough) tree.tolerance = kRough;
   // In a cell so small what is graded differs by less than matters.
   constexpr double kNothing = 0.1;
-  if (lines_alone) tree.finest = std::clamp(kNothing / options.gradation, tree.finest, 1.0);
+  tree.finest_graded = std::clamp(kNothing / options.gradation, tree.finest, 1.0);
   tree.surface = surface;
   tree.gradation = options.gradation - for_scale;
   // A little less: what is only just too steep everywhere would have to be flattened everywhere.

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <numeric>
 #include <random>
 #include <utility>
 
@@ -42,6 +44,25 @@ TEST(SizePlaces, NumbersPlacesThatStandInTheWayOfEachOther) {
 }
 
 TEST(SizePlaces, HasNoneAtFirst) { EXPECT_EQ(SizePlaces().find({0, 0}), kNone); }
+
+TEST(SizePlaces, AreFoundByTheNumbersOfAnotherOrder) {
+  SizePlaces places;
+  std::vector<SizePlaces::Place> before;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    before.push_back({i % 37, 5 * i});
+    places.add(before.back());
+  }
+  std::vector<std::uint32_t> order(places.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::shuffle(order, std::mt19937_64(2));
+  places.reorder(order);
+  ASSERT_EQ(places.size(), order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    EXPECT_EQ(places[i], before[order[i]]);
+    EXPECT_EQ(places.find(before[order[i]]), i);
+  }
+  EXPECT_EQ(places.add({1000, 0}), order.size());
+}
 
 }  // namespace
 }  // namespace coastmesh

@@ -332,6 +332,21 @@ TEST_F(SizeFiles, ACoarseRasterIsBilinear) {
   for (double x = 0.6; x < 19.4; x += 0.1) EXPECT_NEAR(size->at({x, 5.2}) / f(x, 5.2), 1.0, 0.02) << x;
 }
 
+// What it is measured by is then the shore alone, wherever that asks for less.
+TEST_F(SizeFiles, ARasterThatDecidesNowhereChangesNothing) {
+  SizeOptions options;
+  options.shore_m = 0.05;
+  options.shore_rate = options.gradation = 0.1;
+  const Domain domain = planeDomain(rectangle(20.0, 10.0));
+  const auto alone = sizesIn(options, domain);
+  options.rasters = {raster("a.tif", 400, 200, {0.0, 0.05, 0.0, 10.0, 0.0, -0.05}, 0,
+                            [](double x, double y) { return 2.0 + 0.1 * std::sin(7.0 * x) * std::cos(9.0 * y); })};
+  const auto both = sizesIn(options, domain);
+  EXPECT_EQ(dynamic_cast<const SizeTree&>(*both).cells(), dynamic_cast<const SizeTree&>(*alone).cells());
+  for (double x = 0.3; x < 20.0; x += 0.37)
+    for (double y = 0.3; y < 10.0; y += 0.41) EXPECT_EQ(both->at({x, y}), alone->at({x, y})) << x << ", " << y;
+}
+
 TEST_F(SizeFiles, ASpotOfOnePixelIsNotMissed) {
   SizeOptions options;
   options.gradation = 0.2;
