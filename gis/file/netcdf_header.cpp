@@ -33,9 +33,7 @@ class HeaderWalk {
       name();
       skip(count(), countSize());  // dimensions
       attributes();
-      constexpr std::uint64_t kTypes = 11;  // strings, the twelfth, have no size: the library divides by it
-      const std::uint64_t type = number(4);
-      sound_ = sound_ && type >= 1 && type <= kTypes;
+      type();
       count();  // size of a record
       begins_.push_back(number(version_ == 1 ? 4 : 8));
     });
@@ -67,12 +65,21 @@ class HeaderWalk {
 
   void name() { skip(count(), 1); }
 
+  // Strings, the twelfth, have no size in these files: the library divides by it, and takes what follows for something
+  // else. 0 where it is none of the others.
+  std::uint64_t type() {
+    constexpr std::uint64_t kTypes = 11;
+    const std::uint64_t type = number(4);
+    sound_ = sound_ && type >= 1 && type <= kTypes;
+    return sound_ ? type : 0;
+  }
+
   void attributes() {
     list([this] {
       name();
       constexpr std::array<std::uint64_t, 12> kBytes{1, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};  // by type
-      const std::uint64_t type = number(4);
-      skip(count(), kBytes[type < kBytes.size() ? type : 0]);
+      const std::uint64_t bytes = kBytes[type()];
+      skip(count(), bytes);
     });
   }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
@@ -19,6 +20,12 @@ namespace {
 constexpr GIntBig kCacheBytes = 128 << 20;
 // Pixels of a tile, about: small beside the cache, large beside the cost of a call.
 constexpr std::int64_t kTilePixels = 1 << 20;
+
+bool isText(GDALDataset& dataset) {
+  GDALDriver* const driver = dataset.GetDriver();
+  const std::string_view kind = driver == nullptr ? "" : driver->GetDescription();
+  return kind == "AAIGrid" || kind == "GRASSASCIIGrid" || kind == "ISG";
+}
 
 std::string subdatasetHint(GDALDataset& dataset) {
   char** const list = dataset.GetMetadata("SUBDATASETS");
@@ -36,6 +43,10 @@ struct RasterBand::Dataset {
   bool is_single = false;              // values are in single precision
   double scale = 1.0;
   double offset = 0.0;
+  // Where a row of a text begins GDAL knows once the one before was read, which it sees to itself; but where the text
+  // ends too early it tries the rows before once for each row after them, and these likewise: that takes for ever.
+  bool rows_in_order = false;
+  int rows_begun = 0;  // so many rows from the first one were read, one after another
 
   ~Dataset() {
     if (dataset != nullptr) GDALClose(dataset);
@@ -59,6 +70,7 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   if (raster.dataset->GetRasterCount() == 0)
     throw InputError("'" + name + "' has no raster band" + subdatasetHint(*raster.dataset));
   raster.band = raster.dataset->GetRasterBand(1);
+  raster.rows_in_order = isText(*raster.dataset);
   const GDALDataType type = raster.band->GetRasterDataType();
   if (GDALDataTypeIsComplex(type))
     throw InputError("'" + name + "': its first band holds complex numbers; give one of plain numbers");
@@ -123,20 +135,25 @@ void RasterBand::readInto(const RasterWindow& window, double* values, std::int64
   const OgrErrors errors;
   const int column = static_cast<int>(window.column), row = static_cast<int>(window.row),
             columns = static_cast<int>(window.columns), rows = static_cast<int>(window.rows);
-  const auto fail = [&] {
-    throw InputError("cannot read '" + path() + "' at pixel " + std::to_string(column) + ", " + std::to_string(row) +
-                     ": " + errors.text());
+  const auto failAt = [&](int at_column, int at_row) {
+    throw InputError("cannot read '" + path() + "' at pixel " + std::to_string(at_column) + ", " +
+                     std::to_string(at_row) + ": " + errors.text());
   };
+  for (int& begun = dataset_->rows_begun; dataset_->rows_in_order && begun < row; ++begun) {
+    double value = 0.0;
+    if (dataset_->band->RasterIO(GF_Read, 0, begun, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr) != CE_None)
+      failAt(0, begun);
+  }
   if (dataset_->band->RasterIO(GF_Read, column, row, columns, rows, values, columns, rows, GDT_Float64, 0,
                                stride * static_cast<GSpacing>(sizeof(double)), nullptr) != CE_None)
-    fail();
+    failAt(column, row);
   const auto count = static_cast<std::size_t>(window.columns * window.rows);
   std::vector<bool> hidden(count, false);
   std::vector<float> shown(dataset_->masks.empty() ? 0 : count);
   for (GDALRasterBand* const mask : dataset_->masks) {
     if (mask->RasterIO(GF_Read, column, row, columns, rows, shown.data(), columns, rows, GDT_Float32, 0, 0, nullptr) !=
         CE_None)
-      fail();
+      failAt(column, row);
     for (std::size_t i = 0; i < count; ++i)
       if (shown[i] == 0.0F) hidden[i] = true;
   }

@@ -114,6 +114,16 @@ TEST_P(CleanRandom, AnySnapDistanceMakesAValidGraph) {
   }
 }
 
+// Here the graph is not done when the rounds begin that make near vertices one: edges that these leave as they are have
+// to be looked at as well, or two of them cross.
+TEST(Clean, WhatIsNewAndNotMovedIsLookedAtInTheLastRounds) {
+  std::mt19937_64 random(189);
+  const Coastline coastline = coastlineOf({polygonFeature(1, tangledRing(random, 40))});
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, {0}, Projection::plane(), {.snap_m = 0.1}, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, CleanRandom, ::testing::Range(0u, 30u));
 
 }  // namespace

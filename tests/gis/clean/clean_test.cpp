@@ -57,6 +57,19 @@ TEST(Clean, SnapsEdgesToPointsNearerThanTheSnapDistance) {
   EXPECT_EQ(cleaned.segments(), 8u);
 }
 
+// The shore comes nearer to the second island once it goes through a corner of the first.
+TEST(Clean, AnEdgeThatWasLedThroughAPointIsSnappedToOthersAgain) {
+  const Ring shore{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  const Ring first{{5, 0.9}, {5, 4}, {2, 4}}, second{{7.5, 1.4}, {8.8, 6}, {6, 6}};
+  const Cleaned alone = cleanInPlane({polygonFeature(1, shore, {second})}, {.snap_m = 1.0});
+  EXPECT_EQ(alone.count(EditKind::OverlappingEdge), 0u);
+  EXPECT_EQ(alone.segments(), 4u + 3u);
+  const Cleaned both = cleanInPlane({polygonFeature(1, shore, {first, second})}, {.snap_m = 1.0});
+  EXPECT_EQ(both.segments(), 6u + 3u + 3u);
+  // Without the islands, and what lies below the shore that goes through both.
+  EXPECT_NEAR(both.area(0), 100.0 - 4.65 - 6.44 - 0.5 * (5.0 * 0.9 + 2.5 * (0.9 + 1.4) + 2.5 * 1.4), 1e-9);
+}
+
 TEST(Clean, DropsSpikes) {
   const Cleaned cleaned = cleanInPlane({polygonFeature(1, {{0, 0}, {4, 0}, {9, 0}, {4, 0}, {4, 4}, {0, 4}})});
   EXPECT_EQ(cleaned.count(EditKind::Spike), 1u);

@@ -325,6 +325,26 @@ TEST(Dissolve, LeavesNoTraceOfACut) {
   EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::DissolvedEdge)], 2u + 3u);
 }
 
+// Where something holds what no feature does, as on a whole globe, shores part from that too: only the cut goes.
+TEST(Dissolve, LeavesTheShoreTowardsTheRest) {
+  Coastline coastline = coastlineOf({polygonFeature(1, {{0, 0}, {5, 0}, {5, 5}, {0, 5}}), Feature{},
+                                     polygonFeature(2, {{5, 0}, {9, 0}, {9, 4}, {5, 5}}),
+                                     polygonFeature(3, {{20, 1}, {24, 1}, {22, 3}})});
+  coastline.rest = 1;
+  CleanOptions options;
+  options.dissolve = true;
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(), options, report);
+  // The cut, and its foot at 5, 0: at 5, 5 the shore turns.
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::DissolvedEdge)], 1u + 1u);
+  EXPECT_EQ(domain.pslg.segments.size(), 5u + 3u);
+  EXPECT_EQ(domain.rest, 1);
+  for (const Segment& s : domain.pslg.segments) {
+    const RegionId lake = domain.pslg.points[s.a].x < 15.0 ? 0 : 3;
+    EXPECT_EQ(std::minmax(s.left, s.right), std::minmax(RegionId{1}, lake));
+  }
+}
+
 // What a cut left, rounded to the decimals that the input has, is no bend; a bend of more digits is one, though
 // smaller, and so is one as fine as the decimals where the lake is no larger.
 TEST(Dissolve, TakesABendForATraceOnlyWithinTheDecimals) {
@@ -385,7 +405,7 @@ TEST(Constraints, OverlappingLines) {
 TEST(Constraints, LinesPointsAndRegionsInTheWater) {
   Feature wall = lineFeature(1, {{1, 1}, {3, 1}, {30, 1}}), weir = lineFeature(2, {{1, 2}, {3, 2}});
   wall.use = FeatureUse::Constraint;
-  wall.points = {{5, 5}, {50, 50}};
+  wall.points = {{50, 50}, {5, 5}, {5, 5}};  // what lies outside does not keep the next from being taken, nor twice
   wall.attributes = {{"Name", "wall"}};
   weir.use = FeatureUse::Weir;
   Feature region = polygonFeature(3, square(6, 6, 20));

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "gis/error.hpp"
@@ -180,6 +182,28 @@ TEST(RasterBand, GoesRoundTheEarthForDepthsAndSizes) {
   EXPECT_NEAR(sizeAt(field, seam), 1.2, 0.01);
   EXPECT_NEAR(sizeAt(field, inside), 1.0, 0.02);
   EXPECT_EQ(west_of_first, -1.4F);
+}
+
+// A grid of 200 rows whose text ends after 120: the last rows are refused, at once.
+TEST(RasterBand, ATextThatEndsTooEarlyIsRefusedWhereverItIsRead) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "short.asc";
+  {
+    std::ofstream text(path);
+    text << "ncols 3\nnrows 200\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    for (int row = 0; row < 120; ++row) text << row << " " << row + 1 << " " << row + 2 << "\n";
+  }
+  const RasterBand band(path);
+  for (const std::int64_t row : {190, 121, 199}) {
+    try {
+      band.read({1, row, 1, 1});
+      ADD_FAILURE() << row;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("short.asc' at pixel 0, 120: "), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_EQ(band.read({1, 118, 2, 2}), (std::vector<double>{119, 120, 120, 121}));
+  EXPECT_EQ(band.read({0, 3, 1, 1}), std::vector<double>{3});
 }
 
 TEST(RasterBand, ComplexNumbersAreRefused) {
