@@ -28,6 +28,8 @@ constexpr std::size_t kMostVisits = 64;
 constexpr std::array<std::uint32_t, 4> kNowhere = {kNone, kNone, kNone, kNone};
 
 const ItemLoop kInOrder = inOrder;
+// Room for vertices to come, as a share of those that are there.
+constexpr std::size_t kSpare = 32;
 
 // As `SizeGrading::forEachSlope`, by sizes in a cell's slots. `f` may change these.
 template <typename F>
@@ -81,15 +83,22 @@ double SizeGrid::slopeIn(const LeafVertices& leaf) const {
 SizeGrading::SizeGrading(GradedSizes& sizes, const SizeGrid& grid, std::span<const LeafVertices> leaves,
                          const ItemLoop& loop)
     : sizes_(sizes), grid_(grid), leaves_(leaves), loop_(loop) {
-  reserveOn(loop_, round_, grid_.places.size());
+  reserveOn(loop_, round_, grid_.places.size(), grid_.places.size() / kSpare);
   round_.assign(grid_.places.size(), kNowhere);
   forEachByStretches(loop_, leaves_.size(), [&](std::size_t l) { takeIn(static_cast<std::uint32_t>(l)); });
+  halves_.resize(grid_.places.size());
+  forEachByStretches(loop_, halves_.size(),
+                     [&](std::size_t v) { halves_[v] = largestRound(static_cast<std::uint32_t>(v)); });
 }
 
 void SizeGrading::update(std::span<const LeafVertices> leaves, std::span<const std::uint32_t> changed) {
   leaves_ = leaves;
   round_.resize(grid_.places.size(), kNowhere);
+  halves_.resize(grid_.places.size());
   for (const std::uint32_t l : changed) takeIn(l);
+  for (const std::uint32_t l : changed)
+    for (const std::uint32_t v : leaves_[l])
+      if (v != kNone) halves_[v] = largestRound(v);
 }
 
 void SizeGrading::takeIn(std::uint32_t leaf) {
@@ -138,7 +147,6 @@ double SizeGrading::lowestOf(std::uint32_t leaf) const {
 }
 
 void SizeGrading::spread() {
-  findLargest();
   // First to where nothing is wanted, from the boundary of that.
   const auto isFree = [&](std::uint32_t v) { return v != kNone && !std::isfinite(sizes_.size[v]); };
   grow(joined(overStretches(loop_, leaves_.size(),
@@ -191,15 +199,12 @@ std::vector<std::uint32_t> SizeGrading::besideNew() const {
   }));
 }
 
-// Of the largest cell round each vertex.
-void SizeGrading::findLargest() {
-  halves_.resize(grid_.places.size());
-  forEachByStretches(loop_, grid_.places.size(), [&](std::size_t v) {
-    std::uint32_t half = 0;
-    for (const std::uint32_t l : round_[v])
-      if (l != kNone) half = std::max(half, grid_.places[leaves_[l][4]].x - grid_.places[leaves_[l][0]].x);
-    halves_[v] = half;
-  });
+// Half the side of the largest cell round a vertex.
+std::uint32_t SizeGrading::largestRound(std::uint32_t v) const {
+  std::uint32_t half = 0;
+  for (const std::uint32_t l : round_[v])
+    if (l != kNone) half = std::max(half, grid_.places[leaves_[l][4]].x - grid_.places[leaves_[l][0]].x);
+  return half;
 }
 
 // The longest leg of the triangles round a vertex, on the surface.
@@ -207,8 +212,9 @@ double SizeGrading::legAt(std::uint32_t v) const {
   return std::numbers::sqrt2 * grid_.unit * halves_[v] * grid_.shrinkAt(v);
 }
 
-// Starts to bring what those that follow will need from memory: what waits by size lies all over it.
-void SizeGrading::fetchAhead(std::span<const SizeQueue::Entry> batch) const {
+// Starts to bring what those that follow will need from memory: what waits by size lies all over it. Inline: a call
+// that does nothing else is left out.
+[[gnu::always_inline]] inline void SizeGrading::fetchAhead(std::span<const SizeQueue::Entry> batch) const {
   constexpr std::size_t kSteps = 8;
   if (batch.size() > 3 * kSteps) {
     const std::uint32_t v = batch[3 * kSteps].number;
@@ -233,6 +239,17 @@ void SizeGrading::fetchAhead(std::span<const SizeQueue::Entry> batch) const {
       }
     });
   }
+}
+
+[[gnu::always_inline]] inline void SizeGrading::fetchLeaf(std::span<const std::uint32_t> leaves) const {
+  constexpr std::size_t kSteps = 6;
+  if (leaves.size() > 2 * kSteps) __builtin_prefetch(&leaves_[leaves[2 * kSteps]]);
+  if (leaves.size() <= kSteps) return;
+  const LeafVertices& leaf = leaves_[leaves[kSteps]];
+  __builtin_prefetch(&grid_.places[leaf[0]]);
+  __builtin_prefetch(&grid_.places[leaf[4]]);
+  for (const std::uint32_t v : leaf)
+    if (v != kNone) __builtin_prefetch(&sizes_.size[v]);
 }
 
 // From each place sizes grow with the distance from it on the surface, not with that along edges: every vertex knows
@@ -298,6 +315,8 @@ void SizeGrading::flatten() {
   for (const std::uint32_t l : findSteep()) queue.push({lowestOf(l), l});
   std::vector<SizeQueue::Entry> batch;
   std::vector<std::uint32_t> leaves;
+  seen_.assign(leaves_.size(), 0);
+  seen_last_ = 0;
   std::size_t visits = kMostVisits * leaves_.size();
   while (queue.take(batch)) {
     leaves.clear();
@@ -313,13 +332,17 @@ void SizeGrading::flatten() {
 // All at once: each from sizes as they are, and of what several lower the lowest counts. `leaves` becomes those that
 // are steep afterwards.
 void SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
-  constexpr std::size_t kWorthThreads = 2'000, kStretch = 256;
+  constexpr std::size_t kWorthThreads = 500, kStretch = 128;
+  ++seen_last_;
   const ItemLoop& loop = leaves.size() < kWorthThreads ? kInOrder : loop_;
   const std::vector<Lowered> lowered = joined(overStretches(
       loop, leaves.size(),
       [&](std::size_t first, std::size_t last) {
         std::vector<Lowered> some;
-        for (const std::uint32_t l : std::span(leaves).subspan(first, last - first)) flattenLeaf(l, some);
+        for (std::size_t k = first; k < last; ++k) {
+          fetchLeaf(std::span(leaves).subspan(k, last - k));
+          flattenLeaf(leaves[k], some);
+        }
         return some;
       },
       kStretch));
@@ -327,15 +350,17 @@ void SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
   for (const auto& [v, size] : lowered) {
     if (!(size < sizes_.size[v])) continue;
     sizes_.size[v] = size;
-    forLeavesRound(v, [&](std::uint32_t l) { leaves.push_back(l); });
+    for (const std::uint32_t l : round_[v])
+      if (l != kNone && std::exchange(seen_[l], seen_last_) != seen_last_) leaves.push_back(l);
   }
-  sortOnce(leaves);
   leaves = joined(overStretches(
       loop, leaves.size(),
       [&](std::size_t first, std::size_t last) {
         std::vector<std::uint32_t> steep;
-        for (const std::uint32_t l : std::span(leaves).subspan(first, last - first))
-          if (isSteep(l)) steep.push_back(l);
+        for (std::size_t k = first; k < last; ++k) {
+          fetchLeaf(std::span(leaves).subspan(k, last - k));
+          if (isSteep(leaves[k])) steep.push_back(leaves[k]);
+        }
         return steep;
       },
       kStretch));

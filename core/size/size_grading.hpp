@@ -91,9 +91,10 @@ class SizeGrading {
   bool isSteep(std::uint32_t leaf) const;
   std::vector<std::uint32_t> findSteep() const;
   double lowestOf(std::uint32_t leaf) const;
-  void findLargest();
+  std::uint32_t largestRound(std::uint32_t v) const;
   double legAt(std::uint32_t v) const;
   void fetchAhead(std::span<const SizeQueue::Entry> batch) const;
+  void fetchLeaf(std::span<const std::uint32_t> leaves) const;
   template <typename F>
   void grow(std::vector<std::uint32_t>&& from, const F& mayLower);
   template <typename F>
@@ -114,7 +115,9 @@ class SizeGrading {
   std::span<const LeafVertices> leaves_;
   // The cells round a vertex, by quadrants from the upper right one; twice one that meets it with the middle of a side.
   std::vector<std::array<std::uint32_t, 4>> round_;
-  std::vector<std::uint32_t> halves_;  // of the side of the largest cell round a vertex, when sizes were spread last
+  std::vector<std::uint32_t> halves_;  // of the side of the largest cell round a vertex, in units
+  std::vector<std::uint32_t> seen_;    // while sizes are flattened: the batch that listed a cell last
+  std::uint32_t seen_last_ = 0;
   const ItemLoop& loop_;
 };
 

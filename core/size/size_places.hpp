@@ -31,9 +31,20 @@ class SizePlaces {
     }
     return number;
   }
+  // Start to bring from memory what adding a place needs: first where it stands, some time later its number's place.
+  [[gnu::always_inline]] void fetchSlot(const Place& place) const {
+    if (!table_.empty()) __builtin_prefetch(&table_[firstSlotOf(place) & (table_.size() - 1)]);
+  }
+  [[gnu::always_inline]] void fetchPlace(const Place& place) const {
+    if (table_.empty()) return;
+    const std::uint32_t number = table_[firstSlotOf(place) & (table_.size() - 1)];
+    if (number != kNone) __builtin_prefetch(&places_[number]);
+  }
   // Numbers all anew: `order` holds the numbers that places have, each once, in the order of those that they get.
   void reorder(const std::vector<std::uint32_t>& order) {
-    std::vector<Place> places(order.size());
+    std::vector<Place> places;
+    places.reserve(order.size() + order.size() / 32);
+    places.resize(order.size());
     std::vector<std::uint32_t> numbers(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) {
       places[i] = places_[order[i]];
@@ -47,17 +58,23 @@ class SizePlaces {
  private:
   static constexpr std::size_t kBlock = 64;
 
-  // Where it is, or the free slot where it would be. Places of a row of cells of one level follow one another there: a
-  // block of 8 by 8 stays together.
-  std::size_t slotOf(const Place& place) const {
+  // Where the search for a place begins, and its step. Places of a row of cells of one level follow one another there:
+  // a block of 8 by 8 stays together.
+  static std::uint64_t firstSlotOf(const Place& place, std::uint64_t* step = nullptr) {
     constexpr int kMostShift = 31;
     const int level = std::min(std::countr_zero(place.x | place.y), kMostShift);
     const std::uint64_t x = place.x >> level, y = place.y >> level;
     std::uint64_t hash = ((y >> 3) << 32 | (x >> 3)) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(level);
     hash = (hash ^ (hash >> 32)) * 0xD6E8FEB86659FD93u;
     // An odd step comes by every slot.
-    const std::uint64_t step = (hash >> 40) * kBlock + 1, last = table_.size() - 1;
-    std::uint64_t slot = ((hash >> 20) * kBlock + (y & 7) * 8 + (x & 7)) & last;
+    if (step) *step = (hash >> 40) * kBlock + 1;
+    return (hash >> 20) * kBlock + (y & 7) * 8 + (x & 7);
+  }
+  // Where it is, or the free slot where it would be.
+  std::size_t slotOf(const Place& place) const {
+    std::uint64_t step;
+    const std::uint64_t last = table_.size() - 1;
+    std::uint64_t slot = firstSlotOf(place, &step) & last;
     while (table_[slot] != kNone && places_[table_[slot]] != place) slot = (slot + step) & last;
     return slot;
   }

@@ -21,6 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // something small lies between them. Bounds of what grows with a distance are off by less.
 constexpr double kHidden = 1.5;
 constexpr double kUnasked = -1.0;
+// Room for vertices that grading asks for, as a share of those that are there.
+constexpr std::size_t kSpare = 32;
 constexpr int kLevels = 24;
 constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // of the root's side: a leaf of the last level has a centre
 // Vertices of equilateral triangles with edges of length 1, on an area of 1.
@@ -273,6 +275,13 @@ class SizeTreeBuilder {
   void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<SizeRange>& ranges) {
     std::vector<std::array<std::uint32_t, 4>> middles(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k) {
+      constexpr std::size_t kAhead = 6;
+      if (k + 2 * kAhead < cells.size()) {
+        for (const unsigned i : kMiddles) {
+          vertices_.fetchSlot(vertexOf(cells[k + 2 * kAhead], i));
+          vertices_.fetchPlace(vertexOf(cells[k + kAhead], i));
+        }
+      }
       addOwnVertices(cells[k]);
       if (!std::isnan(ranges[k].at_centre))
         told_.push_back({own_vertices_[known_[cells[k]]][kCentre], ranges[k].at_centre});
@@ -414,6 +423,8 @@ class SizeTreeBuilder {
     known_ = {};
     own_vertices_ = {};
     putInOrder();
+    sizes_.size.reserve(sizes_.own.capacity());
+    sizes_.source.reserve(sizes_.own.capacity());
     sizes_.size = sizes_.own;
     sizes_.source.assign(vertices_.size(), kNone);
   }
@@ -444,7 +455,9 @@ class SizeTreeBuilder {
         if (v != kNone) v = numberOf(v);
     for (std::uint32_t v = 0; v < vertices_.size(); ++v) numberOf(v);
     vertices_.reorder(order);
-    std::vector<double> own(order.size());
+    std::vector<double> own;
+    own.reserve(order.size() + order.size() / kSpare);
+    own.resize(order.size());
     forEachByStretches(loop_, order.size(), [&](std::size_t v) { own[v] = sizes_.own[order[v]]; });
     sizes_.own = std::move(own);
   }
@@ -497,23 +510,36 @@ class SizeTreeBuilder {
   // Splits leaves that are too large for what grows into them, or too stretched; of those that nobody will ask for the
   // latter alone, since through them sizes grow as well.
   bool splitGraded() {
-    const std::size_t before = tree_.cells_.size();
-    const std::size_t leaves = leaf_cells_.size();
-    for (std::size_t l = 0; l < leaves; ++l) {
-      if (!is_wanted_[l] && !options_.surface.isCurved()) continue;
+    struct Due {
+      std::uint32_t leaf;
       std::array<std::uint32_t, 9> sources;
       std::size_t count = 0;
-      for (const std::uint32_t v : leaf_vertices_[l])
-        if (v != kNone && sizes_.source[v] != kNone) sources[count++] = sizes_.source[v];
-      if (count > 0) splitBelow(leaf_cells_[l], std::span(sources).first(count), is_wanted_[l] != 0);
-    }
+      std::span<const std::uint32_t> known() const { return std::span(sources).first(count); }
+    };
+    const std::vector<Due> due =
+        joined(overStretches(loop_, leaf_cells_.size(), [&](std::size_t first, std::size_t last) {
+          std::vector<Due> here;
+          for (std::size_t l = first; l < last; ++l) {
+            if (!is_wanted_[l] && !options_.surface.isCurved()) continue;
+            Due one{static_cast<std::uint32_t>(l), {}};
+            for (const std::uint32_t v : leaf_vertices_[l])
+              if (v != kNone && sizes_.source[v] != kNone) one.sources[one.count++] = sizes_.source[v];
+            if (one.count > 0 && isDue(leaf_cells_[l], one.known(), is_wanted_[l] != 0)) here.push_back(one);
+          }
+          return here;
+        }));
+    const std::size_t before = tree_.cells_.size();
+    for (const Due& one : due) splitBelow(leaf_cells_[one.leaf], one.known(), is_wanted_[one.leaf] != 0);
     return tree_.cells_.size() > before;
   }
 
+  bool isDue(std::uint32_t c, std::span<const std::uint32_t> sources, bool is_wanted) const {
+    if (squares_[c].level == kLevels) return false;
+    return (is_wanted && isTooLarge(c, sources)) || isStretched(boxOf(c), kGradedStretch);
+  }
+
   void splitBelow(std::uint32_t c, std::span<const std::uint32_t> sources, bool is_wanted) {
-    const Square square = squares_[c];
-    if (square.level == kLevels || isFull()) return;
-    if (!(is_wanted && isTooLarge(c, sources)) && !isStretched(boxOf(c), kGradedStretch)) return;
+    if (!isDue(c, sources, is_wanted) || isFull()) return;
     split(c);
     for (std::uint32_t k = 0; k < 4; ++k) splitBelow(tree_.cells_[c].below + k, sources, is_wanted);
   }

@@ -175,20 +175,21 @@ void DomainMask::listBoundary(const Pslg& pslg) {
   for (const Entry& entry : entries) boundary_[next[entry.cell]++] = edges[entry.segment];
 }
 
-// Whether a place in a cell lies inside, in units of the cells: from the middle of the row at that place, straight up
-// or down.
-bool DomainMask::holds(const Point& x, std::size_t cell) const {
+// How many places above one another in a cell lie inside, in units of the cells: from the middle of the row at that
+// place, straight up or down.
+int DomainMask::holdsOf(double x, const std::array<double, kProbes>& ys, std::size_t cell) const {
   const std::size_t row = cell >> (shares_.size() - 1);
   const double middle = static_cast<double>(row) + 0.5;
-  const auto after = std::ranges::upper_bound(rows_[row], x.x, {}, &Crossing::x);
-  bool inside = after != rows_[row].begin() && std::prev(after)->inside;
+  const auto after = std::ranges::upper_bound(rows_[row], x, {}, &Crossing::x);
+  std::array<bool, kProbes> inside;
+  inside.fill(after != rows_[row].begin() && std::prev(after)->inside);
   for (std::size_t r = boundary_begin_[cell]; r < boundary_begin_[cell + 1]; ++r) {
     const auto& [a, b] = boundary_[r];
-    if ((a.x <= x.x) == (b.x <= x.x)) continue;
-    const double y = a.y + (b.y - a.y) / (b.x - a.x) * (x.x - a.x);
-    inside ^= (y <= middle) != (y <= x.y);
+    if ((a.x <= x) == (b.x <= x)) continue;
+    const double y = a.y + (b.y - a.y) / (b.x - a.x) * (x - a.x);
+    for (std::size_t k = 0; k < kProbes; ++k) inside[k] ^= (y <= middle) != (y <= ys[k]);
   }
-  return inside;
+  return static_cast<int>(std::ranges::count(inside, true));
 }
 
 double DomainMask::share(const SizeBox& box) const {
@@ -204,12 +205,13 @@ double DomainMask::share(const SizeBox& box) const {
   const auto cell = static_cast<std::size_t>(n * cellOf(at.y) + cellOf(at.x));
   if (deep <= finest || boundary_begin_[cell] == boundary_begin_[cell + 1])
     return shares_[static_cast<std::size_t>(level)][cell];
-  constexpr int kProbes = 3;
+  const auto probe = [&](std::size_t k) {
+    return 2.0 * per_unit * box.half * ((static_cast<double>(k) + 0.5) / kProbes - 0.5);
+  };
+  std::array<double, kProbes> ys;
+  for (std::size_t k = 0; k < kProbes; ++k) ys[k] = at.y + probe(k);
   int inside = 0;
-  for (int k = 0; k < kProbes * kProbes; ++k) {
-    const Point off{(k % kProbes + 0.5) / kProbes - 0.5, (k / kProbes + 0.5) / kProbes - 0.5};
-    inside += holds(at + 2.0 * per_unit * box.half * off, cell);
-  }
+  for (std::size_t k = 0; k < kProbes; ++k) inside += holdsOf(at.x + probe(k), ys, cell);
   return static_cast<double>(inside) / (kProbes * kProbes);
 }
 

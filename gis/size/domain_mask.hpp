@@ -34,7 +34,8 @@ class DomainMask {
   void measureShares(const Pslg& pslg);
   float shareOf(const std::array<float, 4>& below, std::size_t i, std::size_t j, std::size_t cells) const;
   void listBoundary(const Pslg& pslg);
-  bool holds(const Point& x, std::size_t cell) const;
+  static constexpr std::size_t kProbes = 3;  // along each side of a box
+  int holdsOf(double x, const std::array<double, kProbes>& ys, std::size_t cell) const;
 
   Point origin_;
   double side_ = 1.0;
