@@ -29,7 +29,7 @@ constexpr double kHopeless = 0.25;
 // decides on a model's time step.
 constexpr double kShort = 0.6;
 // So many patches at most, as a share of the triangles: where more are poor the input is finer than what is wanted.
-constexpr double kMostPatches = 0.02;
+constexpr double kMostPatches = 0.012;
 // In place of a corner: a vertex comes into the middle, not to where an edge is that of an equilateral triangle.
 constexpr unsigned kCentre = 3;
 

@@ -184,10 +184,10 @@ double Optimiser::wantedAt(VertexId v) {
 
 // What the triangles round a vertex cost where it lies at `place` of the frame; infinite where a bound is broken or
 // more than `limit` is due.
-double Optimiser::costRound(const Point& place, double wanted, double limit) const {
-  constexpr double kTooMuch = std::numeric_limits<double>::infinity();
+Optimiser::StarCost Optimiser::costRound(const Point& place, double wanted, double limit) const {
+  constexpr StarCost kTooMuch{std::numeric_limits<double>::infinity(), 0.0};
   const Point in_plane = frame_.from(place);
-  double sum = 0.0;
+  double sum = 0.0, worst = 0.0;
   Point a = seen(0);
   double size = wantedOf(0);
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
@@ -199,18 +199,20 @@ double Optimiser::costRound(const Point& place, double wanted, double limit) con
       return kTooMuch;
     sum += costOf(doubled, squares, (wanted + size + next) / 3.0);
     if (sum > limit) return kTooMuch;
+    worst = std::max(worst, squares / doubled);
     a = b;
     size = next;
   }
-  return sum;
+  return {sum, 2.0 * kRootOfThree / worst};
 }
 
-// What the triangles round a vertex cost, and the mean of their centroids in the frame, each weighted by how many
-// triangles of the size wanted its own is worth.
-double Optimiser::costHere(VertexId v, Point& centre) const {
+// The same where it lies now, and the mean of the centroids in the frame, each weighted by how many triangles of the
+// size wanted its own is worth.
+Optimiser::StarCost Optimiser::costHere(VertexId v, Point& centre) const {
+  constexpr double kTooMuch = std::numeric_limits<double>::infinity();
   const Point here = frame_.to(mesh_.point(v));
   Point mean, a = seen(0);
-  double sum = 0.0, weight = 0.0, size = wantedOf(0);
+  double sum = 0.0, worst = 0.0, weight = 0.0, size = wantedOf(0);
   const double own_size = wanted_[v];
   bool breaks = false;
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
@@ -218,7 +220,8 @@ double Optimiser::costHere(VertexId v, Point& centre) const {
     const double next = wantedOf(i + 1), wanted = (own_size + size + next) / 3.0;
     const double doubled = cross(b - a, here - a), squares = squaresOf(a, b, here);
     breaks = breaks || (!isClear(doubled, squares) && isBad(corner(i), corner(i + 1), mesh_.point(v), bound_));
-    sum += doubled > 0.0 ? costOf(doubled, squares, wanted) : std::numeric_limits<double>::infinity();
+    sum += doubled > 0.0 ? costOf(doubled, squares, wanted) : kTooMuch;
+    worst = std::max(worst, doubled > 0.0 ? squares / doubled : kTooMuch);
     const double own = doubled / (wanted * wanted);
     mean = mean + own * (a - here + (b - here));
     weight += own;
@@ -226,7 +229,7 @@ double Optimiser::costHere(VertexId v, Point& centre) const {
     size = next;
   }
   centre = here + (1.0 / (3.0 * weight)) * mean;
-  return breaks ? std::numeric_limits<double>::infinity() : sum;
+  return {breaks ? kTooMuch : sum, 2.0 * kRootOfThree / worst};
 }
 
 double Optimiser::leastShape(const Point& place, std::size_t& at) const {
@@ -270,7 +273,7 @@ std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
     for (int k = 0; k < kDirections; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / kDirections;
       const Point to = here + step * wanted_[v] * Point{std::cos(angle), std::sin(angle)};
-      if (!(costRound(to, wanted_[v], kMostGoalCost * cost) < kMostGoalCost * cost)) continue;
+      if (!(costRound(to, wanted_[v], kMostGoalCost * cost).sum < kMostGoalCost * cost)) continue;
       const double then = goalAt(v, to);
       if (then <= best) continue;
       best = then;
@@ -281,69 +284,76 @@ std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
   return std::nullopt;
 }
 
+// Whether a star may become one of such a least shape at `place`, with `held` of what the goal asks before. Links
+// beside triangles that are not poor are long enough but where the goal is links.
+bool Optimiser::keepsGoal(VertexId v, const Point& place, const StarCost& then, double held) const {
+  return !mends_poor_ || (goal_ == QualityGoal::Shape && then.least_shape >= kPoorShape) || goalAt(v, place) >= held;
+}
+
 // Where in the frame the star of a vertex costs less or, later on, its poorest triangle gains and the others lose next
 // to nothing.
 std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   const Point here = frame_.to(mesh_.point(v));
   Point to;
-  const double cost = costHere(v, to);
+  const StarCost now = costHere(v, to);
   if (!std::isfinite(to.x) || !std::isfinite(to.y)) return std::nullopt;
-  if (segment_ != kNone) return betterPlaceOnSegment(v, to, cost);
-  const double held = mends_poor_ ? goalAt(v, here) : 1.0;
+  if (segment_ != kNone) return betterPlaceOnSegment(v, to, now);
+  const double cost = now.sum;
+  const bool may_lack = mends_poor_ && (goal_ != QualityGoal::Shape || now.least_shape < kPoorShape);
+  const double held = may_lack ? goalAt(v, here) : 1.0;
   if (held < 1.0)
     if (const std::optional<Point> place = placeForGoal(v, cost)) return place;
-  const auto keepsGoal = [&](const Point& place) { return !mends_poor_ || goalAt(v, place) >= held; };
+  const auto isBetter = [&](const Point& place) {
+    const StarCost then = costRound(place, wanted_[v], cost);
+    return then.sum < cost && keepsGoal(v, place, then, held);
+  };
   const double still = kStill * wanted_[v];
   if (goes_far_ && squaredDistance(here, to) >= still * still) {
     const Point beyond = here + kBeyond * (to - here);
-    if (costRound(beyond, wanted_[v], cost) < cost && keepsGoal(beyond)) return beyond;
+    if (isBetter(beyond)) return beyond;
   }
   for (int attempt = 0; attempt < kAttempts && squaredDistance(here, to) >= still * still; ++attempt) {
-    if (costRound(to, wanted_[v], cost) < cost && keepsGoal(to)) return to;
+    if (isBetter(to)) return to;
     to = midpoint(here, to);
   }
-  if (!mends_poor_) return std::nullopt;
-  std::size_t poorest = 0, any = 0;
-  const double shape = leastShape(here, poorest);
-  if (shape > kPoorShape) return std::nullopt;
+  if (!mends_poor_ || now.least_shape >= kPoorShape) return std::nullopt;
+  std::size_t poorest = 0;
+  leastShape(here, poorest);
   const Point &a = seen(poorest), &b = seen(poorest + 1);
   const Point apex =
       midpoint(a, b) + 0.5 * kRootOfThree * Point{a.y - b.y, b.x - a.x};  // of the equilateral triangle there
   double share = 0.4;
   for (int attempt = 0; attempt < kAttempts; ++attempt, share *= 0.5) {
     to = here + share * (apex - here);
-    if (leastShape(to, any) > shape + kLeastGain && costRound(to, wanted_[v], kMostCost * cost) < kMostCost * cost &&
-        keepsGoal(to))
+    const StarCost then = costRound(to, wanted_[v], kMostCost * cost);
+    if (then.sum < kMostCost * cost && then.least_shape > now.least_shape + kLeastGain && keepsGoal(v, to, then, held))
       return to;
   }
   return std::nullopt;
 }
 
 // The same along the segment that the vertex is on, `to` being where it would go if it were free.
-std::optional<Point> Optimiser::betterPlaceOnSegment(VertexId v, Point to, double cost) const {
+std::optional<Point> Optimiser::betterPlaceOnSegment(VertexId v, Point to, const StarCost& now) const {
   const Point here = frame_.to(mesh_.point(v));
   // On the input segment itself, lest rounding adds up.
   const Point &from = pslg_.points[pslg_.segments[segment_].a], &end = pslg_.points[pslg_.segments[segment_].b];
   const auto onSegment = [&](const Point& place) { return frame_.to(projectedOnLine(frame_.from(place), from, end)); };
-  const double held = mends_poor_ ? goalAt(v, here) : 1.0, still = kStill * wanted_[v];
-  const auto keepsGoal = [&](const Point& place) { return !mends_poor_ || goalAt(v, place) >= held; };
+  const double cost = now.sum, held = mends_poor_ ? goalAt(v, here) : 1.0, still = kStill * wanted_[v];
   to = onSegment(to);
   for (int attempt = 0; attempt < kAttempts && squaredDistance(here, to) >= still * still; ++attempt) {
-    if (costRound(to, wanted_[v], cost) < cost && keepsGoal(to)) return to;
+    const StarCost then = costRound(to, wanted_[v], cost);
+    if (then.sum < cost && keepsGoal(v, to, then, held)) return to;
     to = onSegment(midpoint(here, to));
   }
-  if (!mends_poor_) return std::nullopt;
-  std::size_t any = 0;
-  double best = leastShape(here, any);
-  if (best > kPoorShape) return std::nullopt;
-  best += kLeastGain;
+  if (!mends_poor_ || now.least_shape >= kPoorShape) return std::nullopt;
+  double best = now.least_shape + kLeastGain;
   const Point along = seen(along_[1]) - seen(along_[0]);
   std::optional<Point> place;
   for (const double share : {0.2, -0.2, 0.1, -0.1, 0.05, -0.05}) {
     to = onSegment(here + share * along);
-    const double shape = leastShape(to, any);
-    if (shape <= best || !(costRound(to, wanted_[v], kMostCost * cost) < kMostCost * cost) || !keepsGoal(to)) continue;
-    best = shape;
+    const StarCost then = costRound(to, wanted_[v], kMostCost * cost);
+    if (!(then.sum < kMostCost * cost) || then.least_shape <= best || !keepsGoal(v, to, then, held)) continue;
+    best = then.least_shape;
     place = to;
   }
   return place;

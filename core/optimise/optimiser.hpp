@@ -47,6 +47,11 @@ class Optimiser {
     Change change = Change::None;
     unsigned corner = 0;
   };
+  // Of the triangles round a vertex.
+  struct StarCost {
+    double sum;          // what they cost
+    double least_shape;  // of the poorest
+  };
   struct PoorTriangle {
     double shape;
     TriId triangle;
@@ -66,8 +71,8 @@ class Optimiser {
 
   void noteWanted();
   double wantedAt(VertexId v);
-  double costRound(const Point& place, double wanted, double limit) const;
-  double costHere(VertexId v, Point& centre) const;
+  StarCost costRound(const Point& place, double wanted, double limit) const;
+  StarCost costHere(VertexId v, Point& centre) const;
   double goalAt(VertexId v, const Point& place) const;
   double linkGoal(const Point& p, const Point& q, const Point& left, const Point& right) const {
     return isLinkClearOf(enoughLink(), p, q, left, right) ? 1.0 : linkShareOf(p, q, left, right) / enoughLink();
@@ -76,7 +81,8 @@ class Optimiser {
   std::optional<Point> placeForGoal(VertexId v, double cost) const;
   double leastShape(const Point& place, std::size_t& at) const;
   std::optional<Point> betterPlace(VertexId v) const;
-  std::optional<Point> betterPlaceOnSegment(VertexId v, Point to, double cost) const;
+  std::optional<Point> betterPlaceOnSegment(VertexId v, Point to, const StarCost& now) const;
+  bool keepsGoal(VertexId v, const Point& place, const StarCost& then, double held) const;
   bool flipsAt(VertexId v, const Point& place) const;
   bool move(VertexId v);
   bool mergeShort(VertexId v);
