@@ -198,6 +198,7 @@ std::vector<std::size_t> readTriangles(const VtuFile& file, Grid& grid) {
   if (!corners) file.fail("there is no array \"connectivity\" in Cells");
   std::vector<std::size_t> of_cell;
   for (std::size_t c = 0; c < cells; ++c) {
+    if (!(types[c] >= 0.0 && types[c] < 256.0)) file.fail("cell " + std::to_string(c + 1) + " is of no type");
     const auto type = static_cast<std::int64_t>(types[c]);
     if (type == kVertexCell || type == kLineCell) continue;
     if (type != kTriangleCell)
@@ -263,6 +264,7 @@ std::vector<std::string> readTexts(const VtuFile& file, const char* name) {
   std::vector<std::string> texts;
   std::string text;
   for (const double byte : file.array("FieldData", name).value_or(std::vector<double>())) {
+    if (!(byte >= 0.0 && byte < 256.0)) file.fail("its texts hold what is no byte");
     if (byte != 0.0) {
       text.push_back(static_cast<char>(static_cast<unsigned char>(byte)));
     } else {
@@ -286,6 +288,8 @@ void readLines(const VtuFile& file, Grid& grid) {
   const std::vector<std::string> names = readTexts(file, "line_names");
   for (Chain& chain : readChains(file, "line", "kinds", kLineKinds.size(), grid.nodes.size())) {
     const std::size_t i = grid.lines.size();
+    if (chain.nodes.size() < (chain.closed ? 3u : 2u))
+      file.fail("line " + std::to_string(i + 1) + " has too few nodes");
     grid.lines.push_back(
         {kLineKinds[chain.kind], i < names.size() ? names[i] : "", chain.closed, std::move(chain.nodes)});
   }
