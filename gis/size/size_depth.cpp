@@ -124,8 +124,9 @@ double wavelengthOf(double period_s, double depth_m) {
 
 TileRule depthRule(const DepthRules& rules) {
   TileRule rule;
-  // Three means over squares look one and a half squares far, and slopes one pixel further.
-  if (rules.slope_elements > 0.0) rule.margin_m = 0.8 * rules.slope_filter_m;
+  // Three means over squares look one and a half squares far, and slopes one pixel further, without a filter too.
+  constexpr double kNext = 1e-3;
+  if (rules.slope_elements > 0.0) rule.margin_m = std::max(0.8 * rules.slope_filter_m, kNext);
   const DepthTable waves(rules.least_depth_m, [&](double depth) {
     return rules.wave_elements > 0.0 ? wavelengthOf(rules.period_s, depth) / rules.wave_elements : kNothing;
   });

@@ -72,9 +72,10 @@ std::array<int, 4> tilesOf(const Box& pixels, const RasterGeometry& raster) {
   return window[0] < window[2] && window[1] < window[3] ? window : std::array<int, 4>{};
 }
 
-// As many pixels round a tile as the rule looks at, and one. Throws InputError.
+// As many pixels round a tile as the rule looks at, and one; none where it looks at none: files have blocks as large as
+// tiles, and each margin has those round it unpacked once more. Throws InputError.
 int marginOf(const RasterTile& tile, const TileRule& rule) {
-  if (!(rule.margin_m > 0.0)) return 1;
+  if (!(rule.margin_m > 0.0)) return 0;
   const double margin = std::ceil(rule.margin_m / std::min(tile.pixel_m[0], tile.pixel_m[1]));
   if (margin > kMostMargin)
     throw InputError(tile.file +
