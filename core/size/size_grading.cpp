@@ -324,14 +324,13 @@ void SizeGrading::flatten() {
     sortOnce(leaves);
     if (visits < leaves.size()) return flattenLegs();
     visits -= leaves.size();
-    flattenLeaves(leaves);
-    for (const std::uint32_t l : leaves) queue.push({lowestOf(l), l});
+    for (const SizeQueue::Entry& steep : flattenLeaves(leaves)) queue.push(steep);
   }
 }
 
-// All at once: each from sizes as they are, and of what several lower the lowest counts. `leaves` becomes those that
-// are steep afterwards.
-void SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
+// All at once: each from sizes as they are, and of what several lower the lowest counts. Returns those that are steep
+// afterwards; `leaves` is used up.
+std::vector<SizeQueue::Entry> SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
   constexpr std::size_t kWorthThreads = 500, kStretch = 128;
   ++seen_last_;
   const ItemLoop& loop = leaves.size() < kWorthThreads ? kInOrder : loop_;
@@ -353,13 +352,13 @@ void SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
     for (const std::uint32_t l : round_[v])
       if (l != kNone && std::exchange(seen_[l], seen_last_) != seen_last_) leaves.push_back(l);
   }
-  leaves = joined(overStretches(
-      loop, leaves.size(),
+  return joined(overStretches(
+      leaves.size() < kWorthThreads ? kInOrder : loop_, leaves.size(),
       [&](std::size_t first, std::size_t last) {
-        std::vector<std::uint32_t> steep;
+        std::vector<SizeQueue::Entry> steep;
         for (std::size_t k = first; k < last; ++k) {
           fetchLeaf(std::span(leaves).subspan(k, last - k));
-          if (isSteep(leaves[k])) steep.push_back(leaves[k]);
+          if (isSteep(leaves[k])) steep.push_back({lowestOf(leaves[k]), leaves[k]});
         }
         return steep;
       },

@@ -100,7 +100,7 @@ class SizeGrading {
   template <typename F>
   void findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const;
   std::vector<std::uint32_t> besideNew() const;
-  void flattenLeaves(std::vector<std::uint32_t>& leaves);
+  std::vector<SizeQueue::Entry> flattenLeaves(std::vector<std::uint32_t>& leaves);
   void flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered) const;
   void flattenLegs();
   template <typename F>

@@ -232,8 +232,8 @@ class SizeTreeBuilder {
             return here;
           }));
       if (wanted.empty() && tree_.cells_.size() == end) break;
-      boxes.clear();
-      for (const std::uint32_t c : wanted) boxes.push_back(boxOf(c));
+      boxes.resize(wanted.size());
+      forEachByStretches(loop_, wanted.size(), [&](std::size_t k) { boxes[k] = boxOf(wanted[k]); });
       ranges.resize(boxes.size());
       source_.bound(boxes, ranges);
       Demand pending = settled;
@@ -329,16 +329,18 @@ class SizeTreeBuilder {
     sizes_.own.resize(vertices_.size(), kUnasked);
     for (const auto& [v, size] : told_) sizes_.own[v] = size;
     told_.clear();
-    std::vector<std::uint32_t> asked;
-    std::vector<Point> places;
-    for (auto v = static_cast<std::uint32_t>(known); v < vertices_.size(); ++v) {
-      if (sizes_.own[v] != kUnasked) continue;
-      asked.push_back(v);
-      places.push_back(placeOf(vertices_[v]));
-    }
+    const std::vector<std::uint32_t> asked =
+        joined(overStretches(loop_, vertices_.size() - known, [&](std::size_t first, std::size_t last) {
+          std::vector<std::uint32_t> here;
+          for (auto v = static_cast<std::uint32_t>(known + first); v < known + last; ++v)
+            if (sizes_.own[v] == kUnasked) here.push_back(v);
+          return here;
+        }));
+    std::vector<Point> places(asked.size());
+    forEachByStretches(loop_, asked.size(), [&](std::size_t k) { places[k] = placeOf(vertices_[asked[k]]); });
     std::vector<double> sizes(places.size());
     source_.sample(places, sizes);
-    for (std::size_t k = 0; k < asked.size(); ++k) sizes_.own[asked[k]] = sizes[k];
+    forEachByStretches(loop_, asked.size(), [&](std::size_t k) { sizes_.own[asked[k]] = sizes[k]; });
   }
 
   // The cell that holds the unit square with this lower left corner, no deeper than `level`.

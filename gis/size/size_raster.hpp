@@ -35,7 +35,7 @@ struct RasterTile {
 
 // From values to sizes: `sizes` has one a pixel, in rows without margin; infinite where nothing is wanted.
 struct TileRule {
-  double margin_m = 0.0;  // of surroundings that the rule looks at
+  double margin_m = 0.0;  // of surroundings that the rule looks at; 0: a tile has none
   std::function<void(const RasterTile& tile, std::span<float> sizes)> sizes;
 };
 

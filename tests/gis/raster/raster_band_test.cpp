@@ -174,6 +174,7 @@ TEST(RasterBand, GoesRoundTheEarthForDepthsAndSizes) {
   EXPECT_NEAR(depths[1], -1.0, 0.01);
   float west_of_first = 0.0F;
   TileRule rule = valuesAsSizes();
+  rule.margin_m = 1.0;
   rule.sizes = [inner = rule.sizes, &west_of_first](const RasterTile& tile, std::span<float> sizes) {
     west_of_first = tile.at(-1, 0);
     inner(tile, sizes);
