@@ -85,8 +85,8 @@ std::size_t clip(Point*& polygon, std::size_t corners, Point*& clipped, double* 
 inline double larger(double a, double b) { return a > b ? a : b; }
 inline double smaller(double a, double b) { return a < b ? a : b; }
 
-// Above 0 where the angle of the triangle x, x + d, c there is too small, |d|² being `squared`; over the edge's length each is how far c is from
-// where it may be, nearly so for the petal.
+// Above 0 where the angle of the triangle x, x + d, c there is too small, |d|² being `squared`; over |d| each is how
+// far c is from where it may be, nearly so for the petal.
 struct Lacks {
   double at_x, at_y, at_c;
 };

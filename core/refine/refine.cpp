@@ -1,5 +1,6 @@
 #include "core/refine/refine.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -39,16 +40,20 @@ RefineStats finish(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
 // mesh.
 constexpr VertexId kFewPoints = 64;
 
+// Few points may do with less slack than many.
+constexpr double kMostUsualAim = 1.0;
+
 std::vector<RefineVariant> furtherVariants(const RefineOptions& options) {
+  const RefineVariant usual = usualVariant(options);
   std::vector<RefineVariant> variants;
   for (const double aim_deg : {0.0, 0.25, 0.5, 1.0, 2.0, 3.0}) {
     for (const bool worst_first : {false, true}) {
-      variants.push_back(usualVariant(options));
-      variants.back().aim_deg += aim_deg;
-      variants.back().worst_first = worst_first;
+      RefineVariant variant = usual;
+      variant.aim_deg = std::min(usual.aim_deg, kMostUsualAim) + aim_deg;
+      variant.worst_first = worst_first;
+      if (variant.aim_deg != usual.aim_deg || worst_first) variants.push_back(variant);
     }
   }
-  variants.erase(variants.begin());  // the usual one
   return variants;
 }
 

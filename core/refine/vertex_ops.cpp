@@ -235,12 +235,14 @@ bool VertexOps::hasTooManyTogether(VertexId v, VertexId w) const {
 
 // A quick test of two free vertices, v with its ring and w beside it, that rules most merges out.
 bool VertexOps::cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside) {
-  Ring& other = memory_.other_ring;
-  if (mesh_.ring(w, beside, most_triangles_ + kMergedAway, other) != StarKind::Closed) return true;
   Link& link = memory_.link;
   link.clear();
   appendLink(mesh_, ring, w, link);
-  appendLink(mesh_, other, v, link);
+  const auto append = [&](EdgeRef e) {
+    const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+    if (a != v && b != v) link.push_back({mesh_.point(a), mesh_.point(b)});
+  };
+  if (mesh_.walkRound(w, beside, most_triangles_ + kMergedAway, append) != StarKind::Closed) return true;
   return region_.look(framed(Frame(bound_.surface, mesh_.point(v)), link)).is_empty;
 }
 
@@ -283,9 +285,9 @@ std::optional<Point> VertexOps::placeTowards(const Point& to, const Frame& frame
 
 // Whether a bad triangle lies beyond the ring of a vertex.
 bool VertexOps::isBesideBad(VertexId v, const Ring& ring) const {
-  if (!at_bad_.empty() && std::ranges::none_of(ring.corners, [&](VertexId w) { return at_bad_[w] != 0; })) return false;
-  return std::ranges::any_of(
-      ring.triangles, [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); });
+  if (std::ranges::all_of(ring.corners, [&](VertexId w) { return isClearOfBad(w); })) return false;
+  return std::ranges::any_of(ring.triangles,
+                             [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); });
 }
 
 // Whether an edge of a free vertex's star may not be Delaunay, the vertex being where `fitsAt` was last asked for:
@@ -310,14 +312,12 @@ bool VertexOps::needsFlips(VertexId v, const Ring& ring) const {
   });
 }
 
-bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
-  Ring& ring = memory_.ring;
-  if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, ring) != StarKind::Closed) return false;
+bool VertexOps::relocateFree(VertexId v, const Ring& ring, std::vector<TriId>& touched) {
   Link& link = memory_.link;
   link.clear();
   appendLink(mesh_, ring, kNone, link);
   const Point here = mesh_.point(v);
-  const bool good = fitsAt(here, link);
+  const bool good = isClearOfBad(v) || fitsAt(here, link);
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   if (clear_of_frozen_ && std::ranges::any_of(ring.triangles, isFrozen)) return false;
   const Frame frame(bound_.surface, here);
@@ -341,8 +341,10 @@ bool VertexOps::relocateFree(VertexId v, std::vector<TriId>& touched) {
 }
 
 bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
-  if (mesh_.kind(v) == VertexKind::Free && !flips_may_harm_) return relocateFree(v, touched);
-  return relocateWatchingFlips(v, touched);
+  if (mesh_.kind(v) != VertexKind::Free || flips_may_harm_) return relocateWatchingFlips(v, touched);
+  Ring& ring = memory_.ring;
+  return mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, ring) == StarKind::Closed &&
+         relocateFree(v, ring, touched);
 }
 
 bool VertexOps::relocateWatchingFlips(VertexId v, std::vector<TriId>& touched) {
@@ -420,12 +422,18 @@ bool VertexOps::removeAnyway(VertexId v, std::vector<TriId>& touched) {
 
 template <typename Accept>
 bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched) {
-  std::vector<Corners>& fresh = memory_.fresh;
   if (mesh_.kind(v) == VertexKind::Free) {
     // Most fail: before anything else is looked at.
     if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, memory_.ring) != StarKind::Closed) return false;
-    if (!triangulatePolygon(mesh_, memory_.ring.corners, fresh, accept)) return false;
+    if (!triangulatePolygon(mesh_, memory_.ring.corners, memory_.fresh, accept)) return false;
   }
+  return takeOut(v, flips, accept, touched);
+}
+
+// What triangles come in place of a free vertex is in `fresh`.
+template <typename Accept>
+bool VertexOps::takeOut(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched) {
+  std::vector<Corners>& fresh = memory_.fresh;
   std::vector<EdgeRef>& opposite = memory_.opposite;
   const StarKind kind = mesh_.star(v, opposite, most_triangles_);
   if (kind == StarKind::TooMany) return false;
@@ -444,30 +452,34 @@ bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::
   return true;
 }
 
+bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn, std::vector<TriId>& touched) {
+  const Point here = mesh_.point(v);
+  double longest = 0.0;  // known once it is needed
+  for (std::size_t k = 0; k < ring.corners.size(); ++k) {
+    const VertexId w = ring.corners[k];
+    const VertexKind kind = mesh_.kind(w);
+    if (kind == VertexKind::Input || hasTooManyTogether(v, w)) continue;
+    if (kind == VertexKind::Free) {
+      if (each_gets_its_turn && w < v) continue;
+      if (longest == 0.0) {
+        for (const VertexId u : ring.corners) longest += bound_.surface.squaredChord(here, mesh_.point(u));
+        longest *= kLongestToMerge / static_cast<double>(ring.corners.size());
+      }
+      if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest || cannotMerge(v, ring, w, ring.triangles[k]))
+        continue;
+    } else if (cannotMergeOnto(v, ring, w)) {
+      continue;
+    }
+    if (merge(v, w, touched)) return true;
+  }
+  return false;
+}
+
 bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free) {
     Ring& ring = memory_.ring;
-    if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring) != StarKind::Closed) return false;
-    const Point here = mesh_.point(v);
-    double longest = 0.0;  // known once it is needed
-    for (std::size_t k = 0; k < ring.corners.size(); ++k) {
-      const VertexId w = ring.corners[k];
-      const VertexKind kind = mesh_.kind(w);
-      if (kind == VertexKind::Input || hasTooManyTogether(v, w)) continue;
-      if (kind == VertexKind::Free) {
-        if (each_gets_its_turn && w < v) continue;
-        if (longest == 0.0) {
-          for (const VertexId u : ring.corners) longest += bound_.surface.squaredChord(here, mesh_.point(u));
-          longest *= kLongestToMerge / static_cast<double>(ring.corners.size());
-        }
-        if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest || cannotMerge(v, ring, w, ring.triangles[k]))
-          continue;
-      } else if (cannotMergeOnto(v, ring, w)) {
-        continue;
-      }
-      if (merge(v, w, touched)) return true;
-    }
-    return false;
+    return mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring) == StarKind::Closed &&
+           mergeFree(v, ring, each_gets_its_turn, touched);
   }
   std::vector<EdgeRef>& opposite = memory_.opposite;
   if (mesh_.star(v, opposite, most_triangles_ + kMergedAway) == StarKind::TooMany) return false;
@@ -484,6 +496,24 @@ bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vec
     if (mesh_.kind(w) == VertexKind::Free ? merge(w, v, touched) : merge(v, w, touched)) return true;
   }
   return false;
+}
+
+VertexOps::Change VertexOps::tryInTurn(VertexId v, const Tries& tries, std::vector<TriId>& touched) {
+  const bool removes = mesh_.trianglesRound(v) <= tries.removes_up_to;
+  if (mesh_.kind(v) != VertexKind::Free || flips_may_harm_) {
+    if (removes && remove(v, touched)) return Change::Removed;
+    if (tries.merges && mergeWithNeighbour(v, true, touched)) return Change::Merged;
+    return tries.moves && relocate(v, touched) ? Change::Moved : Change::None;
+  }
+  Ring& ring = memory_.ring;
+  if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring) != StarKind::Closed) return Change::None;
+  const auto accept = [this](const Corners& c) { return isGood(c); };
+  const bool few = ring.corners.size() <= most_triangles_;
+  if (removes && few && triangulatePolygon(mesh_, ring.corners, memory_.fresh, accept) &&
+      takeOut(v, Flips::Watched, accept, touched))
+    return Change::Removed;
+  if (tries.merges && mergeFree(v, ring, true, touched)) return Change::Merged;
+  return tries.moves && few && relocateFree(v, ring, touched) ? Change::Moved : Change::None;
 }
 
 bool VertexOps::merge(VertexId goes, VertexId stays, std::vector<TriId>& touched) {

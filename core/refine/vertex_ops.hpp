@@ -51,6 +51,16 @@ class VertexOps {
   // gets its turn.
   bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
 
+  // What may be tried with a vertex, in this order until something succeeds.
+  struct Tries {
+    std::size_t removes_up_to = 0;  // removal, of a vertex with at most so many triangles
+    bool merges = false;            // as mergeWithNeighbour, each getting its turn
+    bool moves = false;             // as relocate
+  };
+  enum class Change { None, Removed, Merged, Moved };
+  // The same as these one after another, with one walk round the vertex.
+  Change tryInTurn(VertexId v, const Tries& tries, std::vector<TriId>& touched);
+
   // Whether beyond an edge, given as seen from there (kNone: nothing), lies a bad triangle.
   bool isBadBeyond(EdgeRef e) const;
 
@@ -74,18 +84,22 @@ class VertexOps {
   bool gather(VertexId v, Star& star);
   bool gatherBoth(VertexId goes, VertexId stays, Star& star);
   bool appendStar(VertexId v, VertexId other, VertexId stays, Star& star);
-  bool relocateFree(VertexId v, std::vector<TriId>& touched);
+  bool relocateFree(VertexId v, const Ring& ring, std::vector<TriId>& touched);
   bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
+  bool mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn, std::vector<TriId>& touched);
   bool hasTooManyTogether(VertexId v, VertexId w) const;
   bool cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside);
   bool cannotMergeOnto(VertexId v, const Ring& ring, VertexId w);
   std::optional<Point> placeTowards(const Point& to, const Frame& frame, const Point& here,
                                     std::span<const LinkEdge> link);
   bool fitsAt(const Point& place, std::span<const LinkEdge> link);
+  bool isClearOfBad(VertexId v) const { return v < at_bad_.size() && at_bad_[v] == 0; }
   bool isBesideBad(VertexId v, const Ring& ring) const;
   bool needsFlips(VertexId v, const Ring& ring) const;
   template <typename Accept>
   bool removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
+  template <typename Accept>
+  bool takeOut(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
   template <typename Accept>
   bool fillHole(std::span<const BoundaryEdge> side, const Accept& accept, std::vector<Corners>& fresh);
   template <typename Accept>
@@ -108,7 +122,7 @@ class VertexOps {
   bool clear_of_frozen_ = false;
   bool bad_stays_ = false;
   // One a vertex, in the plane: whether it was a corner of a bad triangle when these were to stay. No other triangle
-  // gets bad: flips keep the smallest angle.
+  // gets bad: flips keep the smallest angle. Nothing is known of later vertices.
   std::vector<std::uint8_t> at_bad_;
   std::size_t most_triangles_;  // no vertex can have more round it without a bad one among them
   bool flips_may_harm_;         // they keep the smallest angle, but not the largest, nor the longest edge
@@ -118,7 +132,7 @@ class VertexOps {
   // Memory that is used again and again. Whoever takes one of these fills it first, and hands it on as an argument:
   // nothing is left in them for another to read.
   struct Memory {
-    Ring ring, other_ring;
+    Ring ring;
     Star star;
     std::vector<EdgeRef> opposite;
     std::vector<VertexId> neighbours, polygon;
