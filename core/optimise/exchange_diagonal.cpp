@@ -13,7 +13,7 @@ namespace coastmesh {
 namespace {
 
 // Turns of the four corners; further ones move them by less than a hundredth of an edge.
-constexpr int kTurns = 10;
+constexpr int kTurns = 6;
 constexpr std::uint32_t kMoved = 4;
 // What follows makes good more than this.
 constexpr double kMostCost = 1.1;

@@ -16,14 +16,14 @@ namespace {
 constexpr double kPoorWeight = 5.0, kLeastGain = 0.02;
 // A patch holds what touches the triangle, and what touches that; in it every vertex gets so many turns.
 constexpr unsigned kRings = 2;
-constexpr int kTurns = 5;
+constexpr int kTurns = 3;
 // A vertex is not taken out where more triangles meet than these, or its edges are shorter in the mean than this share
 // of the length wanted; none comes into a triangle with a smaller share of the area wanted. Of what else was tried one
 // in a thousand was taken.
 constexpr std::size_t kMostTriangles = 6;
 constexpr double kLeastRemoved = 0.8, kLeastDivided = 0.8;
 // What costs so much more than it should after the first of them is given up.
-constexpr int kFirstTurns = 2;
+constexpr int kFirstTurns = 1;
 constexpr double kHopeless = 0.25;
 // No edge gets shorter than this share of the length wanted, and where one is, no vertex comes in: the shortest one
 // decides on a model's time step.
