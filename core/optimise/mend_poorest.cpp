@@ -16,7 +16,7 @@ namespace {
 constexpr double kPoorWeight = 5.0, kLeastGain = 0.02;
 // A patch holds what touches the triangle, and what touches that; in it every vertex gets so many turns.
 constexpr unsigned kRings = 2;
-constexpr int kTurns = 3;
+constexpr int kTurns = 3, kTurnsForGoals = 5;
 // A vertex is not taken out where more triangles meet than these, or its edges are shorter in the mean than this share
 // of the length wanted; none comes into a triangle with a smaller share of the area wanted. Of what else was tried one
 // in a thousand was taken.
@@ -29,7 +29,8 @@ constexpr double kHopeless = 0.25;
 // decides on a model's time step.
 constexpr double kShort = 0.6;
 // So many patches at most, as a share of the triangles: where more are poor the input is finer than what is wanted.
-constexpr double kMostPatches = 0.012;
+// More where something else than shape is asked for.
+constexpr double kMostPatches = 0.012, kMostForGoals = 0.03;
 // In place of a corner: a vertex comes into the middle, not to where an edge is that of an equilateral triangle.
 constexpr unsigned kCentre = 3;
 
@@ -251,7 +252,7 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
     };
     turn(kFirstTurns);
     if (other.costOfAll() > least + kHopeless) continue;
-    turn(kTurns - kFirstTurns);
+    turn((goal_ == QualityGoal::Shape ? kTurns : kTurnsForGoals) - kFirstTurns);
     const double cost = other.costOfAll();
     if (!(cost < least) || other.goalOfAll() < held || other.shortestShare() < shortest()) continue;
     TriMesh solved = other.release();
@@ -308,7 +309,8 @@ void Optimiser::mendPoorest(const RunControl& control, double share) {
   for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
     if (mesh_.isLive(t)) add(t);
   std::ranges::sort(poor, {}, [](const PoorTriangle& p) { return std::pair(p.shape, p.triangle); });
-  auto left = static_cast<std::size_t>(kMostPatches * mesh_.triangleSlots());
+  auto left =
+      static_cast<std::size_t>((goal_ == QualityGoal::Shape ? kMostPatches : kMostForGoals) * mesh_.triangleSlots());
   while (left > 0 && !poor.empty()) {
     control.checkpoint(share);
     const PoorTriangle next = poor.front();
