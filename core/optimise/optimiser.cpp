@@ -232,16 +232,18 @@ Optimiser::StarCost Optimiser::costHere(VertexId v, Point& centre) const {
   return {breaks ? kTooMuch : sum, 2.0 * kRootOfThree / worst};
 }
 
-double Optimiser::leastShape(const Point& place, std::size_t& at) const {
+// The triangle of the poorest shape round a vertex at `place`, by its number in the ring; of equal ones the first.
+std::size_t Optimiser::poorestAt(const Point& place) const {
+  std::size_t poorest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const double shape = shapeOf(seen(i), seen(i + 1), place);
     if (shape < least) {
       least = shape;
-      at = i;
+      poorest = i;
     }
   }
-  return least;
+  return poorest;
 }
 
 // The least of what the goal asks round a vertex at `place`, over what is enough: 1 where nothing is left to do.
@@ -317,8 +319,7 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
     to = midpoint(here, to);
   }
   if (!mends_poor_ || now.least_shape >= kPoorShape) return std::nullopt;
-  std::size_t poorest = 0;
-  leastShape(here, poorest);
+  const std::size_t poorest = poorestAt(here);
   const Point &a = seen(poorest), &b = seen(poorest + 1);
   const Point apex =
       midpoint(a, b) + 0.5 * kRootOfThree * Point{a.y - b.y, b.x - a.x};  // of the equilateral triangle there

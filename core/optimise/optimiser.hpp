@@ -79,7 +79,7 @@ class Optimiser {
   }
   double enoughLink() const { return goal_ == QualityGoal::Links ? 0.22 : 0.12; }
   std::optional<Point> placeForGoal(VertexId v, double cost) const;
-  double leastShape(const Point& place, std::size_t& at) const;
+  std::size_t poorestAt(const Point& place) const;
   std::optional<Point> betterPlace(VertexId v) const;
   std::optional<Point> betterPlaceOnSegment(VertexId v, Point to, const StarCost& now) const;
   bool keepsGoal(VertexId v, const Point& place, const StarCost& then, double held) const;
