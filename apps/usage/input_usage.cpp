@@ -22,7 +22,10 @@ bool allFinite(const std::vector<double>& numbers) {
 std::string storeBox(const std::vector<double>& sides, std::optional<Box>& box) {
   box.reset();
   if (!allFinite(sides)) return "is not four finite numbers W,S,E,N";
-  if (!sides.empty()) box = Box{sides[0], sides[1], sides[2], sides[3]};
+  if (sides.empty()) return {};
+  // W may be more than E: in degrees such a box lies across the antimeridian.
+  if (!(sides[1] < sides[3]) || sides[0] == sides[2]) return "is not W,S,E,N with S below N and W other than E";
+  box = Box{sides[0], sides[1], sides[2], sides[3]};
   return {};
 }
 

@@ -42,8 +42,9 @@ double turnOf(const Box& data) {
 void refuseOddBox(const Box& box, const Crs& crs) {
   const std::string given = "--bbox " + inWords(box);
   if (!(box.ymin < box.ymax)) {
-    throw InputError(given + ": the south has to lie below the north (the order is west, south, east, north)");
+    throw OptionError(given + ": the south has to lie below the north (the order is west, south, east, north)");
   }
+  if (box.xmin == box.xmax) throw OptionError(given + ": it has no width: the west has to differ from the east");
   if (!crs.geographic) {
     if (!(box.xmin < box.xmax)) throw InputError(given + ": the west has to lie below the east");
     return;
@@ -52,8 +53,8 @@ void refuseOddBox(const Box& box, const Crs& crs) {
     throw InputError(given + ": the input is in degrees (" + nameOf(crs) +
                      "), and these are none: give west, south, east, north in degrees");
   }
-  if (box.xmin == box.xmax || box.xmax - box.xmin > kTurn) {
-    throw InputError(given + ": from the west to the east it has to be more than 0 and at most 360 degrees");
+  if (box.xmax - box.xmin > kTurn) {
+    throw InputError(given + ": from the west to the east it has to be at most 360 degrees");
   }
 }
 

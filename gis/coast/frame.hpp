@@ -37,8 +37,9 @@ struct FrameReport {
 // Gives the features of `coastline` their uses: polygons become land, or lines coasts, as the options say; a box
 // becomes a feature of use Frame, as those have that were read with it. What lies wholly beyond the frame is left out,
 // and what reaches far beyond is cut off a little way outside, so that the working plane need not show it: nothing
-// within the frame is changed. For a whole globe the last feature becomes what no other holds. Throws InputError: a
-// side without a frame, a box that is none, a frame that holds nothing of the input.
+// within the frame is changed. For a whole globe the last feature becomes what no other holds. Throws OptionError:
+// a box without width or height. Throws InputError: a side without a frame, a box that is none in the input's CRS, a
+// frame that holds nothing of the input.
 FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options);
 
 }  // namespace coastmesh

@@ -102,6 +102,9 @@ TEST_F(ExitCodes, WrongUsage) {
       {"mesh", input, file("graph.poly"), "-o", out},
       {"mesh", file("graph.poly"), "-o", out, "--crs", "EPSG:3067"},
       {"plot", input, "-o", file("map.png"), "--bbox", "1,2,3"},
+      {"mesh", input, "-o", out, "--bbox", "0,1,1,0"},
+      {"mesh", input, "-o", out, "--bbox", "0,0,1,0"},
+      {"clean", input, "-o", out, "--bbox", "1,0,1,1"},
   };
   for (const std::vector<std::string>& arguments : wrong) {
     const ProgramRun run = runProgram(arguments);
@@ -109,6 +112,13 @@ TEST_F(ExitCodes, WrongUsage) {
     EXPECT_TRUE(isOneErrorLine(run.errors));
   }
   EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
+}
+
+// What the file holds does not matter: it is not looked for.
+TEST_F(ExitCodes, ABoxUpsideDownIsWrongUsageThatNamesTheSides) {
+  const ProgramRun run = runProgram({"mesh", file("none.geojson"), "-o", file("out.2dm"), "--bbox", "-87,42.5,-86,41"});
+  EXPECT_EQ(run.code, 2) << run.errors;
+  EXPECT_NE(run.errors.find("'-87,42.5,-86,41' is not W,S,E,N with S below N"), std::string::npos) << run.errors;
 }
 
 TEST_F(ExitCodes, OptionsGivenMoreThanOnce) {

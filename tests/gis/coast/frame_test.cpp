@@ -165,7 +165,11 @@ TEST(Frame, TheWaterOfAPlaceWithoutAFrame) {
 
 TEST(Frame, OddBoxesAreRefused) {
   const Coastline lake = coastlineOf({polygonFeature(1, square(1, 1, 2))}, wgs84());
-  EXPECT_NE(refusalOf(lake, boxOf(0, 10, 10, 0)).find("the south has to lie below"), std::string::npos);
+  EXPECT_THROW(frame(lake, boxOf(0, 10, 10, 0)), OptionError);
+  EXPECT_THROW(frame(lake, boxOf(10, 0, 10, 10)), OptionError);
+  EXPECT_NE(refusalOf(lake, boxOf(-200, 0, 200, 10)).find("at most 360 degrees"), std::string::npos);
+  const Coastline in_plane = coastlineOf({polygonFeature(1, square(1, 1, 2))});
+  EXPECT_NE(refusalOf(in_plane, boxOf(10, 0, 0, 10)).find("the west has to lie below"), std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(0, 0, 10, 100)).find("degrees"), std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(20, 20, 30, 30)).find("nothing of the input lies in it"), std::string::npos);
   FrameOptions outside;
