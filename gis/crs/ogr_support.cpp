@@ -4,6 +4,8 @@
 #include <cpl_error.h>
 #include <gdal.h>
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <exception>
 #include <memory>
@@ -12,6 +14,17 @@
 #include "gis/error.hpp"
 
 namespace coastmesh {
+
+namespace {
+
+// Of several versions of GDAL. Too many are not minded: who is told looks for himself.
+bool saysLeftOut(std::string_view message) {
+  if (message.find("GeoJSON: ") == message.npos) return false;
+  constexpr std::array<std::string_view, 5> kWords = {"failure", "nvalid", "nsupported", "null object", "issing"};
+  return std::ranges::any_of(kWords, [&](std::string_view word) { return message.find(word) != message.npos; });
+}
+
+}  // namespace
 
 OgrErrors::OgrErrors() {
   CPLPushErrorHandlerEx(
@@ -23,9 +36,12 @@ OgrErrors::~OgrErrors() { CPLPopErrorHandler(); }
 void OgrErrors::collect(int severity, int, const char* message) {
   auto* self = static_cast<OgrErrors*>(CPLGetErrorHandlerUserData());
   if (severity == CE_Fatal) std::terminate();  // GDAL would end the process: there is no memory
-  if (severity < CE_Warning) return;
   // GDAL may quote all of a file or of a statement.
   constexpr std::size_t kLongest = 300;
+  if (severity == CE_Debug && self->left_out_.empty() && saysLeftOut(message)) {
+    self->left_out_ = oneLine(message, kLongest);
+  }
+  if (severity < CE_Warning) return;
   const bool error = severity >= CE_Failure;
   if (self->text_.empty() || (error && !self->failed_)) self->text_ = oneLine(message, kLongest);
   self->failed_ = self->failed_ || error;
@@ -34,6 +50,7 @@ void OgrErrors::collect(int severity, int, const char* message) {
 void OgrErrors::clear() {
   failed_ = false;
   text_.clear();
+  left_out_.clear();
 }
 
 void registerDrivers() { [[maybe_unused]] static const bool registered = (GDALAllRegister(), true); }

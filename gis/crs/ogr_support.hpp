@@ -18,6 +18,9 @@ class OgrErrors {
 
   bool failed() const { return failed_; }            // an error, not only warnings, since the start or `clear`
   const std::string& text() const { return text_; }  // the first error, else the first warning: one line, not long
+  // The first that the GeoJSON driver says of a geometry that it leaves out, or a part of it: no more than a message
+  // for debugging, which GDAL gives where CPL_DEBUG is "GeoJSON".
+  const std::string& leftOut() const { return left_out_; }
   void clear();
 
  private:
@@ -25,6 +28,7 @@ class OgrErrors {
 
   bool failed_ = false;
   std::string text_;
+  std::string left_out_;
 };
 
 // Sets a GDAL configuration option in this thread for as long as it lives.

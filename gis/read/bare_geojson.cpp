@@ -5,13 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/pslg.hpp"
+#include "gis/read/file_bytes.hpp"
 
 namespace coastmesh {
 
@@ -206,61 +204,6 @@ class GeometryHandler : public nlohmann::json_sax<nlohmann::json> {
   std::size_t skipped_ = 0;  // depth within a value that is passed over
   bool in_coordinates_ = false, in_geometries_ = false, complete_ = false;
   GeometryParts parts_;
-};
-
-// The bytes of a file one after another. By blocks of our own: a parser that asks the library for each of them spends
-// half of its time on that.
-class FileBytes {
- public:
-  // A small file takes no more than its size, and no memory is cleared that is written next.
-  FileBytes(const std::string& path, std::uintmax_t size)
-      : file_(path, std::ios::binary),
-        block_size_(static_cast<std::size_t>(std::clamp<std::uintmax_t>(size, kLeastBlock, kBlock))),
-        block_(std::make_unique_for_overwrite<char[]>(block_size_)) {
-    next();
-  }
-
-  bool atEnd() const { return at_ == end_; }
-  char byte() const { return block_[at_]; }
-  void step() {
-    if (++at_ == end_) next();
-  }
-
- private:
-  static constexpr std::size_t kLeastBlock = 1 << 12, kBlock = 1 << 18;
-
-  void next() {
-    file_.read(block_.get(), static_cast<std::streamsize>(block_size_));
-    at_ = 0;
-    end_ = static_cast<std::size_t>(file_.gcount());
-  }
-
-  std::ifstream file_;
-  std::size_t block_size_;
-  std::unique_ptr<char[]> block_;
-  std::size_t at_ = 0, end_ = 0;
-};
-
-class ByteIterator {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = char;
-
-  explicit ByteIterator(FileBytes* bytes) : bytes_(bytes) {}  // null: the end
-  char operator*() const { return bytes_->byte(); }
-  ByteIterator& operator++() {
-    bytes_->step();
-    return *this;
-  }
-  friend bool operator==(const ByteIterator& a, const ByteIterator& b) { return a.atEnd() == b.atEnd(); }
-
- private:
-  bool atEnd() const { return bytes_ == nullptr || bytes_->atEnd(); }
-
-  FileBytes* bytes_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "gis/error.hpp"
 #include "gis/read/bare_geojson.hpp"
 #include "gis/read/cleaned_file.hpp"
+#include "gis/read/odd_geojson.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
 
@@ -161,6 +162,16 @@ std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, const std::st
   return raw;
 }
 
+// OGR leaves out of GeoJSON what is no geometry, be it a hole of a polygon, as if it were not there; or it says what is
+// wrong with one, but not which.
+void refuseOddGeojson(const OpenSource& source, const OgrErrors& errors) {
+  if (!errors.failed() && errors.leftOut().empty()) return;
+  if (source.dataset->GetDriverName() != std::string_view("GeoJSON")) return;
+  if (const std::optional<std::string> odd = oddGeojson(source.dataset->GetDescription())) {
+    throw InputError(source.name + ", " + *odd + ": mend or remove this feature");
+  }
+}
+
 }  // namespace
 
 std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, ReadReport& report) {
@@ -178,7 +189,9 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
 
   OgrErrors errors;
   const OgrOption any_size("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
+  const OgrOption what_is_left_out("CPL_DEBUG", "GeoJSON");
   const OpenSource source = openSource(given.path, filter.layers, errors);
+  refuseOddGeojson(source, errors);
   if (!filtered) {
     if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, report)) return std::move(*cleaned);
   }
@@ -195,8 +208,12 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
     if (at == source.layers.end()) continue;
     readers[static_cast<std::size_t>(at - source.layers.begin())].add(*feature, report);
   }
+  refuseOddGeojson(source, errors);
   if (errors.failed()) throw InputError(source.name + ": cannot be read to its end (" + errors.text() + ")");
   if (!errors.text().empty()) report.warnings.push_back(source.name + ": " + errors.text());
+  if (!errors.leftOut().empty()) {
+    report.warnings.push_back(source.name + ": something is left out that is no geometry (" + errors.leftOut() + ")");
+  }
   return finishAll(readers, source.name, report.skipped_points - points_before);
 }
 

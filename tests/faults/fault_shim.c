@@ -140,7 +140,8 @@ static char tell(const char* text, int size) {
 }
 
 // The folder that this process was in is `folder`.kept now, and a copy of it stands in its place: what is open in the one
-// is opened in the other, at the same byte.
+// is opened in the other, at the same byte. What is read elsewhere is opened anew too: two processes that share a place in
+// a file move it for one another.
 static void moveToCopy(void) {
   static char from[4096], path[4096];
   const size_t length = strlen(g_every.folder);
@@ -152,8 +153,15 @@ static void moveToCopy(void) {
     const ssize_t size = readlink(path, from, sizeof from - 1);
     if (size < 0) _exit(98);
     from[size] = '\0';
-    if (strncmp(from, g_every.folder, length) != 0 || strncmp(from + length, ".kept/", 6) != 0) continue;
-    snprintf(path, sizeof path, "%s/%s", g_every.folder, from + length + 6);
+    struct stat about;
+    if (fstat(file, &about) != 0 || !S_ISREG(about.st_mode)) continue;
+    if (strncmp(from, g_every.folder, length) == 0 && strncmp(from + length, ".kept/", 6) == 0) {
+      snprintf(path, sizeof path, "%s/%s", g_every.folder, from + length + 6);
+    } else if ((flags & O_ACCMODE) == O_RDONLY) {
+      snprintf(path, sizeof path, "%s", from);
+    } else {
+      continue;
+    }
     const int copy = (int)syscall(SYS_openat, AT_FDCWD, path, flags & ~(O_CREAT | O_EXCL | O_TRUNC), 0);
     if (copy < 0) continue;  // it is removed already
     lseek(copy, lseek(file, 0, SEEK_CUR), SEEK_SET);

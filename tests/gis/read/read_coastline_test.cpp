@@ -135,6 +135,23 @@ TEST_F(ReadCoastline, SkipsAndCountsWhatIsNoShore) {
   EXPECT_EQ(report_.skipped_points, 3u);
 }
 
+// OGR would leave a hole, a polygon or all of a feature out, and not say so.
+TEST_F(ReadCoastline, RefusesPartsOfGeojsonThatAreNoGeometry) {
+  const std::string hole =
+      R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]],[[2,1],[3,null],[3,2],[2,1]]]})";
+  const std::string part = R"({"type":"MultiPolygon","coordinates":[[[[0,0],[9,0],[9,9],[0,0]]],[[1,1],[2,1],[2,2]]]})";
+  const std::string text = R"({"type":"Polygon","coordinates":[[[0,0],["9",0],[9,9],[0,0]]]})";
+  const std::string type = R"({"type":"Polygn","coordinates":[[[0,0],[9,0],[9,9],[0,0]]]})";
+  for (const auto& [geometry, what] :
+       {std::pair<std::string, std::string>{hole, "hole 1, vertex 2, is no place ([3, null])"},
+        {part, "[1, 1] lies in 2 arrays"},
+        {text, R"(outer ring, vertex 2, is no place (["9", 0]))"},
+        {type, "of the type 'Polygn'"}}) {
+    const std::string file = geojson("odd.geojson", {kSquare, geometry});
+    expectRefused({file}, {"odd.geojson, feature 1: " + what, "mend or remove this feature"});
+  }
+}
+
 TEST_F(ReadCoastline, ClosesRings) {
   const Coastline coastline =
       read(write("open.csv", "WKT,name\n\"POLYGON((0 0,1 0,1 1,0 1))\",a\n\"POLYGON((5 5,6 5,6 6,5 5))\",b\n"));
