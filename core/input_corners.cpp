@@ -42,12 +42,15 @@ class Constraints {
         }
       return some;
     }));
-    first_.assign(mesh.points.size() + 1, 0);
+    // What lattices make comes last and has none.
+    VertexId end = 0;
+    for (const Link& l : links_) end = std::max({end, l.a + 1, l.b + 1});
+    first_.assign(end + 1, 0);
     for (const Link& l : links_) {
       ++first_[l.a + 1];
       ++first_[l.b + 1];
     }
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) first_[v + 1] += first_[v];
+    for (VertexId v = 0; v < end; ++v) first_[v + 1] += first_[v];
     at_.resize(2 * links_.size());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (std::uint32_t l = 0; l < links_.size(); ++l) at_[next[links_[l].a]++] = at_[next[links_[l].b]++] = l;
@@ -56,7 +59,10 @@ class Constraints {
 
   const std::vector<Link>& links() const { return links_; }
   std::uint32_t chainOf(std::uint32_t link) const { return chain_[link]; }
-  std::span<const std::uint32_t> at(VertexId v) const { return {at_.data() + first_[v], at_.data() + first_[v + 1]}; }
+  std::span<const std::uint32_t> at(VertexId v) const {
+    if (v + 1 >= first_.size()) return {};
+    return {at_.data() + first_[v], at_.data() + first_[v + 1]};
+  }
   VertexId across(std::uint32_t link, VertexId v) const {
     return links_[link].a == v ? links_[link].b : links_[link].a;
   }
@@ -128,9 +134,13 @@ std::vector<Feature> featuresOf(const TriMesh& mesh, const Constraints& constrai
       if (v < end) features.push_back({v, end, constraints.chainOf(l)});
     }
   }
-  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  std::vector<VertexId> alone;
   for (VertexId v = 0; v < mesh.input_vertices; ++v)
-    if (used[v] && constraints.at(v).empty()) features.push_back({v, v, kNone});
+    if (constraints.at(v).empty()) alone.push_back(v);
+  if (alone.empty()) return features;
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  for (const VertexId v : alone)
+    if (used[v]) features.push_back({v, v, kNone});
   return features;
 }
 

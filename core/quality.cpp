@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "core/metric.hpp"
@@ -76,20 +78,102 @@ void MeshQuality::add(const MeshQuality& other) {
 
 namespace {
 
-// What is measured of a triangle.
+// What is measured of a triangle, but for its angles.
 struct TriangleMeasure {
   double area;
-  std::array<double, 3> angles, lengths;
+  std::array<double, 3> lengths;
 };
 
 TriangleMeasure measureTriangle(const Point& a, const Point& b, const Point& c) {
-  return {signedArea(a, b, c), anglesDeg(a, b, c), {distance(a, b), distance(b, c), distance(c, a)}};
+  return {signedArea(a, b, c), {distance(a, b), distance(b, c), distance(c, a)}};
 }
 
 TriangleMeasure measureTriangle(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
-  return {
-      0.5 * lengthOf(cross(b - a, c - a)), spaceAnglesDeg(a, b, c), {distance(a, b), distance(b, c), distance(c, a)}};
+  return {0.5 * lengthOf(cross(b - a, c - a)), {distance(a, b), distance(b, c), distance(c, a)}};
 }
+
+constexpr double kClassDeg = 5.0;
+constexpr std::size_t kClasses = std::tuple_size_v<decltype(MeshQuality::angle_histogram)>;
+
+std::size_t classOf(double angle_deg) {
+  return std::min(static_cast<std::size_t>(angle_deg / kClassDeg), kClasses - 1);
+}
+
+// The classes of angles without arc tangents, where rounding cannot tell.
+class FastClasses {
+ public:
+  FastClasses() {
+    for (std::size_t k = 0; k <= kClasses; ++k) {
+      const double angle = toRadians(kClassDeg * static_cast<double>(k));
+      ends_[k] = slopeOf(std::sin(angle), std::cos(angle));
+    }
+    for (std::size_t place = 0; place < kPlaces; ++place) {
+      const double slope = 1.0 - static_cast<double>(place) / kPlacesOfOne;
+      while (first_[place] + 1u < kClasses && ends_[first_[place] + 1u] > slope) ++first_[place];
+      if (place + 1 < kPlaces) first_[place + 1] = first_[place];
+    }
+  }
+
+  // Falls as the angle grows, from 1 at 0° to -1 at 180°; of twice the area, above 0, and the product of the sides.
+  static double slopeOf(double doubled, double product) { return product / (doubled + std::abs(product)); }
+
+  // kClasses where the angle is too near to the end of a class. Less would be wrong now and then, more would be slow:
+  // rows of equal triangles have angles of 60° but for rounding.
+  std::size_t classOf(double slope) const {
+    constexpr double kRounding = 1e-14;
+    std::size_t k = first_[static_cast<std::size_t>((1.0 - slope) * kPlacesOfOne)];
+    if (k + 1 < kClasses && slope < ends_[k + 1]) ++k;
+    return ends_[k] - slope > kRounding && slope - ends_[k + 1] > kRounding ? k : kClasses;
+  }
+
+ private:
+  static constexpr double kPlacesOfOne = 128.0;
+  static constexpr std::size_t kPlaces = 257;  // no class is narrower than one
+
+  std::array<double, kClasses + 1> ends_{};
+  std::array<std::uint8_t, kPlaces> first_{};  // the class in which each begins
+};
+
+const FastClasses kFastClasses;
+
+// Angles of some triangles, added up.
+class AngleTally {
+ public:
+  explicit AngleTally(MeshQuality& quality) : quality_(quality) {}
+
+  // Whether that was enough: most triangles are within what was seen before, and clear of the ends of classes.
+  bool addFast(const Point& a, const Point& b, const Point& c) {
+    const Point ab = b - a, bc = c - b, ca = a - c;
+    const double doubled = cross(ab, bc);
+    if (!(doubled > 0.0)) return false;
+    std::array<std::size_t, 3> classes{};
+    const std::array<double, 3> products{-dot(ab, ca), -dot(ab, bc), -dot(bc, ca)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double slope = FastClasses::slopeOf(doubled, products[i]);
+      if (!(slope < steepest_ && slope > flattest_)) return false;
+      classes[i] = kFastClasses.classOf(slope);
+      if (classes[i] == kClasses) return false;
+    }
+    for (const std::size_t k : classes) ++quality_.angle_histogram[k];
+    return true;
+  }
+
+  void add(const std::array<double, 3>& angles) {
+    constexpr double kRounding = 1e-9;
+    const auto slopeOf = [](double angle_deg) {
+      return FastClasses::slopeOf(std::sin(toRadians(angle_deg)), std::cos(toRadians(angle_deg)));
+    };
+    for (const double angle : angles) {
+      ++quality_.angle_histogram[classOf(angle)];
+      if (angle < quality_.min_angle_deg) steepest_ = slopeOf(quality_.min_angle_deg = angle) - kRounding;
+      if (angle > quality_.max_angle_deg) flattest_ = slopeOf(quality_.max_angle_deg = angle) + kRounding;
+    }
+  }
+
+ private:
+  MeshQuality& quality_;
+  double steepest_ = -2.0, flattest_ = 2.0;  // slopes that change neither the least nor the largest angle lie between
+};
 
 }  // namespace
 
@@ -100,9 +184,11 @@ MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max
     MeshQuality quality;
     std::vector<TriId> below;
   };
+  const bool is_asked = min_angle_deg > 0.0 || max_angle_deg < 180.0;
   const auto measure = [&](std::size_t first, std::size_t last) {
     Part part;
     MeshQuality& quality = part.quality;
+    AngleTally tally(quality);
     quality.triangles = last - first;
     for (std::size_t t = first; t < last; ++t) {
       const auto& v = mesh.triangles[t].v;
@@ -110,17 +196,17 @@ MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max
                                            ? measureTriangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]])
                                            : measureTriangle(places[v[0]], places[v[1]], places[v[2]]);
       quality.area += measured.area;
-      double least = 180.0, most = 0.0;
-      for (unsigned i = 0; i < 3; ++i) {
-        least = std::min(least, measured.angles[i]);
-        most = std::max(most, measured.angles[i]);
-        const auto bin = static_cast<std::size_t>(measured.angles[i] / 5.0);
-        ++quality.angle_histogram[std::min(bin, quality.angle_histogram.size() - 1)];
-        quality.shortest_edge = std::min(quality.shortest_edge, measured.lengths[i]);
-        quality.longest_edge = std::max(quality.longest_edge, measured.lengths[i]);
+      for (const double length : measured.lengths) {
+        quality.shortest_edge = std::min(quality.shortest_edge, length);
+        quality.longest_edge = std::max(quality.longest_edge, length);
       }
-      quality.min_angle_deg = std::min(quality.min_angle_deg, least);
-      quality.max_angle_deg = std::max(quality.max_angle_deg, most);
+      if (places.empty() && !is_asked && tally.addFast(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]))
+        continue;
+      const std::array<double, 3> angles = places.empty()
+                                               ? anglesDeg(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]])
+                                               : spaceAnglesDeg(places[v[0]], places[v[1]], places[v[2]]);
+      tally.add(angles);
+      const auto [least, most] = std::ranges::minmax(angles);
       if (least < min_angle_deg || most > max_angle_deg) part.below.push_back(static_cast<TriId>(t));
     }
     return part;

@@ -275,7 +275,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   Recorder recorder;
   const ItemLoop label = recorder.loop("label", control);
   if (options.cap.empty()) {
-    region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
+    if (options.list_violations) region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
     labelRegions(region.mesh, pslg);
   }
   if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, label);
@@ -308,7 +308,7 @@ void closeRegion(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opti
   } else {
     labelRegions(region.mesh, pslg);
   }
-  region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
+  if (options.list_violations) region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
   if (!region.piece_of.empty()) region.piece_of.resize(region.mesh.triangles.size(), 0);
   region.log.append(recorder.finish("stitch"));
   region.seconds.stitch += watch.lap();

@@ -23,6 +23,8 @@ struct MeshOptions {
   bool smooth = false;       // optimises for longer; where no lengths are wanted, at all
   bool one_piece = false;    // never cuts a region, however large
   bool mark_pieces = false;  // fill `MeshedRegion::piece_of`
+  // Fills `stats.unresolved` for regions that are cut or closed; who judges the finished mesh himself does without.
+  bool list_violations = true;
   // Who may take pieces off this process's hands; outlives the run. The mesh is the same. Null: nobody.
   const Helpers* helpers = nullptr;
   // Where the mesh of a region that is cut is kept after each round, and what an earlier run kept there, of which this

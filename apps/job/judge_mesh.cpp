@@ -18,13 +18,9 @@ void Shortfall::add(Shortfall&& other) {
 MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const RefineOptions& options, double slack_deg,
                         std::span<const SpacePoint> places, const ItemLoop& loop) {
   MeshJudgement result{measureQuality(mesh, 0.0, 180.0, loop, places), {}};
-  const auto judge = [&](double size_max) {
-    return judgeFinished(mesh, options.min_angle_deg, options.max_angle_deg, size_max, slack_deg, loop,
-                         plane.projection.surface(), places);
-  };
-  BoundJudgement judgement = judge(std::numeric_limits<double>::infinity());
+  const BoundJudgement judgement = judgeFinished(mesh, options.min_angle_deg, options.max_angle_deg, plane.size_max,
+                                                 slack_deg, loop, plane.projection.surface(), places);
   result.quality.bounds = judgement.counts;
-  if (std::isfinite(plane.size_max)) judgement = judge(plane.size_max);
   result.short_of.count = judgement.unresolved.size();
   const std::size_t listed = std::min(judgement.unresolved.size(), kBoundViolationPlaces);
   for (std::size_t i = 0; i < listed; ++i) {

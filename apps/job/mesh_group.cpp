@@ -105,6 +105,7 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
 
 MeshOptions optionsFor(const MeshJob& job, const Domain& domain, const GroupRoom& room) {
   MeshOptions options = job.mesh;
+  options.list_violations = false;
   options.refine.surface = domain.projection.surface();
   options.refine.max_vertices = room.vertices;
   options.refine.most_in_memory =

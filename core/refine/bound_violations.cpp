@@ -31,20 +31,43 @@ bool isBadInSpace(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c,
   return low < toDegrees(bound.min_angle) || high > toDegrees(bound.max_angle);
 }
 
-std::vector<TriId> badTriangles(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop,
-                                std::span<const SpacePoint> places = {}) {
-  TriangleBound length = bound;  // alone: angles are those in space
-  static_cast<AngleBound&>(length) = AngleBound(0.0, 180.0);
-  const bool has_length = !std::isinf(bound.squared_size);
+// Which triangles break a bound; angles are those between `places`, one a point of the mesh, where there are any.
+class BoundTest {
+ public:
+  BoundTest(const TriMesh& mesh, const TriangleBound& bound, std::span<const SpacePoint> places)
+      : mesh_(mesh), bound_(bound), angles_(bound), lengths_(bound), places_(places) {
+    angles_.squared_size = std::numeric_limits<double>::infinity();
+    angles_.size = nullptr;
+    static_cast<AngleBound&>(lengths_) = AngleBound(0.0, 180.0);
+  }
+
+  bool breaksAngles(TriId t) const {
+    if (places_.empty()) return isBadBy(t, angles_);
+    const auto& v = mesh_.triangles[t].v;
+    return isBadInSpace(places_[v[0]], places_[v[1]], places_[v[2]], bound_);
+  }
+  bool breaksAny(TriId t) const {
+    if (places_.empty()) return isBadBy(t, bound_);
+    return breaksAngles(t) || (!std::isinf(bound_.squared_size) && isBadBy(t, lengths_));
+  }
+
+ private:
+  bool isBadBy(TriId t, const TriangleBound& bound) const {
+    const auto [a, b, c] = cornersOf(mesh_, t);
+    return isBad(a, b, c, bound);
+  }
+
+  const TriMesh& mesh_;
+  const TriangleBound& bound_;
+  TriangleBound angles_, lengths_;  // those alone
+  std::span<const SpacePoint> places_;
+};
+
+std::vector<TriId> badTriangles(const TriMesh& mesh, const BoundTest& test, const ItemLoop& loop) {
   return joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<TriId> some;
     for (auto t = static_cast<TriId>(first); t < last; ++t)
-      if (const auto [a, b, c] = cornersOf(mesh, t); places.empty()) {
-        if (isBad(a, b, c, bound)) some.push_back(t);
-      } else if (const auto& v = mesh.triangles[t].v; isBadInSpace(places[v[0]], places[v[1]], places[v[2]], bound) ||
-                                                      (has_length && isBad(a, b, c, length))) {
-        some.push_back(t);
-      }
+      if (test.breaksAny(t)) some.push_back(t);
     return some;
   }));
 }
@@ -53,7 +76,8 @@ std::vector<TriId> badTriangles(const TriMesh& mesh, const TriangleBound& bound,
 
 std::vector<TriId> trianglesInViolation(const TriMesh& mesh, const RefineOptions& options, const InputCorners* corners,
                                         const ItemLoop& loop) {
-  std::vector<TriId> bad = badTriangles(mesh, strictBoundOf(options), loop);
+  const TriangleBound bound = strictBoundOf(options);
+  std::vector<TriId> bad = badTriangles(mesh, BoundTest(mesh, bound, {}), loop);
   if (corners == nullptr) return bad;
   std::erase_if(bad, [&](TriId t) {
     const auto [a, b, c] = cornersOf(mesh, t);
@@ -70,14 +94,15 @@ std::vector<BoundViolation> findBoundViolations(const TriMesh& mesh, const Refin
 
 BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
                            const ItemLoop& loop, std::span<const SpacePoint> places) {
-  const std::vector<TriId> bad = badTriangles(mesh, asked, loop, places);
+  const BoundTest test(mesh, asked, places);
+  const std::vector<TriId> bad = badTriangles(mesh, test, loop);
   if (bad.empty()) return {};
   const InputCorners corners(mesh, in_reach, loop);
   BoundJudgement judgement;
   for (const TriId t : bad) {
     const auto [a, b, c] = cornersOf(mesh, t);
     const Excuse excuse = corners.excuseOf(a, b, c);
-    judgement.counts.add(excuse);
+    if (test.breaksAngles(t)) judgement.counts.add(excuse);
     if (excuse != Excuse::None) continue;
     const auto& v = mesh.triangles[t].v;
     const auto [low, high] =

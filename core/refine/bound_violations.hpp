@@ -21,8 +21,8 @@ std::vector<TriId> trianglesInViolation(const TriMesh& mesh, const RefineOptions
                                         const ItemLoop& loop = inOrder);
 
 struct BoundJudgement {
-  BoundCounts counts;
-  std::vector<BoundViolation> unresolved;  // what nothing excuses, in order
+  BoundCounts counts;                      // of what breaks the bounds on angles
+  std::vector<BoundViolation> unresolved;  // what breaks any and nothing excuses, in order
 };
 
 // All triangles that break `asked`, with the angles of flat triangles between `places`, one a point of the mesh, where

@@ -129,6 +129,7 @@ void checkUnused(const TriMesh& mesh, std::span<const std::uint8_t> used, Defect
 }
 
 BoundCounts checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
+  if (options.min_angle_deg <= 0.0 && options.max_angle_deg >= 180.0) return {};
   constexpr double kAnySize = std::numeric_limits<double>::infinity();
   const BoundJudgement judgement =
       judgeFinished(mesh, options.min_angle_deg, options.max_angle_deg, kAnySize, 0.0, loop, {}, options.places);

@@ -54,23 +54,13 @@ VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId
   return some;
 }
 
-namespace {
-
-// For few triangles of a large mesh: numbers are looked up in maps.
-template <typename Mesh>
-Submesh extractByMaps(const Mesh& parent, VertexId parent_inputs, const VertexNotes& notes,
-                      std::span<const TriId> triangles) {
+Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings) {
+  const std::vector<TriId> triangles = trianglesAround(parent, centre, rings);
   SparseNumbers slots(triangles.size()), numbers(triangles.size());
   for (TriId i = 0; i < triangles.size(); ++i) slots[triangles[i]] = i;
   const auto slotOf = [&](TriId t) { return slots.at(t); };
   const auto numberOf = [&](VertexId v) -> VertexId& { return numbers[v]; };
-  return extractSubmesh(parent, parent_inputs, notes, triangles, slotOf, numberOf);
-}
-
-}  // namespace
-
-Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings) {
-  return extractByMaps(parent, parent.inputVertices(), notes, trianglesAround(parent, centre, rings));
+  return extractSubmesh(parent, parent.inputVertices(), notes, triangles, slotOf, numberOf);
 }
 
 void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std::vector<VertexId>& added,
@@ -114,11 +104,12 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
 }
 
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges) {
-  std::vector<TriId> triangles;
-  std::vector<bool> taken(parent.triangles.size(), false);
+  std::vector<TriId> triangles, slot(parent.triangles.size(), kNone);
+  std::vector<VertexId> number(parent.points.size(), kNone);
   const auto take = [&](TriId t) {
-    if (!taken[t]) triangles.push_back(t);
-    taken[t] = true;
+    if (slot[t] != kNone) return;
+    slot[t] = static_cast<TriId>(triangles.size());
+    triangles.push_back(t);
   };
   for (const TriId t : centre) take(t);
   std::size_t done = 0;
@@ -129,7 +120,9 @@ Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<c
   }
   VertexNotes without_spacing = notes;
   without_spacing.spacing.clear();
-  Submesh sub = extractByMaps(parent, parent.input_vertices, without_spacing, triangles);
+  const auto slotOf = [&](TriId t) { return slot[t]; };
+  const auto numberOf = [&](VertexId v) -> VertexId& { return number[v]; };
+  Submesh sub = extractSubmesh(parent, parent.input_vertices, without_spacing, triangles, slotOf, numberOf);
   noteSpacingOfNeighbours(sub.mesh, sub.notes);
   for (VertexId v = 0; v < sub.mesh.input_vertices; ++v)
     if (sub.parent[v] < parent.input_vertices) sub.notes.spacing[v] = notes.spacing[sub.parent[v]];

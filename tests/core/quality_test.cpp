@@ -171,7 +171,12 @@ TEST(MeasureQuality, AgreesWithANaiveTwin) {
   for (const NamedPslg& named : assortedPslgs()) {
     SCOPED_TRACE(named.name);
     const TriMesh mesh = constrainedDelaunay(named.pslg);
-    const MeshQuality quality = measureQuality(mesh, 25.0, 110.0);
+    const MeshQuality quality = measureQuality(mesh, 25.0, 110.0), unasked = measureQuality(mesh, 0.0);
+    EXPECT_EQ(unasked.angle_histogram, quality.angle_histogram);
+    EXPECT_EQ(unasked.min_angle_deg, quality.min_angle_deg);
+    EXPECT_EQ(unasked.max_angle_deg, quality.max_angle_deg);
+    EXPECT_EQ(unasked.shortest_edge, quality.shortest_edge);
+    EXPECT_EQ(unasked.longest_edge, quality.longest_edge);
     EXPECT_EQ(quality.triangles, mesh.triangles.size());
     EXPECT_EQ(std::accumulate(quality.angle_histogram.begin(), quality.angle_histogram.end(), std::uint64_t{0}),
               3 * mesh.triangles.size());
