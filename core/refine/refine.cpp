@@ -68,12 +68,18 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
   RefineStats stats =
       finish(mesh, pslg, options, refineOnce(mesh, pslg, options, notes, usualVariant(options), control));
   if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;
+  if (mesh.points.size() == mesh.input_vertices) return stats;  // none is smaller
   std::size_t smallest = coarsenedSize(mesh, pslg, options, control);
+  // Meshes of the same points are the same, but for ties: three in four of all that are refined anew.
+  std::vector<std::vector<Point>> known{mesh.points};
   for (const RefineVariant& variant : furtherVariants(options)) {
-    if (smallest == mesh.input_vertices) break;  // none is smaller
+    // What asks for a vertex does not do without any.
+    if (smallest <= mesh.input_vertices + 1) break;
     TriMesh other = unrefined;
     RefineStats other_stats = refineOnce(other, pslg, options, notes, variant, control);
     if (other_stats.budget_reached) continue;
+    if (std::ranges::find(known, other.points) != known.end()) continue;
+    known.push_back(other.points);
     const std::size_t size = coarsenedSize(other, pslg, options, control);
     if (size >= smallest) continue;
     other_stats = finish(other, pslg, options, std::move(other_stats));
