@@ -35,6 +35,21 @@ std::vector<std::pair<std::string, std::string>> attributesOf(OGRFeature& featur
   return attributes;
 }
 
+// Of a table of texts: one that is no geometry in WKT becomes no geometry, and OGR does not say so.
+void refuseOddWkt(OGRFeature& feature, const std::string& what) {
+  if (feature.GetGeomFieldCount() == 0) return;
+  const std::string_view column = feature.GetGeomFieldDefnRef(0)->GetNameRef();
+  for (int i = 0; i < feature.GetFieldCount(); ++i) {
+    const std::string name = feature.GetFieldDefnRef(i)->GetNameRef();
+    if (!EQUAL(name.c_str(), "WKT") && column != "geom_" + name) continue;
+    constexpr std::size_t kShown = 60;
+    const std::string text = oneLine(feature.GetFieldAsString(i), kShown);
+    if (text.find_first_not_of(' ') != text.npos) {
+      throw InputError(what + ": its " + name + " is no geometry (" + text + "): mend or remove this feature");
+    }
+  }
+}
+
 template <typename Act>
 void forEachChain(GeometryParts& parts, Act&& act) {
   for (Polygon& polygon : parts.polygons) {
@@ -48,7 +63,8 @@ void forEachChain(GeometryParts& parts, Act&& act) {
 // One layer while it is read.
 class LayerReader {
  public:
-  LayerReader(OGRLayer& layer, std::string source, FeatureUse use) {
+  // `of_texts`: of the driver CSV.
+  LayerReader(OGRLayer& layer, std::string source, FeatureUse use, bool of_texts) : of_texts_(of_texts) {
     raw_.source = std::move(source);
     raw_.use = use;
     const OGRSpatialReference* srs = layer.GetSpatialRef();
@@ -69,14 +85,15 @@ class LayerReader {
 
   void add(OGRFeature& given, ReadReport& report) {
     const OGRGeometry* geometry = given.GetGeometryRef();
-    if (!geometry || geometry->IsEmpty()) {
-      ++report.skipped_empty;
-      return;
-    }
     Feature feature;
     feature.fid = given.GetFID() == OGRNullFID ? count_ : given.GetFID();
     feature.source = raw_.source;
     feature.use = raw_.use;
+    if (!geometry && of_texts_) refuseOddWkt(given, describe(feature));
+    if (!geometry || geometry->IsEmpty()) {
+      ++report.skipped_empty;
+      return;
+    }
     GeometryParts parts;
     takeApart(*geometry, describe(feature), parts);
     if (!parts.empty()) feature.attributes = attributesOf(given);
@@ -145,6 +162,7 @@ class LayerReader {
   RawLayer raw_;
   std::int64_t count_ = 0;  // features with a geometry
   bool swap_axes_ = false;
+  bool of_texts_ = false;
 };
 
 [[noreturn]] void refuseEmpty(const std::string& source, std::uint64_t points) {
@@ -197,8 +215,9 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   }
   if (!filter.where.empty()) report.filtered += keepWhere(source, filter.where, errors);
   const bool only = source.dataset->GetLayerCount() == 1;
+  const bool of_texts = source.dataset->GetDriverName() == std::string_view("CSV");
   for (OGRLayer* layer : source.layers) {
-    readers.emplace_back(*layer, only ? source.name : source.name + "|" + layer->GetName(), given.use);
+    readers.emplace_back(*layer, only ? source.name : source.name + "|" + layer->GetName(), given.use, of_texts);
   }
   // Through the dataset, not layer by layer: OpenStreetMap files come interleaved.
   source.dataset->ResetReading();

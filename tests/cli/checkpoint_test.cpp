@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "parallel/byte_hash.hpp"
 #include "tests/cli/program.hpp"
 
 namespace coastmesh::test {
@@ -202,6 +203,28 @@ TEST_F(Checkpoint, IsOfOneCommandAndInput) {
   writeText(input, text + "\n");
   expectRefused(keeping(input), 3, "lakes.geojson' is not what it was");
   EXPECT_TRUE(std::filesystem::exists(kept("run")));
+}
+
+TEST_F(Checkpoint, OfAnotherVersionIsRefused) {
+  const std::string input = lakes();
+  killInRounds(input);
+  const std::string whole = readText(kept("run"));
+  for (const std::string other : {"0.0.9", "12.10.11-rc1"}) {
+    std::string bytes = withVersion(whole, other);
+    bytes.resize(bytes.size() - sizeof(std::uint64_t));
+    ByteHash hash;
+    hash.add(bytes);
+    const std::uint64_t sum = hash.value();
+    bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+    writeText(kept("run"), bytes);
+    expectRefused(keeping(input), 2,
+                  "kept: was begun by coastmesh " + other + ", this is " + programVersion() + ": remove the folder '");
+  }
+  // Nothing of it was lost meanwhile.
+  writeText(kept("run"), whole);
+  EXPECT_EQ(runProgram(keeping(input)).code, 0);
+  takeBytes();
+  EXPECT_GT(used("regions_gone_on") + used("groups_taken"), 0u);
 }
 
 TEST_F(Checkpoint, WhatIsDamagedIsNotGoneOnFrom) {

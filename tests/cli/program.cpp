@@ -98,6 +98,20 @@ ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::fu
   return child.wait();
 }
 
+std::string programVersion() {
+  const std::string text = runProgram({"--version"}).output;  // "coastmesh 1.2.3"
+  const std::size_t from = text.rfind(' ') + 1;
+  return text.substr(from, text.find_last_not_of('\n') + 1 - from);
+}
+
+std::string withVersion(std::string bytes, const std::string& version) {
+  const std::size_t at = bytes.find(programVersion());
+  const std::uint64_t size = version.size();
+  if (at == bytes.npos || at < sizeof size) throw std::runtime_error("no version in the file");
+  bytes.replace(at, programVersion().size(), version);
+  return bytes.replace(at - sizeof size, sizeof size, reinterpret_cast<const char*>(&size), sizeof size);
+}
+
 std::string inputFile(const std::string& name) {
   const fs::path path = fs::path(COASTMESH_CLI_INPUTS) / name;
   if (!fs::exists(path)) throw std::runtime_error("no input " + path.string());

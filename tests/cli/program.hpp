@@ -44,6 +44,12 @@ ProgramRun runUntilSignalled(const std::vector<std::string>& arguments, const Aw
   return run;
 }
 
+// What it says of itself, as 1.2.3.
+std::string programVersion();
+
+// The bytes of a file that the program keeps for itself, as those of another version of it would begin.
+std::string withVersion(std::string bytes, const std::string& version);
+
 // A file of tests/cli/inputs.
 std::string inputFile(const std::string& name);
 

@@ -216,6 +216,21 @@ TEST_F(Shard, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_EQ(names().count("g.nc"), 0u);
 }
 
+// By name, before anything is said of a checksum, which another version may make otherwise.
+TEST_F(Shard, OfAnotherVersionIsRefused) {
+  const std::string input = lakes();
+  runShards(input, 2, {});
+  const std::string bytes = readText(shardFile(2));
+  for (const std::string other : {"0.0.9", "12.10.11-rc1"}) {
+    writeText(shardFile(2), withVersion(bytes, other));
+    const std::string why =
+        "s2.shard' was made by coastmesh " + other + ", this is " + programVersion() + ": make it anew";
+    expectRefused(gather(2, {"-o", file("g.nc")}), 3, why);
+    expectRefused({"mesh", input, "--shard", "2/2", "-o", shardFile(2), "--skip-existing"}, 3, why);
+  }
+  EXPECT_EQ(names().count("g.nc"), 0u);
+}
+
 TEST_F(Shard, MoreShardsThanLakes) {
   const std::string input = lakes();
   const std::vector<int> codes = runShards(input, 30, {});

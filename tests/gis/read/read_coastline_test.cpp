@@ -152,6 +152,18 @@ TEST_F(ReadCoastline, RefusesPartsOfGeojsonThatAreNoGeometry) {
   }
 }
 
+TEST_F(ReadCoastline, RefusesTextsThatAreNoWkt) {
+  const std::string square = "\"POLYGON((0 0,1 0,1 1,0 0))\"";
+  for (const std::string odd : {"POLYGN((5 5,6 5,6 6,5 5))", "POLYGON((5 5,6 x,6 6,5 5))", "none"}) {
+    const std::string rest = ",name\n" + square + ",a\n\"" + odd + "\",b\n";
+    expectRefused({write("odd.csv", "wkt" + rest)}, {"odd.csv, feature 2: its wkt is no geometry (" + odd + ")"});
+    expectRefused({write("odd.csv", "_WKTcoast" + rest)}, {"feature 2: its _WKTcoast is no geometry (" + odd + ")"});
+  }
+  // Nothing at all is no geometry, as anywhere.
+  EXPECT_EQ(read(write("empty.csv", "WKT,name\n" + square + ",a\n,b\n\"POLYGON EMPTY\",c\n")).features.size(), 1u);
+  EXPECT_EQ(report_.skipped_empty, 2u);
+}
+
 TEST_F(ReadCoastline, ClosesRings) {
   const Coastline coastline =
       read(write("open.csv", "WKT,name\n\"POLYGON((0 0,1 0,1 1,0 1))\",a\n\"POLYGON((5 5,6 5,6 6,5 5))\",b\n"));
