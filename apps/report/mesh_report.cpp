@@ -154,26 +154,40 @@ Json speedupSection(const WorkLog& log) {
   return {{"work_s", work}, {"critical_path_s", log.criticalPath()}, {"speedup", std::move(speedup)}};
 }
 
-// How the work was shared out: the whole run, and what is between cleaning and checking.
-Json parallelSection(const WorkLog& log) {
+// Stages one after another of the same name are one, but those whose items are of interest: a map of sizes is made in
+// hundreds.
+Json stagesSection(const WorkLog& log) {
   Json stages = Json::array();
   for (const Stage& stage : log.stages) {
     const double sum = std::accumulate(stage.items.begin(), stage.items.end(), 0.0);
     const double longest = stage.items.empty() ? 0.0 : *std::ranges::max_element(stage.items);
+    const bool listed =
+        stage.name == "refine" || stage.name == "coarsen" || stage.name == "optimise" || stage.name == "regions";
+    if (!listed && !stages.empty() && stages.back()["name"] == stage.name) {
+      Json& same = stages.back();
+      same["alone_s"] = same["alone_s"].get<double>() + stage.alone;
+      same["items"] = same["items"].get<std::size_t>() + stage.items.size();
+      same["work_s"] = same["work_s"].get<double>() + sum;
+      same["longest_s"] = std::max(same["longest_s"].get<double>(), longest);
+      continue;
+    }
     stages.push_back({{"name", stage.name},
                       {"alone_s", stage.alone},
                       {"items", stage.items.size()},
                       {"work_s", sum},
                       {"longest_s", longest}});
     constexpr std::size_t kMostListed = 1000;
-    const bool listed =
-        stage.name == "refine" || stage.name == "coarsen" || stage.name == "optimise" || stage.name == "regions";
     if (listed && stage.items.size() <= kMostListed) stages.back()["item_s"] = stage.items;
   }
+  return stages;
+}
+
+// How the work was shared out: the whole run, and what is between cleaning and checking.
+Json parallelSection(const WorkLog& log) {
   Json section = speedupSection(log);
   section["meshing"] = speedupSection(
       log.only({"triangulate", "cut", "refine", "stitch", "coarsen", "optimise", "rest", "label", "regions"}));
-  section["stages"] = std::move(stages);
+  section["stages"] = stagesSection(log);
   return section;
 }
 

@@ -25,12 +25,14 @@ constexpr double kLeastRemoved = 0.8, kLeastDivided = 0.8;
 // What costs so much more than it should after the first of them is given up.
 constexpr int kFirstTurns = 1;
 constexpr double kHopeless = 0.25;
-// No edge gets shorter than this share of the length wanted, and where one is, no vertex comes in: the shortest one
-// decides on a model's time step.
+// No edge gets shorter than this share of the length wanted, nor than the shortest of its patch where one is shorter:
+// the shortest one decides on a model's time step.
 constexpr double kShort = 0.6;
-// So many patches at most, as a share of the triangles: where more are poor the input is finer than what is wanted.
-// More where something else than shape is asked for.
-constexpr double kMostPatches = 0.012, kMostForGoals = 0.03;
+// So many patches are tried, as a share of the triangles, and so many more for each that helps, up to the last number:
+// where most of what is poor cannot be helped, the input is finer than what is wanted. From the beginning more where
+// something else than shape is asked for.
+constexpr double kFirstPatches = 0.012, kFirstForGoals = 0.03, kMostPatches = 0.05;
+constexpr double kMoreForGain = 2.5;
 // In place of a corner: a vertex comes into the middle, not to where an edge is that of an equilateral triangle.
 constexpr unsigned kCentre = 3;
 
@@ -244,7 +246,7 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
   for (const Trial& trial : kTrials) {
     if (!as_it_is.isWorthTrying(trial)) continue;
     const bool grows = trial.change == Change::Insert || trial.change == Change::Split;
-    if (grows && (!is_free_to_grow || shortest() < kShort)) continue;
+    if (grows && !is_free_to_grow) continue;
     Optimiser other(patch, *this);
     if (!other.change(trial)) continue;
     const auto turn = [&](int times) {
@@ -282,7 +284,7 @@ void Optimiser::takePatch(const Submesh& patch, const TriMesh& solved) {
 
 // Returns whether the mesh is another.
 bool Optimiser::mendPlace(TriId t) {
-  const Submesh patch = extractAround(mesh_, {}, {&t, 1}, kRings);
+  const Submesh patch = extractAround(mesh_, {}, {&t, 1}, kRings, patch_numbers_);
   if (isHeldByFrozen(patch)) {
     if (is_submesh_) waiting_.insert(waiting_.end(), mesh_.triangle(t).v.begin(), mesh_.triangle(t).v.end());
     return false;
@@ -309,15 +311,18 @@ void Optimiser::mendPoorest(const RunControl& control, double share) {
   for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
     if (mesh_.isLive(t)) add(t);
   std::ranges::sort(poor, {}, [](const PoorTriangle& p) { return std::pair(p.shape, p.triangle); });
-  auto left =
-      static_cast<std::size_t>((goal_ == QualityGoal::Shape ? kMostPatches : kMostForGoals) * mesh_.triangleSlots());
-  while (left > 0 && !poor.empty()) {
+  const double triangles = mesh_.triangleSlots();
+  double left = (goal_ == QualityGoal::Shape ? kFirstPatches : kFirstForGoals) * triangles;
+  double most = kMostPatches * triangles;
+  while (left >= 1.0 && most >= 1.0 && !poor.empty()) {
     control.checkpoint(share);
     const PoorTriangle next = poor.front();
     poor.pop_front();
     if (!mesh_.isLive(next.triangle) || mesh_.triangle(next.triangle).v != next.corners) continue;
     --left;
+    --most;
     if (!mendPlace(next.triangle)) continue;
+    left += kMoreForGain;
     for (const TriId t : touched_)
       if (mesh_.isLive(t)) add(t);
   }

@@ -161,6 +161,7 @@ class Optimiser {
   std::vector<EdgeRef> star_;
   std::vector<int> excesses_;  // of the ring's corners
   std::vector<TriId> touched_;
+  PatchNumbers patch_numbers_;
 };
 
 }  // namespace coastmesh

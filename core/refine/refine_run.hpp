@@ -12,6 +12,7 @@
 #include "core/refine/bad_queue.hpp"
 #include "core/refine/refine_options.hpp"
 #include "core/refine/steiner.hpp"
+#include "core/refine/submesh.hpp"
 #include "core/refine/vertex_notes.hpp"
 #include "core/refine/vertex_ops.hpp"
 
@@ -64,6 +65,7 @@ struct RefineRun {
     std::vector<VertexId> polygon;
     std::vector<Corners> fresh;
   } memory;
+  PatchNumbers patch_numbers;
 };
 
 // Whether a triangle breaks the bounds and no corner of the input excuses it.

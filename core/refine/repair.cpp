@@ -146,7 +146,7 @@ Outcome mendPlace(RefineRun& run, std::span<const TriId> centre, const RunContro
   std::optional<Solution> best;
   Submesh best_patch;
   for (const unsigned rings : kRings) {
-    Submesh patch = extractAround(run.mesh, run.notes, centre, rings);
+    Submesh patch = extractAround(run.mesh, run.notes, centre, rings, run.patch_numbers);
     if (run.variant.clear_of_frozen && isAtFrozenBoundary(run.mesh, patch)) {
       if (best) break;
       defer(run, centre.back());
@@ -194,7 +194,7 @@ class Surroundings {
   void clear() { near_.clear(); }
   void add(TriId t) {
     near_.resize(mesh_.vertexSlots(), false);
-    for (const TriId around : trianglesAround(mesh_, {&t, 1}, 1))
+    for (const TriId around : trianglesAround(mesh_, {&t, 1}, 1, scratch_))
       for (const VertexId v : mesh_.triangle(around).v) near_[v] = true;
   }
   bool hold(TriId t) const {
@@ -204,6 +204,7 @@ class Surroundings {
  private:
   const EditMesh& mesh_;
   std::vector<bool> near_;  // one a vertex
+  PatchNumbers scratch_;
 };
 
 }  // namespace

@@ -4,35 +4,49 @@
 #include <utility>
 
 #include "core/links.hpp"
-#include "core/refine/sparse_numbers.hpp"
 
 namespace coastmesh {
 
-std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings) {
+namespace {
+
+// Of some triangles and of those that touch them in so many rings; numbered in `scratch`.
+std::vector<TriId> gatherAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings,
+                                PatchNumbers& scratch) {
+  scratch.triangle.resize(std::max<std::size_t>(scratch.triangle.size(), mesh.triangleSlots()), kNone);
+  scratch.vertex.resize(std::max<std::size_t>(scratch.vertex.size(), mesh.vertexSlots()), kNone);
   std::vector<TriId> patch(centre.begin(), centre.end());
+  for (const TriId t : patch) scratch.triangle[t] = 0;
+  std::vector<VertexId> seen;
   std::vector<EdgeRef> star;
-  std::vector<VertexId> corners;
   std::size_t done = 0;
   for (unsigned ring = 0; ring < rings; ++ring) {
     const std::size_t end = patch.size();
-    corners.clear();
-    for (; done < end; ++done)
-      for (const VertexId v : mesh.triangle(patch[done]).v) corners.push_back(v);
-    std::ranges::sort(corners);
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    for (const VertexId v : corners) {
-      mesh.star(v, star);
-      for (const EdgeRef e : star) patch.push_back(triOf(e));
+    for (; done < end; ++done) {
+      for (const VertexId v : mesh.triangle(patch[done]).v) {
+        if (scratch.vertex[v] != kNone) continue;
+        scratch.vertex[v] = 0;
+        seen.push_back(v);
+        mesh.star(v, star);
+        for (const EdgeRef e : star) {
+          if (scratch.triangle[triOf(e)] != kNone) continue;
+          scratch.triangle[triOf(e)] = 0;
+          patch.push_back(triOf(e));
+        }
+      }
     }
-    // Keep those that are new, in order.
     std::sort(patch.begin() + static_cast<std::ptrdiff_t>(end), patch.end());
-    patch.erase(std::unique(patch.begin() + static_cast<std::ptrdiff_t>(end), patch.end()), patch.end());
-    std::vector<TriId> known(patch.begin(), patch.begin() + static_cast<std::ptrdiff_t>(end));
-    std::ranges::sort(known);
-    const auto fresh = std::remove_if(patch.begin() + static_cast<std::ptrdiff_t>(end), patch.end(),
-                                      [&](TriId t) { return std::ranges::binary_search(known, t); });
-    patch.erase(fresh, patch.end());
   }
+  for (const VertexId v : seen) scratch.vertex[v] = kNone;
+  for (TriId i = 0; i < patch.size(); ++i) scratch.triangle[patch[i]] = i;
+  return patch;
+}
+
+}  // namespace
+
+std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings,
+                                   PatchNumbers& scratch) {
+  std::vector<TriId> patch = gatherAround(mesh, centre, rings, scratch);
+  for (const TriId t : patch) scratch.triangle[t] = kNone;
   return patch;
 }
 
@@ -54,13 +68,15 @@ VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId
   return some;
 }
 
-Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings) {
-  const std::vector<TriId> triangles = trianglesAround(parent, centre, rings);
-  SparseNumbers slots(triangles.size()), numbers(triangles.size());
-  for (TriId i = 0; i < triangles.size(); ++i) slots[triangles[i]] = i;
-  const auto slotOf = [&](TriId t) { return slots.at(t); };
-  const auto numberOf = [&](VertexId v) -> VertexId& { return numbers[v]; };
-  return extractSubmesh(parent, parent.inputVertices(), notes, triangles, slotOf, numberOf);
+Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings,
+                      PatchNumbers& scratch) {
+  const std::vector<TriId> triangles = gatherAround(parent, centre, rings, scratch);
+  const auto slotOf = [&](TriId t) { return scratch.triangle[t]; };
+  const auto numberOf = [&](VertexId v) -> VertexId& { return scratch.vertex[v]; };
+  Submesh sub = extractSubmesh(parent, parent.inputVertices(), notes, triangles, slotOf, numberOf);
+  for (const TriId t : triangles) scratch.triangle[t] = kNone;
+  for (const VertexId v : sub.parent) scratch.vertex[v] = kNone;
+  return sub;
 }
 
 void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std::vector<VertexId>& added,

@@ -76,11 +76,19 @@ Submesh extractSubmesh(const Mesh& parent, VertexId parent_inputs, const VertexN
   return sub;
 }
 
+// Numbers in a patch of a mesh's triangles and vertices, to be used again for the next patch: all kNone in between.
+struct PatchNumbers {
+  std::vector<TriId> triangle;
+  std::vector<VertexId> vertex;
+};
+
 // Some triangles, those that touch them, those that touch these, and so on for `rings` rings.
-std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings);
+std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings,
+                                   PatchNumbers& scratch);
 
 // Those triangles as a mesh.
-Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings);
+Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings,
+                      PatchNumbers& scratch);
 
 // Puts another mesh of the same submesh (fixed vertices and frozen edges unchanged) into the parent's mesh. Appends the
 // vertices and the triangles that are new there. Does not restore the Delaunay property. REQUIRES: the parent is as it

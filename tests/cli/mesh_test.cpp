@@ -63,7 +63,10 @@ TEST_F(MeshRun, ReportHasItsKeys) {
   EXPECT_EQ(keysOf(json["parallel"]),
             (std::set<std::string>{"work_s", "critical_path_s", "speedup", "meshing", "stages"}));
   EXPECT_EQ(keysOf(json["parallel"]["speedup"]), (std::set<std::string>{"2", "8", "64"}));
-  EXPECT_FALSE(json["parallel"]["stages"].empty());
+  const Json& stages = json["parallel"]["stages"];
+  ASSERT_FALSE(stages.empty());
+  for (std::size_t i = 1; i < stages.size(); ++i)
+    EXPECT_TRUE(stages[i]["name"] != stages[i - 1]["name"] || stages[i].contains("item_s")) << stages[i];
   EXPECT_EQ(keysOf(json["input"]),
             (std::set<std::string>{"files", "features", "rings", "points", "skipped_empty", "skipped_points", "crs",
                                    "projection", "projection_reason", "scale", "projections", "area_m2", "refused",

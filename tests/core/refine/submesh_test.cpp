@@ -46,13 +46,14 @@ class SubmeshOf : public ::testing::TestWithParam<NamedPslg> {
 
   EditMesh mesh_;
   VertexNotes notes_;
+  PatchNumbers numbers_;
 };
 
 TEST_P(SubmeshOf, IsAMeshOfItsOwn) {
   for (const TriId centre : centres()) {
     std::size_t before = 0;
     for (unsigned rings = 0; rings < 4; ++rings) {
-      const Submesh patch = extractAround(mesh_, notes_, {&centre, 1}, rings);
+      const Submesh patch = extractAround(mesh_, notes_, {&centre, 1}, rings, numbers_);
       ASSERT_GE(patch.triangles.size(), before);
       before = patch.triangles.size();
       EXPECT_EQ(std::set<TriId>(patch.triangles.begin(), patch.triangles.end()).size(), patch.triangles.size());
@@ -78,7 +79,7 @@ TEST_P(SubmeshOf, IsAMeshOfItsOwn) {
 
 TEST_P(SubmeshOf, BoundaryIsFrozenUnlessItIsTheDomains) {
   for (const TriId centre : centres()) {
-    const Submesh patch = extractAround(mesh_, notes_, {&centre, 1}, 2);
+    const Submesh patch = extractAround(mesh_, notes_, {&centre, 1}, 2, numbers_);
     const std::set<TriId> inside(patch.triangles.begin(), patch.triangles.end());
     std::set<VertexId> fixed;
     std::size_t frozen = 0;
@@ -107,7 +108,7 @@ TEST_P(SubmeshOf, BoundaryIsFrozenUnlessItIsTheDomains) {
 TEST_P(SubmeshOf, PutBackAsItWasChangesNothing) {
   for (const TriId centre : centres()) {
     EditMesh mesh = mesh_;
-    const Submesh patch = extractAround(mesh, notes_, {&centre, 1}, 2);
+    const Submesh patch = extractAround(mesh, notes_, {&centre, 1}, 2, numbers_);
     std::vector<VertexId> added;
     std::vector<TriId> touched;
     putBack(mesh, patch, patch.mesh, added, touched);
@@ -127,7 +128,7 @@ TEST_P(SubmeshOf, ChangedPatchFits) {
   std::mt19937_64 random(3);
   for (const TriId centre : centres()) {
     EditMesh mesh = mesh_;
-    const Submesh patch = extractAround(mesh, notes_, {&centre, 1}, 2);
+    const Submesh patch = extractAround(mesh, notes_, {&centre, 1}, 2, numbers_);
     // Points put into the patch, free vertices of it taken out.
     EditMesh local{TriMesh(patch.mesh)};
     std::vector<TriId> touched;
@@ -217,10 +218,11 @@ TEST(Submesh, RingsGrowByVertices) {
   notes.spacing.assign(mesh.vertexSlots(), 1.0);
   notes.shell_unit.assign(mesh.inputVertices(), 0.0);
   notes.small_angle.assign(mesh.inputVertices(), false);
+  PatchNumbers numbers;
   for (TriId centre = 0; centre < mesh.triangleSlots(); centre += 17) {
     std::set<TriId> naive{centre};
     for (unsigned rings = 0; rings < 4; ++rings) {
-      const Submesh patch = extractAround(mesh, notes, {&centre, 1}, rings);
+      const Submesh patch = extractAround(mesh, notes, {&centre, 1}, rings, numbers);
       EXPECT_EQ(std::set<TriId>(patch.triangles.begin(), patch.triangles.end()), naive) << rings << " rings";
       std::set<VertexId> corners;
       for (const TriId t : naive) corners.insert(mesh.triangle(t).v.begin(), mesh.triangle(t).v.end());
