@@ -19,6 +19,7 @@
 #include "parallel/byte_hash.hpp"
 #include "parallel/bytes.hpp"
 #include "parallel/deal.hpp"
+#include "parallel/free_memory.hpp"
 #include "parallel/piece_context.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/round_keeper.hpp"
@@ -255,6 +256,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   if (begins(RoundsStage::Refine))
     add(refineInRounds(region.mesh, pslg, around, std::move(seeds.notes), control, workspace));
   region.seconds.refine = watch.lap();
+  giveBackFreeMemory();
   if (options.coarsen && begins(RoundsStage::Coarsen)) {
     add(coarsenInRounds(region.mesh, pslg, around, control, workspace));
     region.seconds.coarsen = watch.lap();
@@ -263,6 +265,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
     add(optimiseInRounds(region.mesh, pslg, around, sweeps, control, workspace));
     region.seconds.optimise = watch.lap();
   }
+  workspace = {};
   if (!seeds.cores.empty()) {
     Recorder recorder;
     const ItemLoop stitch = recorder.loop("stitch", control);
@@ -281,6 +284,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, label);
   region.log.append(recorder.finish());
   region.seconds.stitch = watch.lap();
+  giveBackFreeMemory();
 }
 
 // Makes the lattice the result, but for its regions; where it falls short of a bound, its vertices are seeds.

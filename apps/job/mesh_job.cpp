@@ -22,6 +22,7 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "parallel/free_memory.hpp"
 #include "parallel/recorder.hpp"
 
 namespace coastmesh {
@@ -253,6 +254,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.read.notes.insert(result.read.notes.begin(), job.notes.begin(), job.notes.end());
   result.crs = input.coastline().crs;
   const SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
+  giveBackFreeMemory();
   result.seconds.read = whole.seconds();
   result.log.append(reading.finish("read"));
   if (control.cancelled && control.cancelled()) throw Cancelled();
@@ -283,6 +285,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
     const bool taken = exchange.take && (!exchange.has || exchange.has(g));
     GroupResult part = taken ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, memory}, inner);
+    if (part.pieces > 1) giveBackFreeMemory();
     if (exchange.keep) exchange.keep(g, part);
     // Planes are looked at again after repairs only, and where nodes of a frame were moved on the Earth.
     const bool again = mends || part.surface != SurfaceKind::Plane;
@@ -291,6 +294,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     progress.report(g, 1.0);
   });
   merge.finish();
+  giveBackFreeMemory();
   result.grid.crs = result.crs;
   Recorder recorder;
   const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});

@@ -91,6 +91,17 @@ EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavi
   return hit;
 }
 
+// Splits the longer side of the small input angle that triangle `filler` fills, for a triangle beyond its base.
+bool splitSide(RefineRun& run, TriId filler, VertexId corner, TriId t, unsigned apex) {
+  const EditMesh& mesh = run.mesh;
+  const unsigned i = mesh.cornerOf(filler, corner);
+  const EdgeRef right = edgeRef(filler, prev3(i)), left = edgeRef(filler, next3(i));
+  const auto length = [&](EdgeRef e) {
+    return run.bound.surface.squaredChord(mesh.point(mesh.origin(e)), mesh.point(mesh.target(e)));
+  };
+  return splitFor(run, length(right) >= length(left) ? right : left, t, apex);
+}
+
 bool insertPoint(RefineRun& run, TriId t, unsigned apex) {
   Patch& patch = run.memory.patch;
   EditMesh& mesh = run.mesh;
@@ -112,7 +123,7 @@ bool insertPoint(RefineRun& run, TriId t, unsigned apex) {
   const VertexId corner = filledCornerBehind(run, t, apex);
   if (corner != kNone)
     for (const TriId c : patch.triangles)
-      if (fillsCorner(run, c, corner)) return false;
+      if (fillsCorner(run, c, corner)) return run.variant.opens_corners && splitSide(run, c, corner, t, apex);
 
   const VertexId v = mesh.insertInCavity(candidate.place, patch, run.touched);
   noteVertex(run, v, spacing);

@@ -23,6 +23,9 @@ struct RefineVariant {
   double aim_deg = 0.0;      // new points aim at an angle this much above the bound
   bool worst_first = false;  // smallest angle first, not shortest edge
   double free_share = 0.0;   // least distance to other vertices, as a share of the input's spacing
+  // Splits the sides of an input angle too small for the bounds where the triangle that fills it keeps points away from
+  // its base; else it stays as it is.
+  bool opens_corners = false;
   // Leaves alone what reaches a frozen edge, and keeps it for later. Else a frozen edge is a wall like a segment.
   bool clear_of_frozen = false;
 };

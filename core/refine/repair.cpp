@@ -40,6 +40,14 @@ constexpr std::array kLastResorts = {
     Attempt{.variant = {.aim_deg = 2.0, .worst_first = true}},
     Attempt{.variant = {.aim_deg = 4.5, .worst_first = true}},
 };
+// And where those fail in the largest patch too, these: beyond the base of a triangle that fills a small input angle a
+// point is often nearer than that triangle lets it be.
+constexpr std::array kOpeningCorners = {
+    Attempt{.variant = {.aim_deg = 0.0, .opens_corners = true}},
+    Attempt{.variant = {.aim_deg = 1.0, .opens_corners = true}},
+    Attempt{.variant = {.aim_deg = 3.0, .opens_corners = true}},
+    Attempt{.variant = {.aim_deg = 1.0, .worst_first = true, .opens_corners = true}},
+};
 constexpr std::array kRings = {2u, 3u, 4u, 6u};
 // From this angle on places in a large mesh are many: two thousand at 42° beside a coast of 150,000 points, where
 // choosing among meshes took a fifth of all the time and saved one vertex in three hundred, which coarsening finds too.
@@ -108,6 +116,11 @@ std::optional<Solution> solveBest(const Submesh& patch, unsigned rings, std::siz
   // A larger patch comes first where there is one.
   if (many_places && rings != kRings.back()) return best;
   for (const Attempt& how : kLastResorts) {
+    if (isMended()) break;
+    attempt(how);
+  }
+  if (rings != kRings.back()) return best;
+  for (const Attempt& how : kOpeningCorners) {
     if (isMended()) break;
     attempt(how);
   }

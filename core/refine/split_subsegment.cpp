@@ -90,7 +90,7 @@ bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex) {
   }
   const VertexId a = mesh.origin(edge), b = mesh.target(edge);
   const VertexId corner = filledCornerBehind(run, t, apex);
-  if (corner != kNone && (a == corner || b == corner)) return false;
+  if (corner != kNone && (a == corner || b == corner) && !run.variant.opens_corners) return false;
   const Point place = splitPlace(run, a, b, seg);
   if (run.stuck.contains({a, b}) || !mesh.findSplitCavity(edge, place, patch)) return false;
   if (isBarred(run, patch)) {

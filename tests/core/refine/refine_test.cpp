@@ -231,6 +231,21 @@ TEST(Refine, LongestEdgeHoldsTheSize) {
   }
 }
 
+// A lake whose western end is an angle too small for the bound: the triangle that fills it has its base across the
+// water, and what mends the triangle beyond lies in that triangle's circumcircle. Its sides are to be split first.
+TEST(Refine, BeyondTheBaseOfATriangleThatFillsACorner) {
+  Pslg pslg;
+  pslg.points = {{0, 1135}, {1062, 1325}, {1564, 1046}, {1897, 0}, {1062, 378}, {970, 1046}};
+  for (VertexId v = 6; v-- > 0;) pslg.segments.push_back({(v + 1) % 6, v, 0, 0, kOutside});
+  for (const double angle : {30.0, 33.0}) {
+    const RefineOptions options{.min_angle_deg = angle};
+    SCOPED_TRACE(describe(options));
+    const Refined result = refined(pslg, options);
+    expectRefined(result.mesh, pslg, options, result.stats);
+    EXPECT_EQ(result.stats.unresolved.size(), 0u);
+  }
+}
+
 // A canal: nothing tells how narrow it is but the opposite shore.
 TEST(Refine, ChannelsOfAnyWidth) {
   for (const double width : {0.03, 0.01, 0.001, 0.0001}) {
