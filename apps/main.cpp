@@ -73,7 +73,7 @@ int runAmongRanks(int argc, char** argv, Interrupt& interrupt, int ranks) {
   for (int i = 1; i < argc; ++i) command.append(argv[i]).push_back('\0');
   const auto stopped = [&interrupt] { return interrupt.requested(); };
   Post post(joinRanks, ranks, std::hash<std::string>()(command));
-  if (post.rank() != 0) return serveRankZero(post, stopped, memoryLacked) ? kExitDone : kExitInterrupted;
+  if (post.rank() != 0) return serveRankZero(post, helpIn(interrupt)) ? kExitDone : kExitInterrupted;
   Cluster cluster(post, stopped);
   return runProgram(argc, argv, interrupt, &cluster);
 }

@@ -20,7 +20,10 @@ std::shared_ptr<const std::string> shared(std::string&& bytes) {
 }  // namespace
 
 Cluster::Cluster(Post& post, std::function<bool()> stopped)
-    : post_(post), stopped_(std::move(stopped)), rooms_(static_cast<std::size_t>(post.ranks()), 0) {
+    : post_(post),
+      stopped_(std::move(stopped)),
+      rooms_(static_cast<std::size_t>(post.ranks()), 0),
+      peak_mib_(rooms_.size(), 0.0) {
   helpers_.begin = [this](std::string&& context) {
     std::uint32_t region = 0;
     {
@@ -43,13 +46,23 @@ Cluster::Cluster(Post& post, std::function<bool()> stopped)
     {
       const std::lock_guard lock(mutex_);
       number = requests_++;
-      awaited_.emplace(number, std::move(take));
+      ++pieces_;
+      awaited_.emplace(number, Awaited{std::move(take), true});
     }
     post_.send(room, {Message::Kind::Request, region, number, 0, shared(std::move(request))});
   };
+  helpers_.ask = [this](int rank, std::string&& request, std::function<void(Reply &&)> take) {
+    std::uint64_t number = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      number = requests_++;
+      awaited_.emplace(number, Awaited{std::move(take), false});
+    }
+    post_.send(rank, {Message::Kind::Ask, 0, number, 0, shared(std::move(request))});
+  };
   helpers_.use = [this] {
     const std::lock_guard lock(mutex_);
-    return HelpersUse{post_.ranks(), requests_, post_.bytesMoved()};
+    return HelpersUse{post_.ranks(), pieces_, post_.bytesMoved(), peak_mib_};
   };
   post_.listen([this](Message&& message, int from) { take(std::move(message), from); });
 }
@@ -74,6 +87,9 @@ void Cluster::take(Message&& message, int from) {
   {
     const std::lock_guard lock(mutex_);
     int& rooms = rooms_[static_cast<std::size_t>(from)];
+    constexpr double kKibOfMib = 1024.0;
+    if (message.kind == Message::Kind::Ready || message.kind == Message::Kind::Reply)
+      peak_mib_[static_cast<std::size_t>(from)] = static_cast<double>(message.region) / kKibOfMib;
     if (message.kind == Message::Kind::Ready) {
       rooms = roomsOf(message.number);
       return;
@@ -86,9 +102,9 @@ void Cluster::take(Message&& message, int from) {
     }
     const auto awaited = awaited_.find(message.number);
     if (message.kind != Message::Kind::Reply || awaited == awaited_.end()) return;
-    keep = std::move(awaited->second);
+    keep = std::move(awaited->second.take);
+    rooms += awaited->second.has_room ? 1 : 0;
     awaited_.erase(awaited);
-    ++rooms;
   }
   keep({static_cast<Reply::Outcome>(message.outcome), *message.bytes});
 }

@@ -36,8 +36,13 @@ class Cluster {
   std::condition_variable changed_;
   int gone_ = 0;            // ranks that have said so
   std::vector<int> rooms_;  // one a rank: requests that it has room for
-  std::map<std::uint64_t, std::function<void(Reply&&)>> awaited_;
-  std::uint64_t requests_ = 0;
+  struct Awaited {
+    std::function<void(Reply&&)> take;
+    bool has_room = false;  // that is free again when it has come
+  };
+  std::map<std::uint64_t, Awaited> awaited_;
+  std::uint64_t requests_ = 0, pieces_ = 0;
+  std::vector<double> peak_mib_;  // one a rank
   std::uint32_t regions_ = 0;
 };
 

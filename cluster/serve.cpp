@@ -43,20 +43,19 @@ class SharedContext {
 
 class Server {
  public:
-  Server(Post& post, const std::function<bool()>& stopped, const std::function<bool()>& memory_lacked)
-      : post_(post), stopped_(stopped), memory_lacked_(memory_lacked) {
+  Server(Post& post, const ServeOptions& options) : post_(post), options_(options) {
     post_.listen([this](Message&& message, int) { take(std::move(message)); });
   }
 
   bool run() {
     const std::optional<int> threads = awaitStart();
-    if (!threads) return !stopped_();
+    if (!threads) return !options_.stopped();
     withThreads({.threads = *threads}, [&] {
       const int count = threadCount();
-      post_.send(0, {Message::Kind::Ready, 0, static_cast<std::uint64_t>(count), 0, {}});
+      post_.send(0, {Message::Kind::Ready, peakKib(), static_cast<std::uint64_t>(count), 0, {}});
       forEachItem(static_cast<std::size_t>(count), {}, [&](std::size_t) { work(); });
     });
-    return !stopped_();
+    return !options_.stopped();
   }
 
  private:
@@ -82,6 +81,9 @@ class Server {
         case Message::Kind::Request:
           jobs_.push_back({regions_[message.region], std::move(message)});
           break;
+        case Message::Kind::Ask:
+          jobs_.push_back({nullptr, std::move(message)});
+          break;
         default:
           done_ = true;
       }
@@ -90,7 +92,7 @@ class Server {
   }
 
   // Whether it is time to end; called under the lock.
-  bool isOver() const { return done_ || stopped_(); }
+  bool isOver() const { return done_ || options_.stopped(); }
 
   template <typename Ready>
   bool await(std::unique_lock<std::mutex>& lock, const Ready& ready) {
@@ -125,17 +127,28 @@ class Server {
       } catch (const Cancelled&) {
         return;
       }
-      post_.send(0, {Message::Kind::Reply, 0, job.request.number, static_cast<std::uint64_t>(reply.outcome),
-                     std::make_shared<const std::string>(std::move(reply.bytes))});
+      auto bytes = std::make_shared<const std::string>(std::move(reply.bytes));
+      post_.send(0, {Message::Kind::Reply, peakKib(), job.request.number, static_cast<std::uint64_t>(reply.outcome),
+                     std::move(bytes)});
     }
+  }
+
+  std::uint64_t peakKib() const {
+    constexpr double kKibOfMib = 1024.0;
+    return static_cast<std::uint64_t>(options_.peak_mib() * kKibOfMib);
   }
 
   Reply answer(const Job& job, const RunControl& control) const {
     const std::string who = "rank " + std::to_string(post_.rank()) + " on " + post_.host() + ": ";
     try {
-      std::string done = answerPiece(*job.request.bytes, job.context->get(), control);
-      if (memory_lacked_()) throw std::bad_alloc();
-      return {Reply::Outcome::Done, std::move(done)};
+      Reply reply;
+      if (job.request.kind == Message::Kind::Ask)
+        reply = options_.answer(*job.request.bytes);
+      else
+        reply.bytes = answerPiece(*job.request.bytes, job.context->get(), control);
+      if (options_.memory_lacked()) throw std::bad_alloc();
+      if (reply.outcome != Reply::Outcome::Done) reply.bytes.insert(0, who);
+      return reply;
     } catch (const Cancelled&) {
       throw;
     } catch (const std::bad_alloc&) {
@@ -146,8 +159,7 @@ class Server {
   }
 
   Post& post_;
-  const std::function<bool()>& stopped_;
-  const std::function<bool()>& memory_lacked_;
+  const ServeOptions& options_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<int> threads_;
@@ -158,8 +170,8 @@ class Server {
 
 }  // namespace
 
-bool serveRankZero(Post& post, const std::function<bool()>& stopped, const std::function<bool()>& memory_lacked) {
-  Server server(post, stopped, memory_lacked);
+bool serveRankZero(Post& post, const ServeOptions& options) {
+  Server server(post, options);
   const bool sent_away = server.run();
   if (sent_away) {
     post.send(0, {Message::Kind::Gone, 0, 0, 0, {}});

@@ -97,4 +97,22 @@ void dealItems(const HelpedRegion& helpers, std::size_t count, const RunControl&
   });
 }
 
+void dealToOwners(const Helpers& helpers, std::span<const int> owners, const RunControl& control, const ItemLoop& loop,
+                  const DealtWork& work) {
+  const auto inbox = std::make_shared<Inbox>();
+  std::vector<std::size_t> here;
+  for (std::size_t i = 0; i < owners.size(); ++i) {
+    if (owners[i] == 0) {
+      here.push_back(i);
+      continue;
+    }
+    inbox->expect();
+    helpers.ask(owners[i], work.request(i), [inbox, i](Reply&& answer) { inbox->put(i, std::move(answer)); });
+  }
+  loop(here.size(), [&](std::size_t k) { work.here(here[k]); });
+  const std::atomic<bool> stop = false;
+  for (std::pair<std::size_t, Reply> reply; inbox->await(reply, control, stop);)
+    work.take(reply.first, std::move(reply.second));
+}
+
 }  // namespace coastmesh

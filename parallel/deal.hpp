@@ -3,11 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "parallel/recorder.hpp"
 
@@ -15,7 +18,7 @@ namespace coastmesh {
 
 // What a helper sends back: the answer to a request, or why there is none.
 struct Reply {
-  enum class Outcome : std::uint8_t { Done, NoMemory, Failed };
+  enum class Outcome : std::uint8_t { Done, NoMemory, Failed, BadInput };
   Outcome outcome = Outcome::Done;
   std::string bytes;  // what failed, where it did
 };
@@ -25,6 +28,7 @@ struct HelpersUse {
   int ranks = 1;                   // processes that share in the work, this one included
   std::uint64_t pieces_dealt = 0;  // requests sent
   std::uint64_t bytes_moved = 0;   // of all messages, in both directions
+  std::vector<double> peak_mib;    // memory of each rank when it was last heard of; not known of this process
 };
 
 // Others who take work: who they are, and how they are reached, is known to whoever made this. All functions may be
@@ -39,6 +43,8 @@ struct Helpers {
   std::function<int()> reserve;
   // `take` is called once, from another thread, with the reply.
   std::function<void(int room, std::uint32_t region, std::string&& request, std::function<void(Reply&&)> take)> send;
+  // Asks one of `ranks` - 1 helpers, from 1 on, for something that has nothing to do with a region; as `send` else.
+  std::function<void(int rank, std::string&& request, std::function<void(Reply&&)> take)> ask;
   std::function<HelpersUse()> use;
 };
 
@@ -81,5 +87,10 @@ struct DealtWork {
 // hand. Throws what the work throws, and Cancelled.
 void dealItems(const HelpedRegion& helpers, std::size_t count, const RunControl& control, Recorder& recorder,
                std::string_view name, const DealtWork& work);
+
+// The same for items each of which has an owner: 0, whose items are done here, on the threads that `loop` lends, or a
+// helper. What `work` says of going is not asked.
+void dealToOwners(const Helpers& helpers, std::span<const int> owners, const RunControl& control, const ItemLoop& loop,
+                  const DealtWork& work);
 
 }  // namespace coastmesh

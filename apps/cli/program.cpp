@@ -12,8 +12,12 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/last_resort.hpp"
+#include "apps/cli/memory_lacked.hpp"
 #include "apps/cli/run_outputs.hpp"
+#include "apps/job/raster_helpers.hpp"
+#include "apps/report/report_sections.hpp"
 #include "apps/usage/usage_pages.hpp"
+#include "cluster/serve.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
 
@@ -129,6 +133,10 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
     return code;
   }
   throw std::logic_error("a command was parsed that was never declared");
+}
+
+ServeOptions helpIn(const Interrupt& interrupt) {
+  return {[&interrupt] { return interrupt.requested(); }, memoryLacked, peakMemoryMib, answerRasterTask};
 }
 
 }  // namespace coastmesh

@@ -15,6 +15,7 @@
 #include "apps/job/deal_groups.hpp"
 #include "apps/job/grid_pieces.hpp"
 #include "apps/job/mesh_group.hpp"
+#include "apps/job/raster_helpers.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "core/quality.hpp"
 #include "gis/coast/feature_names.hpp"
@@ -253,7 +254,9 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.read = input.report();
   result.read.notes.insert(result.read.notes.begin(), job.notes.begin(), job.notes.end());
   result.crs = input.coastline().crs;
-  const SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
+  SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
+  RasterHelpers rasters(job.mesh.helpers, RunControl{control.cancelled, {}});
+  sizes.readers = rasters.readers();
   giveBackFreeMemory();
   result.seconds.read = whole.seconds();
   result.log.append(reading.finish("read"));
@@ -309,6 +312,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   result.log.append(recorder.finish("grid"));
   FinishOptions finish = job.finish;
+  finish.depth.readers = rasters.pixelReaders();
   if (result.read.boundary_types) finish.boundaries.inputs = job.input.files;
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg};
@@ -328,6 +332,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   }
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop);
+  result.rasters_read = rasters.use();
   result.log.append(recorder.finish("grid"));
   result.seconds.total = whole.seconds();
   return result;

@@ -16,6 +16,7 @@
 #include "core/refine/refine_options.hpp"
 #include "gis/clean/clean_report.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/raster/raster_band.hpp"
 #include "gis/read/read_report.hpp"
 #include "gis/solver/partition_grid.hpp"
 #include "parallel/work_log.hpp"
@@ -103,6 +104,7 @@ struct MeshJobResult {
   StepOutcome step;           // of the finished grid
   PartitionReport partition;  // for a solver, where one is asked for
   CheckpointUse checkpoint;
+  std::vector<RasterUse> rasters_read;       // by each rank, where there are several
   std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
 
   bool complete() const {

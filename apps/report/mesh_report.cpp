@@ -192,9 +192,19 @@ Json parallelSection(const WorkLog& log) {
 }
 
 // Who else worked on the mesh.
-Json clusterSection(const Helpers* helpers) {
+Json clusterSection(const Helpers* helpers, const std::vector<RasterUse>& rasters_read) {
   const HelpersUse use = helpers != nullptr ? helpers->use() : HelpersUse();
-  return {{"ranks", use.ranks}, {"pieces_dealt", use.pieces_dealt}, {"bytes_moved", use.bytes_moved}};
+  Json by_rank = Json::array();
+  for (std::size_t rank = 0; rank < use.peak_mib.size(); ++rank) {
+    const RasterUse read = rank < rasters_read.size() ? rasters_read[rank] : RasterUse();
+    by_rank.push_back({{"raster_files", read.files},
+                       {"raster_bytes", read.bytes},
+                       {"peak_memory_mib", rank == 0 ? peakMemoryMib() : use.peak_mib[rank]}});
+  }
+  return {{"ranks", use.ranks},
+          {"pieces_dealt", use.pieces_dealt},
+          {"bytes_moved", use.bytes_moved},
+          {"by_rank", std::move(by_rank)}};
 }
 
 Json checkpointSection(const CheckpointUse& use) {
@@ -229,7 +239,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"output_warnings", result.output_warnings},
                     {"time_s", timeSection(result.seconds)},
                     {"parallel", parallelSection(result.log)},
-                    {"cluster", clusterSection(job.mesh.helpers)},
+                    {"cluster", clusterSection(job.mesh.helpers, result.rasters_read)},
                     {"checkpoint", checkpointSection(result.checkpoint)},
                     {"peak_memory_mib", peakMemoryMib()},
                     {"threads", threads}};

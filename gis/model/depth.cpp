@@ -42,7 +42,7 @@ class ValueSearch {
       report_.averaged += put(file, open, samples, kMostPixels);
       open = unknownNodes();
     }
-    put(file, open, sampleBilinear(raster, pixels, open, control), 1.0);
+    put(file, open, sampleBilinear(raster, pixels, open, options_.readers, control), 1.0);
   }
 
   std::vector<double> finish() {

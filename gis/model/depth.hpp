@@ -11,6 +11,8 @@
 
 namespace coastmesh {
 
+struct PixelReaders;
+
 enum class DepthMethod {
   Bilinear,  // between the four pixels round a node
   Average,   // over the pixels in the node's triangles; bilinear where these hold fewer than four
@@ -32,6 +34,7 @@ struct DepthOptions {
   double water_level_m = 0.0;  // metres: height of the still water above the rasters' zero
   double min_depth_m = -std::numeric_limits<double>::infinity();  // metres: shallower nodes are lowered to it
   DepthFill fill = DepthFill::Neighbours;
+  const PixelReaders* readers = nullptr;  // who reads the rasters between whose pixels depths lie; null: the caller
 };
 
 struct DepthReport {

@@ -1,6 +1,7 @@
 #include "gis/model/sample_raster.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -52,15 +53,14 @@ std::optional<Corner> cornerAt(const RasterBand& raster, const Point& pixel) {
   return corner;
 }
 
-RasterSample blend(const std::vector<double>& values, const RasterWindow& window, const Corner& corner) {
+// Of the four pixels in rows; NaN for those that have no value, or are not there.
+RasterSample blend(const std::array<double, 4>& values, const Corner& corner) {
   double sum = 0.0, weights = 0.0;
   for (const int j : {0, 1}) {
     for (const int i : {0, 1}) {
       const double weight = (i == 0 ? 1.0 - corner.x : corner.x) * (j == 0 ? 1.0 - corner.y : corner.y);
-      const std::int64_t column = corner.column + i - window.column, row = corner.row + j - window.row;
-      if (!(weight > 0.0) || column >= window.columns || row >= window.rows) continue;
-      const double value = values[static_cast<std::size_t>(row * window.columns + column)];
-      if (std::isnan(value)) continue;
+      const double value = values[static_cast<std::size_t>(2 * j + i)];
+      if (!(weight > 0.0) || std::isnan(value)) continue;
       sum += weight * value;
       weights += weight;
     }
@@ -68,6 +68,101 @@ RasterSample blend(const std::vector<double>& values, const RasterWindow& window
   if (!(weights > 0.0)) return {};
   constexpr double kAll = 1.0 - 1e-9;
   return {sum / weights, weights > kAll ? 1.0 : weights};
+}
+
+struct Visit {
+  Tile tile;
+  std::size_t index = 0;
+  Corner corner;
+};
+
+// Each pixel by whoever reads the part of the raster that it lies in.
+std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, const std::vector<Visit>& visits,
+                                                    const PixelReaders& readers) {
+  const RasterGeometry& geometry = raster.geometry();
+  const PixelCuts cuts = partsOf(geometry);
+  // One pixel of a visit, or up to four that lie side by side: which of the four is the first.
+  struct Piece {
+    std::size_t cell, visit;
+    unsigned first;
+    PixelRect at;
+  };
+  std::vector<Piece> pieces;
+  for (std::size_t v = 0; v < visits.size(); ++v) {
+    const Corner& corner = visits[v].corner;
+    const auto column = static_cast<int>(corner.column), row = static_cast<int>(corner.row);
+    const auto add = [&](const PixelRect& rect, unsigned first) {
+      const PixelRect inside = rect.in({0, 0, geometry.columns, geometry.rows});
+      if (inside.isEmpty()) return;
+      cuts.forEachCell(inside, [&](std::size_t cell) {
+        const PixelRect at = inside.in(cuts.cell(cell));
+        pieces.push_back({cell, v, first + static_cast<unsigned>(at.x - rect.x + 2 * (at.y - rect.y)), at});
+      });
+    };
+    const bool turns = raster.wraps() && (column < 0 || column + 1 >= geometry.columns);
+    if (!turns) {
+      add({column, row, 2, 2}, 0);
+      continue;
+    }
+    for (const int i : {0, 1})
+      add({(column + i + geometry.columns) % geometry.columns, row, 1, 2}, static_cast<unsigned>(i));
+  }
+  std::ranges::stable_sort(pieces, {}, &Piece::cell);
+  std::vector<RasterPart> parts;
+  std::vector<PixelTask> tasks;
+  constexpr std::size_t kMostWindows = 1 << 16;  // of a task
+  std::size_t last = cuts.cells();
+  for (const Piece& piece : pieces) {
+    if (piece.cell != last || tasks.back().windows.size() >= kMostWindows) {
+      tasks.push_back({raster.path(), geometry.columns, geometry.rows, {}});
+      parts.push_back({raster.path(), ownedAs(geometry, piece.cell), 0});
+      last = piece.cell;
+    }
+    tasks.back().windows.push_back(piece.at);
+    parts.back().pixels += static_cast<std::uint64_t>(piece.at.width * piece.at.height);
+  }
+  const std::vector<PixelAnswer> answers = readers.read(tasks, readers.ownersOf(parts), inOrder);
+  std::vector<std::array<double, 4>> corners(visits.size());
+  for (auto& corner : corners) corner.fill(std::numeric_limits<double>::quiet_NaN());
+  std::size_t p = 0;
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    auto value = answers[t].values.begin();
+    for (std::size_t w = 0; w < tasks[t].windows.size(); ++w, ++p)
+      for (int k = 0; k < pieces[p].at.width * pieces[p].at.height; ++k) {
+        const int i = k % pieces[p].at.width, j = k / pieces[p].at.width;
+        corners[pieces[p].visit][pieces[p].first + static_cast<unsigned>(i + 2 * j)] = *value++;
+      }
+  }
+  return corners;
+}
+
+std::vector<std::array<double, 4>> cornersHere(const RasterBand& raster, const std::vector<Visit>& visits,
+                                               const RunControl& control) {
+  std::vector<std::array<double, 4>> corners(visits.size());
+  for (std::size_t begin = 0, end = 0; begin < visits.size(); begin = end) {
+    stopIfAsked(control);
+    std::int64_t left = visits[begin].corner.column, right = left, top = visits[begin].corner.row, bottom = top;
+    for (end = begin; end < visits.size() && visits[end].tile == visits[begin].tile; ++end) {
+      const Corner& corner = visits[end].corner;
+      left = std::min(left, corner.column);
+      right = std::max(right, corner.column);
+      top = std::min(top, corner.row);
+      bottom = std::max(bottom, corner.row);
+    }
+    RasterWindow window{left, top, right + 2 - left, bottom + 2 - top};
+    if (!raster.wraps()) window.columns = std::min(window.columns, raster.columns() - left);
+    window.rows = std::min(window.rows, raster.rows() - top);
+    const std::vector<double> values = raster.read(window);
+    for (std::size_t k = begin; k < end; ++k) {
+      for (const int i : {0, 1, 2, 3}) {
+        const std::int64_t column = visits[k].corner.column + i % 2 - left, row = visits[k].corner.row + i / 2 - top;
+        corners[k][static_cast<std::size_t>(i)] = column < window.columns && row < window.rows
+                                                      ? values[static_cast<std::size_t>(row * window.columns + column)]
+                                                      : std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+  return corners;
 }
 
 }  // namespace
@@ -83,35 +178,19 @@ std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster) {
 }
 
 std::vector<RasterSample> sampleBilinear(const RasterBand& raster, std::span<const Point> pixels,
-                                         std::span<const std::uint32_t> which, const RunControl& control) {
-  struct Visit {
-    Tile tile;
-    std::size_t index = 0;
-    Corner corner;
-  };
+                                         std::span<const std::uint32_t> which, const PixelReaders* readers,
+                                         const RunControl& control) {
   std::vector<Visit> visits;
   for (std::size_t i = 0; i < which.size(); ++i) {
     if (const auto corner = cornerAt(raster, pixels[which[i]]))
       visits.push_back({tileAt(raster, std::max<std::int64_t>(0, corner->column), corner->row), i, *corner});
   }
   std::ranges::sort(visits, {}, [](const Visit& visit) { return std::tuple(visit.tile, visit.index); });
+  const bool shared = readers != nullptr && raster.geometry().is_exact;
+  const std::vector<std::array<double, 4>> corners =
+      shared ? cornersByReaders(raster, visits, *readers) : cornersHere(raster, visits, control);
   std::vector<RasterSample> samples(which.size());
-  for (std::size_t begin = 0, end = 0; begin < visits.size(); begin = end) {
-    stopIfAsked(control);
-    std::int64_t left = visits[begin].corner.column, right = left, top = visits[begin].corner.row, bottom = top;
-    for (end = begin; end < visits.size() && visits[end].tile == visits[begin].tile; ++end) {
-      const Corner& corner = visits[end].corner;
-      left = std::min(left, corner.column);
-      right = std::max(right, corner.column);
-      top = std::min(top, corner.row);
-      bottom = std::max(bottom, corner.row);
-    }
-    RasterWindow window{left, top, right + 2 - left, bottom + 2 - top};
-    if (!raster.wraps()) window.columns = std::min(window.columns, raster.columns() - left);
-    window.rows = std::min(window.rows, raster.rows() - top);
-    const std::vector<double> values = raster.read(window);
-    for (std::size_t k = begin; k < end; ++k) samples[visits[k].index] = blend(values, window, visits[k].corner);
-  }
+  for (std::size_t k = 0; k < visits.size(); ++k) samples[visits[k].index] = blend(corners[k], visits[k].corner);
   return samples;
 }
 

@@ -7,6 +7,7 @@
 #include "core/run_control.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/raster/raster_band.hpp"
+#include "gis/raster/raster_parts.hpp"
 
 namespace coastmesh {
 
@@ -21,9 +22,10 @@ struct RasterSample {
 std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster);
 
 // Bilinear values at `pixels[i]` for each i of `which`, in its order. Tiles of the raster are read one after another,
-// each once. Throws InputError, Cancelled.
+// each once; by `readers` where they are not null. Throws InputError, Cancelled.
 std::vector<RasterSample> sampleBilinear(const RasterBand& raster, std::span<const Point> pixels,
-                                         std::span<const std::uint32_t> which, const RunControl& control);
+                                         std::span<const std::uint32_t> which, const PixelReaders* readers,
+                                         const RunControl& control);
 
 // The mean over the pixels whose centres lie in the triangles round a node, for each node of `which`; `pixels` has one
 // entry a node of the grid. Nodes whose triangles hold fewer than `least_pixels` get a share of 0.

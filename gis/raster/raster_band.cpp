@@ -12,6 +12,7 @@
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/raster/raster_mosaic.hpp"
 
 namespace coastmesh {
 namespace {
@@ -47,6 +48,8 @@ struct RasterBand::Dataset {
   // ends too early it tries the rows before once for each row after them, and these likewise: that takes for ever.
   bool rows_in_order = false;
   int rows_begun = 0;  // so many rows from the first one were read, one after another
+  std::uint64_t bytes_read = 0;
+  std::vector<char> is_read;  // of the mosaic's files; else of the raster
 
   ~Dataset() {
     if (dataset != nullptr) GDALClose(dataset);
@@ -98,8 +101,13 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   geometry_.rows = raster.dataset->GetRasterYSize();
   geometry_.crs = fromOgr(raster.dataset->GetSpatialRef());
 
-  int block_columns = 1, block_rows = 1;
+  int& block_columns = geometry_.block_columns;
+  int& block_rows = geometry_.block_rows;
   raster.band->GetBlockSize(&block_columns, &block_rows);
+  geometry_.in_order = raster.rows_in_order;
+  geometry_.mosaic = mosaicOf(*raster.dataset);
+  geometry_.is_exact = geometry_.mosaic || !isVirtual(*raster.dataset);
+  raster.is_read.assign(geometry_.mosaic ? geometry_.mosaic->files.size() : 1, 0);
   const auto side = static_cast<std::int64_t>(std::sqrt(static_cast<double>(kTilePixels)));
   tile_columns_ = block_columns * std::max<std::int64_t>(1, side / block_columns);
   tile_rows_ = block_rows * std::max<std::int64_t>(1, kTilePixels / tile_columns_ / block_rows);
@@ -108,6 +116,13 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
     geometry_.wraps = std::abs(geometry_.columns - geometry_.period) < 0.5;
     if (geometry_.wraps) geometry_.period = geometry_.columns;
   }
+}
+
+RasterUse RasterBand::use() const {
+  RasterUse use{dataset_->bytes_read, {}};
+  for (std::size_t f = 0; f < dataset_->is_read.size(); ++f)
+    if (dataset_->is_read[f] != 0) use.files.insert(geometry_.mosaic ? geometry_.mosaic->files[f] : path());
+  return use;
 }
 
 RasterBand::~RasterBand() = default;
@@ -147,6 +162,13 @@ void RasterBand::readInto(const RasterWindow& window, double* values, std::int64
   if (dataset_->band->RasterIO(GF_Read, column, row, columns, rows, values, columns, rows, GDT_Float64, 0,
                                stride * static_cast<GSpacing>(sizeof(double)), nullptr) != CE_None)
     failAt(column, row);
+  const int pixel_bytes = GDALGetDataTypeSizeBytes(dataset_->band->GetRasterDataType());
+  dataset_->bytes_read +=
+      static_cast<std::uint64_t>(pixel_bytes) * static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
+  if (geometry_.mosaic)
+    geometry_.mosaic->forEachFile({column, row, columns, rows}, [&](std::size_t f) { dataset_->is_read[f] = 1; });
+  else
+    dataset_->is_read.front() = 1;
   const auto count = static_cast<std::size_t>(window.columns * window.rows);
   std::vector<bool> hidden(count, false);
   std::vector<float> shown(dataset_->masks.empty() ? 0 : count);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "gis/crs/crs.hpp"
 
 namespace coastmesh {
+
+struct RasterMosaic;
 
 // Pixels of a raster: `columns` by `rows` from `column`, `row`.
 struct RasterWindow {
@@ -23,16 +26,32 @@ struct RasterWindow {
 struct RasterGeometry {
   std::string path;
   int columns = 0, rows = 0;
-  std::array<double, 6> to_place{};  // GDAL's geotransform
-  std::array<double, 6> to_pixel{};  // its inverse
-  Crs crs;                           // a plane where the raster has none
-  double period = 0.0;               // columns after which longitudes repeat: 360 degrees of them; 0 for other CRS
-  bool wraps = false;                // the last column meets the first, to half a pixel
+  int block_columns = 1, block_rows = 1;       // of the file: what is read at once
+  bool in_order = false;                       // a text: what comes before has to be read first
+  std::shared_ptr<const RasterMosaic> mosaic;  // where it is put together from files side by side; else null
+  bool is_exact = true;                        // a pixel is the same in whatever window it is read
+  std::array<double, 6> to_place{};            // GDAL's geotransform
+  std::array<double, 6> to_pixel{};            // its inverse
+  Crs crs;                                     // a plane where the raster has none
+  double period = 0.0;  // columns after which longitudes repeat: 360 degrees of them; 0 for other CRS
+  bool wraps = false;   // the last column meets the first, to half a pixel
 
   // A place of the raster's CRS in columns and rows, from the corner of the first pixel; longitudes in the turn that
   // the raster has.
   Point pixelOf(const Point& place) const;
   Point placeOf(const Point& pixel) const;
+};
+
+// What was read of a raster: bytes of its pixels, unpacked, as their type has them, those read again included; and the
+// files that they lie in, as far as the raster says.
+struct RasterUse {
+  std::uint64_t bytes = 0;
+  std::set<std::string> files;
+
+  void add(const RasterUse& other) {
+    bytes += other.bytes;
+    files.insert(other.files.begin(), other.files.end());
+  }
 };
 
 // Throws InputError as `RasterBand` does.
@@ -64,6 +83,8 @@ class RasterBand {
   // The window's values row by row, scale and offset applied, NaN where there is none. Columns past either end wrap
   // round where `wraps()`. REQUIRES: the window lies in the raster otherwise. Throws InputError.
   std::vector<double> read(const RasterWindow& window) const;
+  // What was read so far.
+  RasterUse use() const;
 
  private:
   struct Dataset;

@@ -12,6 +12,7 @@
 #include "gis/error.hpp"
 #include "gis/projection/scale_table.hpp"
 #include "gis/size/guide_lines.hpp"
+#include "gis/size/read_frames.hpp"
 #include "gis/size/size_channel.hpp"
 #include "gis/size/size_distance.hpp"
 #include "gis/size/size_floor.hpp"
@@ -149,32 +150,26 @@ class ComposedSizes final : public SizeSource {
   std::unique_ptr<SizeField> floor_;  // what the time step allows
 };
 
-TileRule rawRule() {
-  return {
-      0.0, [](const RasterTile& tile, std::span<float> sizes) {
-        for (int y = 0; y < tile.height; ++y) {
-          for (int x = 0; x < tile.width; ++x) {
-            const float size = tile.at(x, y);
-            if (std::isnan(size)) continue;
-            if (!(size > 0.0F)) {
-              throw InputError(tile.file + ": holds the size " + std::to_string(size) +
-                               ", but sizes are lengths in metres, above 0; mark pixels without one as no data");
-            }
-            sizes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x)] =
-                size;
-          }
-        }
-      }};
-}
-
-std::unique_ptr<SizeField> rasterFields(const std::vector<RasterGeometry>& rasters, const Crs& input,
-                                        const Projection& projection, const Box& box, const TileRule& rule,
-                                        const ItemLoop& loop) {
-  std::vector<std::unique_ptr<SizeField>> fields;
+// A field for each rule; of several rasters that cover a place the first counts.
+std::vector<std::unique_ptr<SizeField>> rasterFields(const std::vector<RasterGeometry>& rasters,
+                                                     const SizeInputs& inputs, const Projection& projection,
+                                                     const Box& box, const std::vector<SizeRule>& rules,
+                                                     const ItemLoop& loop) {
+  std::vector<std::shared_ptr<const RasterFrame>> frames;
   for (const RasterGeometry& raster : rasters)
-    fields.push_back(std::make_unique<RasterField>(raster, input, projection, box, rule, loop));
-  if (fields.size() == 1) return std::move(fields.front());
-  return std::make_unique<FirstOfFields>(std::move(fields));
+    frames.push_back(std::make_shared<RasterFrame>(raster, inputs.crs, projection, box, loop));
+  FrameTiles tiles = readFrames(frames, std::span(rules), inputs.readers, loop);
+  std::vector<std::unique_ptr<SizeField>> by_rule;
+  for (std::vector<std::vector<SizeTile>>& of_rule : tiles) {
+    std::vector<std::unique_ptr<SizeField>> fields;
+    for (std::size_t f = 0; f < frames.size(); ++f)
+      fields.push_back(std::make_unique<RasterField>(frames[f], std::move(of_rule[f])));
+    if (fields.size() == 1)
+      by_rule.push_back(std::move(fields.front()));
+    else
+      by_rule.push_back(std::make_unique<FirstOfFields>(std::move(fields)));
+  }
+  return by_rule;
 }
 
 // The tree grades lengths on the surface; what is asked for is that lengths on the ground are graded. The gradient of a
@@ -374,15 +369,19 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   for (const SizedFeatures& features : inputs.features)
     for (auto& field : featureFields(features, projection, scale)) source.add("--size-features", std::move(field));
   if (!inputs.rasters.empty())
-    source.add("--size-raster", rasterFields(inputs.rasters, inputs.crs, projection, square, rawRule(), loop));
-  if (options.depth.any())
-    source.add(askingOfDepths(options.depth),
-               rasterFields(inputs.bathymetry, inputs.crs, projection, square, depthRule(options.depth), loop));
+    source.add("--size-raster",
+               std::move(rasterFields(inputs.rasters, inputs, projection, square, {SizeRule{}}, loop).front()));
+  // Depths are read once for all that follows from them.
+  std::vector<SizeRule> of_depths;
+  if (options.depth.any()) of_depths.push_back({SizeRule::Kind::Depths, options.depth, 0.0, 0.0});
+  if (options.time_step_s > 0.0)
+    of_depths.push_back({SizeRule::Kind::Step, options.depth, options.time_step_s, kShortestOfSize * options.courant});
+  std::vector<std::unique_ptr<SizeField>> by_depth;
+  if (!of_depths.empty()) by_depth = rasterFields(inputs.bathymetry, inputs, projection, square, of_depths, loop);
+  if (options.depth.any()) source.add(askingOfDepths(options.depth), std::move(by_depth.front()));
   if (options.time_step_s > 0.0) {
-    const TileRule rule = courantRule(options.time_step_s, kShortestOfSize * options.courant, options.depth);
-    auto floor = std::make_unique<SizeFloor>(
-        rasterFields(inputs.bathymetry, inputs.crs, projection, square, rule, loop), options.gradation,
-        source.leastWanted() / kShoreFloor, scale, root, mask, loop, surface);
+    auto floor = std::make_unique<SizeFloor>(std::move(by_depth.back()), options.gradation,
+                                             source.leastWanted() / kShoreFloor, scale, root, mask, loop, surface);
     if (options.coast == CoastDetail::Follow)
       floor->raiseNear(
           std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.gradation), scale, kInfinity, surface),

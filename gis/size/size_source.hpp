@@ -11,11 +11,14 @@
 #include "gis/clean/clean.hpp"
 #include "gis/follow/follow_options.hpp"
 #include "gis/follow/shore_guides.hpp"
+#include "gis/raster/raster_band.hpp"
 #include "gis/size/size_depth.hpp"
 #include "gis/size/size_features.hpp"
 #include "gis/size/size_field.hpp"
 
 namespace coastmesh {
+
+struct RasterReaders;
 
 enum class CoastDetail { Keep, Follow };
 
@@ -58,6 +61,7 @@ struct SizeInputs {
   std::vector<RasterGeometry> rasters, bathymetry;
   std::vector<ShoreLine> passages, barriers;  // in the input's CRS
   Crs crs;                                    // of the input
+  const RasterReaders* readers = nullptr;     // who reads rasters; null: the caller alone
 };
 
 // Throws InputError.

@@ -5,7 +5,9 @@ where a rank is killed.
 usage: cluster_test.py PROGRAM MPIRUN ALONE DATA   (the program with an MPI, that one's mpirun, the program that is
 used without ranks, the project's data)
 """
+import array
 import json
+import math
 import os
 import signal
 import subprocess
@@ -100,6 +102,134 @@ class SameBytes(Folder):
 
     def test_on_the_sphere(self):
         self.compare(LAKE, "--surface", "sphere", "--size-shore", "400", "--shore-rate", "0.1", "--size-max", "3000")
+
+
+class Rasters(Folder):
+    """Depths in 64 tiles, joined by a VRT: each is read by one rank alone."""
+    ACROSS, SIDE = 8, 160  # tiles a row, pixels a side
+    WEST, NORTH, EAST, SOUTH = -92.3, 50.4, -84.3, 45.0
+    OPTIONS = ("mesh", LAKE, "--bathymetry", "dem.vrt", "--wave-elements", "60", "--slope-elements", "20",
+               "--time-step", "4", "--size-min", "500", "--size-max", "8000", "--threads", "1", "--quiet")
+
+    def setUp(self):
+        super().setUp()
+        self.tiles = [f"t{j}{i}.bil" for j in range(self.ACROSS) for i in range(self.ACROSS)]
+        pixels = self.ACROSS * self.SIDE
+        step_x, step_y = (self.EAST - self.WEST) / pixels, (self.NORTH - self.SOUTH) / pixels
+        waves = [math.sin(0.02 * x) + 0.3 * math.sin(0.2 * x) for x in range(pixels)]
+        sources = ""
+        for number, name in enumerate(self.tiles):
+            j, i = divmod(number, self.ACROSS)
+            values = array.array("f")
+            for y in range(j * self.SIDE, (j + 1) * self.SIDE):
+                height = math.cos(0.03 * y)
+                values.extend(-150 - 60 * height * wave for wave in waves[i * self.SIDE:(i + 1) * self.SIDE])
+            Path(self.path(name)).write_bytes(values.tobytes())
+            Path(self.path(name[:-4] + ".hdr")).write_text(
+                f"NROWS {self.SIDE}\nNCOLS {self.SIDE}\nNBANDS 1\nNBITS 32\nPIXELTYPE FLOAT\n"
+                f"BYTEORDER {'I' if sys.byteorder == 'little' else 'M'}\nLAYOUT BIL\n"
+                f"ULXMAP {self.WEST + (i * self.SIDE + 0.5) * step_x!r}\n"
+                f"ULYMAP {self.NORTH - (j * self.SIDE + 0.5) * step_y!r}\nXDIM {step_x!r}\nYDIM {step_y!r}\n")
+            rect = f'xSize="{self.SIDE}" ySize="{self.SIDE}"'
+            sources += (f'<SimpleSource><SourceFilename relativeToVRT="1">{name}</SourceFilename>'
+                        f'<SourceBand>1</SourceBand><SourceProperties RasterXSize="{self.SIDE}" '
+                        f'RasterYSize="{self.SIDE}" DataType="Float32" BlockXSize="{self.SIDE}" BlockYSize="1"/>'
+                        f'<SrcRect xOff="0" yOff="0" {rect}/>'
+                        f'<DstRect xOff="{i * self.SIDE}" yOff="{j * self.SIDE}" {rect}/></SimpleSource>')
+        Path(self.path("dem.vrt")).write_text(
+            f'<VRTDataset rasterXSize="{pixels}" rasterYSize="{pixels}"><SRS>EPSG:4326</SRS>'
+            f"<GeoTransform>{self.WEST!r}, {step_x!r}, 0, {self.NORTH!r}, 0, {-step_y!r}</GeoTransform>"
+            f'<VRTRasterBand dataType="Float32" band="1">{sources}</VRTRasterBand></VRTDataset>')
+        self.once(ALONE, "one.nc")
+
+    def once(self, program, name, ranks=0, *more):
+        command = (program, *self.OPTIONS, "-o", name, "--report", name + ".json", *more)
+        done = run(on_ranks(ranks, *command) if ranks else command, self.folder)
+        # The time step need not hold everywhere.
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+
+    def read_by(self, name):
+        """What each rank read, from the report."""
+        return json.loads(Path(self.path(name + ".json")).read_text())["cluster"]["by_rank"]
+
+    def expect_apart(self, by_rank, files):
+        read = [file for rank in by_rank for file in rank["raster_files"]]
+        self.assertEqual(sorted(read), sorted(files))
+        for rank in by_rank:
+            self.assertGreater(rank["raster_bytes"], 0)
+            self.assertGreater(rank["peak_memory_mib"], 1)
+            self.assertAlmostEqual(len(rank["raster_files"]), len(files) / len(by_rank), delta=2)
+
+    def test_each_tile_by_one_rank(self):
+        self.assertEqual(self.read_by("one.nc"), [])
+        for ranks in (1, 2, 3, 4, 8):
+            with self.subTest(ranks=ranks):
+                self.once(PROGRAM, "many.nc", ranks, "--overwrite")
+                self.assertEqual(Path(self.path("many.nc")).read_bytes(), Path(self.path("one.nc")).read_bytes())
+                if ranks > 1:
+                    self.expect_apart(self.read_by("many.nc"), self.tiles)
+
+    def test_slopes_filtered_across_tiles(self):
+        self.once(ALONE, "one.nc", 0, "--slope-filter", "20000", "--overwrite")
+        self.once(PROGRAM, "many.nc", 3, "--slope-filter", "20000")
+        self.assertEqual(Path(self.path("many.nc")).read_bytes(), Path(self.path("one.nc")).read_bytes())
+        self.expect_apart(self.read_by("many.nc"), self.tiles)
+
+    def test_several_rasters(self):
+        files = [name for number, name in enumerate(self.tiles) if number % 8 in (2, 3, 4) and number // 8 in (3, 4)]
+        for name in files:
+            os.symlink(self.path("wgs84.prj"), self.path(name[:-4] + ".prj"))
+        Path(self.path("wgs84.prj")).write_text(
+            'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],'
+            'UNIT["degree",0.0174532925199433]]')
+        more = [part for name in files for part in ("--bathymetry", name)]
+        self.once(ALONE, "one.nc", 0, *more, "--overwrite")
+        self.once(PROGRAM, "many.nc", 2, *more)
+        self.assertEqual(Path(self.path("many.nc")).read_bytes(), Path(self.path("one.nc")).read_bytes())
+
+    def apart(self, ranks):
+        """A folder for each rank, which holds the tiles that it read and no others."""
+        self.once(PROGRAM, "many.nc", ranks)
+        for rank, read in enumerate(self.read_by("many.nc")):
+            folder = Path(self.path(f"rank{rank}"))
+            folder.mkdir()
+            for name in (*read["raster_files"], *(tile[:-4] + ".hdr" for tile in read["raster_files"])):
+                os.symlink(self.path(name), folder / name)
+            # No link: GDAL would look for tiles beside what that leads to.
+            (folder / "dem.vrt").write_text(Path(self.path("dem.vrt")).read_text())
+
+    def run_apart(self, ranks):
+        script = 'cd "rank$OMPI_COMM_WORLD_RANK$PMI_RANK" && exec "$@"'
+        return run(on_ranks(ranks, "sh", "-c", script, "sh", PROGRAM, *self.OPTIONS, "-o", "out.nc"), self.folder)
+
+    def test_no_rank_needs_the_tiles_of_another(self):
+        self.apart(4)
+        done = self.run_apart(4)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        self.assertEqual(Path(self.path("rank0/out.nc")).read_bytes(), Path(self.path("one.nc")).read_bytes())
+
+    def test_what_a_rank_cannot_read_is_named(self):
+        self.apart(3)
+        missing = self.read_by("many.nc")[2]["raster_files"][0]
+        os.unlink(self.path(f"rank2/{missing}"))
+        for what in (missing, "dem.vrt"):
+            done = self.run_apart(3)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertEqual(len(own_lines(done.stderr)), 1, done.stderr)
+            self.assertRegex(done.stderr, r"rank 2 on [^ ]+: cannot read 'dem\.vrt'")
+            self.assertIn(what, done.stderr)
+            self.assertIn("where each of them reaches them", done.stderr)
+            self.assertFalse(os.path.exists(self.path("rank0/out.nc")))
+            if what == missing:
+                os.unlink(self.path("rank2/dem.vrt"))
+
+    def test_another_raster_of_that_name(self):
+        self.apart(2)
+        vrt = Path(self.path("dem.vrt")).read_text()
+        Path(self.path("rank1/dem.vrt")).write_text(vrt.replace('rasterYSize="1280"', 'rasterYSize="1279"'))
+        done = self.run_apart(2)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r"rank 1 on [^ ]+: 'dem\.vrt' is another raster than it was")
 
 
 class Refusals(Folder):
@@ -266,4 +396,4 @@ class GoesOn(Folder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[5:]], verbosity=2)

@@ -111,12 +111,12 @@ TEST_F(JobExamples, SizeField) {
   EXPECT_EQ(sizeAt(field, {1, 0}), kInfinity);
 }
 
-// gis/size/size_raster.hpp: Sizes from a raster's values.
-TEST_F(JobExamples, SizeRaster) {
+// gis/size/size_rule.hpp: Sizes from a raster's values.
+TEST_F(JobExamples, SizeRule) {
   reference::WorkFolder::write("sizes.asc",
                                "ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 100\n"
                                "60 60 60 60\n60 60 60 60\n60 60 60 60\n60 60 60 60\n");
-  //! [gis/size/size_raster.hpp]
+  //! [gis/size/size_rule.hpp]
   TileRule as_it_says;
   as_it_says.sizes = [](const RasterTile& tile, std::span<float> sizes) {
     for (int y = 0; y < tile.height; ++y) {
@@ -125,7 +125,7 @@ TEST_F(JobExamples, SizeRaster) {
   };
   const RasterField field(readRasterGeometry("sizes.asc"), Crs{}, Projection::plane(), Box{0, 0, 400, 400}, as_it_says,
                           inOrder);
-  //! [gis/size/size_raster.hpp]
+  //! [gis/size/size_rule.hpp]
   EXPECT_NEAR(sizeAt(field, {200, 200}), 60.0, 0.1);
 }
 

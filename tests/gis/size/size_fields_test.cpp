@@ -20,6 +20,7 @@
 #include "gis/size/size_channel.hpp"
 #include "gis/size/size_depth.hpp"
 #include "gis/size/size_distance.hpp"
+#include "gis/size/size_raster.hpp"
 #include "gis/size/size_source.hpp"
 #include "tests/support/pslgs.hpp"
 

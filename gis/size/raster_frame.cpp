@@ -1,0 +1,105 @@
+#include "gis/size/raster_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/metric.hpp"
+#include "gis/crs/crs_map.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/raster/raster_mosaic.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// The pixels that a box of the working plane lies in, from places all over it, with some around; empty where the raster
+// does not reach.
+Box pixelsIn(const Box& box, const PlaneTable& to_pixel) {
+  constexpr int kProbes = 64;
+  Box pixels;
+  for (int j = 0; j <= kProbes; ++j) {
+    for (int i = 0; i <= kProbes; ++i) {
+      const Point p =
+          to_pixel.at({box.xmin + (box.xmax - box.xmin) * i / kProbes, box.ymin + (box.ymax - box.ymin) * j / kProbes});
+      if (std::isfinite(p.x) && std::isfinite(p.y)) pixels.add(p);
+    }
+  }
+  if (pixels.empty()) return pixels;
+  return pixels.grownBy(2.0 + std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) / kProbes);
+}
+
+// Cut along the edges of the files that the raster is put together of: each tile is of one of them.
+std::vector<int> startsBetween(const std::vector<int>& cuts) {
+  std::vector<int> starts;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+    for (int at = cuts[i]; at < cuts[i + 1]; at += kTile) starts.push_back(at);
+  return starts;
+}
+
+}  // namespace
+
+TileAxis::TileAxis(int pixels, const std::vector<int>* cuts) : pixels_(pixels) {
+  if (cuts == nullptr) return;
+  starts_ = startsBetween(*cuts);
+  tile_of_.resize(static_cast<std::size_t>(pixels));
+  for (std::size_t t = 0; t < starts_.size(); ++t)
+    std::fill(tile_of_.begin() + starts_[t],
+              t + 1 < starts_.size() ? tile_of_.begin() + starts_[t + 1] : tile_of_.end(), static_cast<int>(t));
+}
+
+RasterFrame::RasterFrame(const RasterGeometry& of, const Crs& input, const Projection& projection, const Box& box,
+                         const ItemLoop& loop)
+    : raster(of),
+      columns(of.columns, of.mosaic ? &of.mosaic->cuts.columns : nullptr),
+      rows(of.rows, of.mosaic ? &of.mosaic->cuts.rows : nullptr) {
+  // From the working plane to the raster's own coordinates: both CRS, where there are two.
+  std::optional<CrsMap> map;
+  if (!raster.crs.isPlane() && !input.isPlane() && !sameCrs(raster.crs, input))
+    map.emplace(toOgr(input), toOgr(raster.crs));
+  const auto pixelOf = [of, map, projection](const Point& x) {
+    const Point ground = projection.inverse(x);
+    return of.pixelOf(map ? map->forward(ground) : ground);
+  };
+  constexpr double kPixelTolerance = 0.1;
+  to_pixel = std::make_unique<PlaneTable>(pixelOf, box, kPixelTolerance);
+  findWindow(pixelsIn(box, *to_pixel));
+  const auto planeOf = [&](const Point& pixel) {
+    const Point ground = raster.placeOf(pixel);
+    return projection.forward(map ? map->inverse(ground) : ground);
+  };
+  const auto pixelSize = [&](const Point& middle, const Point& step) {
+    const Point at = planeOf(middle);
+    return distance(at, planeOf(middle + step)) / projection.scaleAt(at);
+  };
+  const auto across = static_cast<std::size_t>(window[2] - window[0]);
+  places.resize(across * static_cast<std::size_t>(window[3] - window[1]));
+  constexpr std::size_t kWorthAStretch = 64;
+  const auto place = [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const int column = window[0] + static_cast<int>(t % across), row = window[1] + static_cast<int>(t / across);
+      const int x = columns.start(column), y = rows.start(row);
+      const PixelRect pixels{x, y, columns.start(column + 1) - x, rows.start(row + 1) - y};
+      const Point middle{x + 0.5 * pixels.width, y + 0.5 * pixels.height};
+      std::array<double, 2> pixel_m{pixelSize(middle, {1.0, 0.0}), pixelSize(middle, {0.0, 1.0})};
+      // Where the working plane does not reach, the domain does not either.
+      if (!(pixel_m[0] > 0.0) || !(pixel_m[1] > 0.0) || !std::isfinite(pixel_m[0] + pixel_m[1])) pixel_m = {};
+      places[t] = {pixels, pixel_m};
+    }
+  };
+  forStretches(loop, places.size(), place, kWorthAStretch);
+}
+
+// The tiles that hold these pixels; none where none do.
+void RasterFrame::findWindow(const Box& pixels) {
+  if (pixels.empty() || pixels.xmax < 0.0 || pixels.ymax < 0.0) return;
+  const auto tileOf = [](const TileAxis& axis, double pixel, int most) {
+    return axis.tileOf(static_cast<int>(std::floor(std::clamp(pixel, 0.0, static_cast<double>(most)))));
+  };
+  const std::array<int, 4> found = {
+      tileOf(columns, pixels.xmin, raster.columns), tileOf(rows, pixels.ymin, raster.rows),
+      tileOf(columns, pixels.xmax, raster.columns - 1) + 1, tileOf(rows, pixels.ymax, raster.rows - 1) + 1};
+  if (found[0] < found[2] && found[1] < found[3]) window = found;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "gis/crs/crs.hpp"
+#include "gis/geometry/box.hpp"
+#include "gis/projection/plane_table.hpp"
+#include "gis/projection/projection.hpp"
+#include "gis/raster/raster_band.hpp"
+#include "gis/size/raster_tiles.hpp"
+
+namespace coastmesh {
+
+// How the columns of a raster, or its rows, are shared out to tiles.
+class TileAxis {
+ public:
+  // Between `cuts` tiles begin anew; null: there are none.
+  TileAxis(int pixels, const std::vector<int>* cuts);
+
+  int pixels() const { return pixels_; }
+  // REQUIRES: pixel >= 0. What lies beyond the last pixel is in the last tile, as far as that would go.
+  int tileOf(int pixel) const {
+    if (starts_.empty()) return pixel / kTile;
+    if (pixel < pixels_) return tile_of_[static_cast<std::size_t>(pixel)];
+    return static_cast<int>(starts_.size()) - (pixel - starts_.back() < kTile ? 1 : 0);
+  }
+  // Its first pixel; of the tile past the last, the end.
+  int start(int tile) const {
+    if (starts_.empty()) return std::min(tile * kTile, pixels_);
+    return tile < static_cast<int>(starts_.size()) ? starts_[static_cast<std::size_t>(tile)] : pixels_;
+  }
+
+ private:
+  int pixels_;
+  std::vector<int> starts_;
+  std::vector<int> tile_of_;  // one a pixel
+};
+
+// The part of a raster that sizes are made of, in tiles.
+struct RasterFrame {
+  // What `box` of the working plane lies in. `input` is the CRS that `projection` starts from.
+  RasterFrame(const RasterGeometry& of, const Crs& input, const Projection& projection, const Box& box,
+              const ItemLoop& loop);
+
+  RasterGeometry raster;
+  TileAxis columns, rows;
+  std::unique_ptr<PlaneTable> to_pixel;
+  std::array<int, 4> window{};    // of the tiles: first column and row, and the ends
+  std::vector<TilePlace> places;  // in rows; pixels without a size lie where the working plane does not reach
+
+  bool has(int column, int row) const {
+    return column >= window[0] && row >= window[1] && column < window[2] && row < window[3];
+  }
+  std::size_t numberOf(int column, int row) const {
+    return static_cast<std::size_t>(row - window[1]) * static_cast<std::size_t>(window[2] - window[0]) +
+           static_cast<std::size_t>(column - window[0]);
+  }
+
+ private:
+  void findWindow(const Box& pixels);
+};
+
+}  // namespace coastmesh

@@ -1,0 +1,211 @@
+#include "gis/size/raster_tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "gis/error.hpp"
+#include "gis/raster/raster_parts.hpp"
+#include "gis/size/rule_of_tiles.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+// Sizes in a cell of the quadtree are as alike as this, or the cell is no larger than this share of the least.
+constexpr float kAlike = 1.04F;
+constexpr double kFineShare = 0.5;
+// More surroundings than this, in pixels, are not looked at.
+constexpr int kMostMargin = 200;
+
+// `visit(rect, shift)` for the part of `window` in `within`, whose columns are those of the raster; `shift` is how many
+// columns further the window has them, where the raster goes round the Earth.
+template <typename Visit>
+void forEachPart(const PixelRect& window, const PixelRect& within, const RasterGeometry& raster, const Visit& visit) {
+  for (int turn = raster.wraps ? -1 : 0; turn <= (raster.wraps ? 1 : 0); ++turn) {
+    const int shift = turn * raster.columns;
+    const PixelRect part = within.in(window.shifted(-shift));
+    if (!part.isEmpty()) visit(part, shift);
+  }
+}
+
+// Fills a tile's values with those of pixels, `at(column, row)`.
+template <typename At>
+void fill(RasterTile& tile, const PixelRect& tile_window, const PixelRect& part, const At& at) {
+  for (int row = part.y; row < part.bottom(); ++row) {
+    const std::size_t to = static_cast<std::size_t>(row - tile_window.y) * tile.stride();
+    for (int column = part.x; column < part.right(); ++column)
+      tile.values[to + static_cast<std::size_t>(column - tile_window.x)] = at(column, row);
+  }
+}
+
+void readInto(const RasterBand& band, const PixelRect& part, const PixelRect& tile_window, RasterTile& tile) {
+  const std::vector<double> values = band.read({part.x, part.y, part.width, part.height});
+  fill(tile, tile_window, part, [&](int column, int row) {
+    return static_cast<float>(values[static_cast<std::size_t>(row - part.y) * static_cast<std::size_t>(part.width) +
+                                     static_cast<std::size_t>(column - part.x)]);
+  });
+}
+
+// The tile's values with its margin: as far as the raster goes, which is round the Earth where it wraps.
+void readTile(const RasterBand& band, const TileTask& task, const PixelRect& pixels, RasterTile& tile) {
+  const RasterGeometry& raster = band.geometry();
+  const PixelRect window = pixels.grownBy(tile.margin);
+  tile.values.assign(tile.stride() * static_cast<std::size_t>(window.height), std::nanf(""));
+  PixelRect inside = window.in({window.x, 0, window.width, raster.rows});
+  if (!raster.wraps) inside = inside.in({0, 0, raster.columns, raster.rows});
+  if (inside.isEmpty()) return;
+  if (task.own.empty()) {
+    readInto(band, inside, window, tile);
+    return;
+  }
+  for (const PixelRect& own : task.own)
+    forEachPart(inside, own, raster,
+                [&](const PixelRect& part, int shift) { readInto(band, part, window.shifted(-shift), tile); });
+  for (const PixelPatch& patch : task.patches)
+    forEachPart(inside, patch.at, raster, [&](const PixelRect& part, int shift) {
+      fill(tile, window.shifted(-shift), part, [&](int column, int row) {
+        return patch.values[static_cast<std::size_t>(row - patch.at.y) * static_cast<std::size_t>(patch.at.width) +
+                            static_cast<std::size_t>(column - patch.at.x)];
+      });
+    });
+}
+
+SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
+  // Pyramids of the least, the most, and the mean of what is wanted.
+  struct Level {
+    std::vector<float> low, high, sum, count;
+  };
+  std::vector<Level> levels(1);
+  const auto cellsOf = [](int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); };
+  for (auto* of : {&levels[0].high, &levels[0].sum, &levels[0].count}) of->assign(cellsOf(kTile), 0.0F);
+  levels[0].low.assign(cellsOf(kTile), kNothing);
+  // Beyond the tile nothing is wanted, but that does not make its last pixels unlike one another.
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const float size =
+          sizes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x)];
+      const std::size_t k = static_cast<std::size_t>(y) * kTile + static_cast<std::size_t>(x);
+      levels[0].low[k] = levels[0].high[k] = size;
+      if (!std::isfinite(size)) continue;
+      levels[0].sum[k] = size;
+      levels[0].count[k] = 1.0F;
+    }
+  }
+  int width = tile.width, height = tile.height;
+  for (int side = kTile / 2; side >= 1; side /= 2) {
+    const Level& fine = levels.back();
+    Level coarse{std::vector<float>(cellsOf(side), kNothing), std::vector<float>(cellsOf(side), 0.0F),
+                 std::vector<float>(cellsOf(side), 0.0F), std::vector<float>(cellsOf(side), 0.0F)};
+    width = (width + 1) / 2;
+    height = (height + 1) / 2;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        float low = kNothing, high = 0.0F, sum = 0.0F, count = 0.0F;
+        for (int k = 0; k < 4; ++k) {
+          const std::size_t f = static_cast<std::size_t>(2 * y + k / 2) * static_cast<std::size_t>(2 * side) +
+                                static_cast<std::size_t>(2 * x + k % 2);
+          low = std::min(low, fine.low[f]);
+          high = std::max(high, fine.high[f]);
+          sum += fine.sum[f];
+          count += fine.count[f];
+        }
+        const auto c = static_cast<std::size_t>(y * side + x);
+        coarse.low[c] = low;
+        coarse.high[c] = high;
+        coarse.sum[c] = sum;
+        coarse.count[c] = count;
+      }
+    }
+    levels.push_back(std::move(coarse));
+  }
+  SizeTile nodes;
+  struct Work {
+    std::uint32_t node;
+    std::size_t level;
+    int x, y;
+  };
+  std::vector<Work> stack{{0, levels.size() - 1, 0, 0}};
+  nodes.push_back({});
+  const double pixel_m = std::max(tile.pixel_m[0], tile.pixel_m[1]);
+  while (!stack.empty()) {
+    const Work work = stack.back();
+    stack.pop_back();
+    const Level& level = levels[work.level];
+    const int cells = kTile >> work.level;
+    const std::size_t k =
+        static_cast<std::size_t>(work.y) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(work.x);
+    const float low = level.low[k], high = level.high[k];
+    const float mean = level.count[k] > 0.0F ? level.sum[k] / level.count[k] : kNothing;
+    const double side_m = pixel_m * static_cast<double>(1 << work.level);
+    const bool alike = high <= kAlike * low || (work.level > 0 && side_m <= kFineShare * low);
+    nodes[work.node] = {low, high, mean, 0};
+    if (work.level == 0 || low == kNothing || alike) {
+      if (alike && low != kNothing && high != kNothing) nodes[work.node].low = nodes[work.node].high = mean;
+      continue;
+    }
+    const auto below = static_cast<std::uint32_t>(nodes.size());
+    nodes[work.node].below = below;
+    for (int c = 0; c < 4; ++c) {
+      nodes.push_back({});
+      stack.push_back({below + static_cast<std::uint32_t>(c), work.level - 1, 2 * work.x + c % 2, 2 * work.y + c / 2});
+    }
+  }
+  nodes.shrink_to_fit();
+  return nodes;
+}
+
+}  // namespace
+
+SizeTile emptyTile() { return {{kNothing, kNothing, kNothing, 0}}; }
+
+int marginOf(const TilePlace& tile, double margin_m, const std::string& file) {
+  if (!(margin_m > 0.0)) return 0;
+  const double margin = std::ceil(margin_m / std::min(tile.pixel_m[0], tile.pixel_m[1]));
+  if (margin > kMostMargin)
+    throw InputError(file +
+                     ": its pixels are too fine for a filter that long: give a coarser raster, or filter over less");
+  return 1 + static_cast<int>(margin);
+}
+
+TileAnswer answerTask(const TileTask& task) {
+  std::vector<TileRule> rules;
+  for (const SizeRule& rule : task.rules) rules.push_back(tileRuleOf(rule));
+  return answerTask(task, rules);
+}
+
+TileAnswer answerTask(const TileTask& task, std::span<const TileRule> rules) {
+  const RasterBand band(task.path);
+  requireSame(band, task.columns, task.rows);
+  double margin_m = 0.0;
+  for (const TileRule& rule : rules) margin_m = std::max(margin_m, rule.margin_m);
+  TileAnswer answer;
+  answer.tiles.resize(rules.size());
+  RasterTile tile;
+  tile.file = task.path;
+  std::vector<float> sizes;
+  for (const TilePlace& place : task.tiles) {
+    tile.width = place.pixels.width;
+    tile.height = place.pixels.height;
+    tile.pixel_m[0] = place.pixel_m[0];
+    tile.pixel_m[1] = place.pixel_m[1];
+    tile.margin = marginOf(place, margin_m, task.path);
+    readTile(band, task, place.pixels, tile);
+    for (std::size_t r = 0; r < rules.size(); ++r) {
+      sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);
+      rules[r].sizes(tile, sizes);
+      answer.tiles[r].push_back(reduced(tile, sizes));
+    }
+  }
+  for (const PixelRect& strip : task.strips) {
+    const std::vector<double> values = band.read({strip.x, strip.y, strip.width, strip.height});
+    answer.strips.push_back({strip, {values.begin(), values.end()}});
+  }
+  answer.use = band.use();
+  return answer;
+}
+
+}  // namespace coastmesh
