@@ -159,7 +159,8 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
                      ? refine(region.mesh, pslg, options.refine, control)
                      : refine(region.mesh, pslg, options.refine, std::move(seeds.notes), control);
   region.seconds.refine = watch.lap();
-  if (options.coarsen) {
+  // Of the input's own vertices none goes.
+  if (options.coarsen && region.mesh.points.size() > region.mesh.input_vertices) {
     RefineStats coarsened = coarsen(region.mesh, pslg, options.refine, control);
     region.seconds.coarsen = watch.lap();
     region.stats.unresolved.clear();

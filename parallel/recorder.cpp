@@ -25,8 +25,9 @@ void Recorder::forEach(std::string_view name, std::size_t count, const RunContro
 }
 
 WorkLog Recorder::finish(std::string_view rest) {
-  log_.addAlone(rest, threadSeconds() - last_);
-  last_ = threadSeconds();
+  const double now = threadSeconds();
+  log_.addAlone(rest, now - last_);
+  last_ = now;
   return std::exchange(log_, {});
 }
 

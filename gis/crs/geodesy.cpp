@@ -36,10 +36,10 @@ struct Geodetic {
 
 // `path` is for errors; it may be empty.
 Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const std::string& path = {}) {
-  const OgrErrors errors;
-  const OGRSpatialReference srs = toOgr(crs);
   Geodetic out{points, {}, crs.semi_major_m, crs.flattening};
-  if (!srs.IsGeographic()) {
+  if (!crs.geographic) {
+    const OgrErrors errors;
+    const OGRSpatialReference srs = toOgr(crs);
     const OGRSpatialReference base = geographicBase(crs);
     const std::unique_ptr<OGRCoordinateTransformation> to_base(OGRCreateCoordinateTransformation(&srs, &base));
     if (!to_base)

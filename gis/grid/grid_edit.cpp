@@ -144,15 +144,16 @@ std::vector<std::pair<NodePair, int>> edgesOfLines(const Grid& grid) {
   return edges;
 }
 
-void renumberNodes(Grid& grid, const std::vector<std::uint32_t>& index_of) {
-  for (GridCorners& corners : grid.triangles)
-    for (std::uint32_t& node : corners) node = index_of[node];
+void renumberNodes(Grid& grid, const auto& index_of) {
+  const auto renumber = [&](auto& nodes) {
+    for (std::uint32_t& node : nodes) node = index_of(node);
+  };
+  for (GridCorners& corners : grid.triangles) renumber(corners);
   for (Boundary& boundary : grid.boundaries) {
-    for (std::uint32_t& node : boundary.nodes) node = index_of[node];
-    for (std::uint32_t& node : boundary.back_nodes) node = index_of[node];
+    renumber(boundary.nodes);
+    renumber(boundary.back_nodes);
   }
-  for (GridLine& line : grid.lines)
-    for (std::uint32_t& node : line.nodes) node = index_of[node];
+  for (GridLine& line : grid.lines) renumber(line.nodes);
 }
 
 // The new index of each, kNone for those that are gone.
@@ -323,7 +324,7 @@ std::vector<std::uint32_t> removeNodes(Grid& grid, const std::vector<bool>& gone
   cutBoundaries(grid, keeps);
   cutLines(grid, [&](std::uint32_t a, std::uint32_t b) { return keeps(a) && keeps(b); });
   keepIndexed(nodeArrays(grid), index_of);
-  renumberNodes(grid, index_of);
+  renumberNodes(grid, [&](std::uint32_t node) { return index_of[node]; });
   return index_of;
 }
 
@@ -338,7 +339,7 @@ void orderNodes(Grid& grid, const std::vector<std::uint32_t>& order) {
   forEachArray(nodeArrays(grid), [&](auto& values) { reorder(values, order); });
   std::vector<std::uint32_t> index_of(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) index_of[order[i]] = i;
-  renumberNodes(grid, index_of);
+  renumberNodes(grid, [&](std::uint32_t node) { return index_of[node]; });
 }
 
 void orderTriangles(Grid& grid, const std::vector<std::uint32_t>& order) {
@@ -377,9 +378,7 @@ void appendGrid(Grid& whole, Grid&& part) {
   const auto node_shift = static_cast<std::uint32_t>(whole.nodes.size());
   const auto feature_shift = static_cast<std::uint32_t>(whole.features.size());
   const std::uint32_t piece_shift = whole.piece_of.empty() ? 0 : std::ranges::max(whole.piece_of) + 1;
-  std::vector<std::uint32_t> index_of(part.nodes.size());
-  for (std::uint32_t i = 0; i < index_of.size(); ++i) index_of[i] = node_shift + i;
-  renumberNodes(part, index_of);
+  renumberNodes(part, [node_shift](std::uint32_t node) { return node_shift + node; });
   for (std::uint32_t& feature : part.feature_of) feature += feature_shift;
   for (std::uint32_t& piece : part.piece_of) piece += piece_shift;
 
