@@ -10,6 +10,7 @@
 
 #include "core/pslg.hpp"
 #include "gis/read/file_bytes.hpp"
+#include "gis/read/plain_json.hpp"
 
 namespace coastmesh {
 
@@ -50,7 +51,7 @@ class Coordinates {
 };
 
 // Takes geometries from the events of a JSON parser; every method says whether to go on.
-class GeometryHandler : public nlohmann::json_sax<nlohmann::json> {
+class GeometryHandler final : public nlohmann::json_sax<nlohmann::json> {
  public:
   bool null() override { return scalar(); }
   bool boolean(bool) override { return scalar(); }
@@ -213,6 +214,13 @@ std::optional<GeometryParts> readBareGeojson(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe can be read but once
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return std::nullopt;
+  {
+    FileBytes file(path, size);
+    GeometryHandler handler;
+    const PlainJson read = PlainJsonReader(file, handler).read();
+    if (read == PlainJson::Read) return std::move(handler).result();
+    if (read == PlainJson::Refused) return std::nullopt;
+  }
   FileBytes file(path, size);
   GeometryHandler handler;
   if (!nlohmann::json::sax_parse(ByteIterator(&file), ByteIterator(nullptr), &handler)) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -48,6 +49,48 @@ TEST(BareGeojson, ReadsAGeometryThatStandsAlone) {
   const auto parts = read(R"({"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1],[0,0]]]]})");
   ASSERT_TRUE(parts);
   EXPECT_EQ(parts->polygons.size(), 1u);
+}
+
+// Whatever way JSON has to write a number or a string.
+TEST(BareGeojson, ReadsNumbersAndStringsAsJsonHasThem) {
+  for (const std::string name :
+       {"", R"("name": "caf\u00e9",)", "\"name\": \"caf\303\251\",", R"("a": [true, false, null, -0],)"}) {
+    // The last ones are for the parser that knows all of JSON, as are letters other than ASCII's.
+    for (const std::string last :
+         {"[0e5,123456789.123456789012]", "[1e-400,123456789.123456789012]",
+          "[0,123456789.12345678901200000000000000000000000000000000000000000000000000000000000]"}) {
+      const auto parts = read("\n\t{" + name + R"("type" : "LineString","coordinates":[
+      [ 0,-0 ],[-0.0,1],[0.1,1e2],[1E-2,1.5e+1],[12345678901234567890,0.30000000000000004],
+      [4.35,0.000001],)" + last +
+                              "]} ");
+      ASSERT_TRUE(parts) << name << last;
+      ASSERT_EQ(parts->lines.size(), 1u);
+      const std::vector<Point> wanted = {{0, 0},
+                                         {-0.0, 1},
+                                         {0.1, 100},
+                                         {0.01, 15},
+                                         {12345678901234567890.0, 0.1 + 0.2},
+                                         {4.35, 1e-6},
+                                         {0, 123456789.123456789012}};
+      EXPECT_EQ(parts->lines[0], wanted);
+      EXPECT_FALSE(std::signbit(parts->lines[0][0].y));
+      EXPECT_TRUE(std::signbit(parts->lines[0][1].x));
+    }
+  }
+}
+
+TEST(BareGeojson, LeavesWhatIsNoJsonToOgr) {
+  for (const std::string number : {"01", "1.", ".5", "+1", "-", "1e", "1e+", "0x1", "inf", "nan", "1 2", "1,,2", "1,"})
+    EXPECT_FALSE(read(R"({"type":"LineString","coordinates":[[0,0],[)" + number + ",1]]}")) << number;
+  for (const std::string text :
+       {R"({"type":"LineString","coordinates":[[0,0],[1,1]]}})",
+        R"({"type":"LineString","coordinates":[[0,0],[1,1]]},)", R"({"type":"LineString","coordinates":[[0,0],[1,1]])",
+        R"({"type":"LineString","coordinates":[[0,0],[1,1]}])", R"({"type":"LineString" "coordinates":[[0,0],[1,1]]})",
+        R"({"type":"LineString","coordinates" [[0,0],[1,1]]})", R"({"type":"LineString,"coordinates":[[0,0],[1,1]]})",
+        R"({"type":"LineString","coordinates":[[0,0],[1,1]],})",
+        R"({"type":"LineString","coordinates":[[0,0],[1,1]],"a":tru})",
+        R"({"type":"LineString","coordinates":[[0,0],[1,1)"})
+    EXPECT_FALSE(read(text)) << text;
 }
 
 TEST(BareGeojson, LeavesTheRestToOgr) {
