@@ -64,7 +64,7 @@ class FrameReading {
       TileTask& task = tasks.emplace_back(taskOf(chunk));
       task.rules.assign(rules.begin(), rules.end());
       if (frames_[chunk.part->frame]->raster.is_exact) task.own = neighbours.own[part];
-      task.patches = patches[part];
+      task.patches = patchesFor(chunk, patches[part]);
       who.push_back(neighbours.owner[part]);
     }
     FrameTiles tiles = emptyTiles(rules.size());
@@ -122,6 +122,35 @@ class FrameReading {
     task.rows = frame.raster.rows;
     for (std::size_t k = chunk.first; k < chunk.last; ++k) task.tiles.push_back(frame.places[chunk.part->tiles[k]]);
     return task;
+  }
+
+  // What a chunk looks at of its part's patches: all of them would be sent once for each chunk.
+  std::vector<PixelPatch> patchesFor(const Chunk& chunk, const std::vector<PixelPatch>& patches) const {
+    const RasterFrame& frame = *frames_[chunk.part->frame];
+    std::vector<PixelPatch> some;
+    if (patches.empty()) return some;
+    const PixelRect& first = frame.places[chunk.part->tiles[chunk.first]].pixels;
+    int left = first.x, right = first.right(), top = first.y, bottom = first.bottom();
+    for (std::size_t k = chunk.first; k < chunk.last; ++k) {
+      const PixelRect& pixels = frame.places[chunk.part->tiles[k]].pixels;
+      left = std::min(left, pixels.x);
+      right = std::max(right, pixels.right());
+      top = std::min(top, pixels.y);
+      bottom = std::max(bottom, pixels.bottom());
+    }
+    const PixelRect seen = PixelRect{left, top, right - left, bottom - top}.grownBy(chunk.part->margin);
+    for (int turn = frame.raster.wraps ? -1 : 0; turn <= (frame.raster.wraps ? 1 : 0); ++turn) {
+      for (const PixelPatch& patch : patches) {
+        const PixelRect at = patch.at.in(seen.shifted(turn * frame.raster.columns));
+        if (!at.isEmpty()) some.push_back({at, {}});
+        for (int row = at.y; !at.isEmpty() && row < at.bottom(); ++row) {
+          const auto from = patch.values.begin() + static_cast<std::ptrdiff_t>(row - patch.at.y) * patch.at.width +
+                            (at.x - patch.at.x);
+          some.back().values.insert(some.back().values.end(), from, from + at.width);
+        }
+      }
+    }
+    return some;
   }
 
   FrameTiles emptyTiles(std::size_t rules) const {
