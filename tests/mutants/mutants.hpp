@@ -37,8 +37,9 @@ inline bool alive(int number) {
   return number == chosen;
 }
 
-// Between operand and operand: `a < b` is written `a < Less(7) < b`, which binds as `a < b` does.
-#define MUTANTS_OPERATOR(NAME, SIGN, FIRST, SECOND)                                                    \
+// Between operand and operand: `a < b` is written `a < Less(7) < b`, which binds as `a < b` does. What becomes one other
+// sign has one number, and the next is another mutant's.
+#define MUTANTS_OPERATOR(NAME, SIGN, FIRST, SECOND, NUMBERS)                                           \
   struct NAME {                                                                                        \
     int number;                                                                                        \
     explicit NAME(int given) : number(given) {}                                                        \
@@ -55,19 +56,19 @@ inline bool alive(int number) {
   template <typename Left, typename Right>                                                             \
   auto operator SIGN(NAME##After<Left> before, const Right& right)->decltype(before.left SIGN right) { \
     if (alive(before.number)) return before.left FIRST right;                                          \
-    if (alive(before.number + 1)) return before.left SECOND right;                                     \
+    if (NUMBERS == 2 && alive(before.number + 1)) return before.left SECOND right;                     \
     return before.left SIGN right;                                                                     \
   }
 
-MUTANTS_OPERATOR(Less, <, <=, >=)
-MUTANTS_OPERATOR(LessOrEqual, <=, <, >)
-MUTANTS_OPERATOR(Greater, >, >=, <=)
-MUTANTS_OPERATOR(GreaterOrEqual, >=, >, <)
-MUTANTS_OPERATOR(Equal, ==, !=, !=)
-MUTANTS_OPERATOR(Unequal, !=, ==, ==)
-MUTANTS_OPERATOR(Plus, +, -, -)
-MUTANTS_OPERATOR(Minus, -, +, +)
-MUTANTS_OPERATOR(Divided, /, *, *)
+MUTANTS_OPERATOR(Less, <, <=, >=, 2)
+MUTANTS_OPERATOR(LessOrEqual, <=, <, >, 2)
+MUTANTS_OPERATOR(Greater, >, >=, <=, 2)
+MUTANTS_OPERATOR(GreaterOrEqual, >=, >, <, 2)
+MUTANTS_OPERATOR(Equal, ==, !=, !=, 1)
+MUTANTS_OPERATOR(Unequal, !=, ==, ==, 1)
+MUTANTS_OPERATOR(Plus, +, -, -, 1)
+MUTANTS_OPERATOR(Minus, -, +, +, 1)
+MUTANTS_OPERATOR(Divided, /, *, *, 1)
 #undef MUTANTS_OPERATOR
 
 // A point times a number has no quotient.
