@@ -37,8 +37,8 @@ inline bool alive(int number) {
   return number == chosen;
 }
 
-// Between operand and operand: `a < b` is written `a < Less(7) < b`, which binds as `a < b` does. What becomes one other
-// sign has one number, and the next is another mutant's.
+// Between operand and operand: `a < b` is written `a < Less(7) < b`, which binds as `a < b` does. What becomes one
+// other sign has one number: the next is another mutant's.
 #define MUTANTS_OPERATOR(NAME, SIGN, FIRST, SECOND, NUMBERS)                                           \
   struct NAME {                                                                                        \
     int number;                                                                                        \
