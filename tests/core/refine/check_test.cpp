@@ -373,6 +373,67 @@ TEST(CheckMesh, ClosedMeshes) {
   EXPECT_EQ(checkMesh(turned.mesh, nullptr, options).size(), 8u);
 }
 
+// A face of the octahedron divided at a place beside one of its edges, which is near enough to be within the circle
+// through the face beyond.
+TEST(CheckMesh, ClosedMeshThatIsNotDelaunay) {
+  ClosedSample sample = octahedron();
+  const SpacePoint w = (1.0 / std::sqrt(1.3 * 1.3 + 1.1 * 1.1 + 1.0)) * SpacePoint{1.3, 1.1, 1.0};
+  const SpacePoint u = (1.0 / std::hypot(w.x, w.y)) * SpacePoint{-w.y, w.x, 0.0}, v = cross(u, w);
+  const double length = std::sqrt(1.0 + 1.0 + 0.04);
+  const SpacePoint place = (1.0 / length) * SpacePoint{-1.0, -1.0, -0.2};
+  sample.places.push_back(place);
+  std::vector<Point> points = sample.mesh.points;
+  const double shrink = 2.0 / (1.0 - dot(place, w));
+  points.push_back({shrink * dot(place, u), shrink * dot(place, v)});
+  std::vector<std::array<VertexId, 3>> faces;
+  for (const Triangle& t : sample.mesh.triangles) {
+    const std::set<VertexId> corners(t.v.begin(), t.v.end());
+    if (corners != std::set<VertexId>{1, 3, 5}) {
+      faces.push_back(t.v);
+      continue;
+    }
+    for (unsigned i = 0; i < 3; ++i) faces.push_back({t.v[i], t.v[next3(i)], 6});
+  }
+  const TriMesh divided = meshOf(points, faces);
+  CheckOptions options{.places = sample.places, .closed = true};
+  const auto defects = checkMesh(divided, nullptr, options);
+  ASSERT_EQ(defects.size(), 1u) << describe(defects);
+  EXPECT_EQ(defects[0].kind, DefectKind::NotDelaunay);
+  EXPECT_EQ(defects[0].place, midpoint(divided.points[1], divided.points[3]));
+  options.delaunay = false;
+  EXPECT_EQ(describe(checkMesh(divided, nullptr, options)), "");
+}
+
+TEST(CheckMesh, DelaunayOnlyWhereAsked) {
+  // The diagonal of a square with a corner drawn in that is no edge of the Delaunay triangulation.
+  Pslg pslg;
+  pslg.points = {{0, 0}, {2, 0}, {1.1, 1.1}, {0, 2}};
+  for (VertexId v = 0; v < 4; ++v) pslg.segments.push_back({v, (v + 1) % 4, 0, 0, kOutside});
+  Sample sample{pslg, constrainedDelaunay(pslg)};
+  ASSERT_EQ(kindsIn(sample), Kinds{});
+  const std::vector<std::array<VertexId, 3>> other = {{0, 1, 3}, {1, 2, 3}};
+  const TriMesh flipped = meshOf(pslg.points, other);
+  EXPECT_EQ(kindsIn(checkMesh(flipped, &pslg, {})), Kinds{DefectKind::NotDelaunay});
+  EXPECT_EQ(kindsIn(checkMesh(flipped, &pslg, {.delaunay = false})), Kinds{});
+}
+
+TEST(CheckMesh, BoundsNextToNoneAreBounds) {
+  // Angles of 0.286 and 179.43 degrees at a vertex inside.
+  const TriMesh flat =
+      meshOf({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0.005}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+  const auto kindsWith = [&](double least, double most) {
+    return kindsIn(checkMesh(flat, nullptr, {.min_angle_deg = least, .max_angle_deg = most, .delaunay = false}));
+  };
+  EXPECT_EQ(kindsWith(0.5, 180.0), Kinds{DefectKind::AngleBelowBound});
+  EXPECT_EQ(kindsWith(0.2, 180.0), Kinds{});
+  EXPECT_EQ(kindsWith(0.0, 179.2), Kinds{DefectKind::AngleBelowBound});
+  EXPECT_EQ(kindsWith(0.0, 179.6), Kinds{});
+  EXPECT_EQ(kindsWith(0.0, 180.0), Kinds{});
+  BoundCounts counts;
+  checkMesh(flat, nullptr, {.min_angle_deg = 0.5, .delaunay = false}, inOrder, &counts);
+  EXPECT_EQ(counts.below, 1u);
+}
+
 TEST(CheckMesh, AngleBeyondTheBound) {
   const Sample sample = sampleOf(squareWithHole());
   EXPECT_EQ(kindsIn(sample, {.min_angle_deg = 30.0}), Kinds{});
