@@ -113,6 +113,14 @@ TEST(CheckMesh, CornerOutOfRangeOrTwice) {
   }
 }
 
+TEST(CheckMesh, ACornerTwiceWithoutNeighbours) {
+  for (unsigned i = 0; i < 3; ++i) {
+    TriMesh mesh = meshOf({{0, 0}, {3, 0}, {0, 3}}, {{0, 1, 2}});
+    mesh.triangles[0].v[i] = mesh.triangles[0].v[next3(i)];
+    EXPECT_EQ(kindsIn(checkMesh(mesh, nullptr, {})), Kinds{DefectKind::BrokenTopology}) << i;
+  }
+}
+
 // Each corner, each pair of them, each neighbour: and none but the triangle that has them, where it is.
 TEST(CheckMesh, BrokenTrianglesAreToldOneByOne) {
   const TriMesh mesh = meshOf({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {{0, 1, 2}, {0, 2, 3}});
@@ -373,35 +381,47 @@ TEST(CheckMesh, ClosedMeshes) {
   EXPECT_EQ(checkMesh(turned.mesh, nullptr, options).size(), 8u);
 }
 
-// A face of the octahedron divided at a place beside one of its edges, which is near enough to be within the circle
-// through the face beyond.
-TEST(CheckMesh, ClosedMeshThatIsNotDelaunay) {
+// The same with one of its faces divided at a place; the faces in the other order where asked.
+ClosedSample dividedOctahedron(const std::set<VertexId>& face, const SpacePoint& towards, bool reversed) {
   ClosedSample sample = octahedron();
   const SpacePoint w = (1.0 / std::sqrt(1.3 * 1.3 + 1.1 * 1.1 + 1.0)) * SpacePoint{1.3, 1.1, 1.0};
   const SpacePoint u = (1.0 / std::hypot(w.x, w.y)) * SpacePoint{-w.y, w.x, 0.0}, v = cross(u, w);
-  const double length = std::sqrt(1.0 + 1.0 + 0.04);
-  const SpacePoint place = (1.0 / length) * SpacePoint{-1.0, -1.0, -0.2};
+  const SpacePoint place = (1.0 / std::sqrt(dot(towards, towards))) * towards;
   sample.places.push_back(place);
   std::vector<Point> points = sample.mesh.points;
   const double shrink = 2.0 / (1.0 - dot(place, w));
   points.push_back({shrink * dot(place, u), shrink * dot(place, v)});
   std::vector<std::array<VertexId, 3>> faces;
   for (const Triangle& t : sample.mesh.triangles) {
-    const std::set<VertexId> corners(t.v.begin(), t.v.end());
-    if (corners != std::set<VertexId>{1, 3, 5}) {
+    if (std::set<VertexId>(t.v.begin(), t.v.end()) != face) {
       faces.push_back(t.v);
       continue;
     }
     for (unsigned i = 0; i < 3; ++i) faces.push_back({t.v[i], t.v[next3(i)], 6});
   }
-  const TriMesh divided = meshOf(points, faces);
-  CheckOptions options{.places = sample.places, .closed = true};
-  const auto defects = checkMesh(divided, nullptr, options);
+  if (reversed) std::ranges::reverse(faces);
+  sample.mesh = meshOf(points, faces);
+  return sample;
+}
+
+// At a place beside an edge, near enough to be within the circle through the face beyond.
+TEST(CheckMesh, ClosedMeshThatIsNotDelaunay) {
+  const ClosedSample divided = dividedOctahedron({1, 3, 5}, {-1.0, -1.0, -0.2}, false);
+  CheckOptions options{.places = divided.places, .closed = true};
+  const auto defects = checkMesh(divided.mesh, nullptr, options);
   ASSERT_EQ(defects.size(), 1u) << describe(defects);
   EXPECT_EQ(defects[0].kind, DefectKind::NotDelaunay);
-  EXPECT_EQ(defects[0].place, midpoint(divided.points[1], divided.points[3]));
+  EXPECT_EQ(defects[0].place, midpoint(divided.mesh.points[1], divided.mesh.points[3]));
   options.delaunay = false;
-  EXPECT_EQ(describe(checkMesh(divided, nullptr, options)), "");
+  EXPECT_EQ(describe(checkMesh(divided.mesh, nullptr, options)), "");
+}
+
+// Nothing is asked where the face beyond is the one that the plane shows from the other side.
+TEST(CheckMesh, ClosedMeshBesideThePole) {
+  for (const bool reversed : {false, true}) {
+    const ClosedSample divided = dividedOctahedron({1, 2, 4}, {-0.2, 1.0, 1.0}, reversed);
+    EXPECT_EQ(describe(checkMesh(divided.mesh, nullptr, {.places = divided.places, .closed = true})), "") << reversed;
+  }
 }
 
 TEST(CheckMesh, DelaunayOnlyWhereAsked) {
