@@ -1,15 +1,21 @@
 #include "gis/grid/local_plane.hpp"
 
+#include <array>
+
 #include "gis/crs/lon_lat.hpp"
 #include "gis/grid/on_sphere.hpp"
 
 namespace coastmesh {
 void flattenLocally(const Crs& crs, std::span<Point> places) {
   if (!crs.geographic || places.empty()) return;
+  std::array<SphereVector, 4> few;
+  std::vector<SphereVector> many;
+  if (places.size() > few.size()) many.resize(places.size());
+  const std::span<SphereVector> on_sphere = many.empty() ? std::span(few).first(places.size()) : std::span(many);
   SphereVector middle{};
-  for (const Point& place : places) {
-    const SphereVector on_sphere = onSphere(asLonLat(place));
-    for (std::size_t k = 0; k < 3; ++k) middle[k] += on_sphere[k];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    on_sphere[i] = onSphere(asLonLat(places[i]));
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += on_sphere[i][k];
   }
   middle = unit(middle);
   // East of the middle is nowhere at a pole; any direction will do there.
@@ -17,10 +23,8 @@ void flattenLocally(const Crs& crs, std::span<Point> places) {
   if (dot(east, east) < 1e-12) east = {1.0, 0.0, 0.0};
   east = unit(east);
   const SphereVector north = cross(middle, east);
-  for (Point& place : places) {
-    const SphereVector on_sphere = onSphere(asLonLat(place));
-    place = {crs.semi_major_m * dot(on_sphere, east), crs.semi_major_m * dot(on_sphere, north)};
-  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = {crs.semi_major_m * dot(on_sphere[i], east), crs.semi_major_m * dot(on_sphere[i], north)};
 }
 
 std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places) {

@@ -32,11 +32,6 @@ std::array<Point, N> planeOf(const RepairView& view, const PatchEdit& edit, cons
   return places;
 }
 
-struct TriangleScore {
-  int defects = 0;
-  double min_angle = 0.0;
-};
-
 // Depths of nodes that an edit places come from rasters later on: a little is left for what these say.
 constexpr double kStepMargin = 1.02;
 
@@ -52,14 +47,25 @@ bool missesStep(const RepairView& view, const PatchEdit& edit, const GridCorners
   return shortest * step.metres_per_unit[source] < kStepMargin * step.time_step_s * longWaveSpeed(deepest);
 }
 
+// Whether a triangle that runs counter-clockwise in its local plane certainly does so on the ground: lengths in metres,
+// places there are rounded to some nanometres, and the plane bends those of less than a hundred kilometres by little.
+bool isClearOfRounding(const std::array<Point, 3>& p) {
+  constexpr double kShort = 1.0, kLong = 1e5, kClear = 1e-3;
+  const double longest =
+      std::max({squaredDistance(p[0], p[1]), squaredDistance(p[1], p[2]), squaredDistance(p[2], p[0])});
+  return longest > kShort * kShort && longest < kLong * kLong && cross(p[1] - p[0], p[2] - p[0]) > kClear * longest;
+}
+
 // None for a triangle that is clockwise, or without area.
 std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEdit& edit, const GridCorners& v,
                                            std::uint32_t source) {
   const auto p = planeOf(view, edit, v);
   if (orient2d(p[0], p[1], p[2]) <= 0) return std::nullopt;
   // The plane is rounded: what is flat to within that is asked of the places themselves, as the report does.
-  const auto on_ground = placesOf(view, edit, v);
-  if (orientationOnGround(on_ground[0], on_ground[1], on_ground[2], view.grid.crs) <= 0) return std::nullopt;
+  if (!view.grid.crs.geographic || !isClearOfRounding(p)) {
+    const auto on_ground = placesOf(view, edit, v);
+    if (orientationOnGround(on_ground[0], on_ground[1], on_ground[2], view.grid.crs) <= 0) return std::nullopt;
+  }
   const auto angles = anglesDeg(p[0], p[1], p[2]);
   TriangleScore score{missesStep(view, edit, v, source, p) ? 1 : 0, std::ranges::min(angles)};
   if (view.isFor(Target::Swan)) {
@@ -84,6 +90,13 @@ std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEd
   if (view.isFor(Target::Fesom)) score.defects += neighbours > 0 && neighbours < kFesomFewestNeighbours;
   score.defects += neighbours == 0;
   return score;
+}
+
+// As the triangle is now.
+const std::optional<TriangleScore>& scoreBefore(const RepairView& view, const PatchScale& scale, std::uint32_t t) {
+  const auto known = std::ranges::find(scale.replaced, t, [](const auto& entry) { return entry.first; });
+  if (known != scale.replaced.end()) return known->second;
+  return scale.replaced.emplace_back(t, scoreTriangle(view, {}, view.grid.triangles[t], t)).second;
 }
 
 // The triangles that are no more as they were, ascending.
@@ -205,7 +218,7 @@ EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& 
   }
   score.min_angle = score.made_angle;
   for (const std::uint32_t t : replaced) {
-    const auto old = scoreTriangle(view, {}, view.grid.triangles[t], t);
+    const auto& old = scoreBefore(view, scale, t);
     score.defects -= old ? old->defects : 0;
     score.replaced_angle = std::min(score.replaced_angle, old ? old->min_angle : 0.0);
   }

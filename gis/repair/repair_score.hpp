@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,10 +33,17 @@ struct EditScore {
 // More than any patch has.
 inline constexpr int kTurnedOver = std::numeric_limits<int>::max();
 
+struct TriangleScore {
+  int defects = 0;
+  double min_angle = 0.0;  // degrees
+};
+
 // What is measured once, so that an edit costs what it changes.
 struct PatchScale {
   std::vector<std::pair<double, std::uint32_t>> angles;  // the smallest of each triangle, ascending
   std::vector<std::uint32_t> turned;                     // triangles that are clockwise, or without area
+  // Triangles that an edit took the place of, as they are; none for one of `turned`. Grows while edits are scored.
+  mutable std::vector<std::pair<std::uint32_t, std::optional<TriangleScore>>> replaced{};
 };
 
 PatchScale scaleOf(const RepairView& view, const Patch& patch);
