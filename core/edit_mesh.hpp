@@ -159,7 +159,7 @@ class EditMesh : private LinkedTriangles {
   void kill(TriId t);
   void noteCorners(TriId t);
   void forgetCorners(TriId t);
-  void moveTriangles(const std::vector<TriId>& slot);
+  void moveTriangles(const std::vector<TriId>& slot, std::size_t count);
   void flipStack(std::vector<TriId>& touched);
   void collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const;
   bool appendSide(EdgeRef side, const Point& x, Patch& cavity) const;

@@ -1,6 +1,7 @@
 #include "parallel/mesh_regions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -178,28 +179,31 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
 // Mends, in the whole mesh, triangles that could not be mended while cores were out of it: by repairs near them first,
 // which leave the rest as it is, then by refining more and more of what lies round them.
 template <typename Add>
-void mendBesideCores(TriMesh& mesh, std::vector<TriId> bad, const Pslg& pslg, const RefineOptions& options,
+void mendBesideCores(MeshedRegion& region, std::vector<TriId> bad, const Pslg& pslg, const RefineOptions& options,
                      const VertexNotes& notes, const HelpedRegion* helpers, const RunControl& control, const Add& add) {
-  constexpr unsigned kNear = 16, kFar = 256;
-  for (unsigned edges = kNear; !bad.empty() && edges <= kFar; edges *= 4) {
-    Submesh patch = extractNear(mesh, notes, bad, edges);
+  constexpr std::array<unsigned, 3> kEdges{10, 64, 256};
+  TriMesh& mesh = region.mesh;
+  for (const unsigned edges : kEdges) {
+    if (bad.empty()) break;
+    Recorder before;
+    const Submesh patch = extractNear(mesh, notes, bad, edges, before.loop("stitch", control));
+    region.log.append(before.finish("stitch"));
     const std::uint64_t rest = mesh.points.size() - patch.parent.size();
     RefineOptions own = options;
     own.max_vertices -= std::min(own.max_vertices, rest);
     RoundsWorkspace workspace;
     workspace.helpers = helpers;
     TriMesh solved = patch.mesh;
-    RoundsReport report = mendInRounds(solved, pslg, own, patch.notes, edges == kNear, control, workspace);
+    RoundsReport report = mendInRounds(solved, pslg, own, patch.notes, edges == kEdges.front(), control, workspace);
     report.pieces = 0;  // of a part
     const bool is_full = report.stats.budget_reached;
     add(std::move(report));
-    const std::size_t known = patch.triangles.size(), next = mesh.triangles.size();
-    bad.clear();
-    for (const TriId t : trianglesInViolation(solved, options, notes.corners.get()))
-      bad.push_back(t < known ? patch.triangles[t] : static_cast<TriId>(next + t - known));
-    putBack(mesh, patch, solved);
-    // Of fewer triangles the numbers in `bad` are not kept; what is left then is listed at the end all the same.
-    if (is_full || solved.triangles.size() < known) break;
+    Recorder after;
+    bad = trianglesInViolation(solved, options, notes.corners.get(), after.loop("stitch", control));
+    const std::vector<TriId> number = putBack(mesh, patch, solved);
+    for (TriId& t : bad) t = number[t];
+    region.log.append(after.finish("stitch"));
+    if (is_full) break;
   }
 }
 
@@ -274,7 +278,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
         trianglesInViolation(region.mesh, options.refine, seeds.input.corners.get(), stitch);
     insertCores(region.mesh, static_cast<VertexId>(pslg.points.size()), seeds.cores, stitch);
     region.log.append(recorder.finish("stitch"));
-    mendBesideCores(region.mesh, left, pslg, options.refine, seeds.input, helpers, control, add);
+    mendBesideCores(region, left, pslg, options.refine, seeds.input, helpers, control, add);
   }
   Recorder recorder;
   const ItemLoop label = recorder.loop("label", control);

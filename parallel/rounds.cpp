@@ -380,7 +380,7 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
   whole.notes = std::move(notes);
   if (repairs_alone) {
     // What lies at a cut waits for the next round, which cuts elsewhere.
-    constexpr int kRepairRounds = 3;
+    constexpr int kRepairRounds = 5;
     for (int round = 0; round < kRepairRounds; ++round) {
       markBad(run, strictBoundOf(options));
       if (!anyOf(whole.due_triangles)) break;

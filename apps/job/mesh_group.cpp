@@ -212,9 +212,18 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
       name.source = feature.source;
       name.attributes = feature.attributes;
     }
-    forEachByStretches(loop, mesh.regions.size(), [&](std::size_t t) {
-      const auto at = std::ranges::lower_bound(members, static_cast<std::size_t>(mesh.regions[t]));
-      mesh.regions[t] = static_cast<RegionId>(at - members.begin());
+    forStretches(loop, mesh.regions.size(), [&](std::size_t first, std::size_t last) {
+      // Triangles near each other are mostly of one region.
+      std::optional<RegionId> feature;
+      RegionId member = 0;
+      for (std::size_t t = first; t < last; ++t) {
+        if (mesh.regions[t] != feature) {
+          feature = mesh.regions[t];
+          member = static_cast<RegionId>(std::ranges::lower_bound(members, static_cast<std::size_t>(*feature)) -
+                                         members.begin());
+        }
+        mesh.regions[t] = member;
+      }
     });
     markRegions(input.coastline(), members, domain.projection, mesh, names);
   }

@@ -119,9 +119,14 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
   parent.replace(hole, fresh, gone, touched, inner);
 }
 
-Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges) {
-  std::vector<TriId> triangles, slot(parent.triangles.size(), kNone);
-  std::vector<VertexId> number(parent.points.size(), kNone);
+Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges,
+                    const ItemLoop& loop) {
+  std::vector<TriId> triangles, slot;
+  std::vector<VertexId> number;
+  reserveOn(loop, slot, parent.triangles.size());
+  slot.assign(parent.triangles.size(), kNone);
+  reserveOn(loop, number, parent.points.size());
+  number.assign(parent.points.size(), kNone);
   const auto take = [&](TriId t) {
     if (slot[t] != kNone) return;
     slot[t] = static_cast<TriId>(triangles.size());
@@ -147,8 +152,10 @@ Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<c
 
 namespace {
 
-// Closes the gaps that triangles and vertices leave which are no more.
-void removeUnused(TriMesh& mesh, std::span<const TriId> triangles, std::span<const VertexId> vertices) {
+// Closes the gaps that triangles and vertices leave which are no more. `followed` are triangles whose numbers are kept
+// up to date.
+void removeUnused(TriMesh& mesh, std::span<const TriId> triangles, std::span<const VertexId> vertices,
+                  std::span<TriId> followed) {
   if (triangles.empty() && vertices.empty()) return;
   const auto numbersWithout = [](std::size_t count, std::span<const std::uint32_t> gone) {
     std::vector<std::uint32_t> number(count, 0);
@@ -168,11 +175,12 @@ void removeUnused(TriMesh& mesh, std::span<const TriId> triangles, std::span<con
     if (vertex[v] != kNone) mesh.points[vertex[v]] = mesh.points[v];
   mesh.triangles.resize(mesh.triangles.size() - triangles.size());
   mesh.points.resize(mesh.points.size() - vertices.size());
+  for (TriId& t : followed) t = triangle[t];
 }
 
 }  // namespace
 
-void putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved) {
+std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved) {
   struct Beyond {
     VertexId from, to;
     EdgeRef twin;
@@ -192,7 +200,7 @@ void putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved) {
     return numbers;
   };
   const std::vector<VertexId> vertex = numbersFor(solved.points.size(), patch.parent, parent.points.size());
-  const std::vector<TriId> triangle = numbersFor(solved.triangles.size(), patch.triangles, parent.triangles.size());
+  std::vector<TriId> triangle = numbersFor(solved.triangles.size(), patch.triangles, parent.triangles.size());
   parent.points.resize(parent.points.size() + vertex.size() - std::min(vertex.size(), patch.parent.size()));
   parent.triangles.resize(parent.triangles.size() + triangle.size() -
                           std::min(triangle.size(), patch.triangles.size()));
@@ -211,8 +219,9 @@ void putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved) {
   const std::span<const VertexId> old_vertices = patch.parent;
   const std::span<const TriId> old_triangles = patch.triangles;
   removeUnused(parent, old_triangles.subspan(std::min(triangle.size(), old_triangles.size())),
-               old_vertices.subspan(std::min(vertex.size(), old_vertices.size())));
+               old_vertices.subspan(std::min(vertex.size(), old_vertices.size())), triangle);
   assert(findBrokenLink(parent.triangles) == kNone);
+  return triangle;
 }
 
 }  // namespace coastmesh

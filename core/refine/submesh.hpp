@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/edit_mesh.hpp"
+#include "core/item_loop.hpp"
 #include "core/links.hpp"
 #include "core/refine/vertex_notes.hpp"
 #include "core/tri_mesh.hpp"
@@ -98,10 +99,11 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
 
 // The triangles of a mesh that are at most so many edges away from some of them, as a mesh. `notes` are those on input
 // vertices, as `noteInput` made them.
-Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges);
+Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges,
+                    const ItemLoop& loop = inOrder);
 
-// Puts another mesh of the same submesh into its parent, as above; triangles and free vertices get new numbers. Leaves
-// regions alone.
-void putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved);
+// Puts another mesh of the same submesh into its parent, as above; triangles and free vertices get new numbers, of
+// which those of the triangles are returned. Leaves regions alone.
+std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved);
 
 }  // namespace coastmesh

@@ -1,55 +1,133 @@
 #include "gis/grid/mesh_edges.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <utility>
 
 namespace coastmesh {
 
-std::vector<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes,
-                                                      std::span<const std::array<std::uint32_t, 3>> triangles,
-                                                      const ItemLoop& loop) {
-  // In buckets by the lesser node, which hold a few edges each.
-  std::vector<std::uint32_t> bucket(nodes + 1, 0);  // its end at first, then its beginning
-  const auto forEachEdge = [&](auto&& use) {
-    for (const auto& [a, b, c] : triangles) {
-      use(std::min(a, b), std::max(a, b));
-      use(std::min(b, c), std::max(b, c));
-      use(std::min(c, a), std::max(c, a));
-    }
-  };
-  forEachEdge([&](std::uint32_t low, std::uint32_t) { ++bucket[low]; });
-  std::inclusive_scan(bucket.begin(), bucket.end(), bucket.begin());
-  std::vector<std::uint32_t> ends;
-  reserveOn(loop, ends, 3 * triangles.size());
-  ends.resize(3 * triangles.size());
-  forEachEdge([&](std::uint32_t low, std::uint32_t high) { ends[--bucket[low]] = high; });
+namespace {
 
-  // Of the edges in a sorted bucket those that differ from the one before.
-  const auto forEachOnce = [&](std::size_t low, auto&& use) {
-    for (std::uint32_t i = bucket[low]; i < bucket[low + 1]; ++i)
-      if (i == bucket[low] || ends[i] != ends[i - 1]) use(ends[i]);
+using Triangles = std::span<const std::array<std::uint32_t, 3>>;
+
+template <typename Use>
+void forEachEdge(Triangles triangles, const Use& use) {
+  for (const auto& [a, b, c] : triangles) {
+    use(std::min(a, b), std::max(a, b));
+    use(std::min(b, c), std::max(b, c));
+    use(std::min(c, a), std::max(c, a));
+  }
+}
+
+// Nodes are dealt out by their numbers, in stretches of one length; an edge belongs to its lesser node.
+struct Stretches {
+  std::size_t nodes = 0, count = 0;
+
+  std::size_t begin(std::size_t stretch) const { return (nodes * stretch + count - 1) / count; }
+  std::size_t of(std::uint32_t node) const { return node * count / nodes; }
+};
+
+// Triangles that follow one another, and a bit for each stretch that one of their edges belongs to.
+struct Block {
+  Triangles triangles;
+  std::uint64_t stretches = 0;
+};
+
+std::vector<Block> blocksOf(Triangles triangles, const Stretches& stretches, const ItemLoop& loop) {
+  constexpr std::size_t kBlock = 1024;
+  std::vector<Block> blocks((triangles.size() + kBlock - 1) / kBlock);
+  const auto make = [&](std::size_t b) {
+    blocks[b].triangles = triangles.subspan(b * kBlock, std::min(kBlock, triangles.size() - b * kBlock));
+    forEachEdge(blocks[b].triangles, [&](std::uint32_t low, std::uint32_t) {
+      blocks[b].stretches |= std::uint64_t{1} << stretches.of(low);
+    });
   };
-  struct Stretch {
-    std::size_t first = 0, last = 0, edges = 0;  // nodes from first to last
-  };
-  std::vector<Stretch> stretches = overStretches(loop, nodes, [&](std::size_t first, std::size_t last) {
-    Stretch stretch{first, last, 0};
-    for (std::size_t low = first; low < last; ++low) {
-      std::sort(ends.begin() + bucket[low], ends.begin() + bucket[low + 1]);
-      forEachOnce(low, [&](std::uint32_t) { ++stretch.edges; });
+  forStretches(
+      loop, blocks.size(),
+      [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) make(b);
+      },
+      8);
+  return blocks;
+}
+
+std::uint64_t visitsOf(const std::vector<Block>& blocks) {
+  return std::transform_reduce(blocks.begin(), blocks.end(), std::uint64_t{0}, std::plus<>(),
+                               [](const Block& b) { return static_cast<std::uint64_t>(std::popcount(b.stretches)); });
+}
+
+// Two stretches at a time as one.
+void halve(std::vector<Block>& blocks, Stretches& stretches) {
+  for (Block& block : blocks) {
+    std::uint64_t halved = 0;
+    for (std::size_t s = 0; s < stretches.count; s += 2)
+      if ((block.stretches >> s & 3) != 0) halved |= std::uint64_t{1} << s / 2;
+    block.stretches = halved;
+  }
+  stretches.count /= 2;
+}
+
+// The edges of a stretch: for each of its nodes the greater ones, once and in order.
+struct NodeEdges {
+  std::vector<std::uint32_t> begin;  // of each node's; then the end
+  std::vector<std::uint32_t> greater;
+};
+
+NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stretches, std::size_t stretch) {
+  const std::size_t first = stretches.begin(stretch), nodes = stretches.begin(stretch + 1) - first;
+  const auto forEachOwn = [&](const auto& use) {
+    for (const Block& block : blocks) {
+      if ((block.stretches >> stretch & 1) == 0) continue;
+      forEachEdge(block.triangles, [&](std::uint32_t low, std::uint32_t high) {
+        if (low >= first && low - first < nodes) use(low - first, high);
+      });
     }
-    return stretch;
-  });
-  std::size_t count = 0;
-  for (Stretch& stretch : stretches) stretch.edges = std::exchange(count, count + stretch.edges);  // before it, now
+  };
+  NodeEdges edges;
+  std::vector<std::uint32_t>& begin = edges.begin;  // of each node its end, until all are put in
+  begin.assign(nodes + 1, 0);
+  forEachOwn([&](std::size_t node, std::uint32_t) { ++begin[node]; });
+  std::inclusive_scan(begin.begin(), begin.end(), begin.begin());
+  edges.greater.resize(begin[nodes]);
+  forEachOwn([&](std::size_t node, std::uint32_t high) { edges.greater[--begin[node]] = high; });
+  std::uint32_t kept = 0;
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const auto from = edges.greater.begin() + begin[node], to = edges.greater.begin() + begin[node + 1];
+    std::sort(from, to);
+    begin[node] = kept;
+    kept += static_cast<std::uint32_t>(std::unique_copy(from, to, edges.greater.begin() + kept) -
+                                       (edges.greater.begin() + kept));
+  }
+  begin[nodes] = kept;
+  return edges;
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes, Triangles triangles, const ItemLoop& loop) {
   std::vector<std::array<std::uint32_t, 2>> edges;
-  reserveOn(loop, edges, count);
-  edges.resize(count);
-  loop(stretches.size(), [&](std::size_t s) {
-    std::size_t next = stretches[s].edges;
-    for (std::size_t low = stretches[s].first; low < stretches[s].last; ++low)
-      forEachOnce(low, [&](std::uint32_t high) { edges[next++] = {static_cast<std::uint32_t>(low), high}; });
+  if (triangles.empty()) return edges;
+  // A block is looked at once for each stretch that it has an edge of: few where numbers follow the plane. Where they
+  // do not, stretches are fewer and longer.
+  constexpr std::size_t kMostStretches = 64, kMostVisits = 3;
+  Stretches stretches{nodes, std::min(kMostStretches, std::bit_floor(nodes))};
+  std::vector<Block> blocks = blocksOf(triangles, stretches, loop);
+  while (stretches.count > 1 && visitsOf(blocks) > kMostVisits * blocks.size()) halve(blocks, stretches);
+
+  std::vector<NodeEdges> parts(stretches.count);
+  loop(parts.size(), [&](std::size_t s) { parts[s] = edgesOfStretch(blocks, stretches, s); });
+  std::vector<std::size_t> before(parts.size() + 1, 0);
+  for (std::size_t s = 0; s < parts.size(); ++s) before[s + 1] = before[s] + parts[s].begin.back();
+  resizeAnew(loop, edges, before.back());
+  loop(parts.size(), [&](std::size_t s) {
+    const auto& [begin, greater] = parts[s];
+    const std::size_t first = stretches.begin(s);
+    std::size_t next = before[s];
+    for (std::size_t node = 0; node + 1 < begin.size(); ++node)
+      for (std::uint32_t i = begin[node]; i < begin[node + 1]; ++i)
+        edges[next++] = {static_cast<std::uint32_t>(first + node), greater[i]};
+    parts[s] = {};
   });
   return edges;
 }

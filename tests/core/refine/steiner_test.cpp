@@ -328,7 +328,9 @@ TEST(Steiner, WhereASphereIsFlatAsInThePlane) {
     EXPECT_NEAR(found.squared_clearance, expected.squared_clearance, 1e-4 * expected.squared_clearance);
     const double clearance = std::sqrt(expected.squared_clearance);
     EXPECT_LE(clearanceAt(mesh, found.place), clearance * (1.0 + 1e-4));
-    if (found.type == expected.type) EXPECT_LE(distance(found.place, expected.place), 1e-3 * clearance);
+    if (found.type == expected.type) {
+      EXPECT_LE(distance(found.place, expected.place), 1e-3 * clearance);
+    }
     ++compared;
   }
   EXPECT_GT(compared, 10);

@@ -33,5 +33,22 @@ TEST(UniqueEdges, AreThoseOfASet) {
   EXPECT_TRUE(uniqueEdges(0, {}).empty());
 }
 
+// Numbers that follow the plane, as in the files of most programs, and the shore's before all others.
+TEST(UniqueEdges, OfAStripThatFollowsItsNumbers) {
+  constexpr std::uint32_t kColumns = 20000;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Edge> expected;
+  for (std::uint32_t column = 0; column + 1 < kColumns; ++column) {
+    const std::uint32_t shore = column, inner = kColumns + column;
+    triangles.push_back({shore, shore + 1, inner});
+    triangles.push_back({shore + 1, inner + 1, inner});
+    expected.insert(expected.end(), {{shore, shore + 1}, {shore, inner}, {shore + 1, inner}, {inner, inner + 1}});
+  }
+  expected.push_back({kColumns - 1, 2 * kColumns - 1});
+  std::ranges::sort(expected);
+  EXPECT_EQ(uniqueEdges(2 * kColumns, triangles), expected);
+  EXPECT_EQ(uniqueEdges(2 * kColumns, triangles, testing::backwards), expected);
+}
+
 }  // namespace
 }  // namespace coastmesh
