@@ -119,6 +119,15 @@ bool anyOf(const std::vector<std::uint8_t>& flags) { return std::ranges::find(fl
 // Whether anything of a piece is to be worked on: triangles for refinement, vertices for what comes after.
 bool isDue(const MeshState& state) { return anyOf(state.due_triangles) || anyOf(state.due_vertices); }
 
+// A piece that has grown waits for the others with room for as much again.
+void dropSpareRoom(MeshState& state) {
+  const auto drop = [](auto& items) {
+    if (items.capacity() - items.size() > items.size() / 8) items.shrink_to_fit();
+  };
+  drop(state.mesh.points);
+  drop(state.mesh.triangles);
+}
+
 // The mesh from round to round.
 class Rounds {
  public:
@@ -186,6 +195,7 @@ class Rounds {
     const auto workAt = [&](std::size_t i) {
       const PieceTask task = taskAt(i);
       stats[order[i]] = workOn(task, pieces[order[i]].state, pslg, options, inner);
+      dropSpareRoom(pieces[order[i]].state);
     };
     if (workspace_.helpers == nullptr || parts.pieces == 1) {
       recorder_.forEach(name, parts.pieces, inner, [&](std::size_t i) {
@@ -210,8 +220,7 @@ class Rounds {
       dealItems(*workspace_.helpers, parts.pieces, inner, recorder_, name, work);
     }
     if (some.empty()) {
-      stitch(std::move(pieces), whole_, recorder_, workspace_.spare);
-      std::swap(whole_, workspace_.spare);
+      stitch(std::move(pieces), recorder_, whole_);
     } else {
       stitchInPlace(std::move(pieces), parts, recorder_, whole_);
     }

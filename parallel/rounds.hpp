@@ -16,11 +16,9 @@ class RoundKeeper;
 // About how many triangles refinement will make of a mesh.
 double expectedTriangles(const TriMesh& mesh, const RefineOptions& options);
 
-// What rounds lend to one another, and refining to coarsening, for its memory alone: fresh memory costs more than what
-// is written to it.
+// What rounds lend to one another, and refining to coarsening.
 struct RoundsWorkspace {
-  MeshState spare;
-  Partition parts;
+  Partition parts;                        // for its memory alone: fresh memory costs more than what is written to it
   const HelpedRegion* helpers = nullptr;  // who may take pieces off this process's hands
   // Where the mesh is kept after each round, and is gone on from; null: nowhere. Mending is not kept.
   RoundKeeper* keeper = nullptr;

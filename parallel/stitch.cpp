@@ -174,8 +174,24 @@ std::size_t fillHoles(std::span<const std::uint32_t> holes, std::size_t count, c
   return left;
 }
 
+// Makes room for `count` items, of which the first `kept` stay and all others are to be written anew, and some more.
 template <typename Item>
-void resizeWhereKept(std::vector<Item>& items, std::size_t count) {
+void resizeBehind(const ItemLoop& loop, std::vector<Item>& items, std::size_t kept, std::size_t count) {
+  if (count > items.capacity()) {
+    items.resize(kept);
+    reserveOn(loop, items, count, count / 8);
+  }
+  items.resize(count);
+}
+
+// The same where there are any, and all that there are stay.
+template <typename Item>
+void growWhereKept(const ItemLoop& loop, std::vector<Item>& items, std::size_t count) {
+  if (!items.empty()) resizeBehind(loop, items, items.size(), count);
+}
+
+template <typename Item>
+void shrinkWhereKept(std::vector<Item>& items, std::size_t count) {
   if (!items.empty()) items.resize(count);
 }
 
@@ -188,7 +204,7 @@ void closeHoles(std::span<const TriId> triangles, std::span<const VertexId> vert
     for (unsigned i = 0; i < 3; ++i) link(mesh.triangles, edgeRef(to, i), moved.adj[i], moved.seg[i]);
     if (!whole.due_triangles.empty()) whole.due_triangles[to] = whole.due_triangles[from];
   }));
-  resizeWhereKept(whole.due_triangles, mesh.triangles.size());
+  shrinkWhereKept(whole.due_triangles, mesh.triangles.size());
   if (vertices.empty()) return;
   const auto left = static_cast<VertexId>(mesh.points.size() - vertices.size());
   std::vector<VertexId> number(vertices.size(), kNone);  // of those from `left` on
@@ -203,34 +219,30 @@ void closeHoles(std::span<const TriId> triangles, std::span<const VertexId> vert
       if (v >= left) v = number[v - left];
   });
   mesh.points.resize(left);
-  resizeWhereKept(whole.notes.spacing, left);
-  resizeWhereKept(whole.due_vertices, left);
+  shrinkWhereKept(whole.notes.spacing, left);
+  shrinkWhereKept(whole.due_vertices, left);
 }
 
 }  // namespace
 
-void stitch(std::vector<CutSubmesh>&& pieces, const MeshState& before, Recorder& recorder, MeshState& whole) {
-  const VertexId input_vertices = before.mesh.input_vertices;
+void stitch(std::vector<CutSubmesh>&& pieces, Recorder& recorder, MeshState& whole) {
+  const VertexId input_vertices = whole.mesh.input_vertices;
   const Layout layout = layOut(pieces, input_vertices);
-  whole.mesh.input_vertices = input_vertices;
+  const std::size_t vertices = layout.vertex.back(), triangles = layout.triangle.back();
+  const std::size_t kept = layout.vertex.front();
+  // Ascending, so that none is overwritten before it has moved.
+  for (std::size_t to = input_vertices; to < kept; ++to) {
+    const VertexId from = layout.on_cuts[to - input_vertices];
+    whole.mesh.points[to] = whole.mesh.points[from];
+    if (!whole.notes.spacing.empty()) whole.notes.spacing[to] = whole.notes.spacing[from];
+    if (!whole.due_vertices.empty()) whole.due_vertices[to] = whole.due_vertices[from];
+  }
   const ItemLoop loop = recorder.loop("stitch");
-  resizeAnew(loop, whole.mesh.points, layout.vertex.back());
-  resizeAnew(loop, whole.mesh.triangles, layout.triangle.back());
-  whole.notes.shell_unit = before.notes.shell_unit;
-  whole.notes.small_angle = before.notes.small_angle;
-  whole.notes.corners = before.notes.corners;
-  resizeAnew(loop, whole.notes.spacing, before.notes.spacing.empty() ? 0 : layout.vertex.back());
-  resizeAnew(loop, whole.due_vertices, before.due_vertices.empty() ? 0 : layout.vertex.back());
-  resizeAnew(loop, whole.due_triangles, before.due_triangles.empty() ? 0 : layout.triangle.back());
-  const auto keep = [&](VertexId from, VertexId to) {
-    whole.mesh.points[to] = before.mesh.points[from];
-    if (!whole.notes.spacing.empty()) whole.notes.spacing[to] = before.notes.spacing[from];
-    if (!whole.due_vertices.empty()) whole.due_vertices[to] = before.due_vertices[from];
-  };
-  forEachByStretches(recorder.loop("stitch"), input_vertices + layout.on_cuts.size(), [&](std::size_t i) {
-    const auto to = static_cast<VertexId>(i);
-    keep(to < input_vertices ? to : layout.on_cuts[to - input_vertices], to);
-  });
+  resizeBehind(loop, whole.mesh.points, kept, vertices);
+  if (!whole.notes.spacing.empty()) resizeBehind(loop, whole.notes.spacing, kept, vertices);
+  if (!whole.due_vertices.empty()) resizeBehind(loop, whole.due_vertices, kept, vertices);
+  resizeAnew(loop, whole.mesh.triangles, triangles);
+  if (!whole.due_triangles.empty()) resizeAnew(loop, whole.due_triangles, triangles);
 
   std::vector<std::vector<CutSide>> sides(pieces.size());
   recorder.forEach("stitch", pieces.size(), {}, [&](std::size_t p) {
@@ -260,11 +272,12 @@ void stitchInPlace(std::vector<CutSubmesh>&& pieces, const Partition& parts, Rec
                            [&](std::size_t p) { return meshOf(p).triangles.size(); });
   const Exchange vertices(pieces.size(), static_cast<VertexId>(mesh.points.size()), oldVertices,
                           [&](std::size_t p) { return meshOf(p).points.size() - meshOf(p).input_vertices; });
-  mesh.triangles.resize(triangles.end());
-  mesh.points.resize(vertices.end());
-  resizeWhereKept(whole.due_triangles, triangles.end());
-  resizeWhereKept(whole.due_vertices, vertices.end());
-  resizeWhereKept(whole.notes.spacing, vertices.end());
+  const ItemLoop loop = recorder.loop("stitch");
+  growWhereKept(loop, mesh.triangles, triangles.end());
+  growWhereKept(loop, mesh.points, vertices.end());
+  growWhereKept(loop, whole.due_triangles, triangles.end());
+  growWhereKept(loop, whole.due_vertices, vertices.end());
+  growWhereKept(loop, whole.notes.spacing, vertices.end());
 
   std::vector<std::vector<CutSide>> sides(pieces.size());
   recorder.forEach("stitch", pieces.size(), {}, [&](std::size_t p) {

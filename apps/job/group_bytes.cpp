@@ -1,7 +1,5 @@
 #include "apps/job/group_bytes.hpp"
 
-#include <optional>
-
 #include "apps/job/bytes.hpp"
 
 namespace coastmesh {
@@ -11,21 +9,20 @@ auto partsOf(auto& seconds) requires std::is_same_v<std::remove_cvref_t<decltype
   auto& [triangulate, refine, coarsen, optimise, stitch] = seconds;
   return std::tie(triangulate, refine, coarsen, optimise, stitch);
 }
-// All but the plane and the log.
+// All but the log.
 auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, GroupResult> {
   auto& [grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
-         short_of, quality, plane, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,
+         short_of, quality, size_max, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,
          estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings] = result;
   return std::tie(grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
                   short_of, quality, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces,
-                  estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings);
+                  estimated_vertices, refusal, over_budget, refusal_place, unwanted, notes, warnings, size_max);
 }
 
 namespace {
 
 void passGroup(auto& writer, const GroupResult& result) {
   writer.pass(result);
-  writer.pass(result.plane ? std::optional(result.plane->size_max) : std::nullopt);
   writer.pass(result.log.work());
 }
 
@@ -46,12 +43,9 @@ GroupResult groupFrom(std::string_view bytes, const std::string& what) {
   ByteReader reader(bytes, what);
   GroupResult result;
   reader.pass(result);
-  std::optional<double> size_max;
   double work = 0.0;
-  reader.pass(size_max);
   reader.pass(work);
   if (!reader.atEnd()) throw InputError(what + " is damaged");
-  if (size_max) result.plane = WorkingPlane{Projection::plane(), *size_max};
   result.log.addAlone("regions", work);
   return result;
 }

@@ -8,8 +8,7 @@
 
 namespace coastmesh {
 
-// A group's result as bytes, for one version of coastmesh: all but the projection of its plane, and of its log the
-// work alone.
+// A group's result as bytes, for one version of coastmesh: all of it, but of its log the work alone.
 std::string bytesOf(const GroupResult& result);
 // The same, handed on as they are made.
 void putBytesOf(const GroupResult& result, const std::function<void(std::string_view)>& put);

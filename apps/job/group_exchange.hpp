@@ -13,8 +13,7 @@ struct GroupExchange {
   std::uint32_t shard = 0, shards = 1;  // only the groups that are dealt to `shard` are taken
   // Called once, when the input is read, with what says which input it is and how many groups it has. May throw.
   std::function<void(std::uint64_t input_digest, std::size_t groups)> begin;
-  // Gives a group that was meshed before, less the projection of its plane; called from several threads. Empty: groups
-  // are meshed here. May throw.
+  // Gives a group that was meshed before; called from several threads. Empty: groups are meshed here. May throw.
   std::function<GroupResult(std::size_t group)> take;
   // Whether `take` has a group; those that it has not are meshed here. Empty: it has all.
   std::function<bool(std::size_t group)> has;

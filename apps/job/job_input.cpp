@@ -254,7 +254,7 @@ std::uint64_t JobInput::digest() const {
 
 Projection JobInput::projectionOf(std::size_t group) const {
   if (chosen_) return *chosen_;
-  if (options_.crs == "plane" || coastline_.crs.isPlane()) return Projection::plane();
+  if (poly_ || options_.crs == "plane" || coastline_.crs.isPlane()) return Projection::plane();
   return Projection::fitted(coastline_, groups_[group], options_.surface.kind);
 }
 

@@ -65,7 +65,7 @@ class JobInput {
   std::size_t pointsOf(std::size_t group) const;
   // The same for the same features in the same groups, on any machine of a kind.
   std::uint64_t digest() const;
-  // The working plane of a group; not of a .poly.
+  // The working plane of a group.
   Projection projectionOf(std::size_t group) const;
   // What lengths and angles of a projection of its are measured on; never Auto.
   SurfaceKind surfaceOf(const Projection& projection) const;

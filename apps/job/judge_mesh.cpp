@@ -31,12 +31,12 @@ MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const Re
   return result;
 }
 
-std::vector<std::vector<std::uint32_t>> trianglesOfGroups(const Grid& grid, const std::vector<GroupPlane>& planes) {
-  std::vector<std::vector<std::uint32_t>> triangles(planes.size());
+std::vector<std::vector<std::uint32_t>> trianglesOfGroups(const Grid& grid, const std::vector<MergedGroup>& groups) {
+  std::vector<std::vector<std::uint32_t>> triangles(groups.size());
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
     const std::uint32_t feature = grid.feature_of.empty() ? 0 : grid.feature_of[t];
-    const auto after = std::ranges::upper_bound(planes, feature, {}, &GroupPlane::first_feature);
-    triangles[static_cast<std::size_t>(after - planes.begin()) - 1].push_back(t);
+    const auto after = std::ranges::upper_bound(groups, feature, {}, &MergedGroup::first_feature);
+    triangles[static_cast<std::size_t>(after - groups.begin()) - 1].push_back(t);
   }
   return triangles;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,14 +31,16 @@ struct MeshJudgement {
 MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const RefineOptions& options, double slack_deg,
                         std::span<const SpacePoint> places, const ItemLoop& loop = inOrder);
 
-// The plane of a group, and the first of its features in a grid that has the groups one after another.
-struct GroupPlane {
-  WorkingPlane plane;
+// A group in a grid that has several, one after another: the first of its features there. Its projection is fitted anew
+// where it is wanted: most runs never ask for it again, and some have a million groups.
+struct MergedGroup {
+  std::size_t group;
+  double size_max;  // as in WorkingPlane
   std::uint32_t first_feature;
 };
 
-// The triangles of each group, ascending; a grid without features is one group. REQUIRES: `planes` ascend by their
+// The triangles of each group, ascending; a grid without features is one group. REQUIRES: `groups` ascend by their
 // first features.
-std::vector<std::vector<std::uint32_t>> trianglesOfGroups(const Grid& grid, const std::vector<GroupPlane>& planes);
+std::vector<std::vector<std::uint32_t>> trianglesOfGroups(const Grid& grid, const std::vector<MergedGroup>& groups);
 
 }  // namespace coastmesh

@@ -415,8 +415,9 @@ void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions
   const Stopwatch checking;
   const TriMesh& mesh = region.mesh;
   requireSound(region, domain, places, task.firstFeature(), loop);
-  result.plane = {domain.projection, options.size_max};
-  MeshJudgement judgement = judgeMesh(mesh, *result.plane, options, 0.0, places, loop);
+  result.size_max = options.size_max;
+  const WorkingPlane plane{domain.projection, options.size_max};
+  MeshJudgement judgement = judgeMesh(mesh, plane, options, 0.0, places, loop);
   result.quality = judgement.quality;
   result.short_of = std::move(judgement.short_of);
   result.digest = digestOf(mesh, 0, loop);

@@ -18,7 +18,7 @@ struct GroupResult {
   RefineStats refine;
   Shortfall short_of;
   MeshQuality quality;
-  std::optional<WorkingPlane> plane;
+  std::optional<double> size_max;  // the longest edge of its plane, as in WorkingPlane; none where nothing was meshed
   std::optional<double> input_area_m2;
   std::uint64_t digest = 0;
   double clean_s = 0.0;

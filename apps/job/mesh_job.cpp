@@ -14,6 +14,7 @@
 #include "apps/job/available_memory.hpp"
 #include "apps/job/deal_groups.hpp"
 #include "apps/job/grid_pieces.hpp"
+#include "apps/job/group_bytes.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/raster_helpers.hpp"
 #include "apps/job/stopwatch.hpp"
@@ -130,27 +131,50 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   appendGrid(result.grid, std::move(part.grid));
 }
 
+// The result of a group that waits for those before it. Where a large one is among these, half a million small ones may
+// wait for it: as bytes they take less than half the room.
+class WaitingGroup {
+ public:
+  explicit WaitingGroup(GroupResult&& result) {
+    if (result.pieces > 1) {
+      whole_ = std::make_unique<GroupResult>(std::move(result));
+    } else {
+      const std::string bytes = bytesOf(result);
+      bytes_.assign(bytes.begin(), bytes.end());
+    }
+  }
+  GroupResult take() { return whole_ ? std::move(*whole_) : groupFrom({bytes_.data(), bytes_.size()}, "a group"); }
+
+ private:
+  std::unique_ptr<GroupResult> whole_;  // of one that was cut, whose log counts
+  std::vector<char> bytes_;             // no more room than they need
+};
+
 // Puts the groups' results together in the groups' order, each as soon as those before it are there.
 class OrderedMerge {
  public:
   // Groups that are not `expected` are passed over.
   OrderedMerge(const JobInput& input, const std::vector<bool>& expected, MeshJobResult& result)
-      : input_(input), expected_(expected), result_(result), waiting_(input.groups()) {}
+      : input_(input), expected_(expected), result_(result), waiting_(input.groups()) {
+    passUnexpected();
+  }
 
-  const std::vector<GroupPlane>& planes() const { return planes_; }
+  const std::vector<MergedGroup>& merged() const { return merged_; }
 
   void add(std::size_t group, GroupResult&& part) {
-    const std::lock_guard lock(mutex_);
-    waiting_[group] = std::make_unique<GroupResult>(std::move(part));
-    const double before = threadSeconds();
-    for (; next_ < waiting_.size() && (waiting_[next_] || !expected_[next_]); ++next_) {
-      if (!waiting_[next_]) continue;
-      GroupResult& next = *waiting_[next_];
-      if (next.plane)
-        planes_.push_back({std::move(*next.plane), static_cast<std::uint32_t>(result_.grid.features.size())});
-      addGroup(input_, next_, std::move(next), result_, small_groups_);
-      waiting_[next_].reset();
+    if (!isNext(group)) {
+      auto held = std::make_unique<WaitingGroup>(std::move(part));
+      const std::lock_guard lock(mutex_);
+      waiting_[group] = std::move(held);
+      const double before = threadSeconds();
+      mergeWaiting();
+      merging_s_ += threadSeconds() - before;
+      return;
     }
+    const std::lock_guard lock(mutex_);
+    const double before = threadSeconds();
+    merge(std::move(part));
+    mergeWaiting();
     merging_s_ += threadSeconds() - before;
   }
 
@@ -162,13 +186,35 @@ class OrderedMerge {
   }
 
  private:
+  // Once it is, it stays so until it is added.
+  bool isNext(std::size_t group) {
+    const std::lock_guard lock(mutex_);
+    return group == next_;
+  }
+  void passUnexpected() {
+    while (next_ < waiting_.size() && !expected_[next_]) ++next_;
+  }
+  void merge(GroupResult&& part) {
+    if (part.size_max)
+      merged_.push_back({next_, *part.size_max, static_cast<std::uint32_t>(result_.grid.features.size())});
+    addGroup(input_, next_, std::move(part), result_, small_groups_);
+    ++next_;
+    passUnexpected();
+  }
+  void mergeWaiting() {
+    while (next_ < waiting_.size() && waiting_[next_]) {
+      const std::unique_ptr<WaitingGroup> held = std::move(waiting_[next_]);
+      merge(held->take());
+    }
+  }
+
   const JobInput& input_;
   const std::vector<bool>& expected_;
   MeshJobResult& result_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<GroupResult>> waiting_;
+  std::vector<std::unique_ptr<WaitingGroup>> waiting_;
   Stage small_groups_{"regions", 0.0, {}};
-  std::vector<GroupPlane> planes_;
+  std::vector<MergedGroup> merged_;
   std::size_t next_ = 0;
   double merging_s_ = 0.0;
 };
@@ -188,15 +234,17 @@ namespace {
 
 // The grid as it is now, each group in the plane that it was made in. The digest stays that of the mesh where nothing
 // but nodes of the frame moved.
-void measureAgain(const MeshJob& job, const std::vector<GroupPlane>& planes, bool is_repaired, MeshJobResult& result) {
+void measureAgain(const MeshJob& job, const JobInput& input, const std::vector<MergedGroup>& groups, bool is_repaired,
+                  MeshJobResult& result) {
   result.quality = {};
   result.short_of = {};
   bool first = true;
-  const std::vector<std::vector<std::uint32_t>> triangles = trianglesOfGroups(result.grid, planes);
-  for (std::size_t g = 0; g < planes.size(); ++g) {
+  const std::vector<std::vector<std::uint32_t>> triangles = trianglesOfGroups(result.grid, groups);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
     if (triangles[g].empty()) continue;
-    const GridPiece piece = makePiece(result.grid, triangles[g], planes[g].plane.projection);
-    MeshJudgement judgement = judgeMesh(piece.mesh, planes[g].plane, job.mesh.refine, kAngleSlackDeg, piece.places);
+    const WorkingPlane plane{input.projectionOf(groups[g].group), groups[g].size_max};
+    const GridPiece piece = makePiece(result.grid, triangles[g], plane.projection);
+    MeshJudgement judgement = judgeMesh(piece.mesh, plane, job.mesh.refine, kAngleSlackDeg, piece.places);
     result.quality.add(judgement.quality);
     result.short_of.add(std::move(judgement.short_of));
     if (is_repaired) {
@@ -280,7 +328,6 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     if (!expected[g]) weights[g] = 0;
   GroupProgress progress(weights, control);
   OrderedMerge merge(input, expected, result);
-  const bool mends = !job.finish.targets.empty() || job.sizes.time_step_s > 0.0;
   const double memory = availableMemory();
   forEachItem(order.size(), RunControl{control.cancelled, {}}, [&](std::size_t i) {
     const std::size_t g = order[i];
@@ -288,12 +335,11 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
     const bool taken = exchange.take && (!exchange.has || exchange.has(g));
     GroupResult part = taken ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, memory}, inner);
-    if (part.pieces > 1) giveBackFreeMemory();
     if (exchange.keep) exchange.keep(g, part);
-    // Planes are looked at again after repairs only, and where nodes of a frame were moved on the Earth.
-    const bool again = mends || part.surface != SurfaceKind::Plane;
-    if (taken && part.plane && again && !input.isPoly()) part.plane->projection = input.projectionOf(g);
+    const bool large = part.pieces > 1;
     merge.add(g, std::move(part));
+    // Many may have waited for it.
+    if (large) giveBackFreeMemory();
     progress.report(g, 1.0);
   });
   merge.finish();
@@ -305,7 +351,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
       input.isPoly() ? FrameMoves{} : keepInFrame(result.grid, input.coastline(), job.mesh.refine.min_angle_deg, loop);
   // In the plane it is what was made there that counts, less what this spoilt; on the Earth, where every node lies.
   if (moves.nodes > 0 && isMeasuredOnEarth(result)) {
-    measureAgain(job, merge.planes(), false, result);
+    measureAgain(job, input, merge.merged(), false, result);
   } else {
     noteFallenShort(moves, job.mesh.refine.min_angle_deg, result);
   }
@@ -323,7 +369,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     result.finish = finishGrid(result.grid, finish, inner);
     if (!result.finish.repairs.repairs.empty()) {
       result.short_before_repairs = result.short_of.count;
-      measureAgain(job, merge.planes(), true, result);
+      measureAgain(job, input, merge.merged(), true, result);
       result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
     }
     result.seconds.finish = finishing.seconds();

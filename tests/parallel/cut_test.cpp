@@ -121,8 +121,8 @@ TEST_P(CutInto, StitchedAgainIsTheSameMesh) {
     std::vector<CutSubmesh> pieces;
     VertexNumbers numbers;
     for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(whole, parts, p, numbers));
-    MeshState again;
-    stitch(std::move(pieces), whole, recorder, again);
+    MeshState again = whole;
+    stitch(std::move(pieces), recorder, again);
 
     TriMesh labelled = again.mesh;
     labelRegions(labelled, pslg);
@@ -243,8 +243,8 @@ TEST_P(CutInto, NothingNotedStaysNothing) {
   std::vector<CutSubmesh> pieces;
   VertexNumbers numbers;
   for (PieceId p = 0; p < parts.pieces; ++p) pieces.push_back(cutOut(whole, parts, p, numbers));
-  MeshState again;
-  stitch(std::move(pieces), whole, recorder, again);
+  MeshState again = whole;
+  stitch(std::move(pieces), recorder, again);
   EXPECT_TRUE(again.notes.spacing.empty());
   EXPECT_TRUE(again.notes.small_angle.empty());
   EXPECT_TRUE(again.notes.shell_unit.empty());
