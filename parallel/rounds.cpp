@@ -12,6 +12,7 @@
 #include "core/refine/split_segments.hpp"
 #include "parallel/cut.hpp"
 #include "parallel/deal.hpp"
+#include "parallel/free_memory.hpp"
 #include "parallel/near_due.hpp"
 #include "parallel/piece_task.hpp"
 #include "parallel/recorder.hpp"
@@ -221,6 +222,8 @@ class Rounds {
     }
     if (some.empty()) {
       stitch(std::move(pieces), recorder_, whole_);
+      // What the pieces took is not wanted again before all is cut once more.
+      if (parts.pieces > 1) giveBackFreeMemory();
     } else {
       stitchInPlace(std::move(pieces), parts, recorder_, whole_);
     }
