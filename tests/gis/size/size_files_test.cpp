@@ -1,0 +1,272 @@
+#include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/metric.hpp"
+#include "gis/error.hpp"
+#include "gis/size/size_depth.hpp"
+#include "gis/size/size_features.hpp"
+#include "gis/size/size_raster.hpp"
+#include "gis/size/size_source.hpp"
+#include "tests/gis/size/size_samples.hpp"
+#include "tests/support/pslgs.hpp"
+
+namespace coastmesh {
+namespace {
+
+using testing::kInfinity;
+using testing::planeDomain;
+using testing::rectangle;
+using testing::SizeFiles;
+using testing::sizesIn;
+
+TEST(Wavelength, HoldsTheDispersionRelation) {
+  for (const double period : {3.0, 10.0, 600.0, 44712.0}) {
+    for (const double depth : {0.1, 1.0, 17.0, 200.0, 4000.0, 11000.0}) {
+      const double k = 2.0 * std::numbers::pi / wavelengthOf(period, depth), w = 2.0 * std::numbers::pi / period;
+      EXPECT_NEAR(9.81 * k * std::tanh(k * depth) / (w * w), 1.0, 1e-9) << period << " s, " << depth << " m";
+    }
+  }
+  // The long wave of the tide: T sqrt(g d).
+  EXPECT_NEAR(wavelengthOf(44712.0, 100.0) / (44712.0 * std::sqrt(9.81 * 100.0)), 1.0, 1e-4);
+}
+
+TEST_F(SizeFiles, RasterOfSizes) {
+  const auto f = [](double x, double y) { return 0.05 + 0.01 * x + 0.02 * y; };
+  SizeOptions options;
+  options.rasters = {raster("a.tif", 400, 200, {0.0, 0.05, 0.0, 10.0, 0.0, -0.05}, 0, f)};
+  const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
+  for (double x = 0.3; x < 20.0; x += 0.37)
+    for (double y = 0.3; y < 10.0; y += 0.41) EXPECT_NEAR(size->at({x, y}) / f(x, y), 1.0, 0.04) << x << ", " << y;
+}
+
+TEST_F(SizeFiles, ACoarseRasterIsBilinear) {
+  const auto f = [](double x, double) { return 0.05 + 0.01 * x; };
+  SizeOptions options;
+  options.rasters = {raster("a.tif", 20, 10, {0.0, 1.0, 0.0, 10.0, 0.0, -1.0}, 0, f)};
+  const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
+  for (double x = 0.6; x < 19.4; x += 0.1) EXPECT_NEAR(size->at({x, 5.2}) / f(x, 5.2), 1.0, 0.02) << x;
+}
+
+// What it is measured by is then the shore alone, wherever that asks for less.
+TEST_F(SizeFiles, ARasterThatDecidesNowhereChangesNothing) {
+  SizeOptions options;
+  options.shore_m = 0.05;
+  options.shore_rate = options.gradation = 0.1;
+  const Domain domain = planeDomain(rectangle(20.0, 10.0));
+  const auto alone = sizesIn(options, domain);
+  options.rasters = {raster("a.tif", 400, 200, {0.0, 0.05, 0.0, 10.0, 0.0, -0.05}, 0,
+                            [](double x, double y) { return 2.0 + 0.1 * std::sin(7.0 * x) * std::cos(9.0 * y); })};
+  const auto both = sizesIn(options, domain);
+  EXPECT_EQ(dynamic_cast<const SizeTree&>(*both).cells(), dynamic_cast<const SizeTree&>(*alone).cells());
+  for (double x = 0.3; x < 20.0; x += 0.37)
+    for (double y = 0.3; y < 10.0; y += 0.41) EXPECT_EQ(both->at({x, y}), alone->at({x, y})) << x << ", " << y;
+}
+
+TEST_F(SizeFiles, ASpotOfOnePixelIsNotMissed) {
+  SizeOptions options;
+  options.gradation = 0.2;
+  options.rasters = {raster("a.tif", 2000, 1000, {0.0, 0.01, 0.0, 10.0, 0.0, -0.01}, 0,
+                            [](double x, double y) { return std::hypot(x - 13.005, y - 4.005) < 0.005 ? 0.01 : 2.0; })};
+  const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
+  EXPECT_LT(size->at({13.005, 4.005}), 0.025);
+  EXPECT_NEAR(size->at({14.005, 4.005}), 0.2, 0.04);
+}
+
+// Against many places of each box, boxes from a hundredth of a pixel to several.
+TEST_F(SizeFiles, BoundsOfARasterHoldAndAreTight) {
+  std::mt19937_64 random(11);
+  std::vector<float> values(20 * 10);
+  for (float& value : values) {
+    const double kind = uniform(random, 0.0, 1.0);
+    value = kind < 0.1 ? -9999.0F : kind < 0.3 ? 0.001F : static_cast<float>(uniform(random, 0.5, 1.0));
+  }
+  const RasterGeometry geometry =
+      readRasterGeometry(raster("a.tif", 20, 10, {0.0, 1.0, 0.0, 10.0, 0.0, -1.0}, 0, [&](double x, double y) {
+        return values[static_cast<std::size_t>(20 * std::floor(10.0 - y) + std::floor(x))];
+      }));
+  const TileRule as_is{0.0, [](const RasterTile& tile, std::span<float> sizes) {
+                         for (int y = 0; y < tile.height; ++y)
+                           for (int x = 0; x < tile.width; ++x)
+                             if (!std::isnan(tile.at(x, y)))
+                               sizes[static_cast<std::size_t>(y * tile.width + x)] = tile.at(x, y);
+                       }};
+  const RasterField field(geometry, {}, Projection::plane(), Box::of({-1.0, -1.0}, {21.0, 11.0}), as_is, inOrder);
+  int tight = 0;
+  constexpr int kBoxes = 3000;
+  for (int i = 0; i < kBoxes; ++i) {
+    const SizeBox box{{uniform(random, -0.5, 20.5), uniform(random, -0.5, 10.5)},
+                      0.01 * std::pow(300.0, uniform(random, 0.0, 1.0))};
+    std::vector<Point> places;
+    for (int k = 0; k < 400; ++k)
+      places.push_back(box.centre + box.half * Point{uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0)});
+    std::vector<double> sizes(places.size());
+    field.sample(places, sizes);
+    SizeRange range;
+    field.bound(std::span(&box, 1), std::span(&range, 1));
+    const auto [low, high] = std::ranges::minmax(sizes);
+    EXPECT_LE(range.low, low * (1.0 + 1e-6)) << box.centre.x << ", " << box.centre.y << " half " << box.half;
+    EXPECT_GE(range.high, high * (1.0 - 1e-6)) << box.centre.x << ", " << box.centre.y << " half " << box.half;
+    if (box.half < 0.1) tight += range.low >= 0.5 * low && (range.high <= 2.0 * high || high == kInfinity);
+  }
+  EXPECT_GT(tight, kBoxes / 4);
+}
+
+TEST_F(SizeFiles, TheFirstRasterThatCoversAPlaceCounts) {
+  const std::string fine =
+      raster("a.tif", 50, 50, {5.0, 0.1, 0.0, 10.0, 0.0, -0.1}, 0, [](double, double) { return 1.0; });
+  const std::string wide =
+      raster("b.tif", 200, 100, {0.0, 0.1, 0.0, 10.0, 0.0, -0.1}, 0, [](double, double) { return 0.5; });
+  SizeOptions options;
+  options.gradation = 1.0;
+  options.rasters = {fine, wide};
+  const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
+  EXPECT_NEAR(size->at({7.5, 7.5}), 1.0, 0.01);
+  EXPECT_NEAR(size->at({15.0, 2.5}), 0.5, 0.01);
+}
+
+TEST_F(SizeFiles, NoDataAsksForNothing) {
+  SizeOptions options;
+  options.size_m = 0.7;
+  options.rasters = {raster("a.tif", 200, 100, {0.0, 0.1, 0.0, 10.0, 0.0, -0.1}, 0,
+                            [](double x, double) { return x < 10.0 ? 0.2 : -9999.0; })};
+  const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
+  EXPECT_NEAR(size->at({5.0, 5.0}), 0.2, 0.005);
+  EXPECT_NEAR(size->at({17.0, 5.0}), 0.7, 0.01);
+}
+
+TEST_F(SizeFiles, ASizeOfNothingIsRefused) {
+  SizeOptions options;
+  options.rasters = {raster("a.tif", 20, 10, {0.0, 1.0, 0.0, 10.0, 0.0, -1.0}, 0, [](double, double) { return 0.0; })};
+  EXPECT_THROW(sizesIn(options, planeDomain(rectangle(20.0, 10.0))), InputError);
+}
+
+TEST_F(SizeFiles, UnreadableFilesAreRefused) {
+  for (const auto& set : {&SizeOptions::rasters, &SizeOptions::bathymetry, &SizeOptions::features}) {
+    SizeOptions options;
+    options.*set = {file("nothing.here")};
+    options.depth.wave_elements = 100.0;
+    EXPECT_THROW(readSizeInputs(options, {}), InputError);
+  }
+}
+
+TEST_F(SizeFiles, DepthsInAnotherCrsAskForWavelengths) {
+  // The domain in degrees, the depths on a metre grid of UTM zone 32.
+  const std::string depths = raster("utm.tif", 300, 300, {300000.0, 2000.0, 0.0, 5800000.0, 0.0, -2000.0}, 32632,
+                                    [](double x, double) { return -(10.0 + (x - 300000.0) / 1000.0); });
+  Coastline coast;
+  coast.crs = wgs84();
+  coast.features.emplace_back();
+  coast.features.back().polygons.push_back({{{8.0, 50.0}, {9.5, 50.0}, {9.5, 51.0}, {8.0, 51.0}}, {}});
+  CleanReport report;
+  const Projection projection = Projection::fitted(coast, {0});
+  const Domain domain = cleanFeatures(coast, {0}, projection, {}, report);
+  SizeOptions options;
+  options.bathymetry = {depths};
+  options.depth.wave_elements = 400.0;
+  const auto size = sizesIn(options, domain, coast.crs);
+  OGRSpatialReference geographic, utm;
+  geographic.importFromEPSG(4326);
+  geographic.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  utm.importFromEPSG(32632);
+  utm.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> to_utm(OGRCreateCoordinateTransformation(&geographic, &utm));
+  for (double lon = 8.1; lon < 9.5; lon += 0.13) {
+    double x = lon, y = 50.4;
+    ASSERT_TRUE(to_utm->Transform(1, &x, &y));
+    const Point place = projection.forward({lon, 50.4});
+    const double wanted = 44712.0 * std::sqrt(9.81 * (10.0 + (x - 300000.0) / 1000.0)) / 400.0;
+    EXPECT_NEAR(size->at(place) / projection.scaleAt(place) / wanted, 1.0, 0.03) << lon;
+  }
+}
+
+TEST_F(SizeFiles, SlopesBandsAndTheTimeStep) {
+  // 100 m deep in the west, falling by 5 in 100 from x = 5000 on.
+  const auto depth = [](double x, double) { return 100.0 + 0.05 * std::max(0.0, x - 5000.0); };
+  const std::string depths = raster("d.tif", 400, 200, {0.0, 50.0, 0.0, 10000.0, 0.0, -50.0}, 0, depth);
+  const Domain domain = planeDomain(rectangle(20000.0, 10000.0));
+  SizeOptions options;
+  options.bathymetry = {depths};
+  options.depth.positive_down = true;
+  options.depth.slope_elements = 30.0;
+  options.least_m = 50.0;
+  options.most_m = 3000.0;
+  const double x = 12000.0, d = depth(x, 0.0);
+  EXPECT_NEAR(sizesIn(options, domain)->at({x, 5000.0}) / (2.0 * std::numbers::pi * d / (30.0 * 0.05)), 1.0, 0.04);
+  // Flat there, but graded from where the slope begins.
+  const double begin = 2.0 * std::numbers::pi * 100.0 / (30.0 * 0.05);
+  EXPECT_NEAR(sizesIn(options, domain)->at({500.0, 5000.0}) / (begin + 0.3 * 4500.0), 1.0, 0.06);
+
+  options.depth.slope_elements = 0.0;
+  options.depth.bands = {{0.0, 200.0, 300.0}, {200.0, kInfinity, 900.0}};
+  EXPECT_NEAR(sizesIn(options, domain)->at({1000.0, 5000.0}), 300.0, 3.0);
+  EXPECT_NEAR(sizesIn(options, domain)->at({19000.0, 5000.0}), 900.0, 9.0);
+
+  options.time_step_s = 20.0;
+  options.courant = 0.5;
+  const double allowed = std::sqrt(9.81 * 100.0) * 20.0 / 0.5;
+  EXPECT_GT(allowed, 300.0);
+  const double size = sizesIn(options, domain)->at({1000.0, 5000.0});
+  EXPECT_GT(size, allowed);
+  EXPECT_LT(size, 2.0 * allowed);
+}
+
+TEST_F(SizeFiles, BumpsShorterThanTheFilterDoNotCount) {
+  const std::string depths = raster("d.tif", 400, 200, {0.0, 50.0, 0.0, 10000.0, 0.0, -50.0}, 0, [](double x, double) {
+    return 100.0 + 10.0 * std::sin(2.0 * std::numbers::pi * x / 400.0);
+  });
+  const Domain domain = planeDomain(rectangle(20000.0, 10000.0));
+  SizeOptions options;
+  options.bathymetry = {depths};
+  options.depth.positive_down = true;
+  options.depth.slope_elements = 30.0;
+  options.least_m = 50.0;
+  options.most_m = 2000.0;
+  EXPECT_LT(sizesIn(options, domain)->at({10000.0, 5000.0}), 400.0);
+  options.depth.slope_filter_m = 2000.0;
+  EXPECT_GT(sizesIn(options, domain)->at({10000.0, 5000.0}), 1500.0);
+}
+
+TEST_F(SizeFiles, FeaturesWithSizes) {
+  std::ofstream(file("f.geojson")) << R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"size": 0.02, "rate": 0.1}, "geometry":
+      {"type": "Point", "coordinates": [3, 4]}},
+    {"type": "Feature", "properties": {"size": 0.05}, "geometry":
+      {"type": "LineString", "coordinates": [[10, 1], [10, 9]]}},
+    {"type": "Feature", "properties": {"size": 0.1}, "geometry":
+      {"type": "Polygon", "coordinates": [[[14, 2], [19, 2], [19, 8], [14, 8], [14, 2]]]}},
+    {"type": "Feature", "properties": {"size": null}, "geometry": {"type": "Point", "coordinates": [1, 1]}}]})";
+  SizeOptions options;
+  options.size_m = 1.0;
+  options.gradation = 0.25;
+  options.features = {file("f.geojson")};
+  const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
+  EXPECT_NEAR(size->at({3.0, 4.0}), 0.02, 0.003);
+  EXPECT_NEAR(size->at({3.0, 6.0}), 0.22, 0.02);
+  EXPECT_NEAR(size->at({10.0, 5.0}), 0.05, 0.005);
+  EXPECT_NEAR(size->at({11.0, 5.0}), 0.30, 0.02);
+  EXPECT_NEAR(size->at({16.0, 5.0}), 0.1, 0.003);
+  EXPECT_NEAR(size->at({13.0, 5.0}), 0.35, 0.02);
+}
+
+TEST_F(SizeFiles, FeaturesWithoutSizesAreRefused) {
+  std::ofstream(file("f.geojson")) << R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"name": "x"}, "geometry": {"type": "Point", "coordinates": [3, 4]}}]})";
+  std::ofstream(file("g.geojson")) << R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"size": -3}, "geometry": {"type": "Point", "coordinates": [3, 4]}}]})";
+  EXPECT_THROW(readSizedFeatures(file("f.geojson"), {}, 0.2), InputError);
+  EXPECT_THROW(readSizedFeatures(file("g.geojson"), {}, 0.2), InputError);
+}
+
+}  // namespace
+}  // namespace coastmesh
