@@ -37,7 +37,9 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
   report.mended = !targets.empty() || options.repair.time_step_s > 0.0;
-  if (!grid.triangles.empty() && report.mended) report.repairs = repairForTargets(grid, targets, options.repair);
+  RepairMemory memory;
+  if (!grid.triangles.empty() && report.mended)
+    report.repairs = repairForTargets(grid, targets, options.repair, &memory);
   // Nodes that repairs made or moved get a depth of their own; openings may be above the water then, and time steps too
   // short.
   constexpr int kRounds = 3;
@@ -48,7 +50,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     report.depth = setDepths(grid, options.depth, control);
     report.depth.warnings = warnings;
     std::erase_if(report.repairs.repairs, ofDepths);
-    RepairReport again = repairForTargets(grid, targets, options.repair);
+    RepairReport again = repairForTargets(grid, targets, options.repair, &memory);
     changed = !std::ranges::all_of(again.repairs, ofDepths);
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);

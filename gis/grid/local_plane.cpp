@@ -3,20 +3,23 @@
 #include <array>
 
 #include "gis/crs/lon_lat.hpp"
-#include "gis/grid/on_sphere.hpp"
 
 namespace coastmesh {
+
 void flattenLocally(const Crs& crs, std::span<Point> places) {
   if (!crs.geographic || places.empty()) return;
   std::array<SphereVector, 4> few;
   std::vector<SphereVector> many;
   if (places.size() > few.size()) many.resize(places.size());
   const std::span<SphereVector> on_sphere = many.empty() ? std::span(few).first(places.size()) : std::span(many);
+  for (std::size_t i = 0; i < places.size(); ++i) on_sphere[i] = onSphere(asLonLat(places[i]));
+  flattenLocally(crs, on_sphere, places);
+}
+
+void flattenLocally(const Crs& crs, std::span<const SphereVector> on_sphere, std::span<Point> places) {
   SphereVector middle{};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    on_sphere[i] = onSphere(asLonLat(places[i]));
-    for (std::size_t k = 0; k < 3; ++k) middle[k] += on_sphere[i][k];
-  }
+  for (const SphereVector& place : on_sphere)
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += place[k];
   middle = unit(middle);
   // East of the middle is nowhere at a pole; any direction will do there.
   SphereVector east = cross({0.0, 0.0, 1.0}, middle);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gis/grid/grid.hpp"
+#include "gis/grid/on_sphere.hpp"
 
 namespace coastmesh {
 
@@ -18,5 +19,7 @@ inline constexpr double kAngleSlackDeg = 0.01;
 std::vector<Point> localPlane(const Grid& grid, std::span<const std::uint32_t> nodes);
 std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places);
 void flattenLocally(const Crs& crs, std::span<Point> places);  // the same, in their place
+// The same of longitudes and latitudes that are known as places on the sphere, for who asks again and again.
+void flattenLocally(const Crs& crs, std::span<const SphereVector> on_sphere, std::span<Point> places);
 
 }  // namespace coastmesh

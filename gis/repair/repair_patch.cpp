@@ -63,6 +63,10 @@ const BoundaryKind* kindOf(const RepairView& view, const PatchEdit& edit, std::u
   const NodePair key = edgeKey(a, b);
   if (const auto made = edit.made.find(key); made != edit.made.end()) return &made->second;
   if (std::ranges::count(edit.gone, key) > 0) return nullptr;
+  const auto isInner = [&](std::uint32_t node) {
+    return node < view.links.on_boundary.size() && !view.links.on_boundary[node];
+  };
+  if (isInner(a) || isInner(b)) return nullptr;
   const auto at = view.links.kinds.find(key);
   return at == view.links.kinds.end() ? nullptr : &at->second;
 }

@@ -12,6 +12,7 @@
 #include "core/tri_mesh.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
+#include "gis/grid/on_sphere.hpp"
 #include "gis/model/check_target.hpp"
 
 namespace coastmesh {
@@ -50,6 +51,9 @@ struct RepairView {
   // By triangle, degrees: the smallest angle, less than 0 for one that is clockwise or without area; NaN where nobody
   // has asked yet. Holds for triangles that were not changed in this round.
   std::span<double> smallest_angle;
+  // By node of a geographic grid: its place on the sphere; NaN where nobody has asked yet. Holds for nodes of the same
+  // triangles.
+  std::span<SphereVector> on_sphere{};
   StepBound step{};
   const ShoreIndex* shores = nullptr;  // nodes of the shore may move along it, and go, where there is one
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
@@ -17,35 +19,108 @@
 namespace coastmesh {
 namespace {
 
-template <std::size_t N>
-std::array<Point, N> placesOf(const RepairView& view, const PatchEdit& edit,
-                              const std::array<std::uint32_t, N>& nodes) {
-  std::array<Point, N> places;
-  for (std::size_t i = 0; i < N; ++i) places[i] = nodes[i] == edit.placed ? edit.place : view.grid.nodes[nodes[i]];
-  return places;
-}
+// The grid as an edit leaves it; as it is, for an edit of nothing.
+class EditedView {
+ public:
+  EditedView(const RepairView& of, const PatchEdit& by) : view(of), edit(by) {
+    if (view.grid.crs.geographic && edit.placed != kNone) placed_ = onSphere(asLonLat(edit.place));
+  }
 
-template <std::size_t N>
-std::array<Point, N> planeOf(const RepairView& view, const PatchEdit& edit, const std::array<std::uint32_t, N>& nodes) {
-  std::array<Point, N> places = placesOf(view, edit, nodes);
-  flattenLocally(view.grid.crs, places);
-  return places;
-}
+  template <std::size_t N>
+  std::array<Point, N> placesOf(const std::array<std::uint32_t, N>& nodes) const {
+    std::array<Point, N> places;
+    for (std::size_t i = 0; i < N; ++i) places[i] = nodes[i] == edit.placed ? edit.place : view.grid.nodes[nodes[i]];
+    return places;
+  }
+
+  template <std::size_t N>
+  std::array<Point, N> planeOf(const std::array<std::uint32_t, N>& nodes) const {
+    if (!view.grid.crs.geographic) return placesOf(nodes);
+    std::array<SphereVector, N> on_sphere;
+    for (std::size_t i = 0; i < N; ++i) on_sphere[i] = onSphereOf(nodes[i]);
+    std::array<Point, N> places;
+    flattenLocally(view.grid.crs, on_sphere, places);
+    return places;
+  }
+
+  SphereVector onSphereOf(std::uint32_t node) const {
+    if (node == edit.placed) return placed_;
+    if (node >= view.on_sphere.size()) return onSphere(asLonLat(view.grid.nodes[node]));
+    SphereVector& known = view.on_sphere[node];
+    if (std::isnan(known[0])) known = onSphere(asLonLat(view.grid.nodes[node]));
+    return known;
+  }
+
+  const RepairView& view;
+  const PatchEdit& edit;
+
+ private:
+  SphereVector placed_{};
+};
+
+const PatchEdit kNoEdit;
 
 // Depths of nodes that an edit places come from rasters later on: a little is left for what these say.
 constexpr double kStepMargin = 1.02;
 
-// Whether the triangle, in a plane, leaves a shorter time step than is asked for. `source` is what it is cut from.
-bool missesStep(const RepairView& view, const PatchEdit& edit, const GridCorners& v, std::uint32_t source,
-                const std::array<Point, 3>& p) {
-  const StepBound& step = view.step;
-  if (step.time_step_s <= 0.0 || view.grid.z.empty()) return false;
+// How long the edges between these nodes have to be for the time step, in metres; 0 where any will do.
+double neededLength(const EditedView& edited, std::span<const std::uint32_t> nodes) {
+  const RepairView& view = edited.view;
+  if (view.step.time_step_s <= 0.0 || view.grid.z.empty()) return 0.0;
   double deepest = std::numeric_limits<double>::quiet_NaN();
-  for (const std::uint32_t node : v) deepest = std::fmax(deepest, -(node == edit.placed ? edit.z : view.grid.z[node]));
-  if (!(deepest > 0.0)) return false;
-  const double shortest = std::min({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
-  return shortest * step.metres_per_unit[source] < kStepMargin * step.time_step_s * longWaveSpeed(deepest);
+  for (const std::uint32_t node : nodes)
+    deepest = std::fmax(deepest, -(node == edited.edit.placed ? edited.edit.z : view.grid.z[node]));
+  return deepest > 0.0 ? kStepMargin * view.step.time_step_s * longWaveSpeed(deepest) : 0.0;
 }
+
+// Whether the triangle, in a plane, leaves a shorter time step than is asked for. `source` is what it is cut from.
+bool missesStep(const EditedView& edited, const GridCorners& v, std::uint32_t source, const std::array<Point, 3>& p) {
+  const double needed = neededLength(edited, v);
+  if (needed <= 0.0) return false;
+  const double shortest = std::min({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+  return shortest * edited.view.step.metres_per_unit[source] < needed;
+}
+
+// Planes that are flat at a triangle no longer than this bend what lies in it by less than that.
+constexpr double kLittle = 1e5;  // metres
+constexpr double kBent = 1e-3;   // of a length
+constexpr double kBentDeg = 0.1;
+
+// What straight lines through the Earth say of a triangle, in a fraction of the time that a plane of its own takes.
+class RoughTriangle {
+ public:
+  RoughTriangle(const EditedView& edited, const GridCorners& v) {
+    std::array<SphereVector, 3> p;
+    for (unsigned i = 0; i < 3; ++i) p[i] = edited.onSphereOf(v[i]);
+    for (unsigned i = 0; i < 3; ++i) {
+      const SphereVector side = minus(p[prev3(i)], p[next3(i)]);
+      squared_[i] = dot(side, side);
+    }
+    radius_m_ = edited.view.grid.crs.semi_major_m;
+  }
+
+  bool isSmall() const { return radius_m_ * radius_m_ * std::ranges::max(squared_) < kLittle * kLittle; }
+
+  // An edge is certainly shorter, in units of a plane.
+  bool hasEdgeBelow(double length) const {
+    const double bound = length * (1.0 - kBent);
+    return radius_m_ * radius_m_ * std::ranges::min(squared_) < bound * bound;
+  }
+
+  // An angle is certainly smaller. `squared_cosine` is that of the angle less `kBentDeg`.
+  bool hasAngleBelow(double squared_cosine) const {
+    for (unsigned i = 0; i < 3; ++i) {
+      const double one = squared_[next3(i)], other = squared_[prev3(i)];
+      const double twice = one + other - squared_[i];  // the product of the sides and the cosine
+      if (twice > 0.0 && twice * twice > 4.0 * squared_cosine * one * other) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::array<double, 3> squared_{};  // lengths of the edges opposite the corners, of a sphere of radius 1
+  double radius_m_ = 0.0;
+};
 
 // Whether a triangle that runs counter-clockwise in its local plane certainly does so on the ground: lengths in metres,
 // places there are rounded to some nanometres, and the plane bends those of less than a hundred kilometres by little.
@@ -56,47 +131,59 @@ bool isClearOfRounding(const std::array<Point, 3>& p) {
   return longest > kShort * kShort && longest < kLong * kLong && cross(p[1] - p[0], p[2] - p[0]) > kClear * longest;
 }
 
-// None for a triangle that is clockwise, or without area.
-std::optional<TriangleScore> scoreTriangle(const RepairView& view, const PatchEdit& edit, const GridCorners& v,
-                                           std::uint32_t source) {
-  const auto p = planeOf(view, edit, v);
-  if (orient2d(p[0], p[1], p[2]) <= 0) return std::nullopt;
+// Whether the triangle, in a plane, runs counter-clockwise there and on the ground.
+bool isUpright(const EditedView& edited, const GridCorners& v, const std::array<Point, 3>& p) {
+  if (orient2d(p[0], p[1], p[2]) <= 0) return false;
+  const Crs& crs = edited.view.grid.crs;
+  if (crs.geographic && isClearOfRounding(p)) return true;
   // The plane is rounded: what is flat to within that is asked of the places themselves, as the report does.
-  if (!view.grid.crs.geographic || !isClearOfRounding(p)) {
-    const auto on_ground = placesOf(view, edit, v);
-    if (orientationOnGround(on_ground[0], on_ground[1], on_ground[2], view.grid.crs) <= 0) return std::nullopt;
-  }
-  const auto angles = anglesDeg(p[0], p[1], p[2]);
-  TriangleScore score{missesStep(view, edit, v, source, p) ? 1 : 0, std::ranges::min(angles)};
+  const auto on_ground = edited.placesOf(v);
+  return orientationOnGround(on_ground[0], on_ground[1], on_ground[2], crs) > 0;
+}
+
+int triangleDefects(const EditedView& edited, const GridCorners& v, std::uint32_t source,
+                    const std::array<Point, 3>& p) {
+  const RepairView& view = edited.view;
+  int defects = missesStep(edited, v, source, p) ? 1 : 0;
   if (view.isFor(Target::Swan)) {
-    const auto q = placesOf(view, edit, v);
-    score.defects += largestFileAngle(q[0], q[1], q[2]) > kSwanLargestAngleDeg;
+    const auto q = edited.placesOf(v);
+    defects += largestFileAngle(q[0], q[1], q[2]) > kSwanLargestAngleDeg;
   }
   if (view.isFor(Target::Mpas)) {
-    const auto q = placesOf(view, edit, v);
-    score.defects += largestSphereAngle(view.grid.crs, q[0], q[1], q[2]) > kMpasLargestAngleDeg;
+    const auto q = edited.placesOf(v);
+    defects += largestSphereAngle(view.grid.crs, q[0], q[1], q[2]) > kMpasLargestAngleDeg;
   }
   int open = 0, solid = 0;
   for (unsigned i = 0; i < 3; ++i) {
-    const BoundaryKind* const kind = kindOf(view, edit, v[i], v[next3(i)]);
+    const BoundaryKind* const kind = kindOf(view, edited.edit, v[i], v[next3(i)]);
     if (kind == nullptr) continue;
     if (kind->role == BoundaryRole::Open)
       ++open;
     else
       ++solid;
   }
-  if (view.isFor(Target::Fvcom)) score.defects += (open > 1 ? 1 : 0) + (open > 0 && solid > 0 ? 1 : 0);
+  if (view.isFor(Target::Fvcom)) defects += (open > 1 ? 1 : 0) + (open > 0 && solid > 0 ? 1 : 0);
   const int neighbours = 3 - open - solid;
-  if (view.isFor(Target::Fesom)) score.defects += neighbours > 0 && neighbours < kFesomFewestNeighbours;
-  score.defects += neighbours == 0;
-  return score;
+  if (view.isFor(Target::Fesom)) defects += neighbours > 0 && neighbours < kFesomFewestNeighbours;
+  return defects + (neighbours == 0);
+}
+
+double smallestAngle(const std::array<Point, 3>& p) { return std::ranges::min(anglesDeg(p[0], p[1], p[2])); }
+
+// Of a triangle as it is; none where it is clockwise, or without area.
+std::optional<TriangleScore> scoreTriangle(const RepairView& view, std::uint32_t t) {
+  const EditedView now(view, kNoEdit);
+  const GridCorners& v = view.grid.triangles[t];
+  const auto p = now.planeOf(v);
+  if (!isUpright(now, v, p)) return std::nullopt;
+  return TriangleScore{triangleDefects(now, v, t, p), smallestAngle(p)};
 }
 
 // As the triangle is now.
 const std::optional<TriangleScore>& scoreBefore(const RepairView& view, const PatchScale& scale, std::uint32_t t) {
   const auto known = std::ranges::find(scale.replaced, t, [](const auto& entry) { return entry.first; });
   if (known != scale.replaced.end()) return known->second;
-  return scale.replaced.emplace_back(t, scoreTriangle(view, {}, view.grid.triangles[t], t)).second;
+  return scale.replaced.emplace_back(t, scoreTriangle(view, t)).second;
 }
 
 // The triangles that are no more as they were, ascending.
@@ -109,18 +196,18 @@ std::vector<std::uint32_t> replacedBy(const PatchEdit& edit) {
   return replaced;
 }
 
-int edgeDefects(const RepairView& view, const PatchEdit& edit, const NodePair& edge,
-                std::span<const std::uint32_t> apexes) {
+int edgeDefects(const EditedView& edited, const NodePair& edge, std::span<const std::uint32_t> apexes) {
   if (apexes.size() != 2) return 0;
-  auto p = planeOf(view, edit, std::array{edge[0], edge[1], apexes[0], apexes[1]});
+  auto p = edited.planeOf(std::array{edge[0], edge[1], apexes[0], apexes[1]});
   if (orient2d(p[0], p[1], p[2]) < 0) std::swap(p[0], p[1]);
   const FlowLink link = flowLinkAcross(p[0], p[1], p[2], p[3]);
   return (link.cosine > kDflowfmLargestCosine ? 1 : 0) + (link.length < kDflowfmSmallestLink ? 1 : 0);
 }
 
 // Of the edges that have another triangle beside them after the edit than before.
-int edgeDefectsAdded(const RepairView& view, const Patch& patch, const PatchEdit& edit,
-                     std::span<const std::uint32_t> replaced) {
+int edgeDefectsAdded(const EditedView& edited, const Patch& patch, std::span<const std::uint32_t> replaced) {
+  const auto& [view, edit] = std::tie(edited.view, edited.edit);
+  const EditedView now(view, kNoEdit);
   std::vector<PatchEdge> made;
   std::vector<NodePair> keys;
   for (const EditedTriangle& triangle : edit.triangles) {
@@ -147,7 +234,7 @@ int edgeDefectsAdded(const RepairView& view, const Patch& patch, const PatchEdit
       if (!std::ranges::binary_search(replaced, edge.triangle)) after.push_back(edge.apex);
     }
     for (const PatchEdge& edge : std::ranges::equal_range(made, key, {}, &PatchEdge::key)) after.push_back(edge.apex);
-    added += edgeDefects(view, edit, key, after) - edgeDefects(view, {}, key, before);
+    added += edgeDefects(edited, key, after) - edgeDefects(now, key, before);
   }
   return added;
 }
@@ -179,6 +266,25 @@ int badValencesAdded(const RepairView& view, const PatchEdit& edit, std::span<co
   return added;
 }
 
+// Whether the edit is certainly below the bar. `score` is what is known without the triangles that it makes.
+bool isRoughlyBelow(const EditedView& edited, const EditScore& score, const ScoreBar& bar, bool may_mend_more) {
+  const RepairView& view = edited.view;
+  if (!view.grid.crs.geographic) return false;
+  const double least_angle_deg = std::min(bar.least_angle_deg, score.replaced_angle) - kBentDeg;
+  const double cosine = std::cos(std::max(0.0, least_angle_deg) * std::numbers::pi / 180.0);
+  int defects = score.defects;
+  for (const EditedTriangle& triangle : edited.edit.triangles) {
+    const RoughTriangle rough(edited, triangle.v);
+    if (!rough.isSmall()) return false;
+    if (least_angle_deg > 0.0 && rough.hasAngleBelow(cosine * cosine)) return true;
+    if (may_mend_more) continue;
+    const double needed = neededLength(edited, triangle.v);
+    if (needed > 0.0 && rough.hasEdgeBelow(needed / view.step.metres_per_unit[triangle.source])) ++defects;
+    if (defects >= bar.defects) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 PatchScale scaleOf(const RepairView& view, const Patch& patch) {
@@ -186,7 +292,7 @@ PatchScale scaleOf(const RepairView& view, const Patch& patch) {
   for (const std::uint32_t t : patch.triangles) {
     double& angle = view.smallest_angle[t];
     if (std::isnan(angle)) {
-      const auto score = scoreTriangle(view, {}, view.grid.triangles[t], t);
+      const auto score = scoreTriangle(view, t);
       angle = score ? score->min_angle : -1.0;
     }
     if (angle < 0.0) {
@@ -205,18 +311,15 @@ EditScore scoreOf(const PatchScale& scale) {
 }
 
 EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& scale, const PatchEdit& edit) {
-  const EditScore worst{kTurnedOver, 0.0};
+  return scoreAbove(view, patch, scale, edit, {}).value_or(EditScore{kTurnedOver, 0.0});
+}
+
+std::optional<EditScore> scoreAbove(const RepairView& view, const Patch& patch, const PatchScale& scale,
+                                    const PatchEdit& edit, const ScoreBar& bar) {
   EditScore score{0, 180.0};
   const std::vector<std::uint32_t> replaced = replacedBy(edit);
   const auto isKept = [&replaced](std::uint32_t t) { return !std::ranges::binary_search(replaced, t); };
-  if (std::ranges::any_of(scale.turned, isKept)) return worst;
-  for (const EditedTriangle& triangle : edit.triangles) {
-    const auto made = scoreTriangle(view, edit, triangle.v, triangle.source);
-    if (!made) return worst;
-    score.defects += made->defects;
-    score.made_angle = std::min(score.made_angle, made->min_angle);
-  }
-  score.min_angle = score.made_angle;
+  if (std::ranges::any_of(scale.turned, isKept)) return std::nullopt;
   for (const std::uint32_t t : replaced) {
     const auto& old = scoreBefore(view, scale, t);
     score.defects -= old ? old->defects : 0;
@@ -224,9 +327,53 @@ EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& 
   }
   const auto kept = std::ranges::find_if(scale.angles, isKept, &std::pair<double, std::uint32_t>::second);
   if (kept != scale.angles.end()) score.min_angle = std::min(score.min_angle, kept->first);
-  if (view.isFor(Target::Dflowfm)) score.defects += edgeDefectsAdded(view, patch, edit, replaced);
-  if (view.isFor(Target::Swan) || view.isFor(Target::Fesom)) score.defects += badValencesAdded(view, edit, replaced);
-  return score;
+
+  // Each triangle adds defects and makes angles smaller at most, so that what falls short of the bar stays below it.
+  // Defects of edges and nodes are counted at the end, and may be fewer: where these count all but angles has to wait.
+  const bool of_edges = view.isFor(Target::Dflowfm), of_nodes = view.isFor(Target::Swan) || view.isFor(Target::Fesom);
+  const auto mayReach = [&] {
+    EditScore hoped = score;
+    if (of_edges || of_nodes) hoped.defects = std::numeric_limits<int>::min();
+    return bar.isReachedBy(hoped);
+  };
+  const EditedView edited(view, edit);
+  if (isRoughlyBelow(edited, score, bar, of_edges || of_nodes)) return std::nullopt;
+  std::vector<std::array<Point, 3>> shapes;
+  shapes.reserve(edit.triangles.size());
+  for (const EditedTriangle& triangle : edit.triangles) {
+    const std::array<Point, 3>& p = shapes.emplace_back(edited.planeOf(triangle.v));
+    if (!isUpright(edited, triangle.v, p)) return std::nullopt;
+    score.defects += triangleDefects(edited, triangle.v, triangle.source, p);
+    if (!mayReach()) return std::nullopt;
+  }
+  for (const std::array<Point, 3>& p : shapes) {
+    score.made_angle = std::min(score.made_angle, smallestAngle(p));
+    score.min_angle = std::min(score.min_angle, score.made_angle);
+    if (!mayReach()) return std::nullopt;
+  }
+  if (of_edges) score.defects += edgeDefectsAdded(edited, patch, replaced);
+  if (of_nodes) score.defects += badValencesAdded(view, edit, replaced);
+  return bar.isReachedBy(score) ? std::optional(score) : std::nullopt;
+}
+
+bool moveMayMend(const RepairView& view, const PatchScale& scale, std::uint32_t node) {
+  if (view.isFor(Target::Dflowfm) || !scale.turned.empty()) return true;
+  const EditedView now(view, kNoEdit);
+  int to_mend = 0;
+  for (const std::uint32_t t : view.links.triangles_at[node]) {
+    const auto& score = scoreBefore(view, scale, t);
+    if (!score) return true;
+    to_mend += score->defects;
+    if (score->defects == 0) continue;
+    const GridCorners& v = view.grid.triangles[t];
+    const auto p = now.planeOf(v);
+    const auto k = static_cast<unsigned>(std::ranges::find(v, node) - v.begin());
+    const double across = distance(p[next3(k)], p[prev3(k)]);
+    const double longest = std::max({across, distance(p[k], p[next3(k)]), distance(p[k], p[prev3(k)])});
+    const double needed = neededLength(now, std::array{v[next3(k)], v[prev3(k)]});
+    if (needed > 0.0 && longest < kLittle && across * view.step.metres_per_unit[t] < needed * (1.0 - kBent)) --to_mend;
+  }
+  return to_mend > 0;
 }
 
 }  // namespace coastmesh

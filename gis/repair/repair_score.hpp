@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -48,8 +49,28 @@ struct PatchScale {
 
 PatchScale scaleOf(const RepairView& view, const Patch& patch);
 
+// What an edit has to reach to be of use.
+struct ScoreBar {
+  int defects = kTurnedOver;        // fewer than these
+  double least_angle_deg = 0.0;     // no smaller angles made, unless what they take the place of has smaller ones
+  const EditScore* best = nullptr;  // better than this
+
+  bool isReachedBy(const EditScore& score) const {
+    return score.made_angle >= std::min(least_angle_deg, score.replaced_angle) && score.defects < defects &&
+           (best == nullptr || score.betterThan(*best));
+  }
+};
+
 // Of the patch as it is.
 EditScore scoreOf(const PatchScale& scale);
 EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& scale, const PatchEdit& edit);
+
+// The same where the edit reaches the bar; none as soon as it is clear that it does not.
+std::optional<EditScore> scoreAbove(const RepairView& view, const Patch& patch, const PatchScale& scale,
+                                    const PatchEdit& edit, const ScoreBar& bar);
+
+// Whether moves of the node may leave fewer defects than there are: not where the edges across from it, which stay, are
+// all that is wrong. REQUIRES: the node's triangles are of the patch.
+bool moveMayMend(const RepairView& view, const PatchScale& scale, std::uint32_t node);
 
 }  // namespace coastmesh

@@ -23,12 +23,14 @@ class Contest {
         least_angle_deg_(least_angle_deg) {}
 
   void offer(const PatchEdit& edit) {
-    const EditScore score = scoreOf(view_, patch_, scale_, edit);
-    if (score.made_angle < std::min(least_angle_deg_, score.replaced_angle)) return;
-    if (score.defects >= now_.defects || (best_ && !score.betterThan(score_)) || !keepsShores(view_, edit)) return;
-    score_ = score;
+    const ScoreBar bar{now_.defects, least_angle_deg_, best_ ? &score_ : nullptr};
+    const std::optional<EditScore> score = scoreAbove(view_, patch_, scale_, edit, bar);
+    if (!score || !keepsShores(view_, edit)) return;
+    score_ = *score;
     best_ = edit;
   }
+
+  bool moveMayMend(std::uint32_t node) const { return coastmesh::moveMayMend(view_, scale_, node); }
 
   std::optional<PatchEdit> take() { return std::move(best_); }
 
@@ -57,6 +59,7 @@ void forEachMove(const RepairView& view, std::uint32_t node, auto&& use) {
 }
 
 void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
+  if (!contest.moveMayMend(node)) return;
   forEachMove(view, node, [&contest](const PatchEdit& edit) { contest.offer(edit); });
 }
 
@@ -91,6 +94,11 @@ std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t
   return contest.take();
 }
 
+bool mendsByCornersAlone(const RepairView& view, const Patch& patch) {
+  return view.shores == nullptr && !view.isFor(Target::Dflowfm) && !view.isFor(Target::Swan) &&
+         !view.isFor(Target::Fesom) && scaleOf(view, patch).turned.empty();
+}
+
 std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,
                                       const Patch& patch) {
   constexpr double kBetterDeg = 0.1;
@@ -101,10 +109,10 @@ std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, s
     const bool changes_it = std::ranges::count(edit.removed, t) > 0 ||
                             std::ranges::any_of(edit.triangles, [t](const EditedTriangle& e) { return e.slot == t; });
     if (!changes_it) return;
-    const EditScore score = scoreOf(view, patch, scale, edit);
-    if (score.defects > 0 || score.made_angle <= std::max(most, score.replaced_angle + kBetterDeg)) return;
+    const std::optional<EditScore> score = scoreAbove(view, patch, scale, edit, {.defects = 1});
+    if (!score || score->made_angle <= std::max(most, score->replaced_angle + kBetterDeg)) return;
     if (!keepsShores(view, edit)) return;
-    most = score.made_angle;
+    most = score->made_angle;
     best = edit;
   };
   const GridCorners& v = view.grid.triangles[t];

@@ -26,6 +26,10 @@ std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const s
 std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
                                          std::span<const std::uint32_t> movable, const Patch& patch);
 
+// Whether nothing but the triangles at its corners says if there is a lengthening of a triangle: not where shores,
+// edges or nodes count that other triangles share, or where triangles of the patch have turned over.
+bool mendsByCornersAlone(const RepairView& view, const Patch& patch);
+
 // For a triangle with a small angle: the move, flip or collapse that leaves the largest smallest angle in what it
 // changes, and no defect more. REQUIRES: as above.
 std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,

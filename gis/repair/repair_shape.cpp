@@ -108,14 +108,20 @@ Attempt reshape(RepairState& state, std::span<const std::uint32_t> inside, const
   return {true, chosen.has_value()};
 }
 
+// Ascending.
+std::vector<std::uint32_t> movableNodes(const RepairState& state, std::span<const std::uint32_t> nodes) {
+  std::vector<std::uint32_t> movable;
+  for (const std::uint32_t node : nodes)
+    if (isMovable(state.view(), node)) movable.push_back(node);
+  std::ranges::sort(movable);
+  return movable;
+}
+
 std::vector<std::uint32_t> movableCorners(const RepairState& state, std::span<const std::uint32_t> triangles) {
   std::set<std::uint32_t> nodes;
   for (const std::uint32_t t : triangles)
     nodes.insert(state.links.mesh.triangles[t].v.begin(), state.links.mesh.triangles[t].v.end());
-  std::vector<std::uint32_t> movable;
-  for (const std::uint32_t node : nodes)
-    if (isMovable(state.view(), node)) movable.push_back(node);
-  return movable;
+  return movableNodes(state, std::vector<std::uint32_t>(nodes.begin(), nodes.end()));
 }
 
 // The triangles at a triangle's corners.
@@ -164,19 +170,25 @@ void lengthenFlowLink(RepairState& state, const FoundDefect& found) {
 
 void lengthenEdges(RepairState& state, const FoundDefect& found) {
   const auto t = static_cast<std::uint32_t>(found.defect.triangle);
-  if (state.hopeless_triangles[t]) return;
-  const std::vector<std::uint32_t> movable = movableCorners(state, std::array{t});
+  if (state.hopeless_triangles[t] || state.stuck[t] || state.isTaken(t)) return;
+  const std::vector<std::uint32_t> movable = movableNodes(state, state.grid.triangles[t]);
+  if (movable.empty()) {  // held by the shore or lines at all corners
+    state.stuck[t] = true;
+    return;
+  }
   const auto patch = untouchedPatch(state, roundOf(state, t));
   if (!patch) return;
   const std::optional<PatchEdit> chosen = bestLengthening(state.view(), t, movable, *patch);
   if (chosen) applyRepair(state, *patch, *chosen, found);
   state.hopeless_triangles[t] = !chosen;
+  state.stuck[t] = !chosen && mendsByCornersAlone(state.view(), *patch);
 }
 
 bool relaxTriangle(RepairState& state, std::uint32_t t) {
   const auto patch = untouchedPatch(state, roundOf(state, t));
   if (!patch) return false;
-  const std::optional<PatchEdit> chosen = bestRelaxing(state.view(), t, movableCorners(state, std::array{t}), *patch);
+  const std::optional<PatchEdit> chosen =
+      bestRelaxing(state.view(), t, movableNodes(state, state.grid.triangles[t]), *patch);
   if (chosen) applyEdit(state, *patch, *chosen);
   return chosen.has_value();
 }

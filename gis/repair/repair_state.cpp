@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "core/metric.hpp"
@@ -11,52 +12,90 @@
 namespace coastmesh {
 namespace {
 
+constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
+
 // What was tried in vain as near to a change as an attempt looks is worth another.
 void forgetNear(RepairState& state) {
   const Grid& grid = state.grid;
-  if (std::ranges::count(state.disturbed, true) == 0) return;
-  std::vector<bool> near(grid.nodes.size(), false);
-  for (std::size_t t = 0; t < state.disturbed.size(); ++t)
-    if (state.disturbed[t])
-      for (const std::uint32_t node : grid.triangles[t]) near[node] = true;
-  const auto isNear = [&near](const GridCorners& corners) {
-    return std::ranges::any_of(corners, [&near](std::uint32_t node) { return near[node]; });
+  std::vector<bool> is_near(grid.nodes.size(), false);
+  std::vector<std::uint32_t> near;
+  const auto addCorners = [&](std::uint32_t t) {
+    for (const std::uint32_t node : grid.triangles[t]) {
+      if (is_near[node]) continue;
+      is_near[node] = true;
+      near.push_back(node);
+    }
   };
+  for (std::uint32_t t = 0; t < state.disturbed.size(); ++t)
+    if (state.disturbed[t]) addCorners(t);
+  std::size_t grown = 0;
   const auto grow = [&] {
-    std::vector<bool> wider = near;
-    for (const GridCorners& corners : grid.triangles)
-      if (isNear(corners))
-        for (const std::uint32_t node : corners) wider[node] = true;
-    near = std::move(wider);
+    const std::size_t end = near.size();
+    for (; grown < end; ++grown)
+      for (const std::uint32_t t : state.links.triangles_at[near[grown]]) addCorners(t);
   };
+  const auto forget = [&](std::vector<bool>& flags) {
+    for (const std::uint32_t node : near)
+      for (const std::uint32_t t : state.links.triangles_at[node]) flags[t] = false;
+  };
+  forget(state.stuck);
   grow();
   grow();
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
-    if (isNear(grid.triangles[t])) state.hopeless_triangles[t] = false;
+  forget(state.hopeless_triangles);
   grow();
-  for (std::size_t node = 0; node < near.size(); ++node)
-    if (near[node]) state.hopeless_nodes[node] = false;
+  for (const std::uint32_t node : near) state.hopeless_nodes[node] = false;
 }
 
-// Lengths on the ground over those of planes that are flat at each triangle.
+// Lengths on the ground over those of planes that are flat at each triangle: of those that are new, or have changed.
 void measureGround(RepairState& state) {
   const Grid& grid = state.grid;
-  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
-  state.metres_per_unit.clear();
-  for (std::size_t t = 0; t < lengths.size(); ++t) {
-    const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
-    const auto shortest = std::ranges::min_element(lengths[t]);
-    const auto i = static_cast<unsigned>(shortest - lengths[t].begin());
-    state.metres_per_unit.push_back(*shortest / distance(p[i], p[next3(i)]));
+  state.metres_per_unit.resize(grid.triangles.size(), kUnmeasured);
+  std::vector<std::size_t> which;
+  std::vector<GridCorners> corners;  // by `nodes`
+  std::vector<Point> nodes;
+  std::vector<std::uint32_t> index(grid.nodes.size(), kNone);
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    if (!std::isnan(state.metres_per_unit[t]) && !state.disturbed[t]) continue;
+    which.push_back(t);
+    GridCorners& v = corners.emplace_back(grid.triangles[t]);
+    for (std::uint32_t& node : v) {
+      if (index[node] == kNone) {
+        index[node] = static_cast<std::uint32_t>(nodes.size());
+        nodes.push_back(grid.nodes[node]);
+      }
+      node = index[node];
+    }
+  }
+  const std::vector<std::array<double, 3>> lengths = edgeLengths(nodes, corners, grid.crs);
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    std::array<Point, 3> p;
+    for (unsigned i = 0; i < 3; ++i) p[i] = nodes[corners[k][i]];
+    flattenLocally(grid.crs, p);
+    const auto shortest = std::ranges::min_element(lengths[k]);
+    const auto i = static_cast<unsigned>(shortest - lengths[k].begin());
+    state.metres_per_unit[which[k]] = *shortest / distance(p[i], p[next3(i)]);
   }
 }
 
-// Flags of what got another index; of what was added since, they are not set.
-std::vector<bool> renumbered(const std::vector<bool>& flags, const std::vector<std::uint32_t>& index_of,
-                             std::size_t count) {
-  std::vector<bool> kept(count, false);
-  for (std::size_t i = 0; i < flags.size(); ++i)
-    if (index_of[i] != kNone) kept[index_of[i]] = flags[i];
+// The nodes' depths, in a mesh that `memory` knows, may have changed since: what lies at such is worth another attempt.
+void recall(const RepairMemory& memory, RepairState& state) {
+  const Grid& grid = state.grid;
+  if (memory.stuck.size() != grid.triangles.size() || memory.z.size() != grid.z.size()) return;
+  state.stuck = memory.stuck;
+  const auto isOther = [&](std::uint32_t node) {
+    return !(memory.z[node] == grid.z[node] || (std::isnan(memory.z[node]) && std::isnan(grid.z[node])));
+  };
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
+    state.disturbed[t] = !grid.z.empty() && std::ranges::any_of(grid.triangles[t], isOther);
+}
+
+// Values of what got another index; `none` of what was added since.
+template <typename T>
+std::vector<T> renumbered(const std::vector<T>& values, const std::vector<std::uint32_t>& index_of, std::size_t count,
+                          T none) {
+  std::vector<T> kept(count, none);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (index_of[i] != kNone) kept[index_of[i]] = values[i];
   return kept;
 }
 
@@ -70,12 +109,35 @@ void addRepair(RepairState& state, const FoundDefect& found, const Point& place,
   state.report.repairs.push_back({found.defect.kind, found.target, place, std::move(what)});
 }
 
+void startRepairs(RepairState& state, const RepairMemory* memory) {
+  state.changed.assign(state.grid.triangles.size(), false);
+  state.hopeless_triangles = state.disturbed = state.stuck = state.changed;
+  state.hopeless_nodes.assign(state.grid.nodes.size(), false);
+  if (memory != nullptr) recall(*memory, state);
+}
+
+RepairMemory memoryOf(const RepairState& state) {
+  const Grid& grid = state.grid;
+  RepairMemory memory{state.stuck, grid.z};
+  std::vector<bool> near(grid.nodes.size(), false);
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
+    if (state.disturbed[t])
+      for (const std::uint32_t node : grid.triangles[t]) near[node] = true;
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
+    if (std::ranges::any_of(grid.triangles[t], [&near](std::uint32_t node) { return near[node]; }))
+      memory.stuck[t] = false;
+  return memory;
+}
+
 void startRound(RepairState& state) {
   const Grid& grid = state.grid;
   GridLinks& links = state.links;
-  std::vector<EdgeConflict> conflicts;
-  links.mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
-  links.triangles_at.assign(grid.nodes.size(), {});
+  if (!state.targets.empty()) {  // the time step looks at nodes alone
+    std::vector<EdgeConflict> conflicts;
+    links.mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
+  }
+  for (std::vector<std::uint32_t>& triangles : links.triangles_at) triangles.clear();  // they keep their memory
+  links.triangles_at.resize(grid.nodes.size());
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
     for (const std::uint32_t node : grid.triangles[t]) links.triangles_at[node].push_back(t);
   links.on_boundary.assign(grid.nodes.size(), false);
@@ -85,19 +147,22 @@ void startRound(RepairState& state) {
     for (const auto& [a, b] : edgesOf({BoundaryRole::Land, line.closed, line.nodes}))
       links.line_edges.insert(edgeKey(a, b));
   forgetNear(state);
+  if (state.options.time_step_s > 0.0) measureGround(state);
   for (std::vector<bool>* flags : {&state.touched, &state.dead, &state.disturbed})
     flags->assign(grid.triangles.size(), false);
   state.smallest_angle.assign(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
-  if (state.options.time_step_s > 0.0) measureGround(state);
+  if (grid.crs.geographic)
+    state.on_sphere.assign(grid.nodes.size(), SphereVector{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
   if (state.options.shore_moves) state.shores.emplace(state.view());
 }
 
 void compact(RepairState& state) {
   const std::vector<std::uint32_t> triangle_index = removeTriangles(state.grid, state.dead);
-  for (std::vector<bool>* flags : {&state.changed, &state.disturbed, &state.hopeless_triangles})
-    *flags = renumbered(*flags, triangle_index, state.grid.triangles.size());
+  for (std::vector<bool>* flags : {&state.changed, &state.disturbed, &state.hopeless_triangles, &state.stuck})
+    *flags = renumbered(*flags, triangle_index, state.grid.triangles.size(), false);
+  state.metres_per_unit = renumbered(state.metres_per_unit, triangle_index, state.grid.triangles.size(), kUnmeasured);
   const std::vector<std::uint32_t> index = removeUnusedNodes(state.grid);
-  state.hopeless_nodes = renumbered(state.hopeless_nodes, index, state.grid.nodes.size());
+  state.hopeless_nodes = renumbered(state.hopeless_nodes, index, state.grid.nodes.size(), false);
   BoundaryKinds kinds;
   for (const auto& [edge, kind] : state.links.kinds)
     if (index[edge[0]] != kNone && index[edge[1]] != kNone) kinds[edgeKey(index[edge[0]], index[edge[1]])] = kind;

@@ -109,6 +109,9 @@ void mend(RepairState& state, const FoundDefect& found) {
   }
 }
 
+// Whether no repair changes an edge of the boundary: they are put together anew once then, when all is done.
+bool keepsBoundaries(const RepairState& state) { return state.targets.empty() && !state.options.shore_moves; }
+
 // Returns whether another round may find more to do. Boundaries that `cutLoops` cannot make right stay so: they are
 // worth one round alone.
 bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool& boundaries_done) {
@@ -124,7 +127,7 @@ bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool
   if (!changed && of_boundaries.empty()) return false;
   if (changed) compact(state);
   const std::size_t boundaries_before = state.grid.boundaries.size();
-  rebuildBoundaries(state);
+  if (!keepsBoundaries(state)) rebuildBoundaries(state);
   reportRebuilt(state, of_boundaries, boundaries_before);
   const bool again = changed || !boundaries_done;
   boundaries_done = true;
@@ -170,20 +173,19 @@ void relax(RepairState& state) {
     if (!any) return;
     if (std::ranges::count(state.dead, true) == 0) continue;
     compact(state);
-    rebuildBoundaries(state);
+    if (!keepsBoundaries(state)) rebuildBoundaries(state);
   }
 }
 
 }  // namespace
 
-RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
+RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
+                              RepairMemory* memory) {
   RepairState state{grid, targets, options};
   std::vector<FoundDefect> defects = findDefects(grid, targets, options);
   if (defects.empty()) return {};
   requireNoWeirs(grid);
-  state.changed.assign(grid.triangles.size(), false);
-  state.hopeless_triangles = state.disturbed = state.changed;
-  state.hopeless_nodes.assign(grid.nodes.size(), false);
+  startRepairs(state, memory);
   state.links.kinds = takeBoundaryKinds(grid);
   bool again = true, boundaries_done = false;
   for (int round = 0; round < kMostRounds && again && !defects.empty(); ++round) {
@@ -194,6 +196,8 @@ RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const
   relax(state);
   for (FoundDefect& found : defects)
     if (found.target) state.report.left.emplace_back(*found.target, std::move(found.defect));
+  if (keepsBoundaries(state) && std::ranges::count(state.changed, true) > 0) rebuildBoundaries(state);
+  if (memory != nullptr) *memory = memoryOf(state);
   measureChanged(grid, state.changed);
   requireConsistent(grid);
   return std::move(state.report);

@@ -10,6 +10,7 @@
 #include "core/quality.hpp"
 #include "gis/model/check_target.hpp"
 #include "gis/repair/repair_shore.hpp"
+#include "gis/repair/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {
@@ -110,7 +111,7 @@ void expectTrueScores(Target target, const Crs& crs) {
     const std::array targets{target};
     std::vector<double> smallest_angle(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
     const std::vector<double> metres(grid.triangles.size(), 1.0);
-    RepairView view{grid, links, targets, smallest_angle, {0.0, 0.0, metres}};
+    RepairView view{grid, links, targets, smallest_angle, {}, {0.0, 0.0, metres}};
     const ShoreIndex shores(view);
     view.shores = &shores;
     const int before = defectsOf(grid, target);
@@ -143,6 +144,132 @@ void expectTrueScores(Target target, const Crs& crs) {
   EXPECT_GT(judged, 200);
   EXPECT_GT(changed, 8);
   EXPECT_GT(collapsed, 100);
+}
+
+// Depths of 10 to 90 m, with which some triangles miss a step of 35 s.
+constexpr double kStep = 35.0;
+Grid shakenSea(unsigned seed, const Crs& crs) {
+  Grid grid = shakenGrid(seed, crs);
+  if (!crs.geographic)
+    for (Point& p : grid.nodes) p = {100'000.0 * p.x, 100'000.0 * p.y};
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> depth(10.0, 90.0);
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) grid.z.push_back(i % 11 == 0 ? 2.0 : -depth(random));
+  return grid;
+}
+
+// Calls `use(view, patch, node)` for inner nodes of shaken seas and the patches round their triangles.
+void forEachInnerNode(std::span<const Target> targets, const Crs& crs, auto&& use) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const Grid grid = shakenSea(seed, crs);
+    if (hasTurned(grid)) continue;
+    const GridLinks links = linksOf(grid);
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> smallest_angle(grid.triangles.size(), kUnknown);
+    std::vector<SphereVector> on_sphere(crs.geographic ? grid.nodes.size() : 0, SphereVector{kUnknown, 0.0, 0.0});
+    const std::vector<double> metres(grid.triangles.size(), 1.001);
+    const RepairView view{grid, links, targets, smallest_angle, on_sphere, {kStep, 0.0, metres}};
+    for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
+      if (isMovable(view, node)) use(view, patchRound(view, links.triangles_at[node]), node);
+  }
+}
+
+std::vector<PatchEdit> movesOf(const RepairView& view, std::uint32_t node) {
+  std::vector<PatchEdit> moves;
+  for (const std::uint32_t other : neighboursOf(view, node))
+    for (const double share : {0.05, 0.3, 0.6}) moves.push_back(moveOf(view, node, other, other, share));
+  return moves;
+}
+
+constexpr std::array<std::array<Target, 1>, 3> kTargetsOfScores{{{Target::Fvcom}, {Target::Swan}, {Target::Dflowfm}}};
+
+// A score is given exactly where it reaches the bar, however soon it is clear that it does not.
+TEST(RepairScore, AboveABarIsTheScoreThatReachesIt) {
+  for (const auto& targets : kTargetsOfScores) {
+    for (const Crs& crs : {Crs{}, wgs84()}) {
+      int above = 0, below = 0;
+      forEachInnerNode(targets, crs, [&](const RepairView& view, const Patch& patch, std::uint32_t node) {
+        const PatchScale scale = scaleOf(view, patch);
+        std::vector<PatchEdit> edits = movesOf(view, node);
+        for (const std::uint32_t other : neighboursOf(view, node))
+          if (auto edit = collapseOf(view, node, other, 0.0)) edits.push_back(std::move(*edit));
+        EditScore last = scoreOf(scale);
+        for (const PatchEdit& edit : edits) {
+          const EditScore whole = scoreOf(view, patch, scale, edit);
+          for (const double angle : {0.0, 10.0, 33.0}) {
+            for (const EditScore* const best : std::array<const EditScore*, 2>{nullptr, &last}) {
+              const ScoreBar bar{angle < 20.0 ? 1 : 0, angle, best};
+              const auto score = scoreAbove(view, patch, scale, edit, bar);
+              ASSERT_EQ(score.has_value(), whole.defects != kTurnedOver && bar.isReachedBy(whole));
+              ++(score ? above : below);
+              if (!score) continue;
+              EXPECT_EQ(score->defects, whole.defects);
+              EXPECT_EQ(score->min_angle, whole.min_angle);
+              EXPECT_EQ(score->made_angle, whole.made_angle);
+              EXPECT_EQ(score->replaced_angle, whole.replaced_angle);
+            }
+          }
+          if (whole.defects != kTurnedOver) last = whole;
+        }
+      });
+      EXPECT_GT(above, 500);
+      EXPECT_GT(below, 5000);
+    }
+  }
+}
+
+TEST(RepairScore, NoMoveMendsWhereNoneMay) {
+  for (const auto& targets : kTargetsOfScores) {
+    for (const Crs& crs : {Crs{}, wgs84()}) {
+      int hopeless = 0, mended = 0;
+      forEachInnerNode(targets, crs, [&](const RepairView& view, const Patch& patch, std::uint32_t node) {
+        const PatchScale scale = scaleOf(view, patch);
+        const bool may = moveMayMend(view, scale, node);
+        hopeless += !may;
+        for (const PatchEdit& edit : movesOf(view, node)) {
+          const int defects = scoreOf(view, patch, scale, edit).defects;
+          mended += defects < 0;
+          EXPECT_TRUE(may || defects >= 0) << node;
+        }
+      });
+      EXPECT_GT(mended, 10);
+      // Centres of triangles beside a node may come apart by any move.
+      if (targets[0] != Target::Dflowfm) {
+        EXPECT_GT(hopeless, 10);
+      }
+    }
+  }
+}
+
+// Depths that are read anew between two calls, as they are for nodes that repairs moved.
+TEST(RepairScore, MemoryOfTheLastRepairsChangesNoResult) {
+  const RepairOptions options{.time_step_s = kStep};
+  std::size_t first = 0, second = 0, stuck = 0;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    Grid knowing = shakenSea(seed, wgs84());
+    if (hasTurned(knowing)) continue;
+    Grid other = knowing;
+    RepairMemory memory;
+    first += repairForTargets(knowing, {}, options, &memory).repairs.size();
+    repairForTargets(other, {}, options);
+    ASSERT_EQ(memory.stuck.size(), knowing.triangles.size());
+    stuck += static_cast<std::size_t>(std::ranges::count(memory.stuck, true));
+    for (std::size_t i = seed % 5; i < knowing.z.size(); i += 5) knowing.z[i] = other.z[i] = -12.0;
+    const RepairReport with = repairForTargets(knowing, {}, options, &memory);
+    const RepairReport without = repairForTargets(other, {}, options);
+    EXPECT_EQ(with.repairs.size(), without.repairs.size());
+    second += with.repairs.size();
+    EXPECT_EQ(knowing.nodes, other.nodes);
+    EXPECT_EQ(knowing.triangles, other.triangles);
+    EXPECT_EQ(knowing.z, other.z);
+    // The shore is as it was, and said so.
+    for (const TargetDefect& defect : checkTarget(knowing, Target::Adcirc))
+      EXPECT_TRUE(defect.kind != TargetDefectKind::NoBoundary && defect.kind != TargetDefectKind::StrayBoundary)
+          << toString(defect.kind);
+  }
+  EXPECT_GT(first, 20u);
+  EXPECT_GT(second, 5u);
+  EXPECT_GT(stuck, 100u);
 }
 
 TEST(RepairScore, IsWhatTheWholeMeshGains) {
