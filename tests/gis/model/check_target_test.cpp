@@ -165,6 +165,23 @@ TEST(CheckTarget, PinchedNode) {
   }
 }
 
+// A node is doubled in a round in which its triangles ask for longer edges too.
+TEST(CheckTarget, PinchedNodeOfTrianglesThatMissTheStep) {
+  const TriMesh mesh = lattice(
+      9, 9, [](int i, int j) { return ((i / 3) + (j / 3)) % 2 == 0; },
+      [](int i, int j) {
+        return Point{1000.0 * i - 500.0 * j, 866.0 * j};
+      });
+  Grid grid;
+  grid.nodes = mesh.points;
+  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  grid.z.assign(grid.nodes.size(), -20.0);
+  grid.boundaries = findBoundaries(mesh);
+  repairForTargets(grid, std::array{Target::Adcirc}, {.time_step_s = 1000.0});
+  EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{});
+  EXPECT_EQ(checkTimeStep(grid, 1000.0).size(), grid.triangles.size());
+}
+
 TEST(CheckTarget, OrphanCell) {
   Grid grid = soundGrid();
   const auto first = static_cast<std::uint32_t>(grid.nodes.size());
