@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace coastmesh {
@@ -34,20 +35,39 @@ std::uint64_t keyOf(double coordinate, std::uint32_t row) {
 }
 std::uint32_t rowOf(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
 
-// By stretches, then by merging two and two of them.
+using Keys = std::span<const std::uint64_t>;
+
+// How many of the first so many keys of two sorted lists are of the first list. All keys differ.
+std::size_t shareOfFirst(Keys one, Keys other, std::size_t count) {
+  std::size_t low = count - std::min(count, other.size()), high = std::min(count, one.size());
+  while (low < high) {
+    const std::size_t middle = low + (high - low) / 2;
+    if (one[middle] < other[count - middle - 1])
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// By stretches, then by merging two and two of them, each stretch of what comes of it apart.
 void sortKeys(std::vector<std::uint64_t>& keys, const ItemLoop& loop) {
   constexpr std::size_t kStretch = 65536;
-  const auto at = [&keys](std::size_t i) {
-    return keys.begin() + static_cast<std::ptrdiff_t>(std::min(i, keys.size()));
+  const std::size_t count = keys.size(), stretches = (count + kStretch - 1) / kStretch;
+  const auto range = [&](std::size_t first, std::size_t length) {
+    return std::span(keys).subspan(std::min(first, count), std::min(length, count - std::min(first, count)));
   };
-  loop((keys.size() + kStretch - 1) / kStretch,
-       [&](std::size_t s) { std::sort(at(s * kStretch), at((s + 1) * kStretch)); });
-  std::vector<std::uint64_t> merged(keys.size() > kStretch ? keys.size() : 0);
-  for (std::size_t width = kStretch; width < keys.size(); width *= 2) {
-    loop((keys.size() + 2 * width - 1) / (2 * width), [&](std::size_t pair) {
-      const std::size_t first = pair * 2 * width;
-      std::merge(at(first), at(first + width), at(first + width), at(first + 2 * width),
-                 merged.begin() + static_cast<std::ptrdiff_t>(first));
+  loop(stretches, [&](std::size_t s) { std::ranges::sort(range(s * kStretch, kStretch)); });
+  std::vector<std::uint64_t> merged;
+  if (stretches > 1) resizeAnew(loop, merged, count);
+  for (std::size_t width = kStretch; width < count; width *= 2) {
+    loop(stretches, [&](std::size_t s) {
+      const std::size_t pair = s * kStretch / (2 * width) * (2 * width), from = s * kStretch - pair;
+      const Keys one = range(pair, width), other = range(pair + width, width);
+      const std::size_t to = std::min(from + kStretch, one.size() + other.size());
+      const std::size_t first = shareOfFirst(one, other, from), last = shareOfFirst(one, other, to);
+      std::ranges::merge(one.subspan(first, last - first), other.subspan(from - first, to - last - (from - first)),
+                         merged.begin() + static_cast<std::ptrdiff_t>(s * kStretch));
     });
     keys.swap(merged);
   }
@@ -57,7 +77,8 @@ void sortKeys(std::vector<std::uint64_t>& keys, const ItemLoop& loop) {
 // rows make compact nodes. Sums of sides stand for middles.
 std::vector<std::uint32_t> tileOrder(std::uint32_t rows, const std::function<IndexBox(std::uint32_t)>& box,
                                      const ItemLoop& loop) {
-  std::vector<std::uint64_t> keys(rows);
+  std::vector<std::uint64_t> keys;
+  resizeAnew(loop, keys, rows);
   forEachByStretches(loop, rows, [&](std::size_t i) {
     const auto row = static_cast<std::uint32_t>(i);
     const IndexBox of = box(row);
@@ -66,7 +87,8 @@ std::vector<std::uint32_t> tileOrder(std::uint32_t rows, const std::function<Ind
   sortKeys(keys, loop);
   const double nodes = std::ceil(static_cast<double>(rows) / static_cast<double>(kCells));
   const std::size_t slice = static_cast<std::size_t>(std::ceil(std::sqrt(nodes))) * kCells;
-  std::vector<std::uint32_t> order(rows);
+  std::vector<std::uint32_t> order;
+  resizeAnew(loop, order, rows);
   loop((rows + slice - 1) / slice, [&](std::size_t s) {
     const std::size_t first = s * slice, last = std::min<std::size_t>(rows, first + slice);
     for (std::size_t i = first; i < last; ++i) {
@@ -85,7 +107,7 @@ GeoPackageIndex::GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std:
     : box_(std::move(box)) {
   if (rows == 0) return;
   order_ = tileOrder(rows, box_, loop);
-  place_.resize(rows);
+  resizeAnew(loop, place_, rows);
   forEachByStretches(loop, rows, [&](std::size_t i) { place_[order_[i]] = static_cast<std::uint32_t>(i); });
   const auto unite = [](std::int64_t id, const std::vector<Cell>& cells) {
     Cell all{id, cells.front().box};
@@ -164,9 +186,9 @@ std::uint64_t GeoPackageIndex::parentOf(std::uint64_t node) const {
 void GeoPackageIndex::addTables(const Roots& roots, std::vector<SqliteTable>& tables) const {
   if (order_.empty()) return;
   tables.push_back({roots.nodes, countOfNodes(), 1, [this](std::uint64_t i, SqliteRow& row) {
-                      const std::array<std::byte, kNodeBytes> bytes = bytesOf(i + 1);
                       row.null();
-                      std::ranges::copy(bytes, row.blob(bytes.size()).begin());
+                      if (const std::span<std::byte> to = row.blob(kNodeBytes); !to.empty())
+                        std::ranges::copy(bytesOf(i + 1), to.begin());
                     }});
   tables.push_back({roots.rows, order_.size(), 1, [this](std::uint64_t i, SqliteRow& row) {
                       row.null();

@@ -26,6 +26,10 @@ std::size_t varintSize(std::uint64_t value) {
 
 // Groups of seven bits, the highest first, all but the last marked; nine bytes end with eight bits.
 std::byte* putVarint(std::byte* to, std::uint64_t value) {
+  if (value < 128) {
+    *to = static_cast<std::byte>(value);
+    return to + 1;
+  }
   const std::size_t size = varintSize(value);
   std::size_t at = size;
   if (size == 9) {
@@ -106,7 +110,7 @@ Leaves layOut(const SqliteTable& table, const std::string& path, const ItemLoop&
   static_assert(kLargestSqliteRow <= std::numeric_limits<std::uint16_t>::max());
   std::vector<std::uint16_t> sizes(table.rows);
   forStretches(loop, table.rows, [&](std::size_t first, std::size_t last) {
-    SqliteRow row;
+    SqliteRow row(SqliteRow::Keeps::Size);
     for (std::size_t i = first; i < last; ++i) {
       row.clear();
       table.make(i, row);
@@ -219,7 +223,7 @@ class TableWriter {
   // multiples of their size.
   FilePart partOf(std::uint64_t page, std::uint64_t leaf, std::uint64_t count) const {
     const auto fill = [this, leaf](std::uint64_t first, std::span<std::byte> bytes) {
-      SqliteRow row;
+      SqliteRow row(SqliteRow::Keeps::Values);
       for (std::uint64_t at = 0; at < bytes.size(); at += kPage)
         fillLeaf(table_, leaves_, leaf + (first + at) / kPage, row, bytes.data() + at);
     };
@@ -253,40 +257,36 @@ struct DatabaseHeader {
 }  // namespace
 
 void SqliteRow::type(std::uint64_t serial) {
-  const std::size_t size = varintSize(serial), at = header_.size();
-  header_.resize(at + size);
-  putVarint(header_.data() + at, serial);
+  const std::span<std::byte> to = room(header_, header_size_, varintSize(serial));
+  if (!to.empty()) putVarint(to.data(), serial);
 }
 
 void SqliteRow::bigEndian(std::uint64_t value, unsigned bytes) {
-  const std::size_t at = body_.size();
-  body_.resize(at + bytes);
-  putBigEndian(body_.data() + at, value, bytes);
+  const std::span<std::byte> to = room(body_, body_size_, bytes);
+  if (!to.empty()) putBigEndian(to.data(), value, bytes);
 }
 
 void SqliteRow::whole(std::int64_t value) {
   if (value == 0 || value == 1) return type(value == 0 ? 8 : 9);
-  constexpr std::array<unsigned, 6> kSizes{1, 2, 3, 4, 6, 8};
   const auto bits = static_cast<std::uint64_t>(value);
-  for (std::size_t i = 0; i < kSizes.size(); ++i) {
-    const unsigned shift = 64 - 8 * kSizes[i];
-    if (static_cast<std::int64_t>(bits << shift) >> shift != value) continue;
-    type(i + 1);
-    return bigEndian(bits, kSizes[i]);
-  }
+  const auto width = static_cast<unsigned>(std::bit_width(value < 0 ? ~bits : bits)) + 1;  // with the sign
+  constexpr std::array<unsigned, 6> kSizes{1, 2, 3, 4, 6, 8};
+  const auto size = std::ranges::find_if(kSizes, [&](unsigned bytes) { return width <= 8 * bytes; });
+  type(static_cast<std::uint64_t>(size - kSizes.begin()) + 1);
+  bigEndian(bits, *size);
 }
 
 // The length counts itself; headers of more than 127 bytes say so in two.
 std::size_t SqliteRow::size() const {
-  const std::size_t own = varintSize(header_.size() + 1);
-  return own + header_.size() + body_.size();
+  const std::size_t own = varintSize(header_size_ + 1);
+  return own + header_size_ + body_size_;
 }
 
 void SqliteRow::copyTo(std::byte* bytes) const {
-  const std::size_t own = varintSize(header_.size() + 1);
-  bytes = putVarint(bytes, header_.size() + own);
-  bytes = std::ranges::copy(header_, bytes).out;
-  std::ranges::copy(body_, bytes);
+  const std::size_t own = varintSize(header_size_ + 1);
+  bytes = putVarint(bytes, header_size_ + own);
+  bytes = std::copy_n(header_.begin(), header_size_, bytes);
+  std::copy_n(body_.begin(), body_size_, bytes);
 }
 
 void writeSqliteTables(const std::string& path, const std::vector<SqliteTable>& tables, const ItemLoop& loop) {

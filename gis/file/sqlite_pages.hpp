@@ -1,29 +1,41 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/item_loop.hpp"
 
 namespace coastmesh {
 
-// Writes a number's last so many bytes and gives what comes behind them.
+// Writes a number's last so many bytes, eight at most, and gives what comes behind them.
 inline std::byte* putBigEndian(std::byte* to, std::uint64_t value, unsigned bytes) {
-  for (unsigned i = 0; i < bytes; ++i) *to++ = static_cast<std::byte>(value >> (8 * (bytes - 1 - i)) & 255);
-  return to;
+  static_assert(std::endian::native == std::endian::little);
+  const std::uint64_t turned = __builtin_bswap64(value) >> (64 - 8 * bytes);
+  std::memcpy(to, &turned, bytes);
+  return to + bytes;
 }
 
+// The most that a row may have, in bytes, in a file with pages of 4096; what is larger goes another way into SQLite.
+inline constexpr std::size_t kLargestSqliteRow = 4000;
+
 // A row of a table as SQLite keeps it ("Database File Format", 2.1): one value after another, in the table's order of
-// columns. A column that is the row's number is null.
+// columns. A column that is the row's number is null. Of some rows only the size is asked for: no value is kept then.
 class SqliteRow {
  public:
+  enum class Keeps { Values, Size };
+
+  explicit SqliteRow(Keeps keeps) : keeps_values_(keeps == Keeps::Values) {}
+
   void null() { type(0); }
   void whole(std::int64_t value);
   void real(double value) {
@@ -31,12 +43,14 @@ class SqliteRow {
     bigEndian(std::bit_cast<std::uint64_t>(value), 8);
   }
   void text(std::string_view value) {
-    std::ranges::copy(std::as_bytes(std::span(value)), bytes(13 + 2 * value.size(), value.size()).begin());
+    const std::span<std::byte> to = bytes(13 + 2 * value.size(), value.size());
+    std::ranges::copy(std::as_bytes(std::span(value)).first(to.size()), to.begin());
   }
-  std::span<std::byte> blob(std::size_t size) { return bytes(12 + 2 * size, size); }  // to be filled at once
+  // To be filled at once; empty where the size alone is asked for.
+  std::span<std::byte> blob(std::size_t size) { return bytes(12 + 2 * size, size); }
 
-  void clear() { header_.clear(), body_.clear(); }  // keeps its memory
-  std::size_t size() const;                         // of all, with the header's own length
+  void clear() { header_size_ = body_size_ = 0; }
+  std::size_t size() const;  // of all, with the header's own length
   void copyTo(std::byte* bytes) const;
 
  private:
@@ -44,11 +58,17 @@ class SqliteRow {
   void bigEndian(std::uint64_t value, unsigned bytes);
   std::span<std::byte> bytes(std::uint64_t serial, std::size_t size) {
     type(serial);
-    body_.resize(body_.size() + size);
-    return std::span(body_).last(size);
+    return room(body_, body_size_, size);
+  }
+  // The next bytes of a part; of a row that would be too large, or of which the size alone is asked for, none.
+  std::span<std::byte> room(std::array<std::byte, kLargestSqliteRow>& part, std::size_t& used, std::size_t size) const {
+    const std::size_t at = std::exchange(used, used + size);
+    return keeps_values_ && used <= part.size() ? std::span(part).subspan(at, size) : std::span<std::byte>();
   }
 
-  std::vector<std::byte> header_, body_;
+  bool keeps_values_;
+  std::size_t header_size_ = 0, body_size_ = 0;
+  std::array<std::byte, kLargestSqliteRow> header_, body_;  // set as far as they are used
 };
 
 // The rows of a table that is to have no others, numbered from `first` on.
@@ -56,11 +76,9 @@ struct SqliteTable {
   std::uint64_t root = 0;  // the page that the table begins in, as sqlite_master says
   std::uint64_t rows = 0;
   std::int64_t first = 1;
-  std::function<void(std::uint64_t i, SqliteRow& row)> make;  // from several threads at the same time
+  // From several threads at the same time; of each row first for its size, later for its values.
+  std::function<void(std::uint64_t i, SqliteRow& row)> make;
 };
-
-// The most that a row may have, in bytes, in a file with pages of 4096; what is larger goes another way into SQLite.
-inline constexpr std::size_t kLargestSqliteRow = 4000;
 
 // Puts rows into a database that no program has open, in place of those that the tables have: their pages are made by
 // all threads and written past SQLite, which takes one row after another. Not for tables with indices besides the order

@@ -107,7 +107,9 @@ class LayerRows {
 
   void putPoint(std::size_t row, std::int32_t srs_id, SqliteRow& to) const {
     const bool has_z = !grid_.z.empty();
-    ByteCursor bytes(to.blob(kHeaderBytes + kShapeBytes + kPlaceBytes + (has_z ? sizeof(double) : 0)));
+    const std::span<std::byte> blob = to.blob(kHeaderBytes + kShapeBytes + kPlaceBytes + (has_z ? sizeof(double) : 0));
+    if (blob.empty()) return;
+    ByteCursor bytes(blob);
     putHeader(bytes, srs_id, std::nullopt);
     bytes.put(kLittleEndian);
     bytes.put(has_z ? kPointZ : kPoint);
@@ -127,8 +129,10 @@ class LayerRows {
   }
 
   void putTriangle(std::size_t row, std::int32_t srs_id, SqliteRow& to) const {
+    const std::span<std::byte> blob = to.blob(kHeaderBytes + kBoxBytes + polygonBytes(3));
+    if (blob.empty()) return;
     const std::array<Point, 3> corners = cornersOf(row);
-    ByteCursor bytes(to.blob(kHeaderBytes + kBoxBytes + polygonBytes(corners.size())));
+    ByteCursor bytes(blob);
     putHeader(bytes, srs_id, boxOf(corners));
     putPolygon(corners, bytes);
   }
@@ -136,7 +140,9 @@ class LayerRows {
   static void putParts(const std::vector<MapCutter::Ring>& parts, std::int32_t srs_id, SqliteRow& to) {
     std::size_t size = kHeaderBytes + kBoxBytes + kShapeBytes + 4;
     for (const MapCutter::Ring& ring : parts) size += polygonBytes(ring.size());
-    ByteCursor bytes(to.blob(size));
+    const std::span<std::byte> blob = to.blob(size);
+    if (blob.empty()) return;
+    ByteCursor bytes(blob);
     putHeader(bytes, srs_id, boxOfParts(parts));
     bytes.put(kLittleEndian);
     bytes.put(kMultiPolygon);

@@ -7,6 +7,7 @@
 
 #include "gis/format/write_ogr.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
 namespace {
@@ -76,6 +77,24 @@ TEST_P(GeoPackageIndexTest, FindsWhatLiesInABox) {
     for (const auto& feature : *layer) found += feature->GetFID() > 0;
     EXPECT_EQ(found, std::ranges::count_if(grid.nodes, inside));
   }
+}
+
+// So many that they are sorted by several threads, and merged twice.
+TEST(GeoPackageIndex, OfManyRowsIsSound) {
+  const TemporaryFolder folder;
+  writeGeoPackage(sampleGrid(wgs84(), {-87.5, 43.1}, 0.0001, 200), folder / "lakes.gpkg", testing::backwards);
+  const DatasetPtr dataset = open(folder / "lakes.gpkg");
+  const std::string rows = ask(*dataset, "SELECT count(*) FROM triangles");
+  EXPECT_GT(std::stoi(rows), 2 * 65536);
+  EXPECT_EQ(ask(*dataset, "SELECT count(DISTINCT id) FROM rtree_triangles_geom"), rows);
+  EXPECT_EQ(checkIndex(*dataset, "triangles"), "ok");
+  // In slices: few nodes of the tree lie about any one place.
+  const int nodes =
+      std::stoi(ask(*dataset,
+                    "SELECT count(DISTINCT nodeno) FROM rtree_triangles_geom_rowid WHERE rowid IN (SELECT id FROM "
+                    "rtree_triangles_geom WHERE minx < -87.48 AND maxx > -87.481 AND miny < 43.11 AND maxy > 43.109)"));
+  EXPECT_GE(nodes, 1);
+  EXPECT_LE(nodes, 20);
 }
 
 // Whoever edits the file finds an index that follows.
