@@ -62,11 +62,17 @@ void reserveOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count
   forStretches(loop, (bytes - used) / kPage, touch, 64);
 }
 
+// Frees the memory of a list, which `items = {}` keeps.
+template <typename Item>
+void freeMemoryOf(std::vector<Item>& items) {
+  items = std::vector<Item>();
+}
+
 // Makes room for `count` items, all of which are to be written anew, and some more.
 template <typename Item>
 void resizeAnew(const ItemLoop& loop, std::vector<Item>& items, std::size_t count) {
   if (count > items.capacity()) {
-    items = {};
+    freeMemoryOf(items);
     reserveOn(loop, items, count + count / 8);
   }
   items.resize(count);

@@ -212,7 +212,7 @@ class Rounds {
       work.request = [&](std::size_t i) {
         MeshState& state = pieces[order[i]].state;
         std::string request = requestFor(taskAt(i), state);
-        state.mesh.triangles = {};
+        freeMemoryOf(state.mesh.triangles);
         return request;
       };
       work.take = [&](std::size_t i, Reply&& reply) {

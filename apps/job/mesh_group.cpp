@@ -227,10 +227,11 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
     });
     markRegions(input.coastline(), members, domain.projection, mesh, names);
   }
-  Grid grid = makeGridWithoutAreas(
-      {{&domain, &mesh, size_m.empty() ? nullptr : &size_m, ground.empty() ? nullptr : &ground}}, names, loop);
+  const MeshedDomain part{&domain, &mesh, size_m.empty() ? nullptr : &size_m, ground.empty() ? nullptr : &ground,
+                          [&mesh] { freeMemoryOf(mesh.triangles); }};
+  Grid grid = makeGridWithoutAreas({part}, names, loop);
   mesh = {};
-  size_m = {};
+  freeMemoryOf(size_m);
   ground = {};
   grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);
   grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
@@ -386,7 +387,7 @@ MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&
   }
   result.mesh_s = region.seconds;
   result.refine = std::move(region.stats);
-  result.refine.unresolved = {};
+  freeMemoryOf(result.refine.unresolved);
   result.pieces = region.pieces;
   result.log.append(std::move(region.log));
   return region;

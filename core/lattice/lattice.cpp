@@ -107,7 +107,7 @@ std::vector<std::vector<Span>> byRow(std::vector<std::vector<Span>>&& lists, std
   for (std::size_t b = 0; b < counts.size(); ++b) of_row[b].reserve(counts[b]);
   for (auto& list : lists) {
     for (const Span& s : list) of_row[static_cast<std::size_t>(s.row)].push_back(s);
-    list = {};
+    freeMemoryOf(list);
   }
   return of_row;
 }

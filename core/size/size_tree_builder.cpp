@@ -422,8 +422,8 @@ class SizeTreeBuilder {
       for (std::size_t k = 0; k < kOwn.size(); ++k) leaf_vertices_[l][kOwn[k]] = own_vertices_[known_[c]][k];
       findMiddles(static_cast<std::uint32_t>(l));
     });
-    known_ = {};
-    own_vertices_ = {};
+    freeMemoryOf(known_);
+    freeMemoryOf(own_vertices_);
     putInOrder();
     sizes_.size.reserve(sizes_.own.capacity());
     sizes_.source.reserve(sizes_.own.capacity());

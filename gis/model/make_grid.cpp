@@ -31,21 +31,24 @@ LongitudeRange rangeOf(const std::vector<Point>& input) {
   return {(least.x + greatest.x) / 2.0 - 180.0};
 }
 
-// Appends the used points of `part` and returns the new index of each, kNone for the unused.
-std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic, const ItemLoop& loop,
-                                       std::vector<Point>& nodes) {
+// The index in the grid of each point of a mesh that is used, from `next` on, kNone for the others.
+std::vector<std::uint32_t> nodeIndices(const TriMesh& mesh, std::uint32_t next, const ItemLoop& loop) {
+  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  std::vector<std::uint32_t> index_of;
+  reserveOn(loop, index_of, mesh.points.size());
+  for (const std::uint8_t is_used : used) index_of.push_back(is_used ? next++ : kNone);
+  return index_of;
+}
+
+void appendNodes(const MeshedDomain& part, bool geographic, const std::vector<std::uint32_t>& index_of,
+                 const ItemLoop& loop, std::vector<Point>& nodes) {
   const Domain& domain = *part.domain;
   const TriMesh& mesh = *part.mesh;
   assert(domain.input_points.size() == mesh.input_vertices);
   // Coordinates that were meshed as they are stay as they are.
   const bool shifts = geographic && !domain.projection.isIdentity();
   const LongitudeRange range = shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
-  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
-  std::vector<std::uint32_t> index_of;
-  reserveOn(loop, index_of, mesh.points.size());
-  auto count = static_cast<std::uint32_t>(nodes.size());
-  for (const std::uint8_t is_used : used) index_of.push_back(is_used ? count++ : kNone);
-  nodes.resize(count);
+  nodes.resize(nodes.size() + index_of.size() - static_cast<std::size_t>(std::ranges::count(index_of, kNone)));
   forEachByStretches(loop, mesh.points.size(), [&](std::size_t v) {
     if (index_of[v] == kNone) return;
     Point& node = nodes[index_of[v]];
@@ -56,18 +59,27 @@ std::vector<std::uint32_t> appendNodes(const MeshedDomain& part, bool geographic
       if (shifts) node.x = range.bring(node.x);
     }
   });
-  return index_of;
 }
 
-void appendTriangles(const TriMesh& mesh, const GroundPlaces* ground, const std::vector<std::uint32_t>& index_of,
-                     const std::vector<std::uint32_t>& feature_index, const ItemLoop& loop, Grid& grid) {
-  const std::size_t before = grid.triangles.size(), after = before + mesh.triangles.size();
-  grid.triangles.resize(after);
+// Appends corners, in the mesh's own numbers.
+void appendCorners(const TriMesh& mesh, const ItemLoop& loop, Grid& grid) {
+  const std::size_t before = grid.triangles.size();
+  grid.triangles.resize(before + mesh.triangles.size());
+  forEachByStretches(loop, mesh.triangles.size(),
+                     [&](std::size_t t) { grid.triangles[before + t] = mesh.triangles[t].v; });
+}
+
+// Of the triangles from `before` on, whose corners it numbers as the grid does. The mesh's triangles are gone.
+void finishTriangles(const TriMesh& mesh, const GroundPlaces* ground, const std::vector<std::uint32_t>& index_of,
+                     const std::vector<std::uint32_t>& feature_index, const ItemLoop& loop, std::size_t before,
+                     Grid& grid) {
+  const std::size_t after = grid.triangles.size();
   if (!feature_index.empty()) grid.feature_of.resize(after);
   grid.min_angle_deg.resize(after);
-  forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
-    const auto& [a, b, c] = mesh.triangles[t].v;
-    grid.triangles[before + t] = {index_of[a], index_of[b], index_of[c]};
+  forEachByStretches(loop, after - before, [&](std::size_t t) {
+    auto& corners = grid.triangles[before + t];
+    const auto [a, b, c] = corners;
+    corners = {index_of[a], index_of[b], index_of[c]};
     if (!feature_index.empty()) grid.feature_of[before + t] = feature_index[static_cast<std::size_t>(mesh.regions[t])];
     grid.min_angle_deg[before + t] = ground == nullptr
                                          ? leastAngleDeg(mesh.points[a], mesh.points[b], mesh.points[c])
@@ -194,28 +206,34 @@ Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastlin
     triangle_count += part.mesh->triangles.size();
     point_count += part.mesh->points.size();
   }
-  reserveOn(loop, grid.nodes, point_count);
-  reserveOn(loop, grid.triangles, triangle_count);
-  reserveOn(loop, grid.min_angle_deg, triangle_count);
   const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, loop, grid.features);
-  if (!feature_index.empty()) reserveOn(loop, grid.feature_of, triangle_count);
+  reserveOn(loop, grid.triangles, triangle_count);
   for (const MeshedDomain& part : parts) {
-    const std::vector<std::uint32_t> index_of = appendNodes(part, grid.crs.geographic, loop, grid.nodes);
+    const std::vector<std::uint32_t> index_of =
+        nodeIndices(*part.mesh, static_cast<std::uint32_t>(grid.nodes.size()), loop);
+    const std::size_t before = grid.triangles.size();
+    appendCorners(*part.mesh, loop, grid);
+    appendLines(*part.domain, *part.mesh, index_of, grid.lines);
+    std::vector<Boundary> boundaries;
+    const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh, loop);
+    for (Boundary& whole : findBoundaries(*part.mesh, loop))
+      std::ranges::move(splitLoop(std::move(whole), open), std::back_inserter(boundaries));
+    if (part.triangles_done) part.triangles_done();
+    reserveOn(loop, grid.nodes, point_count);
+    reserveOn(loop, grid.min_angle_deg, triangle_count);
+    if (!feature_index.empty()) reserveOn(loop, grid.feature_of, triangle_count);
+    appendNodes(part, grid.crs.geographic, index_of, loop, grid.nodes);
     if (part.size_m != nullptr) {
       grid.size_m.resize(grid.nodes.size());
       for (std::size_t v = 0; v < index_of.size(); ++v)
         if (index_of[v] != kNone) grid.size_m[index_of[v]] = (*part.size_m)[v];
     }
-    appendTriangles(*part.mesh, part.ground, index_of, feature_index, loop, grid);
-    appendLines(*part.domain, *part.mesh, index_of, grid.lines);
-    const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh, loop);
-    for (Boundary& whole : findBoundaries(*part.mesh, loop)) {
-      for (Boundary& boundary : splitLoop(std::move(whole), open)) {
-        for (std::uint32_t& node : boundary.nodes) node = index_of[node];
-        if (boundary.closed && boundary.role != BoundaryRole::Open)
-          boundary.role = roleByArea(grid.nodes, boundary.nodes, grid.crs).value_or(boundary.role);
-        grid.boundaries.push_back(std::move(boundary));
-      }
+    finishTriangles(*part.mesh, part.ground, index_of, feature_index, loop, before, grid);
+    for (Boundary& boundary : boundaries) {
+      for (std::uint32_t& node : boundary.nodes) node = index_of[node];
+      if (boundary.closed && boundary.role != BoundaryRole::Open)
+        boundary.role = roleByArea(grid.nodes, boundary.nodes, grid.crs).value_or(boundary.role);
+      grid.boundaries.push_back(std::move(boundary));
     }
   }
   return grid;
