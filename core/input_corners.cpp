@@ -45,15 +45,17 @@ class Constraints {
     // What lattices make comes last and has none.
     VertexId end = 0;
     for (const Link& l : links_) end = std::max({end, l.a + 1, l.b + 1});
-    first_.assign(end + 1, 0);
+    reserveOn(loop, first_, std::size_t{end} + 1);
+    first_.assign(std::size_t{end} + 1, 0);
     for (const Link& l : links_) {
-      ++first_[l.a + 1];
-      ++first_[l.b + 1];
+      ++first_[l.a];
+      ++first_[l.b];
     }
+    // The ends first, from which those of each are put in backwards.
     for (VertexId v = 0; v < end; ++v) first_[v + 1] += first_[v];
     at_.resize(2 * links_.size());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t l = 0; l < links_.size(); ++l) at_[next[links_[l].a]++] = at_[next[links_[l].b]++] = l;
+    for (auto l = static_cast<std::uint32_t>(links_.size()); l-- > 0;)
+      at_[--first_[links_[l].b]] = at_[--first_[links_[l].a]] = l;
     nameChains();
   }
 

@@ -91,7 +91,9 @@ EdgeRef nextOnBoundary(const TriMesh& mesh, EdgeRef e) {
 // For every edge of the boundary, ascending, the place in the list of the one that follows it.
 std::vector<std::uint32_t> followersOf(const TriMesh& mesh, std::span<const EdgeRef> boundary, const ItemLoop& loop) {
   constexpr std::uint32_t kSeveral = kNone - 1;
-  std::vector<std::uint32_t> leaving(mesh.points.size(), kNone);
+  std::vector<std::uint32_t> leaving;
+  reserveOn(loop, leaving, mesh.points.size());
+  leaving.assign(mesh.points.size(), kNone);
   for (std::uint32_t i = 0; i < boundary.size(); ++i) {
     std::uint32_t& slot = leaving[mesh.origin(boundary[i])];
     slot = slot == kNone ? i : kSeveral;

@@ -200,7 +200,7 @@ void mendBesideCores(MeshedRegion& region, std::vector<TriId> bad, const Pslg& p
     add(std::move(report));
     Recorder after;
     bad = trianglesInViolation(solved, options, notes.corners.get(), after.loop("stitch", control));
-    const std::vector<TriId> number = putBack(mesh, patch, solved);
+    const std::vector<TriId> number = putBack(mesh, patch, solved, after.loop("stitch", control));
     for (TriId& t : bad) t = number[t];
     region.log.append(after.finish("stitch"));
     if (is_full) break;
@@ -282,14 +282,18 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   }
   Recorder recorder;
   const ItemLoop label = recorder.loop("label", control);
-  if (options.cap.empty()) {
-    if (options.list_violations) region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
-    labelRegions(region.mesh, pslg);
-  }
+  if (options.cap.empty() && options.list_violations)
+    region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
+  // Each of the two is work of one thread.
+  label(2, [&](std::size_t i) {
+    if (i == 0)
+      giveBackFreeMemory();
+    else if (options.cap.empty())
+      labelRegions(region.mesh, pslg);
+  });
   if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, label);
   region.log.append(recorder.finish());
   region.seconds.stitch = watch.lap();
-  giveBackFreeMemory();
 }
 
 // Makes the lattice the result, but for its regions; where it falls short of a bound, its vertices are seeds.

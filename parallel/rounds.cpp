@@ -61,6 +61,10 @@ constexpr double kWorthAll = 0.4;
 // for one thread.
 constexpr double kLittleWork = 5000.0;
 
+// Of a mesh of fewer triangles than this, such as a patch beside cores, the memory that pieces took is kept for the
+// next round: to give it back takes longer than the round.
+constexpr std::size_t kWorthGivingBack = 1'000'000;
+
 // The others estimate work, in triangles, so that pieces are of like weight: compare with counts of what refinement
 // made.
 
@@ -223,7 +227,7 @@ class Rounds {
     if (some.empty()) {
       stitch(std::move(pieces), recorder_, whole_);
       // What the pieces took is not wanted again before all is cut once more.
-      if (parts.pieces > 1) giveBackFreeMemory();
+      if (parts.pieces > 1 && count >= kWorthGivingBack) giveBackFreeMemory();
     } else {
       stitchInPlace(std::move(pieces), parts, recorder_, whole_);
     }

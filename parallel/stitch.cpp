@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "core/flip.hpp"
+#include "core/lattice/grow_list.hpp"
 #include "core/links.hpp"
 #include "core/predicates.hpp"
 #include "core/refine/check.hpp"
+#include "core/refine/fill_holes.hpp"
 
 namespace coastmesh {
 
@@ -159,27 +161,12 @@ class Exchange {
   std::size_t taken_ = 0;
 };
 
-// Calls `move(from, to)` for what fills holes, ascending, from the end of `count` items; returns how many are left.
-template <typename Move>
-std::size_t fillHoles(std::span<const std::uint32_t> holes, std::size_t count, const Move& move) {
-  const std::size_t left = count - holes.size();
-  std::size_t next = 0, last_hole = holes.size();
-  for (std::size_t from = count; from-- > left;) {
-    if (last_hole > 0 && holes[last_hole - 1] == from) {
-      --last_hole;
-    } else {
-      move(static_cast<std::uint32_t>(from), holes[next++]);
-    }
-  }
-  return left;
-}
-
 // Makes room for `count` items, of which the first `kept` stay and all others are to be written anew, and some more.
 template <typename Item>
 void resizeBehind(const ItemLoop& loop, std::vector<Item>& items, std::size_t kept, std::size_t count) {
   if (count > items.capacity()) {
     items.resize(kept);
-    reserveOn(loop, items, count, count / 8);
+    growOn(loop, items, count, count / 8);
   }
   items.resize(count);
 }

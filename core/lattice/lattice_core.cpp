@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/delaunay.hpp"
+#include "core/lattice/grow_list.hpp"
 #include "core/links.hpp"
 
 namespace coastmesh {
@@ -362,8 +363,8 @@ void insertCores(TriMesh& mesh, VertexId pslg_vertices, const std::vector<Lattic
   auto triangle = static_cast<TriId>(mesh.triangles.size());
   // With some to spare for repairs: to move the whole of a large mesh takes more memory and time than they do.
   constexpr std::size_t kSpareShare = 64;
-  reserveOn(loop, mesh.points, vertices, vertices / kSpareShare);
-  reserveOn(loop, mesh.triangles, triangles, triangles / kSpareShare);
+  growOn(loop, mesh.points, vertices, vertices / kSpareShare);
+  growOn(loop, mesh.triangles, triangles, triangles / kSpareShare);
   mesh.points.resize(vertices);
   mesh.triangles.resize(triangles);
   for (const LatticeCore& core : cores) {

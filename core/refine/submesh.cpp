@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/links.hpp"
+#include "core/refine/fill_holes.hpp"
 
 namespace coastmesh {
 
@@ -152,35 +153,40 @@ Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<c
 
 namespace {
 
-// Closes the gaps that triangles and vertices leave which are no more. `followed` are triangles whose numbers are kept
-// up to date.
-void removeUnused(TriMesh& mesh, std::span<const TriId> triangles, std::span<const VertexId> vertices,
-                  std::span<TriId> followed) {
-  if (triangles.empty() && vertices.empty()) return;
-  const auto numbersWithout = [](std::size_t count, std::span<const std::uint32_t> gone) {
-    std::vector<std::uint32_t> number(count, 0);
-    for (const std::uint32_t i : gone) number[i] = kNone;
-    std::uint32_t next = 0;
-    for (std::uint32_t& n : number)
-      if (n != kNone) n = next++;
-    return number;
-  };
-  const std::vector<TriId> triangle = numbersWithout(mesh.triangles.size(), triangles);
-  const std::vector<VertexId> vertex = numbersWithout(mesh.points.size(), vertices);
-  for (TriId t = 0; t < triangle.size(); ++t)
-    if (triangle[t] != kNone)
-      mesh.triangles[triangle[t]] = renumbered(
-          mesh.triangle(t), [&](TriId n) { return triangle[n]; }, [&](VertexId v) { return vertex[v]; });
-  for (VertexId v = 0; v < vertex.size(); ++v)
-    if (vertex[v] != kNone) mesh.points[vertex[v]] = mesh.points[v];
-  mesh.triangles.resize(mesh.triangles.size() - triangles.size());
-  mesh.points.resize(mesh.points.size() - vertices.size());
-  for (TriId& t : followed) t = triangle[t];
+// Closes the gaps that triangles and vertices leave which are no more, with the last ones of all. `followed` are
+// triangles whose numbers are kept up to date.
+void removeUnused(TriMesh& mesh, std::vector<TriId> triangles, std::vector<VertexId> vertices,
+                  std::span<TriId> followed, const ItemLoop& loop) {
+  std::ranges::sort(triangles);
+  std::ranges::sort(vertices);
+  if (!triangles.empty()) {
+    const std::size_t left = mesh.triangles.size() - triangles.size();
+    std::vector<TriId> number(triangles.size(), kNone);  // of those from `left` on
+    mesh.triangles.resize(fillHoles(triangles, mesh.triangles.size(), [&](TriId from, TriId to) {
+      number[from - left] = to;
+      const Triangle moved = mesh.triangles[from];
+      mesh.triangles[to] = unlinked(moved.v);
+      for (unsigned i = 0; i < 3; ++i) link(mesh.triangles, edgeRef(to, i), moved.adj[i], moved.seg[i]);
+    }));
+    for (TriId& t : followed)
+      if (t >= left) t = number[t - left];
+  }
+  if (vertices.empty()) return;
+  const std::size_t left = mesh.points.size() - vertices.size();
+  std::vector<VertexId> number(vertices.size(), kNone);
+  mesh.points.resize(fillHoles(vertices, mesh.points.size(), [&](VertexId from, VertexId to) {
+    number[from - left] = to;
+    mesh.points[to] = mesh.points[from];
+  }));
+  forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
+    for (VertexId& v : mesh.triangles[t].v)
+      if (v >= left) v = number[v - left];
+  });
 }
 
 }  // namespace
 
-std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved) {
+std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved, const ItemLoop& loop) {
   struct Beyond {
     VertexId from, to;
     EdgeRef twin;
@@ -216,10 +222,12 @@ std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh&
       link(parent.triangles, e, at->twin, at->seg);
     }
   }
-  const std::span<const VertexId> old_vertices = patch.parent;
-  const std::span<const TriId> old_triangles = patch.triangles;
-  removeUnused(parent, old_triangles.subspan(std::min(triangle.size(), old_triangles.size())),
-               old_vertices.subspan(std::min(vertex.size(), old_vertices.size())), triangle);
+  const auto beyondOf = [](const std::vector<std::uint32_t>& old, std::size_t count) {
+    return std::vector<std::uint32_t>(old.begin() + static_cast<std::ptrdiff_t>(std::min(count, old.size())),
+                                      old.end());
+  };
+  removeUnused(parent, beyondOf(patch.triangles, triangle.size()), beyondOf(patch.parent, vertex.size()), triangle,
+               loop);
   assert(findBrokenLink(parent.triangles) == kNone);
   return triangle;
 }

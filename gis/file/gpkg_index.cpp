@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 namespace coastmesh {
@@ -27,88 +26,16 @@ float roundedUp(double value) {
   return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
 }
 
-// A row by a coordinate: an order of unsigned numbers is that of the coordinate as a float, then of the rows.
-std::uint64_t keyOf(double coordinate, std::uint32_t row) {
-  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(coordinate));
-  const std::uint32_t ordered = (bits >> 31) != 0 ? ~bits : bits | 0x80000000u;
-  return std::uint64_t{ordered} << 32 | row;
-}
-std::uint32_t rowOf(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
-
-using Keys = std::span<const std::uint64_t>;
-
-// How many of the first so many keys of two sorted lists are of the first list. All keys differ.
-std::size_t shareOfFirst(Keys one, Keys other, std::size_t count) {
-  std::size_t low = count - std::min(count, other.size()), high = std::min(count, one.size());
-  while (low < high) {
-    const std::size_t middle = low + (high - low) / 2;
-    if (one[middle] < other[count - middle - 1])
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-// By stretches, then by merging two and two of them, each stretch of what comes of it apart.
-void sortKeys(std::vector<std::uint64_t>& keys, const ItemLoop& loop) {
-  constexpr std::size_t kStretch = 65536;
-  const std::size_t count = keys.size(), stretches = (count + kStretch - 1) / kStretch;
-  const auto range = [&](std::size_t first, std::size_t length) {
-    return std::span(keys).subspan(std::min(first, count), std::min(length, count - std::min(first, count)));
-  };
-  loop(stretches, [&](std::size_t s) { std::ranges::sort(range(s * kStretch, kStretch)); });
-  std::vector<std::uint64_t> merged;
-  if (stretches > 1) resizeAnew(loop, merged, count);
-  for (std::size_t width = kStretch; width < count; width *= 2) {
-    loop(stretches, [&](std::size_t s) {
-      const std::size_t pair = s * kStretch / (2 * width) * (2 * width), from = s * kStretch - pair;
-      const Keys one = range(pair, width), other = range(pair + width, width);
-      const std::size_t to = std::min(from + kStretch, one.size() + other.size());
-      const std::size_t first = shareOfFirst(one, other, from), last = shareOfFirst(one, other, to);
-      std::ranges::merge(one.subspan(first, last - first), other.subspan(from - first, to - last - (from - first)),
-                         merged.begin() + static_cast<std::ptrdiff_t>(s * kStretch));
-    });
-    keys.swap(merged);
-  }
-}
-
-// Sort-tile-recursive order (Leutenegger, Lopez & Edgington 1997): slices of x, each sorted by y, so that consecutive
-// rows make compact nodes. Sums of sides stand for middles.
-std::vector<std::uint32_t> tileOrder(std::uint32_t rows, const std::function<IndexBox(std::uint32_t)>& box,
-                                     const ItemLoop& loop) {
-  std::vector<std::uint64_t> keys;
-  resizeAnew(loop, keys, rows);
-  forEachByStretches(loop, rows, [&](std::size_t i) {
-    const auto row = static_cast<std::uint32_t>(i);
-    const IndexBox of = box(row);
-    keys[i] = keyOf(of.low.x + of.high.x, row);
-  });
-  sortKeys(keys, loop);
-  const double nodes = std::ceil(static_cast<double>(rows) / static_cast<double>(kCells));
-  const std::size_t slice = static_cast<std::size_t>(std::ceil(std::sqrt(nodes))) * kCells;
-  std::vector<std::uint32_t> order;
-  resizeAnew(loop, order, rows);
-  loop((rows + slice - 1) / slice, [&](std::size_t s) {
-    const std::size_t first = s * slice, last = std::min<std::size_t>(rows, first + slice);
-    for (std::size_t i = first; i < last; ++i) {
-      const IndexBox of = box(rowOf(keys[i]));
-      keys[i] = keyOf(of.low.y + of.high.y, rowOf(keys[i]));
-    }
-    std::sort(keys.begin() + static_cast<std::ptrdiff_t>(first), keys.begin() + static_cast<std::ptrdiff_t>(last));
-    for (std::size_t i = first; i < last; ++i) order[i] = rowOf(keys[i]);
-  });
-  return order;
-}
-
 }  // namespace
 
 GeoPackageIndex::GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std::uint32_t)> box, const ItemLoop& loop)
     : box_(std::move(box)) {
   if (rows == 0) return;
-  order_ = tileOrder(rows, box_, loop);
-  resizeAnew(loop, place_, rows);
-  forEachByStretches(loop, rows, [&](std::size_t i) { place_[order_[i]] = static_cast<std::uint32_t>(i); });
+  TileOrder tiles = tileOrder(rows, kCells, box_, loop);
+  order_ = std::move(tiles.rows);
+  bounds_ = tiles.bounds;
+  resizeAnew(loop, leaf_, rows);
+  forEachByStretches(loop, rows, [&](std::size_t i) { leaf_[order_[i]] = static_cast<std::uint32_t>(i / kCells); });
   const auto unite = [](std::int64_t id, const std::vector<Cell>& cells) {
     Cell all{id, cells.front().box};
     for (const Cell& cell : cells)
@@ -192,7 +119,7 @@ void GeoPackageIndex::addTables(const Roots& roots, std::vector<SqliteTable>& ta
                     }});
   tables.push_back({roots.rows, order_.size(), 1, [this](std::uint64_t i, SqliteRow& row) {
                       row.null();
-                      row.whole(static_cast<std::int64_t>(levels_[0].first + place_[i] / kCells));
+                      row.whole(static_cast<std::int64_t>(levels_[0].first + leaf_[i]));
                     }});
   tables.push_back({roots.parents, countOfNodes() - 1, 2, [this](std::uint64_t i, SqliteRow& row) {
                       row.null();

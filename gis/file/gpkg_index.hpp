@@ -7,15 +7,10 @@
 #include <vector>
 
 #include "core/item_loop.hpp"
-#include "core/point.hpp"
 #include "gis/file/sqlite_pages.hpp"
+#include "gis/file/tile_order.hpp"
 
 namespace coastmesh {
-
-struct IndexBox {
-  Point low;
-  Point high;
-};
 
 // The spatial index of a GeoPackage's layer, made whole from all boxes at once, as the three tables behind SQLite's
 // R*Tree: entering rows one by one, as OGR before 3.7 does, takes five times as long as writing the features.
@@ -30,6 +25,9 @@ class GeoPackageIndex {
 
   // `box` of each row below `rows`, which has the fid row + 1; from several threads at the same time.
   GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std::uint32_t row)> box, const ItemLoop& loop);
+
+  // The box of all rows. REQUIRES: there is a row.
+  const IndexBox& bounds() const { return bounds_; }
 
   // REQUIRES: this outlives what is added, and stays where it is.
   void addTables(const Roots& roots, std::vector<SqliteTable>& tables) const;
@@ -52,8 +50,9 @@ class GeoPackageIndex {
   std::uint64_t parentOf(std::uint64_t node) const;
 
   std::function<IndexBox(std::uint32_t)> box_;
-  std::vector<std::uint32_t> order_, place_;  // rows as the leaves have them, and where among them each row is
-  std::vector<Level> levels_;                 // from the leaves to the root
+  IndexBox bounds_;
+  std::vector<std::uint32_t> order_, leaf_;  // rows as the leaves have them, and in which of these each row is
+  std::vector<Level> levels_;                // from the leaves to the root
 };
 
 }  // namespace coastmesh

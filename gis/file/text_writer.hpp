@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <concepts>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -107,9 +108,11 @@ class TextWriter {
   }
   void flush();
   void put(const char* bytes, std::size_t size);
+  void beginToFlush();
 
   std::string path_;
   int file_ = -1;
+  std::int64_t put_ = 0, flushed_ = 0;  // bytes: in the system's hands, and on their way to the disk
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };

@@ -128,13 +128,13 @@ class LayerRows {
     bytes.put(ring[0]);
   }
 
+  // Without its box, which would be a sixth of the row: the index has it, and four corners say it as soon.
   void putTriangle(std::size_t row, std::int32_t srs_id, SqliteRow& to) const {
-    const std::span<std::byte> blob = to.blob(kHeaderBytes + kBoxBytes + polygonBytes(3));
+    const std::span<std::byte> blob = to.blob(kHeaderBytes + polygonBytes(3));
     if (blob.empty()) return;
-    const std::array<Point, 3> corners = cornersOf(row);
     ByteCursor bytes(blob);
-    putHeader(bytes, srs_id, boxOf(corners));
-    putPolygon(corners, bytes);
+    putHeader(bytes, srs_id, std::nullopt);
+    putPolygon(cornersOf(row), bytes);
   }
 
   static void putParts(const std::vector<MapCutter::Ring>& parts, std::int32_t srs_id, SqliteRow& to) {
@@ -253,20 +253,6 @@ void noteRows(Sql& sql, const GridLayer& layer, const IndexBox& box) {
           blob + "), max_y = ST_MaxY(" + blob + ") WHERE table_name = " + name);
 }
 
-IndexBox boxOfAll(std::size_t rows, const std::function<IndexBox(std::uint32_t)>& box, const ItemLoop& loop) {
-  std::vector<Point> ends;
-  for (const IndexBox& some : overStretches(loop, rows, [&](std::size_t first, std::size_t last) {
-         IndexBox all = box(static_cast<std::uint32_t>(first));
-         for (std::size_t i = first; i < last; ++i) {
-           const IndexBox own = box(static_cast<std::uint32_t>(i));
-           all = boxOf(std::array{all.low, all.high, own.low, own.high});
-         }
-         return all;
-       }))
-    ends.insert(ends.end(), {some.low, some.high});
-  return boxOf(ends);
-}
-
 }  // namespace
 
 // OGR makes the file, its tables and what is short; rows of triangles and nodes, and the indices of all layers, are
@@ -314,13 +300,13 @@ void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& 
           std::stoll(sql.ask("SELECT srs_id FROM gpkg_geometry_columns WHERE table_name = '" + layer.name + "'")));
       tables.push_back({sql.rootOf(layer.name), layer.rows, 1,
                         [rows, srs_id](std::uint64_t row, SqliteRow& to) { rows->make(row, srs_id, to); }});
-      noteRows(sql, layer, boxOfAll(layer.rows, box, loop));
     }
     const std::string index = indexOf(layer);
     if (sql.askNumber("SELECT length(data) FROM \"" + index + "_node\" WHERE nodeno = 1") !=
         GeoPackageIndex::kNodeBytes)
       throw OutputError("cannot write '" + path + "': SQLite made an index of another kind than was expected");
     indices.push_back(std::make_unique<GeoPackageIndex>(static_cast<std::uint32_t>(layer.rows), std::move(box), loop));
+    if (rows_of[i]) noteRows(sql, layer, indices.back()->bounds());
     indices.back()->addTables(
         {sql.rootOf(index + "_node"), sql.rootOf(index + "_rowid"), sql.rootOf(index + "_parent")}, tables);
   }

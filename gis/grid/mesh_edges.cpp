@@ -110,7 +110,7 @@ std::vector<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes, Triangl
   if (triangles.empty()) return edges;
   // A block is looked at once for each stretch that it has an edge of: few where numbers follow the plane. Where they
   // do not, stretches are fewer and longer.
-  constexpr std::size_t kMostStretches = 64, kMostVisits = 3;
+  constexpr std::size_t kMostStretches = 64, kMostVisits = 8;
   Stretches stretches{nodes, std::min(kMostStretches, std::bit_floor(nodes))};
   std::vector<Block> blocks = blocksOf(triangles, stretches, loop);
   while (stretches.count > 1 && visitsOf(blocks) > kMostVisits * blocks.size()) halve(blocks, stretches);

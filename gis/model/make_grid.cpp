@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <span>
+#include <utility>
 
 #include "core/quality.hpp"
 #include "gis/coast/segment_tags.hpp"
@@ -31,24 +33,44 @@ LongitudeRange rangeOf(const std::vector<Point>& input) {
   return {(least.x + greatest.x) / 2.0 - 180.0};
 }
 
-// The index in the grid of each point of a mesh that is used, from `next` on, kNone for the others.
-std::vector<std::uint32_t> nodeIndices(const TriMesh& mesh, std::uint32_t next, const ItemLoop& loop) {
+// The index in the grid of each point of a mesh that is used, kNone for the others.
+struct NodeIndices {
+  std::vector<std::uint32_t> of;
+  std::uint32_t end = 0;  // one past the last
+};
+
+NodeIndices nodeIndices(const TriMesh& mesh, std::uint32_t next, const ItemLoop& loop) {
+  struct Stretch {
+    std::size_t first, last;
+    std::uint32_t used;  // in the end the index of the first that is
+  };
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
-  std::vector<std::uint32_t> index_of;
-  reserveOn(loop, index_of, mesh.points.size());
-  for (const std::uint8_t is_used : used) index_of.push_back(is_used ? next++ : kNone);
-  return index_of;
+  std::vector<Stretch> stretches = overStretches(loop, used.size(), [&](std::size_t first, std::size_t last) {
+    const auto begin = used.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count = std::count(begin, begin + static_cast<std::ptrdiff_t>(last - first), std::uint8_t{1});
+    return Stretch{first, last, static_cast<std::uint32_t>(count)};
+  });
+  for (Stretch& stretch : stretches) next += std::exchange(stretch.used, next);
+  NodeIndices indices;
+  resizeAnew(loop, indices.of, used.size());
+  loop(stretches.size(), [&](std::size_t s) {
+    std::uint32_t index = stretches[s].used;
+    for (std::size_t v = stretches[s].first; v < stretches[s].last; ++v) indices.of[v] = used[v] ? index++ : kNone;
+  });
+  indices.end = next;
+  return indices;
 }
 
-void appendNodes(const MeshedDomain& part, bool geographic, const std::vector<std::uint32_t>& index_of,
-                 const ItemLoop& loop, std::vector<Point>& nodes) {
+void appendNodes(const MeshedDomain& part, bool geographic, const NodeIndices& indices, const ItemLoop& loop,
+                 std::vector<Point>& nodes) {
   const Domain& domain = *part.domain;
   const TriMesh& mesh = *part.mesh;
+  const std::vector<std::uint32_t>& index_of = indices.of;
   assert(domain.input_points.size() == mesh.input_vertices);
   // Coordinates that were meshed as they are stay as they are.
   const bool shifts = geographic && !domain.projection.isIdentity();
   const LongitudeRange range = shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
-  nodes.resize(nodes.size() + index_of.size() - static_cast<std::size_t>(std::ranges::count(index_of, kNone)));
+  nodes.resize(indices.end);
   forEachByStretches(loop, mesh.points.size(), [&](std::size_t v) {
     if (index_of[v] == kNone) return;
     Point& node = nodes[index_of[v]];
@@ -209,8 +231,8 @@ Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastlin
   const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, loop, grid.features);
   reserveOn(loop, grid.triangles, triangle_count);
   for (const MeshedDomain& part : parts) {
-    const std::vector<std::uint32_t> index_of =
-        nodeIndices(*part.mesh, static_cast<std::uint32_t>(grid.nodes.size()), loop);
+    const NodeIndices indices = nodeIndices(*part.mesh, static_cast<std::uint32_t>(grid.nodes.size()), loop);
+    const std::vector<std::uint32_t>& index_of = indices.of;
     const std::size_t before = grid.triangles.size();
     appendCorners(*part.mesh, loop, grid);
     appendLines(*part.domain, *part.mesh, index_of, grid.lines);
@@ -222,19 +244,23 @@ Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastlin
     reserveOn(loop, grid.nodes, point_count);
     reserveOn(loop, grid.min_angle_deg, triangle_count);
     if (!feature_index.empty()) reserveOn(loop, grid.feature_of, triangle_count);
-    appendNodes(part, grid.crs.geographic, index_of, loop, grid.nodes);
+    appendNodes(part, grid.crs.geographic, indices, loop, grid.nodes);
     if (part.size_m != nullptr) {
       grid.size_m.resize(grid.nodes.size());
       for (std::size_t v = 0; v < index_of.size(); ++v)
         if (index_of[v] != kNone) grid.size_m[index_of[v]] = (*part.size_m)[v];
     }
     finishTriangles(*part.mesh, part.ground, index_of, feature_index, loop, before, grid);
-    for (Boundary& boundary : boundaries) {
-      for (std::uint32_t& node : boundary.nodes) node = index_of[node];
-      if (boundary.closed && boundary.role != BoundaryRole::Open)
-        boundary.role = roleByArea(grid.nodes, boundary.nodes, grid.crs).value_or(boundary.role);
-      grid.boundaries.push_back(std::move(boundary));
-    }
+    constexpr std::size_t kWorthAStretch = 16;
+    const auto finish = [&](std::size_t first, std::size_t last) {
+      for (Boundary& boundary : std::span(boundaries).subspan(first, last - first)) {
+        for (std::uint32_t& node : boundary.nodes) node = index_of[node];
+        if (boundary.closed && boundary.role != BoundaryRole::Open)
+          boundary.role = roleByArea(grid.nodes, boundary.nodes, grid.crs).value_or(boundary.role);
+      }
+    };
+    forStretches(loop, boundaries.size(), finish, kWorthAStretch);
+    std::ranges::move(boundaries, std::back_inserter(grid.boundaries));
   }
   return grid;
 }

@@ -188,7 +188,10 @@ TEST_P(SubmeshOf, FitsIntoACompactMesh) {
       for (EditMesh* changed : {&finer, &coarser}) {
         const TriMesh solved = changed->release();
         TriMesh mesh = whole;
-        putBack(mesh, patch, solved);
+        const std::vector<TriId> numbers = putBack(mesh, patch, solved);
+        for (TriId t = 0; t < numbers.size(); ++t)
+          for (unsigned i = 0; i < 3; ++i)
+            EXPECT_EQ(mesh.point(mesh.triangle(numbers[t]).v[i]), solved.point(solved.triangle(t).v[i]));
         EXPECT_EQ(mesh.points.size(), whole.points.size() + solved.points.size() - patch.mesh.points.size());
         EXPECT_EQ(mesh.triangles.size(),
                   whole.triangles.size() + solved.triangles.size() - patch.mesh.triangles.size());

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+struct IndexBox {
+  Point low;
+  Point high;
+};
+
+// Rows with boxes, in an order of which so many consecutive ones lie close together.
+struct TileOrder {
+  std::vector<std::uint32_t> rows;
+  IndexBox bounds;  // of all boxes
+};
+
+// Sort-tile-recursive order (Leutenegger, Lopez & Edgington 1997) of rows 0 to `rows` - 1, of which there is one at
+// least: slices of x, each sorted by y, so that `together` consecutive rows make a compact node of a tree. Middles of
+// boxes count, to a part in 2^32 of the whole. `box` is asked from several threads at the same time.
+TileOrder tileOrder(std::uint32_t rows, std::size_t together, const std::function<IndexBox(std::uint32_t row)>& box,
+                    const ItemLoop& loop);
+
+}  // namespace coastmesh
