@@ -78,10 +78,12 @@ std::vector<std::uint32_t> readConnectivity(const NetcdfReader& file, const std:
         out.push_back(kNone);
         continue;
       }
-      if (value < start || static_cast<std::uint64_t>(value - start) >= nodes)
+      // Without a sign, in which the difference of any two numbers fits.
+      const std::uint64_t node = static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(start);
+      if (value < start || node >= nodes)
         file.fail("row " + std::to_string(r + 1) + " of \"" + variable + "\" names node " + std::to_string(value) +
                   ", which is not there");
-      out.push_back(static_cast<std::uint32_t>(value - start));
+      out.push_back(static_cast<std::uint32_t>(node));
     }
   }
   return out;
