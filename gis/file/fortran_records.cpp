@@ -1,13 +1,11 @@
 #include "gis/file/fortran_records.hpp"
 
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "gis/error.hpp"
+#include "gis/file/whole_file.hpp"
 
 namespace coastmesh {
 namespace {
@@ -66,12 +64,7 @@ void FortranWriter::doubles(const ItemLoop& loop, std::size_t count, const std::
   length(count * sizeof(std::uint64_t));
 }
 
-FortranReader::FortranReader(const std::string& path) : path_(path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError("cannot read '" + path + "': " + std::strerror(errno));
-  bytes_.assign(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw InputError("cannot read '" + path + "'");
-}
+FortranReader::FortranReader(const std::string& path) : path_(path), bytes_(wholeFile(path)) {}
 
 void FortranReader::fail(const std::string& what) const { throw InputError("'" + path_ + "': " + what); }
 

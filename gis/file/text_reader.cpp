@@ -1,28 +1,19 @@
 #include "gis/file/text_reader.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <limits>
-#include <memory>
 
 #include "core/ids.hpp"
 #include "gis/error.hpp"
+#include "gis/file/whole_file.hpp"
 
 namespace coastmesh {
 namespace {
 
-std::string readWhole(const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             [](std::FILE* f) { return f ? std::fclose(f) : 0; });
-  if (!file) throw InputError("cannot read '" + path + "': " + std::strerror(errno));
-  std::string text;
-  std::vector<char> chunk(1 << 20);
-  while (const std::size_t got = std::fread(chunk.data(), 1, chunk.size(), file.get())) text.append(chunk.data(), got);
-  if (std::ferror(file.get())) throw InputError("cannot read '" + path + "': " + std::strerror(errno));
+std::string textOf(const std::string& path) {
+  std::string text = wholeFile(path);
   if (text.empty()) throw InputError("'" + path + "' is empty");
   return text;
 }
@@ -30,7 +21,7 @@ std::string readWhole(const std::string& path) {
 }  // namespace
 
 TextReader::TextReader(std::string path, char comment, std::string_view between)
-    : path_(std::move(path)), comment_(comment), text_(readWhole(path_)) {
+    : path_(std::move(path)), comment_(comment), text_(textOf(path_)) {
   for (const char c : between) between_[static_cast<unsigned char>(c)] = true;
 }
 

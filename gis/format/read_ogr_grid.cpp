@@ -49,7 +49,6 @@ class LayerReader {
 
   // -1 where there is none.
   int field(std::string_view name) const { return layer_.GetLayerDefn()->GetFieldIndex(std::string(name).c_str()); }
-  std::uint64_t expected() const { return static_cast<std::uint64_t>(std::max<GIntBig>(layer_.GetFeatureCount(), 0)); }
 
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError("'" + path_ + "', layer \"" + layer_.GetName() + "\", feature " +

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <ranges>
@@ -19,6 +16,7 @@
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
+#include "gis/file/whole_file.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/grid_lines.hpp"
 
@@ -63,10 +61,7 @@ std::vector<double> valuesOf(std::string_view bytes) {
 // The file as a tree of elements and the bytes of its appended arrays.
 class VtuFile {
  public:
-  explicit VtuFile(const std::string& path) : path_(path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw InputError("cannot read '" + path + "': " + std::strerror(errno));
-    bytes_.assign(std::istreambuf_iterator<char>(file), {});
+  explicit VtuFile(const std::string& path) : path_(path), bytes_(wholeFile(path)) {
     std::string head = bytes_;
     if (const std::size_t appended = bytes_.find("<AppendedData"); appended != std::string::npos) {
       const std::size_t mark = bytes_.find('_', bytes_.find('>', appended));
