@@ -1,6 +1,8 @@
 // Meshes plane graphs with the core alone, one piece and one thread, and prints what came out, a line a mesh: graph and
-// angle, vertices, triangles, digest. scripts/compare-builds builds it with every compiler there is.
+// angle, or how lengths are wanted, vertices, triangles, digest. scripts/compare-builds builds it with every compiler
+// there is.
 // usage: core_digests FILE.poly…
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <exception>
@@ -8,9 +10,16 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/delaunay.hpp"
+#include "core/lattice/lattice.hpp"
+#include "core/lattice/lattice_core.hpp"
+#include "core/metric.hpp"
+#include "core/optimise/optimise.hpp"
 #include "core/refine/refine.hpp"
+#include "core/refine/vertex_notes.hpp"
 
 namespace {
 
@@ -53,6 +62,58 @@ Pslg readPlain(const std::string& path) {
   return pslg;
 }
 
+void print(const std::string& path, const std::string& how, const TriMesh& mesh) {
+  std::printf("%s_%s\t%zu\t%zu\t%016" PRIx64 "\n", std::filesystem::path(path).stem().c_str(), how.c_str(),
+              mesh.points.size(), mesh.triangles.size(), digestOf(mesh));
+}
+
+// Lengths that grow with the distance from a place.
+class GrowingSize final : public SizeFunction {
+ public:
+  GrowingSize(const Point& from, double least, double rate, double most)
+      : from_(from), least_(least), rate_(rate), most_(most) {}
+
+  double at(const Point& x) const override { return std::min(most_, least_ + rate_ * distance(x, from_)); }
+  double least() const override { return least_; }
+  double most() const override { return most_; }
+
+ private:
+  Point from_;
+  double least_, rate_, most_;
+};
+
+// By lattices, refining, coarsening and the optimiser.
+TriMesh sizedMesh(const Pslg& pslg, const SizeFunction& size) {
+  RefineOptions options;
+  options.size = &size;
+  TriMesh mesh = constrainedDelaunay(pslg);
+  VertexNotes notes = noteInput(mesh, boundOf(options));
+  LatticeWishes wishes;
+  wishes.size = &size;
+  wishes.min_angle_deg = options.min_angle_deg;
+  wishes.most_places = 1'000'000;
+  if (std::vector<LatticePlaces> lattices = layLattices(mesh, wishes); !lattices.empty()) {
+    mesh = triangulateWith(pslg, std::move(lattices), false).mesh;
+    noteFurther(mesh, notes);
+  }
+  refine(mesh, pslg, options, std::move(notes));
+  coarsen(mesh, pslg, options);
+  optimise(mesh, pslg, options, kOptimiseSweeps);
+  return mesh;
+}
+
+void printSizedMeshes(const std::string& path) {
+  const Pslg pslg = readPlain(path);
+  Point low = pslg.points.front(), high = low;
+  for (const Point& p : pslg.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const double side = std::max(high.x - low.x, high.y - low.y);
+  print(path, "even", sizedMesh(pslg, ConstantSize(side / 40)));
+  print(path, "growing", sizedMesh(pslg, GrowingSize(low, side / 200, 0.1, side / 10)));
+}
+
 void printMeshes(const std::string& path) {
   const Pslg pslg = readPlain(path);
   for (const int angle : {20, 30, 33, 34, 35, 36, 38, 40, 41, 42}) {
@@ -61,8 +122,7 @@ void printMeshes(const std::string& path) {
     TriMesh mesh = constrainedDelaunay(pslg);
     refine(mesh, pslg, options);
     coarsen(mesh, pslg, options);
-    std::printf("%s_%d\t%zu\t%zu\t%016" PRIx64 "\n", std::filesystem::path(path).stem().c_str(), angle,
-                mesh.points.size(), mesh.triangles.size(), digestOf(mesh));
+    print(path, std::to_string(angle), mesh);
   }
 }
 
@@ -70,7 +130,10 @@ void printMeshes(const std::string& path) {
 
 int main(int argc, char** argv) {
   try {
-    for (int i = 1; i < argc; ++i) printMeshes(argv[i]);
+    for (int i = 1; i < argc; ++i) {
+      printMeshes(argv[i]);
+      printSizedMeshes(argv[i]);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
