@@ -8,6 +8,7 @@
 #include "apps/job/finish_grid.hpp"
 #include "apps/usage/finish_usage.hpp"
 #include "apps/usage/grid_usage.hpp"
+#include "gis/grid/boundary_chains.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 

@@ -3,7 +3,6 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
-#include "gis/grid/boundary_chains.hpp"
 
 namespace coastmesh {
 
@@ -32,12 +31,6 @@ Grid readMeshFile(const MeshFile& file, Run& run) {
   if (grid.triangles.empty()) throw InputError("'" + file.path + "' holds no triangle");
   if (!file.crs.empty() && !sameCrs(grid.crs, assumed)) warnOfCrs(file, "'" + file.path + "' says its CRS", run);
   return grid;
-}
-
-void findMissingBoundaries(Grid& grid) {
-  if (!grid.boundaries.empty()) return;
-  std::vector<EdgeConflict> conflicts;
-  grid.boundaries = findBoundaries(toTriMesh(grid, Projection::plane(), conflicts));
 }
 
 void warnOfCrs(const MeshFile& file, const std::string& why, Run& run) {

@@ -19,9 +19,6 @@ void declareMeshFile(OptionTable& table, const std::string& name, const std::str
 // Throws InputError, also for a mesh without triangles.
 Grid readMeshFile(const MeshFile& file, Run& run);
 
-// Where the file says no boundaries: the boundary of the mesh does.
-void findMissingBoundaries(Grid& grid);
-
 // Warns that --assume-crs has no effect, where it was given.
 void warnOfCrs(const MeshFile& file, const std::string& why, Run& run);
 

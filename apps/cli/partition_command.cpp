@@ -8,6 +8,7 @@
 #include "apps/cli/run_outputs.hpp"
 #include "apps/report/partition_report.hpp"
 #include "apps/usage/grid_usage.hpp"
+#include "gis/grid/boundary_chains.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 

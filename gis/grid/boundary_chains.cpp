@@ -15,6 +15,12 @@ std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop) 
   return boundaries;
 }
 
+void findMissingBoundaries(Grid& grid) {
+  if (!grid.boundaries.empty()) return;
+  std::vector<EdgeConflict> conflicts;
+  grid.boundaries = findBoundaries(toTriMesh(grid, Projection::plane(), conflicts));
+}
+
 std::vector<NodePair> edgesOf(const Boundary& boundary) {
   std::vector<NodePair> edges;
   const std::vector<std::uint32_t>& nodes = boundary.nodes;

@@ -17,6 +17,9 @@ using NodePair = std::array<std::uint32_t, 2>;
 // Loops as boundaries: the loop that goes counter-clockwise round each connected piece is land, the others islands.
 std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
+// Where a grid has no boundaries: those that its mesh has.
+void findMissingBoundaries(Grid& grid);
+
 // The edges of a boundary, in its direction.
 std::vector<NodePair> edgesOf(const Boundary& boundary);
 

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "apps/cli/mesh_file.hpp"
 #include "apps/cli/shard_file.hpp"
 #include "apps/report/file_info.hpp"
 #include "apps/usage/config_entries.hpp"
@@ -19,6 +18,7 @@
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/format/poly_io.hpp"
+#include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/raster/raster_band.hpp"
