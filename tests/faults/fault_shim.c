@@ -103,6 +103,14 @@ static void readFault(void) {
 __attribute__((destructor)) static void writeCounts(void) {
   if (g_count_file[0] == '\0') return;
   char text[128];
+  // A rank is several processes, and the others of them do little.
+  const int before = (int)syscall(SYS_openat, AT_FDCWD, g_count_file, O_RDONLY);
+  if (before >= 0) {
+    const long got = syscall(SYS_read, before, text, sizeof text - 1);
+    text[got > 0 ? got : 0] = '\0';
+    syscall(SYS_close, before);
+    if (atol(text) > atomic_load(&g_counts[kNew])) return;
+  }
   const int size = snprintf(text, sizeof text, "%ld %ld %ld\n", atomic_load(&g_counts[kNew]),
                             atomic_load(&g_counts[kMalloc]), atomic_load(&g_counts[kDisk]));
   const int file = (int)syscall(SYS_openat, AT_FDCWD, g_count_file, O_WRONLY | O_CREAT | O_TRUNC, 0644);

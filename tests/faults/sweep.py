@@ -29,7 +29,10 @@ CODES = {"fail": {3, 4}, "gone": {3, 4}, "short": {4}, "EIO": {4}, "ENOSPC": {4}
 MESH = ["mesh", "INPUT", "--overwrite", "--threads", "THREADS", "--quiet"]
 WRITE = ["--overwrite", "--quiet"]
 SOURCE = [["mesh", "INPUT", "-o", "source.nc", "--quiet"]]
+KEPT = "kept"  # the folder of --checkpoint
 # What is tried: outputs, the command but for these, and what has to be made before it. INPUT is the file that is meshed.
+# KEPT stays where a run ends early, and what goes on with it has to make the same files. A run that is called `resumed`
+# begins with the folder of one that was killed half-way.
 CASES = {
     "mesh": (["m.nc", "m.14", "m.msh", "m.2dm", "m.gpkg"], MESH + ["--report", REPORT], []),
     "formats": (["a.geojson", "b.shp", "c.fgb", "d.gr3", "e.slf", "f_grd.dat", "nod2d.out", "g_jigsaw.msh",
@@ -44,7 +47,11 @@ CASES = {
     "partition": (["partition.prop"], ["partition", "../source.nc", "3"] + WRITE, SOURCE),
     "check": (["m.gpkg"], ["check", "../source.nc", "--input", "INPUT", "--min-angle", "40"] + WRITE, SOURCE),
     "clean": (["m.gpkg"], ["clean", "INPUT", "--report", REPORT] + WRITE, []),
+    "ranks": (["m.nc", "m.14"], MESH + ["--size-max", "3000"], []),
     "shard": (["m.shard"], MESH + ["--shard", "1/1"], []),
+    "checkpoint": (["m.nc", "m.14"], MESH + ["--checkpoint", KEPT, "--report", REPORT], []),
+    "resumed": (["m.nc"], MESH + ["--checkpoint", KEPT], []),
+    "per_feature": (["m-{}.nc", "m-{}.14"], MESH + ["--per-feature", "--report", REPORT], []),
     "gather": (["m.nc"], ["gather", "../m.shard", "--report", REPORT] + WRITE,
                [["mesh", "INPUT", "--shard", "1/1", "-o", "m.shard", "--quiet"]]),
 }
@@ -54,10 +61,23 @@ WATCHED = re.compile(r"\((?:malloc|calloc|realloc|memalign|aligned_alloc|posix_m
 BUG = "exit code 70, not 3 or 4"
 
 
+# Of several ranks, the one that faults are for alone is given the shim. What mpirun does is no matter of ours.
+ON_RANK = """if [ "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" = "$FAULTY_RANK" ]; then
+  LD_PRELOAD=$FAULTY_SHIM; export LD_PRELOAD
+fi
+exec "$@"
+"""
+
+
 class Sweep:
-    def __init__(self, program, shim, input_file, scratch, threads, case):
+    def __init__(self, program, shim, input_file, scratch, threads, case, launcher=(), rank=0):
         self.scratch = scratch
         self.shim = shim
+        self.writes = rank == 0 or not launcher  # the other ranks send what they made
+        self.preload = {"LD_PRELOAD": str(shim)}
+        if launcher:
+            self.preload = {"FAULTY_SHIM": str(shim), "FAULTY_RANK": str(rank), "OMPI_ALLOW_RUN_AS_ROOT": "1",
+                            "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         self.program = program
         self.lock = threading.Lock()
         self.outcomes = collections.Counter()
@@ -67,11 +87,30 @@ class Sweep:
         given = {"INPUT": str(input_file), "THREADS": str(threads)}
         for each in before:
             subprocess.run([program] + [given.get(word, word) for word in each], cwd=scratch, check=True)
-        self.command = [program] + [given.get(word, word) for word in command]
+        self.command = [*launcher, program] + [given.get(word, word) for word in command]
         for name in outputs:
             self.command += ["-o", name]
-        self.stable = set()
+        self.keeps = KEPT in command
+        self.apart = any("{}" in name for name in outputs)
+        self.begun = None
+        if case == "resumed":
+            self.begun = self.killed_half_way()
         self.learn()
+
+    # What a run leaves to go on with that is killed at the middle one of its changes of the disk, or after it.
+    def killed_half_way(self):
+        self.outputs = []
+        count_file = self.scratch / "counts"
+        self.run(None, COASTMESH_FAULT_COUNT=count_file)
+        changes = int(count_file.read_text().split()[2])
+        for n in range(changes // 2, changes):
+            folder, code, errors = self.run(f"disk:{n}:kill")
+            if code != -signal.SIGKILL:
+                sys.exit(f"the run that is killed half-way: {code}: {errors}")
+            if (folder / KEPT).is_dir() and any(path.stat().st_size > 0 for path in (folder / KEPT).iterdir()):
+                (folder / KEPT).rename(self.scratch / KEPT)
+                return self.scratch / KEPT
+        sys.exit("nothing is kept of a run that is killed")
 
     # What a run without a fault makes and says, and how many calls there are.
     def learn(self):
@@ -82,13 +121,15 @@ class Sweep:
         self.outputs, self.done = sorted(self.contents(folder)), code
         count_file, log_file = self.scratch / "counts", self.scratch / "log"
         folder, code, errors = self.run(None, COASTMESH_FAULT_COUNT=count_file, COASTMESH_FAULT_LOG=log_file)
-        if code != self.done or any(p.is_dir() for p in folder.iterdir()):
+        if code != self.done or self.hidden(folder, False):
             sys.exit(f"the run without a fault leaves {sorted(folder.iterdir())}: {code}: {errors}")
         self.reference = self.contents(folder)
         if OLD in self.reference.values():
             sys.exit("the run without a fault replaces nothing")
         self.counts = dict(zip(("new", "malloc", "disk"), map(int, count_file.read_text().split())))
-        self.look_at_order(log_file.read_text().splitlines())
+        self.needed = 0
+        if self.writes:
+            self.look_at_order(log_file.read_text().splitlines())
 
     # A file is moved into place after it has been waited for, and is not written to any more in between. Allocations before
     # the first of them is waited for are those that an output may lack.
@@ -114,11 +155,17 @@ class Sweep:
         folder = pathlib.Path(tempfile.mkdtemp(dir=self.scratch))
         for name in self.outputs:
             (folder / name).write_bytes(OLD)
+        if self.begun:
+            shutil.copytree(self.begun, folder / KEPT)
         return folder
 
     def run(self, fault, **environment):
-        folder = self.folder()
-        environment = dict(os.environ, LD_PRELOAD=str(self.shim), **{k: str(v) for k, v in environment.items()})
+        return self.run_in(self.folder(), fault, **environment)
+
+    def run_in(self, folder, fault, **environment):
+        if "COASTMESH_FAULT_COUNT" in environment:
+            environment["COASTMESH_FAULT_COUNT"].unlink(missing_ok=True)
+        environment = dict(os.environ, **self.preload, **{k: str(v) for k, v in environment.items()})
         if fault:
             environment["COASTMESH_FAULT"] = fault
         try:
@@ -130,6 +177,20 @@ class Sweep:
     def contents(self, folder):
         return {p.name: self.content(p) for p in folder.iterdir() if p.is_file()}
 
+    # Folders that are left, less the one that is to stay where a run ends early.
+    def hidden(self, folder, early):
+        return [path.name for path in folder.iterdir() if path.is_dir() and not (early and self.keeps and path.name == KEPT)]
+
+    # Whether what was kept is of use, or no harm.
+    def judge_going_on(self, folder):
+        _, code, errors = self.run_in(folder, None)
+        if code != self.done:
+            yield f"going on: exit code {code}: {errors.strip()[-200:]}"
+        elif self.contents(folder) != self.reference:
+            yield "going on makes other files"
+        elif (folder / KEPT).exists():
+            yield "what was kept stays where all is done"
+
     # Reports and shards tell times.
     def content(self, path):
         content = path.read_bytes()
@@ -140,7 +201,9 @@ class Sweep:
     def judge(self, fault, folder, code, errors):
         kind, number, what = fault.split(":")
         left = self.contents(folder)
-        hidden = [p.name for p in folder.iterdir() if p.is_dir()]
+        hidden = self.hidden(folder, code != self.done)
+        if self.keeps and code != self.done:
+            yield from self.judge_going_on(folder)
         if what == "kill" and code == -signal.SIGKILL:
             for name in self.outputs:
                 if left.get(name) not in (OLD, self.reference[name]):
@@ -160,9 +223,20 @@ class Sweep:
             yield "no error is told"
         if set(left) != set(self.outputs):
             yield f"left {sorted(set(left) ^ set(self.outputs))}"
+        new = {name for name in self.outputs if name in left and left[name] != OLD}
+        if self.apart:  # each feature's come into place together, whatever becomes of the others
+            new -= self.whole_features(left)
+        for name in sorted(new):
+            yield f"{name} is not what stood there"
+
+    # Files of features that have all of theirs.
+    def whole_features(self, left):
+        features = collections.defaultdict(set)
         for name in self.outputs:
-            if name in left and left[name] != OLD:
-                yield f"{name} is not what stood there"
+            if name != REPORT:
+                features[pathlib.PurePath(name).stem].add(name)
+        whole = [names for names in features.values() if all(left.get(name) == self.reference[name] for name in names)]
+        return set().union(*whole)
 
     def note(self, fault, sentence, errors, stack=""):
         with self.lock:
@@ -197,7 +271,7 @@ class Sweep:
         self.folder().rename(folder)
         out_read, out_write = os.pipe()
         in_read, in_write = os.pipe()
-        environment = dict(os.environ, LD_PRELOAD=str(self.shim),
+        environment = dict(os.environ, **self.preload,
                            COASTMESH_FAULT_EVERY=f"{kind}:{what}:{first}:{step}:{most}:{out_write}:{in_read}")
         process = subprocess.Popen(self.command, cwd=folder, env=environment, pass_fds=(out_write, in_read),
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
@@ -287,7 +361,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("shim", type=pathlib.Path)
     parser.add_argument("input", type=pathlib.Path)
-    parser.add_argument("--case", choices=list(CASES) + ["all"], default="mesh", help="what is run")
+    parser.add_argument("--case", choices=list(CASES) + ["all"], nargs="+", default=["mesh"], help="what is run")
     parser.add_argument("--every", action="store_true", help="every change of the disk, and every allocation, by malloc "
                         "too, in runs that split in two at each")
     parser.add_argument("--what", choices=["fail", "gone"], default="fail", help="of --every: one allocation fails, or "
@@ -302,11 +376,13 @@ def main():
     parser.add_argument("--seed", type=int, default=1, help="of --signals")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, help="how many runs at a time")
+    parser.add_argument("--mpirun", help="runs it on two ranks: mpirun, and what it is to be given besides")
+    parser.add_argument("--rank", type=int, default=1, help="of --mpirun: the one that faults are for")
     parser.add_argument("--scratch", help="folder to work in, on a disk in memory at best")
     parser.add_argument("--only", help="one fault: KIND:N:WHAT")
     arguments = parser.parse_args()
     failed = 0
-    for case in list(CASES) if arguments.case == "all" else [arguments.case]:
+    for case in list(CASES) if "all" in arguments.case else arguments.case:
         with tempfile.TemporaryDirectory(dir=arguments.scratch) as scratch:
             failed += sweep_case(case, arguments, pathlib.Path(scratch).resolve())
     if failed:
@@ -314,8 +390,11 @@ def main():
 
 
 def sweep_case(case, arguments, scratch):
+    launcher = []
+    if arguments.mpirun:
+        launcher = [*arguments.mpirun.split(), "-n", "2", "sh", "-c", ON_RANK, "sh"]
     sweep = Sweep(arguments.program.resolve(), arguments.shim.resolve(), arguments.input.resolve(), scratch,
-                  arguments.threads, case)
+                  arguments.threads, case, launcher, arguments.rank)
     counts = sweep.counts
     print(f"{case}: {counts['disk']} changes of the disk, {counts['new']} allocations by new, {counts['malloc']} by malloc",
           flush=True)
