@@ -206,6 +206,7 @@ int runClean(const CleanUsage& usage, Run& run) {
   seconds.total = watch.seconds();
   seconds.write = seconds.total - seconds.read - seconds.clean;
   for (const std::string& warning : input.report().warnings) run.warn(warning);
+  for (const std::string& warning : cleaned.report.warnings) run.warn(warning);
   for (const std::string& reason : cleaned.refused) run.warn("left out: " + reason);
   outputs.writeReport(reportOf(usage, input, cleaned, seconds, run.warnings));
   outputs.commit();

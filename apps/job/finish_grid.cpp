@@ -22,6 +22,7 @@ std::string nameOf(const Repair& repair) { return repair.target ? nameOf(*repair
 
 std::vector<std::string> FinishReport::warnings() const {
   std::vector<std::string> all = depth.warnings;
+  all.insert(all.end(), boundaries.warnings.begin(), boundaries.warnings.end());
   std::map<std::pair<Target, TargetDefectKind>, std::pair<std::size_t, Point>> left;
   for (const auto& [target, defect] : repairs.left)
     ++left.try_emplace({target, defect.kind}, 0, defect.place).first->second.first;
@@ -62,8 +63,12 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
   std::string text;
   if (!options.depth.files.empty()) {
     char line[160];
-    std::snprintf(line, sizeof line, "depths from %.6g to %.6g m; %zu nodes filled, %zu unknown, %zu above the water\n",
-                  report.depth.least_m, report.depth.greatest_m, report.depth.filled, report.depth.unknown,
+    const bool any = std::ranges::any_of(report.depth.nodes_of_file, [](std::size_t nodes) { return nodes > 0; });
+    int length = any ? std::snprintf(line, sizeof line, "depths from %.6g to %.6g m", report.depth.least_m,
+                                     report.depth.greatest_m)
+                     : std::snprintf(line, sizeof line, "no depths");
+    std::snprintf(line + length, sizeof line - static_cast<std::size_t>(length),
+                  "; %zu nodes filled, %zu unknown, %zu above the water\n", report.depth.filled, report.depth.unknown,
                   report.depth.above_water);
     text += line;
   }

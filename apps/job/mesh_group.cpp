@@ -285,6 +285,7 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   result.edits = clean.counts;
   if (task.job.keep_edits) result.edit_places = std::move(clean.edits);
   result.notes = std::move(clean.notes);
+  result.warnings = std::move(clean.warnings);
   result.projection = domain.projection.description();
   result.projection_reason = domain.projection.reason();
   result.surface = task.input.surfaceOf(domain.projection);

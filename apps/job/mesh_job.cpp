@@ -15,6 +15,7 @@
 #include "apps/job/deal_groups.hpp"
 #include "apps/job/grid_pieces.hpp"
 #include "apps/job/group_bytes.hpp"
+#include "apps/job/idle_inputs.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/raster_helpers.hpp"
 #include "apps/job/stopwatch.hpp"
@@ -153,6 +154,9 @@ class WaitingGroup {
 // Puts the groups' results together in the groups' order, each as soon as those before it are there.
 class OrderedMerge {
  public:
+  // Of groups; a million lakes may have one each.
+  static constexpr std::size_t kMostWarnings = 20;
+
   // Groups that are not `expected` are passed over.
   OrderedMerge(const JobInput& input, const std::vector<bool>& expected, MeshJobResult& result)
       : input_(input), expected_(expected), result_(result), waiting_(input.groups()) {
@@ -181,6 +185,8 @@ class OrderedMerge {
   void finish() {
     std::ranges::sort(small_groups_.items, std::greater());
     if (!small_groups_.items.empty()) result_.log.stages.push_back(std::move(small_groups_));
+    if (untold_ > 0)
+      result_.read.warnings.push_back(std::to_string(untold_) + " more warnings of other features are not shown");
     result_.log.addAlone("stitch", merging_s_);
     result_.seconds.stitch += merging_s_;
   }
@@ -195,6 +201,11 @@ class OrderedMerge {
     while (next_ < waiting_.size() && !expected_[next_]) ++next_;
   }
   void merge(GroupResult&& part) {
+    while (!part.warnings.empty() && told_ + part.warnings.size() > kMostWarnings) {
+      part.warnings.pop_back();
+      ++untold_;
+    }
+    told_ += part.warnings.size();
     if (part.size_max)
       merged_.push_back({next_, *part.size_max, static_cast<std::uint32_t>(result_.grid.features.size())});
     addGroup(input_, next_, std::move(part), result_, small_groups_);
@@ -208,6 +219,7 @@ class OrderedMerge {
     }
   }
 
+  std::size_t told_ = 0, untold_ = 0;  // warnings
   const JobInput& input_;
   const std::vector<bool>& expected_;
   MeshJobResult& result_;
@@ -376,6 +388,9 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     result.log.addAlone("finish", result.seconds.finish);
     recorder.finish();
   }
+  // A shard, or one feature of many, may well lie beside them.
+  if (exchange.shards <= 1 && !job.input.ready)
+    std::ranges::move(warningsOfIdleInputs(job, sizes, result.grid), std::back_inserter(result.read.warnings));
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop);
   result.rasters_read = rasters.use();

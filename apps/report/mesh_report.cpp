@@ -246,6 +246,22 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
   return textOf(report);
 }
 
+namespace {
+
+// What cleaning did to the input that may surprise; empty where it did none of that.
+std::string cleaningText(const std::array<std::uint64_t, kEditKinds>& edits) {
+  std::string text;
+  for (const EditKind kind :
+       {EditKind::Spike, EditKind::SelfCrossing, EditKind::FeaturesCross, EditKind::DegenerateRing,
+        EditKind::FeaturesOverlap, EditKind::MisplacedRing, EditKind::OutsideWater}) {
+    const std::uint64_t count = edits[static_cast<std::size_t>(kind)];
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::string(toString(kind)) + " " + grouped(count);
+  }
+  return text.empty() ? "" : "mended in the input: " + text + "; --edits FILE has the places\n";
+}
+
+}  // namespace
+
 std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
   const MeshQuality& quality = result.quality;
   char figures[200];
@@ -276,6 +292,7 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
   if (const auto rings = std::ranges::count_if(result.grid.boundaries, isOpenRing); rings > 0)
     text += grouped(static_cast<std::uint64_t>(rings)) +
             " open boundaries are rings, which fort.14 and hgrid.gr3 hold as two that share their ends\n";
+  text += cleaningText(result.edits);
   text += finishSummary(job.finish, result.finish);
   text += partitionText(result.partition);
   if (result.refine.budget_reached) text += "the vertex budget was reached before all angles were good\n";

@@ -1,11 +1,16 @@
 #include "gis/clean/clean.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <tuple>
 
 #include "gis/clean/clean_faces.hpp"
 #include "gis/clean/clean_pinches.hpp"
 #include "gis/clean/clean_simplify.hpp"
 #include "gis/clean/domain_of_edges.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/chain_index.hpp"
 
@@ -21,8 +26,41 @@ std::string namesOf(const Coastline& coastline, const std::vector<std::size_t>& 
   return names;
 }
 
+// The two ends of lines that are nearest to one another, of those at which no other line begins or ends; empty where
+// there are none, or too many for anyone to mend by hand.
+std::string nearestEnds(const Coastline& coastline, const std::vector<std::size_t>& members,
+                        const Projection& projection) {
+  constexpr std::size_t kMost = 2000;
+  std::vector<Point> ends;
+  for (const std::size_t member : members) {
+    for (const auto& line : coastline.features[member].lines) {
+      if (line.size() < 2) continue;
+      ends.push_back(line.front());
+      ends.push_back(line.back());
+    }
+  }
+  std::ranges::sort(ends, lexLess);
+  std::vector<Point> loose, plane;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if ((i == 0 || ends[i - 1] != ends[i]) && (i + 1 == ends.size() || ends[i + 1] != ends[i]))
+      loose.push_back(ends[i]);
+  if (loose.size() < 2 || loose.size() > kMost) return {};
+  std::ranges::transform(loose, std::back_inserter(plane), [&](const Point& p) { return projection.forward(p); });
+  std::size_t a = 0, b = 1;
+  const auto gap = [&plane](std::size_t i, std::size_t j) {
+    return std::hypot(plane[i].x - plane[j].x, plane[i].y - plane[j].y);
+  };
+  for (std::size_t i = 0; i < plane.size(); ++i)
+    for (std::size_t j = i + 1; j < plane.size(); ++j)
+      if (gap(i, j) < gap(a, b)) std::tie(a, b) = std::pair(i, j);
+  char width[40];
+  std::snprintf(width, sizeof width, "%.3g", gap(a, b));
+  return " (the nearest ends, " + placeInWords(loose[a]) + " and " + placeInWords(loose[b]) + ", are " + width +
+         (projection.isIdentity() ? "" : " m") + " apart)";
+}
+
 void refuseEmpty(const Coastline& coastline, const std::vector<std::size_t>& members,
-                 const std::vector<Segment>& segments) {
+                 const std::vector<Segment>& segments, const Projection& projection) {
   for (const Segment& segment : segments) {
     if (segment.left >= 0 || segment.right >= 0) return;
   }
@@ -37,8 +75,10 @@ void refuseEmpty(const Coastline& coastline, const std::vector<std::size_t>& mem
   if (has_frame) throw InputError("the frame holds no water: all of it is land");
   throw InputError(namesOf(coastline, members) + ": " +
                    (has_polygon ? "the polygons enclose no area"
-                                : "the lines close no ring, so there is nothing to mesh: join their ends, or close "
-                                  "them with --bbox W,S,E,N or --clip FILE"));
+                                : "the lines close no ring, so there is nothing to mesh" +
+                                      nearestEnds(coastline, members, projection) +
+                                      ": join them, with --snap too, or close them with --bbox W,S,E,N or "
+                                      "--clip FILE"));
 }
 
 // Edits beyond the frame are about what is not meshed anyway.
@@ -76,7 +116,7 @@ Domain cleanFeatures(const Coastline& coastline, const std::vector<std::size_t>&
   const NodedEdges edges = nodeChains(chains, coastline, projection, report, loop);
   LabelledEdges labelled = labelFaces(chains, edges, coastline, projection, options.dissolve, report, loop);
   if (options.pinches == Pinches::Keep) reportPinches(chains.vertices, labelled.segments, coastline, report);
-  if (!coastline.rest) refuseEmpty(coastline, members, labelled.segments);
+  if (!coastline.rest) refuseEmpty(coastline, members, labelled.segments, projection);
   keepFramedEdits(coastline, members, edits_before, report);
   const Resolution& resolution = chains.resolution;
   if (options.dissolve) {

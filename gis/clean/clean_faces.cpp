@@ -295,10 +295,47 @@ class Labeller {
       bool first = true;
       for (const std::uint32_t feature : holders_[face]) {
         if (useOf(feature) != FeatureUse::Area || std::exchange(first, false)) continue;
-        const PlanarMap::HalfEdge h = map_.around(face).front();
-        report_.add(EditKind::FeaturesOverlap, inputOf(ends_[h / 2].first), fidOf(feature));
+        report_.add(EditKind::FeaturesOverlap, placeIn(face), fidOf(feature));
       }
     }
+    warnOfNested();
+  }
+
+  const Point& placeIn(std::uint32_t face) const { return inputOf(ends_[map_.around(face).front() / 2].first); }
+
+  // A polygon wholly in another is mostly an island, drawn as a feature of its own where a hole was needed.
+  void warnOfNested() {
+    struct Shared {
+      std::uint32_t other, face;
+    };
+    std::map<std::uint32_t, Shared> shared;  // of features that lie in another somewhere
+    std::vector<std::uint32_t> alone;        // features that have a face to themselves
+    for (std::uint32_t face = 0; face < holders_.size(); ++face) {
+      FeatureSet areas;
+      std::ranges::copy_if(holders_[face], std::back_inserter(areas),
+                           [this](std::uint32_t feature) { return useOf(feature) == FeatureUse::Area; });
+      if (areas.size() == 1) alone.push_back(areas.front());
+      for (std::size_t i = 0; i < areas.size() && areas.size() > 1; ++i)
+        shared.try_emplace(areas[i], Shared{areas[i == 0 ? 1 : 0], face});
+    }
+    if (shared.empty()) return;
+    std::ranges::sort(alone);
+    std::erase_if(shared, [&](const auto& each) { return std::ranges::binary_search(alone, each.first); });
+    // Of two that are the same the second is told.
+    std::erase_if(shared, [&](const auto& each) {
+      const auto other = shared.find(each.second.other);
+      return other != shared.end() && each.first < other->first && other->second.other == each.first;
+    });
+    if (shared.empty()) return;
+    const auto& [feature, first] = *shared.begin();
+    const std::string more = shared.size() > 1 ? ", and so do " + std::to_string(shared.size() - 1) + " more" : "";
+    const auto inWords = [this](std::uint32_t f) {
+      return coastline_.features[f].source + ", feature " + std::to_string(fidOf(f));
+    };
+    report_.warnings.push_back(
+        inWords(feature) + " lies in " + inWords(first.other) + " at " + placeInWords(placeIn(first.face)) + more +
+        ": both are meshed; an island has to be a hole of the polygon round it, which Difference "
+        "makes in QGIS");
   }
 
   // A ring is judged by the first of its edges that is left. Those that cross something have no side to judge by.

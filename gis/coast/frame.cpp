@@ -58,6 +58,17 @@ void refuseOddBox(const Box& box, const Crs& crs) {
   }
 }
 
+// An east below the west is meant across the antimeridian, and is a slip where that leads round most of the Earth.
+void noteWideBox(const Box& box, const Crs& crs, FrameReport& report) {
+  if (!crs.geographic || box.xmin < box.xmax) return;
+  const double width = box.xmax + kTurn - box.xmin;
+  if (width <= kTurn / 2) return;
+  char text[60];
+  std::snprintf(text, sizeof text, "reaches over %.6g degrees", width);
+  report.notes.push_back("--bbox " + inWords(box) + ": its east is less than its west, so that it " + text +
+                         " across the antimeridian; the order is west, south, east, north");
+}
+
 // Polygons of a frame are read like any others: their coordinates may be none of the CRS.
 void refuseOddFrames(const Coastline& coastline) {
   for (const Feature& feature : coastline.features) {
@@ -385,6 +396,7 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   if (options.box) {
     refuseOddBox(*options.box, coastline.crs);
     const double turn = turnOf(boundsOf(coastline, false));
+    noteWideBox(*options.box, coastline.crs, report);
     coastline.features.push_back(frameOf(*options.box, coastline.crs, turn));
     coastline.framed_by_box = true;
   }

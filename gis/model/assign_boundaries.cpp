@@ -400,11 +400,17 @@ BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options) {
   std::vector<bool> said(boundary.edges.size(), false);
   const auto applyFiles = [&](const std::vector<std::string>& files, bool all_have_it) {
     for (const std::string& file : files) {
+      bool any = false;
       RuleSet(file, options.column, all_have_it)
           .apply(grid, boundary.edges, boundary.outer, [&](std::size_t e, const BoundaryKind& kind) {
             boundary.kinds[e] = kind;
-            said[e] = true;
+            said[e] = any = true;
           });
+      if (all_have_it && !any)
+        report.warnings.push_back(file +
+                                  ": says nothing of the mesh's boundary: no edge of it has its middle in one of the "
+                                  "polygons, or runs along one of the lines within a fifth of its length (polygons "
+                                  "open no islands)");
     }
   };
   applyFiles(options.inputs, false);

@@ -30,6 +30,7 @@ struct BoundaryReport {
   std::size_t edges_by_file = 0;   // of the boundary, by a file
   std::size_t edges_by_depth = 0;  // opened by their depth
   std::size_t merged = 0;          // boundaries that were too short
+  std::vector<std::string> warnings;
 };
 
 // What a column's text means: land (shore, coast, wall, closed, solid, mainland, island), open (ocean, sea, tidal,

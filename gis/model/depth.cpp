@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 
 #include "gis/model/fill_depths.hpp"
@@ -87,6 +88,25 @@ class ValueSearch {
   std::vector<std::size_t> partial_file_;
 };
 
+// Of all nodes: so many without a value are no rim of a raster any more.
+constexpr double kManyWithout = 0.05;
+
+// What to tell of nodes for which no raster has a value; empty where they are few.
+std::string gapWarning(const Grid& grid, const DepthOptions& options) {
+  const auto isUnknown = [](double z) { return std::isnan(z); };
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(grid.z, isUnknown));
+  if (static_cast<double>(count) <= kManyWithout * static_cast<double>(grid.nodes.size())) return {};
+  const Point& first = grid.nodes[static_cast<std::size_t>(std::ranges::find_if(grid.z, isUnknown) - grid.z.begin())];
+  char text[200];
+  std::snprintf(
+      text, sizeof text, "no raster has a value for %zu of %zu nodes (%.0f %%), the first at (%.6g, %.6g): ", count,
+      grid.nodes.size(), 100.0 * static_cast<double>(count) / static_cast<double>(grid.nodes.size()), first.x, first.y);
+  return text +
+         std::string(options.fill == DepthFill::None ? "they stay without a depth"
+                                                     : "their depths are made from other nodes, however far") +
+         "; give another --bathymetry that covers them";
+}
+
 void measure(const Grid& grid, DepthReport& report) {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const double z : grid.z) {
@@ -114,7 +134,11 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   grid.z = search.finish();
   for (double& z : grid.z) z = (options.positive_down ? 0.0 - z : z) - options.water_level_m;
   const std::size_t known = std::accumulate(report.nodes_of_file.begin(), report.nodes_of_file.end(), std::size_t{0});
-  if (known == 0) report.warnings.emplace_back("no raster has a value anywhere in the mesh; is its CRS right?");
+  if (known == 0) {
+    report.warnings.emplace_back("no raster has a value anywhere in the mesh; is its CRS right?");
+  } else if (std::string warning = gapWarning(grid, options); !warning.empty()) {
+    report.warnings.push_back(std::move(warning));
+  }
   if (options.fill == DepthFill::Neighbours) report.filled = fillFromNeighbours(grid);
   if (options.fill == DepthFill::Nearest) report.filled = fillFromNearest(grid);
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));

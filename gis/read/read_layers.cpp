@@ -100,6 +100,8 @@ class LayerReader {
     add(std::move(parts), std::move(feature), report);
   }
 
+  std::int64_t count() const { return count_; }  // of features with a geometry
+
   // `feature` has its name and attributes.
   void add(GeometryParts parts, Feature feature, ReadReport& report) {
     ++count_;
@@ -233,6 +235,9 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   if (!errors.leftOut().empty()) {
     report.warnings.push_back(source.name + ": something is left out that is no geometry (" + errors.leftOut() + ")");
   }
+  const auto isEmpty = [](const LayerReader& reader) { return reader.count() == 0; };
+  if (!filter.where.empty() && std::ranges::all_of(readers, isEmpty))
+    throw InputError(source.name + ": --where \"" + filter.where + "\" holds for no feature with a geometry in it");
   return finishAll(readers, source.name, report.skipped_points - points_before);
 }
 

@@ -106,7 +106,15 @@ void collectPoints(const OGRGeometry& geometry, std::vector<std::vector<Point>>&
 // The attribute's value; none where it is null. Throws where it is no number of at least `least`.
 std::optional<double> numberOf(const OGRFeature& feature, int field, double least, const std::string& what) {
   if (field < 0 || !feature.IsFieldSetAndNotNull(field)) return std::nullopt;
-  const double value = feature.GetFieldAsDouble(field);
+  double value = feature.GetFieldAsDouble(field);
+  if (feature.GetFieldDefnRef(field)->GetType() == OFTString) {
+    // OGR takes the number that a text begins with: 1 of "1 km".
+    const std::string text = feature.GetFieldAsString(field);
+    char* end = nullptr;
+    value = CPLStrtod(text.c_str(), &end);
+    while (*end == ' ') ++end;
+    if (text.empty() || *end != '\0') value = std::numeric_limits<double>::quiet_NaN();
+  }
   if (std::isfinite(value) && value >= least) return value;
   throw InputError(what + ": its attribute '" + feature.GetFieldDefnRef(field)->GetNameRef() + "' is " +
                    feature.GetFieldAsString(field) + ", not a number above 0; correct it, or leave it empty");

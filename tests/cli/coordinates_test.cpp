@@ -305,6 +305,19 @@ TEST_F(Coordinates, NodesOffTheEarthAreRefused) {
   EXPECT_EQ(names().count("o.gpkg"), 0u);
 }
 
+TEST_F(Coordinates, LatitudesBeforeLongitudesAreNamed) {
+  const auto errorOf = [this](const std::string& corner) {
+    const std::string path = write("s.geojson", R"({"type":"Polygon","coordinates":[[)" + corner +
+                                                    R"(,[60.5,-150],[60.5,-149],)" + corner + "]]}");
+    const ProgramRun run = runProgram({"mesh", path, "-o", file("o.nc")});
+    EXPECT_EQ(run.code, 3);
+    EXPECT_TRUE(isOneErrorLine(run.errors));
+    return run.errors;
+  };
+  EXPECT_NE(errorOf("[60,-150]").find("latitude and longitude swapped"), std::string::npos);
+  EXPECT_NE(errorOf("[500000,4200000]").find("--crs plane"), std::string::npos);
+}
+
 // A projected CRS has places too that are none.
 TEST_F(Coordinates, NodesOffAProjectionAreRefused) {
   const std::string mesh = write("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 5e5 5e6 0\nND 2 6e5 5e6 0\nND 3 1e30 5e6 0\n");

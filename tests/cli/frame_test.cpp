@@ -51,6 +51,21 @@ class Frame : public ProgramTest {
   }
 };
 
+// Its sides in the wrong order are a box too, round most of the Earth.
+TEST_F(Frame, ABoxRoundMostOfTheEarthIsTold) {
+  const std::vector<std::string> common{"mesh",    island(), "--domain",    "outside", "--size",      "300000",
+                                        "--coast", "follow", "--overwrite", "-o",      file("sea.nc")};
+  const auto outputOf = [&](const std::string& box) {
+    std::vector<std::string> arguments = common;
+    arguments.push_back("--bbox=" + box);
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.output;
+  };
+  EXPECT_THAT(outputOf("3,58,0,64"), HasSubstr("reaches over 357 degrees across the antimeridian"));
+  EXPECT_THAT(outputOf("0,58,3,64"), Not(HasSubstr("antimeridian")));
+}
+
 TEST_F(Frame, NothingReachesPastTheBox) {
   const ProgramRun run = runProgram({"mesh", island(), "--domain", "outside", "--bbox=-9,58,9,64", "--size-shore",
                                      "10000", "--size-max", "90000", "--coast", "follow", "-o", file("sea.14")});

@@ -287,6 +287,32 @@ TEST_F(MeshRun, ProgressIsJsonLines) {
   EXPECT_EQ(last, "done");
 }
 
+// An island drawn as a polygon on its lake is no island; of many such lakes some are named.
+TEST_F(MeshRun, PolygonsInPolygonsAreWarnedOf) {
+  std::vector<std::vector<LonLatRing>> polygons;
+  for (const double lon : {0, 1, 2, 3, 4})
+    for (const double lat : {0, 1, 2, 3, 4}) {
+      polygons.push_back({{{lon, lat}, {lon + 0.5, lat}, {lon + 0.5, lat + 0.5}, {lon, lat + 0.5}}});
+      polygons.push_back({{{lon + 0.2, lat + 0.2}, {lon + 0.3, lat + 0.2}, {lon + 0.3, lat + 0.3}}});
+    }
+  const std::string input = write("lakes.geojson", geoJsonPolygons(polygons));
+  const ProgramRun run = runProgram({"mesh", input, "-o", file("a.2dm"), "--report", file("a.json")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_NE(run.output.find("mended in the input: features overlap 25; --edits FILE has the places"), std::string::npos)
+      << run.output;
+  const Json warnings = Json::parse(readText(file("a.json")))["warnings"];
+  ASSERT_EQ(warnings.size(), 21u);
+  const std::string first = warnings.front(), last = warnings.back();
+  EXPECT_NE(first.find("feature 1 lies in "), std::string::npos) << first;
+  EXPECT_EQ(last, "5 more warnings of other features are not shown");
+}
+
+TEST_F(MeshRun, AFilterThatHoldsForNothingIsNamed) {
+  const ProgramRun run = runProgram({"mesh", lake(), "--where", "fid = 77", "-o", file("a.2dm")});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_NE(run.errors.find("--where \"fid = 77\" holds for no feature"), std::string::npos) << run.errors;
+}
+
 TEST_F(MeshRun, AllRefusedStillReports) {
   const std::string input = write("flat.geojson", geoJsonPolygons({{{{0, 0}, {1, 0}, {2, 0}}}}));
   EXPECT_EQ(runProgram({"mesh", input, "-o", file("a.2dm"), "--report", file("a.json")}).code, 3);

@@ -159,6 +159,34 @@ TEST(Clean, AFeatureInAnotherIsSwallowed) {
   EXPECT_EQ(cleaned.area(0), 81.0);
 }
 
+// In whichever order: neither makes an island of the inner one.
+TEST(Clean, AFeatureInAnotherIsWarnedOf) {
+  const Feature lake = polygonFeature(1, square(0, 0, 9)), island = polygonFeature(2, square(2, 2, 2)),
+                beside = polygonFeature(3, square(9, 0, 9)), across = polygonFeature(4, square(8, 8, 4));
+  for (const auto& features : {std::vector{lake, island, beside}, {island, lake, across}}) {
+    const Cleaned cleaned = cleanInPlane(features);
+    ASSERT_EQ(cleaned.report.warnings.size(), 1u);
+    EXPECT_NE(cleaned.report.warnings[0].find("feature 2 lies in "), std::string::npos) << cleaned.report.warnings[0];
+    EXPECT_NE(cleaned.report.warnings[0].find("feature 1 at "), std::string::npos) << cleaned.report.warnings[0];
+  }
+  EXPECT_EQ(cleanInPlane({lake, island, lake}).report.warnings.size(), 1u);
+  EXPECT_NE(cleanInPlane({lake, island, lake}).report.warnings.at(0).find("and so do 1 more"), std::string::npos);
+  EXPECT_TRUE(cleanInPlane({lake, beside, across}).report.warnings.empty());
+}
+
+TEST(Clean, LinesThatCloseNoRingSayHowFarTheyAreApart) {
+  Feature lines;
+  lines.source = "coast";
+  lines.lines = {{{0, 0}, {4, 0}, {4, 4}}, {{4, 4.5}, {0, 4}, {0, 0}}};
+  try {
+    cleanInPlane({lines});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the nearest ends, 4, 4 and 4, 4.5, are 0.5 apart"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Clean, MisplacedRingsGoByTheEvenOddRule) {
   Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4), {square(6, 0, 2)})});
   EXPECT_EQ(cleaned.count(EditKind::MisplacedRing), 1u);

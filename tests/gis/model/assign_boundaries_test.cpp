@@ -90,6 +90,20 @@ TEST_F(AssignBoundaries, LinesTellWhatRunsAlongThem) {
   expectWholeBoundary(grid);
 }
 
+TEST_F(AssignBoundaries, AFileThatSaysNothingOfTheBoundaryIsWarnedOf) {
+  Grid grid = sea();
+  const auto near = put("near.geojson", feature("\"open\"", "LineString", "[[10,50],[10,60]]"));
+  const auto far = put("far.geojson", feature("\"open\"", "LineString", "[[9.5,50],[9.5,60]]"));
+  BoundaryOptions options;
+  options.files = {near};
+  EXPECT_TRUE(assignBoundaries(grid, options).warnings.empty());
+  options.files = {near, far};
+  const BoundaryReport report = assignBoundaries(grid, options);
+  EXPECT_EQ(report.edges_by_file, 10u);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_THAT(report.warnings[0], HasSubstr("far.geojson: says nothing of the mesh's boundary"));
+}
+
 TEST_F(AssignBoundaries, LinesOpenIslands) {
   Grid grid = sea();
   BoundaryOptions options;

@@ -142,6 +142,8 @@ TEST_F(Depth, GapsAreFilledAndCounted) {
     const auto beyond =
         static_cast<std::size_t>(std::ranges::count_if(grid.nodes, [](const Point& p) { return p.x > 11.0; }));
     EXPECT_GT(beyond, 0u);
+    EXPECT_THAT(report.warnings, ElementsAre(HasSubstr("no raster has a value for " + std::to_string(beyond) + " of " +
+                                                       std::to_string(grid.nodes.size()))));
     EXPECT_EQ(report.filled, fill == DepthFill::None ? 0 : beyond);
     EXPECT_EQ(report.unknown, fill == DepthFill::None ? beyond : 0);
     for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
@@ -154,6 +156,16 @@ TEST_F(Depth, GapsAreFilledAndCounted) {
       }
     }
   }
+}
+
+// A raster that ends a little before the mesh does needs no words.
+TEST_F(Depth, AFewNodesWithoutAValueAreNotWarnedOf) {
+  const auto most = raster("most.tif", "EPSG:4326", {200, 200, 10.0, 52.0, 0.01},
+                           [](double x, double y) { return x > 10.1 || y > 50.1 ? -x : kNoValue; });
+  Grid grid = squares("EPSG:4326", {10.05, 50.05}, 0.15, 12, 12);
+  const DepthReport report = setDepths(grid, {{most}});
+  EXPECT_EQ(report.filled, 1u);
+  EXPECT_TRUE(report.warnings.empty());
 }
 
 // Longitudes of another turn, and a raster whose last column meets its first.

@@ -268,5 +268,19 @@ TEST_F(SizeFiles, FeaturesWithoutSizesAreRefused) {
   EXPECT_THROW(readSizedFeatures(file("g.geojson"), {}, 0.2), InputError);
 }
 
+// OGR itself takes the number that a text begins with, whatever unit follows.
+TEST_F(SizeFiles, SizesAsTextsAreNumbersOrRefused) {
+  const auto sizes = [this](const std::string& text) {
+    std::ofstream(file("t.geojson")) << R"({"type": "FeatureCollection", "features": [
+      {"type": "Feature", "properties": {"size": ")"
+                                     << text << R"("}, "geometry":
+        {"type": "Point", "coordinates": [3, 4]}}]})";
+    return readSizedFeatures(file("t.geojson"), {}, 0.2);
+  };
+  EXPECT_EQ(sizes("150").parts.at(0).size_m, 150.0);
+  EXPECT_EQ(sizes(" 1.5e2 ").parts.at(0).size_m, 150.0);
+  for (const char* text : {"1 km", "100 m", "1,5", "fine", " "}) EXPECT_THROW(sizes(text), InputError) << text;
+}
+
 }  // namespace
 }  // namespace coastmesh
