@@ -26,6 +26,7 @@
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
 #include "parallel/deal.hpp"
+#include "parallel/free_memory.hpp"
 
 namespace {
 
@@ -118,6 +119,7 @@ int guardedMain(int argc, char** argv, Interrupt& interrupt, int ranks) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keepFreedMemory();
   holdStandardStreams();
   const int ranks = ranksOf(argc, argv);
   std::optional<Keeper> keeper;
