@@ -83,7 +83,6 @@ std::size_t clip(Point*& polygon, std::size_t corners, Point*& clipped, double* 
 
 // By value, so that it compiles to no branch.
 inline double larger(double a, double b) { return a > b ? a : b; }
-inline double smaller(double a, double b) { return a < b ? a : b; }
 
 // Above 0 where the angle of the triangle x, x + d, c there is too small, |d|² being `squared`; over |d| each is how
 // far c is from where it may be, nearly so for the petal.
@@ -121,23 +120,15 @@ bool FeasibleRegion::isForSmallestAnglesAlone() const {
 
 FeasibleRegion::Look FeasibleRegion::look(std::span<const LinkEdge> link) {
   if (bound_.min_angle <= 0.0) return {};
-  // A box round the petals' common part: that alone is empty most of the time.
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Point low{-kFar, -kFar}, high{kFar, kFar};
   if (edges_.size() < link.size()) edges_.resize(link.size());
-  Edge* edge = edges_.data();
-  for (const LinkEdge& e : link) {
-    const Point d = e.y - e.x;
-    const double squared = squaredLength(d);
-    const double radius = petal_.radius * std::sqrt(squared);
-    const Point mid = midpoint(e.x, e.y);
-    const Point centre{mid.x - petal_.height * d.y, mid.y + petal_.height * d.x};
-    low = {larger(low.x, centre.x - radius), larger(low.y, centre.y - radius)};
-    high = {smaller(high.x, centre.x + radius), smaller(high.y, centre.y + radius)};
-    *edge++ = {e.x, d, squared};
-  }
-  if (low.x >= high.x || low.y >= high.y) return {std::nullopt, true};
-  const std::span<Edge> edges(edges_.data(), link.size());
+  PetalBox box;
+  for (std::size_t i = 0; i < link.size(); ++i) box.cut(ready(link[i].x, link[i].y, edges_[i]));
+  return look(std::span(edges_.data(), link.size()), box);
+}
+
+FeasibleRegion::Look FeasibleRegion::look(std::span<LookEdge> edges, const PetalBox& box) {
+  const auto& [low, high] = box;
+  if (box.isEmpty()) return {std::nullopt, true};
   constexpr std::size_t kMostCuts = 12;
   makeRoom(4 + kMostCuts);
   Point *polygon = polygon_.data(), *clipped = clipped_.data();
@@ -147,13 +138,13 @@ FeasibleRegion::Look FeasibleRegion::look(std::span<const LinkEdge> link) {
   polygon[1] = {high.x, low.y};
   polygon[2] = high;
   polygon[3] = {low.x, high.y};
-  for (Edge& e : edges) e.inverse = 1.0 / e.squared;
+  for (LookEdge& e : edges) e.inverse = 1.0 / e.squared;
   // Cuts by the constraint that the middle of what is left breaks most.
   for (std::size_t cuts = 0; cuts < kMostCuts; ++cuts) {
     const Point c = centreOf(polygon, corners);
     double worst = 0.0;
-    const Edge* worst_edge = nullptr;
-    for (const Edge& e : edges) {
+    const LookEdge* worst_edge = nullptr;
+    for (const LookEdge& e : edges) {
       const Lacks lacks = lacksOf(e.from, e.along, e.squared, c, bound_);
       const double lack = larger(larger(lacks.at_x, lacks.at_y), larger(lacks.at_c, 0.0));
       const double share = lack * lack * e.inverse;
@@ -161,8 +152,7 @@ FeasibleRegion::Look FeasibleRegion::look(std::span<const LinkEdge> link) {
       worst = larger(worst, share);
     }
     if (worst_edge == nullptr) return {c, false};
-    const Point x = worst_edge->from, d = worst_edge->along;
-    const Point y = link[static_cast<std::size_t>(worst_edge - edges.data())].y;
+    const Point x = worst_edge->from, y = worst_edge->to, d = worst_edge->along;
     const Lacks lacks = lacksOf(x, d, worst_edge->squared, c, bound_);
     if (lacks.at_x >= lacks.at_y && lacks.at_x >= lacks.at_c) {
       corners = clip(polygon, corners, clipped, sides, x, turned(d, bound_.cos_min, bound_.sin_min));

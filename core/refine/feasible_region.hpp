@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,6 +25,26 @@ struct PetalShape {
   explicit PetalShape(const AngleBound& bound) : radius(0.5 / bound.sin_min), height(radius * bound.cos_min) {}
 };
 
+// A box round what several petals have in common: where that is empty, so is the region, most of the time. Minima and
+// maxima by value, so that they compile to no branch.
+struct PetalBox {
+  Point low{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Point high{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
+  void cut(const PetalBox& by) {
+    low = {low.x > by.low.x ? low.x : by.low.x, low.y > by.low.y ? low.y : by.low.y};
+    high = {high.x < by.high.x ? high.x : by.high.x, high.y < by.high.y ? high.y : by.high.y};
+  }
+  bool isEmpty() const { return low.x >= high.x || low.y >= high.y; }
+};
+
+// A link edge as looks need it.
+struct LookEdge {
+  Point from, to, along;
+  double squared;  // length
+  double inverse;  // of that; for `look` to fill
+};
+
 // Where a vertex may lie so that, its link fixed, all triangles of its star hold the bounds (Erten & Üngör 2007,
 // Section 5). That set is an intersection of convex ones: for every link edge the petal (the angle at the vertex), two
 // half-planes (the angles at the ends), and disks round the ends where edges may not be longer than a size. The petals
@@ -43,6 +65,19 @@ class FeasibleRegion {
   // that of the whole.
   Look look(std::span<const LinkEdge> link);
 
+  // The same in parts, for who has several links with edges in common: the edges made ready, the box round all their
+  // petals. REQUIRES, of both: the smallest angle is above 0.
+  PetalBox ready(const Point& x, const Point& y, LookEdge& edge) const {
+    const Point d = y - x;
+    const double squared = squaredLength(d);
+    const double radius = petal_.radius * std::sqrt(squared);
+    const Point mid = midpoint(x, y);
+    const Point centre{mid.x - petal_.height * d.y, mid.y + petal_.height * d.x};
+    edge = {x, y, d, squared, 0.0};
+    return {{centre.x - radius, centre.y - radius}, {centre.x + radius, centre.y + radius}};
+  }
+  Look look(std::span<LookEdge> edges, const PetalBox& box);
+
   // As findPoint on the line from a to b: the point in the middle of what is feasible there.
   std::optional<Point> findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link) const;
 
@@ -53,14 +88,8 @@ class FeasibleRegion {
   TriangleBound bound_;
   PetalShape petal_;
 
-  struct Edge {  // of the link, from one end along it
-    Point from, along;
-    double squared;        // length
-    double inverse = 0.0;  // of that
-  };
-
   // Scratch.
-  std::vector<Edge> edges_;
+  std::vector<LookEdge> edges_;
   std::vector<Point> polygon_;
   std::vector<Point> clipped_;
   std::vector<double> sides_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/predicates.hpp"
 
@@ -44,17 +45,32 @@ Corners sorted(Corners corners) {
 
 using Link = std::vector<LinkEdge>;
 
-// Appends what is round a vertex, less the edges that end at `other`.
-void appendLink(const EditMesh& mesh, const Ring& ring, VertexId other, Link& link) {
+// What is round a vertex.
+void takeLink(const EditMesh& mesh, const Ring& ring, Link& link) {
   const std::size_t count = ring.corners.size();
-  VertexId from = ring.corners[count - 1];
-  Point x = mesh.point(from);
-  for (const VertexId to : ring.corners) {
-    const Point y = mesh.point(to);
-    if (from != other && to != other) link.push_back({x, y});
-    from = to;
+  link.resize(count);
+  Point x = mesh.point(ring.corners[count - 1]);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point y = mesh.point(ring.corners[k]);
+    link[k] = {x, y};
     x = y;
   }
+}
+
+// Calls `visit` with the edge opposite v in each triangle round it, counter-clockwise from the triangle `home` on, as
+// long as it returns true. Returns whether that went once round, in `most` triangles or fewer.
+template <typename Visit>
+bool walkAllRound(const EditMesh& mesh, VertexId v, TriId home, std::size_t most, const Visit& visit) {
+  TriId t = home;
+  for (std::size_t left = most; left > 0; --left) {
+    const unsigned i = mesh.cornerOf(t, v);
+    if (!visit(edgeRef(t, i))) return false;
+    const EdgeRef after = mesh.twin(edgeRef(t, next3(i)));
+    if (after == kNone) return false;
+    t = triOf(after);
+    if (t == home) return true;
+  }
+  return false;
 }
 
 bool fits(std::span<const LinkEdge> link, const Point& place, const TriangleBound& bound) {
@@ -233,25 +249,73 @@ bool VertexOps::hasTooManyTogether(VertexId v, VertexId w) const {
   return both > 4 && hasTooManyToMerge(both - 4, bound_);
 }
 
-// A quick test of two free vertices, v with its ring and w beside it, that rules most merges out.
-bool VertexOps::cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside) {
-  Link& link = memory_.link;
-  link.clear();
-  appendLink(mesh_, ring, w, link);
-  const auto append = [&](EdgeRef e) {
-    const VertexId a = mesh_.origin(e), b = mesh_.target(e);
-    if (a != v && b != v) link.push_back({mesh_.point(a), mesh_.point(b)});
-  };
-  if (mesh_.walkRound(w, beside, most_triangles_ + kMergedAway, append) != StarKind::Closed) return true;
-  return region_.look(framed(Frame(bound_.surface, mesh_.point(v)), link)).is_empty;
+// What a vertex with this ring looks for together with its neighbours, in the frame at it.
+void VertexOps::makeReady(const Frame& frame, const Ring& ring) {
+  auto& [edges, boxes, before, after] = memory_.ring_look;
+  const std::size_t count = ring.corners.size();
+  edges.resize(count);
+  boxes.resize(count);
+  before.assign(count + 1, {});
+  after.assign(count + 1, {});
+  Point x = frame.to(mesh_.point(ring.corners[count - 1]));
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point y = frame.to(mesh_.point(ring.corners[k]));
+    boxes[k] = region_.ready(x, y, edges[k]);
+    before[k + 1] = before[k];
+    before[k + 1].cut(boxes[k]);
+    x = y;
+  }
+  for (std::size_t k = count; k-- > 0;) {
+    after[k] = after[k + 1];
+    after[k].cut(boxes[k]);
+  }
 }
 
-// The same of w on a segment, by what is round v alone.
-bool VertexOps::cannotMergeOnto(VertexId v, const Ring& ring, VertexId w) {
-  Link& link = memory_.link;
-  link.clear();
-  appendLink(mesh_, ring, w, link);
-  return region_.look(framed(Frame(bound_.surface, mesh_.point(v)), link)).is_empty;
+// Of the ring, less the two edges at corner k.
+PetalBox VertexOps::boxWithout(std::size_t k) const {
+  const RingLook& ring = memory_.ring_look;
+  if (k + 1 < ring.edges.size()) {
+    PetalBox box = ring.before[k];
+    box.cut(ring.after[k + 2]);
+    return box;
+  }
+  PetalBox box;
+  for (std::size_t i = 1; i < k; ++i) box.cut(ring.boxes[i]);
+  return box;
+}
+
+void VertexOps::takeEdgesWithout(std::size_t k) {
+  const std::vector<LookEdge>& ring = memory_.ring_look.edges;
+  std::vector<LookEdge>& edges = memory_.look_edges;
+  const std::size_t beside = k + 1 < ring.size() ? k + 1 : 0;
+  edges.clear();
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    if (i != k && i != beside) edges.push_back(ring[i]);
+}
+
+// A quick test of two free vertices, v with its ring made ready and the one at its corner k, that rules most merges
+// out: mostly the box alone does, before the whole of the other star is seen.
+bool VertexOps::cannotMerge(const Frame& frame, VertexId v, const Ring& ring, std::size_t k) {
+  PetalBox box = boxWithout(k);
+  if (box.isEmpty()) return true;
+  takeEdgesWithout(k);
+  std::vector<LookEdge>& edges = memory_.look_edges;
+  const auto append = [&](EdgeRef e) {
+    const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+    if (a == v || b == v) return true;
+    box.cut(region_.ready(frame.to(mesh_.point(a)), frame.to(mesh_.point(b)), edges.emplace_back()));
+    return !box.isEmpty();
+  };
+  return !walkAllRound(mesh_, ring.corners[k], ring.triangles[k], most_triangles_ + kMergedAway, append) ||
+         region_.look(edges, box).is_empty;
+}
+
+// The same of a corner on a segment, by what is round v alone.
+bool VertexOps::cannotMergeOnto(std::size_t k) {
+  const PetalBox box = boxWithout(k);
+  if (box.isEmpty()) return true;
+  takeEdgesWithout(k);
+  return region_.look(memory_.look_edges, box).is_empty;
 }
 
 // The same as `fits` where smallest angles alone are asked for; in the plane it leaves the triangles in `fan`. There a
@@ -293,7 +357,7 @@ bool VertexOps::isBesideBad(VertexId v, const Ring& ring) const {
 // Whether an edge of a free vertex's star may not be Delaunay, the vertex being where `fitsAt` was last asked for:
 // angles opposite an edge add up to less than a half turn where their cotangents are above zero together. In the plane.
 bool VertexOps::needsFlips(VertexId v, const Ring& ring) const {
-  constexpr double kRounding = 1e-14;
+  constexpr double kRounding = 1e-14, kClear = 1e-6;
   const std::vector<FanTriangle>& fan = memory_.fan;
   const std::size_t count = ring.corners.size();
   const FanTriangle* before = &fan[count - 1];
@@ -303,19 +367,25 @@ bool VertexOps::needsFlips(VertexId v, const Ring& ring) const {
     before = &t;
   }
   const Point& here = mesh_.point(v);
-  return std::ranges::any_of(ring.triangles, [&](TriId t) {
-    const unsigned i = mesh_.cornerOf(t, v);
-    const EdgeRef e = edgeRef(t, i);
-    if (mesh_.isConstrained(e)) return false;
+  // Edge k leads to corner k; the triangle on it is the one before that at the corner.
+  for (std::size_t k = 0; k < count; ++k) {
+    const TriId t = ring.triangles[k == 0 ? count - 1 : k - 1];
+    const EdgeRef e = edgeRef(t, mesh_.cornerOf(t, v));
+    if (mesh_.isConstrained(e)) continue;
+    const Point &x = mesh_.point(ring.corners[k == 0 ? count - 1 : k - 1]), &y = mesh_.point(ring.corners[k]);
     const Point& beyond = mesh_.point(mesh_.apex(mesh_.twin(e)));
-    return inCircle(here, mesh_.corner(t, next3(i)), mesh_.corner(t, prev3(i)), beyond) > 0;
-  });
+    // Mostly the two angles that see the edge are clearly less than a half turn together.
+    const Point to_x = x - beyond, to_y = y - beyond;
+    const double area = cross(to_y, to_x), scale = fan[k].area * area;
+    if (fan[k].at_vertex * area + dot(to_x, to_y) * fan[k].area > kClear * scale && scale > 0.0) continue;
+    if (inCircle(here, x, y, beyond) > 0) return true;
+  }
+  return false;
 }
 
 bool VertexOps::relocateFree(VertexId v, const Ring& ring, std::vector<TriId>& touched) {
   Link& link = memory_.link;
-  link.clear();
-  appendLink(mesh_, ring, kNone, link);
+  takeLink(mesh_, ring, link);
   const Point here = mesh_.point(v);
   const bool good = isClearOfBad(v) || fitsAt(here, link);
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
@@ -454,7 +524,14 @@ bool VertexOps::takeOut(VertexId v, Flips flips, const Accept& accept, std::vect
 
 bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn, std::vector<TriId>& touched) {
   const Point here = mesh_.point(v);
-  double longest = 0.0;  // known once it is needed
+  const Frame frame(bound_.surface, here);
+  // Both are known once they are needed.
+  double longest = 0.0;
+  const bool asks = bound_.min_angle > 0.0;  // else nothing rules a merge out beforehand
+  bool is_ready = !asks;
+  const auto makeReadyOnce = [&] {
+    if (!std::exchange(is_ready, true)) makeReady(frame, ring);
+  };
   for (std::size_t k = 0; k < ring.corners.size(); ++k) {
     const VertexId w = ring.corners[k];
     const VertexKind kind = mesh_.kind(w);
@@ -465,11 +542,10 @@ bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn,
         for (const VertexId u : ring.corners) longest += bound_.surface.squaredChord(here, mesh_.point(u));
         longest *= kLongestToMerge / static_cast<double>(ring.corners.size());
       }
-      if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest || cannotMerge(v, ring, w, ring.triangles[k]))
-        continue;
-    } else if (cannotMergeOnto(v, ring, w)) {
-      continue;
+      if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest) continue;
     }
+    makeReadyOnce();
+    if (asks && (kind == VertexKind::Free ? cannotMerge(frame, v, ring, k) : cannotMergeOnto(k))) continue;
     if (merge(v, w, touched)) return true;
   }
   return false;

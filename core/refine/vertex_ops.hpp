@@ -78,6 +78,12 @@ class VertexOps {
   struct FanTriangle {
     double at_x, at_y, at_vertex, area;
   };
+  // The edges of a free vertex's ring, made ready for looks at it together with each of its neighbours: edge k leads to
+  // corner k. `before[k]` is the box of those before edge k, `after[k]` that of edge k and those behind it.
+  struct RingLook {
+    std::vector<LookEdge> edges;
+    std::vector<PetalBox> boxes, before, after;
+  };
   // Whether the flips that follow a change may make triangles that no one has tested.
   enum class Flips { Watched, Any };
 
@@ -88,8 +94,11 @@ class VertexOps {
   bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
   bool mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn, std::vector<TriId>& touched);
   bool hasTooManyTogether(VertexId v, VertexId w) const;
-  bool cannotMerge(VertexId v, const Ring& ring, VertexId w, TriId beside);
-  bool cannotMergeOnto(VertexId v, const Ring& ring, VertexId w);
+  void makeReady(const Frame& frame, const Ring& ring);
+  PetalBox boxWithout(std::size_t k) const;
+  void takeEdgesWithout(std::size_t k);
+  bool cannotMerge(const Frame& frame, VertexId v, const Ring& ring, std::size_t k);
+  bool cannotMergeOnto(std::size_t k);
   std::optional<Point> placeTowards(const Point& to, const Frame& frame, const Point& here,
                                     std::span<const LinkEdge> link);
   bool fitsAt(const Point& place, std::span<const LinkEdge> link);
@@ -139,6 +148,8 @@ class VertexOps {
     std::vector<Corners> fresh, fresh_beyond;
     std::vector<LinkEdge> link, framed_link;
     std::vector<FanTriangle> fan;
+    RingLook ring_look;
+    std::vector<LookEdge> look_edges;
   } memory_;
 };
 
