@@ -37,22 +37,22 @@ int fail(ExitCode code, const std::string& message) {
   return code;
 }
 
-// An error after memory lacked mostly follows from that, whoever tells of it in what words.
+// An error after an allocation failed is mostly its consequence, whatever its message.
 int failWith(ExitCode code, const std::string& message) {
   if (!memoryLacked()) return fail(code, message);
   return fail(kExitInput, code == kExitBug ? kNoMemory : message + " (memory lacked before that: it may be why)");
 }
 
-// A file opened where standard output or error was closed would take what is printed.
+// A file opened while standard output or error is closed would receive what is printed.
 void holdStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) >= 0) continue;
-    // Read only, so that a write to it fails as one to a closed stream does.
+    // Read only, so that writing to it fails as with a closed stream.
     [[maybe_unused]] const int held = open("/dev/null", O_RDONLY);
   }
 }
 
-// Whether all that was printed has come out.
+// Whether everything printed was written.
 bool flushOutput(std::string& why) {
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;
@@ -61,7 +61,7 @@ bool flushOutput(std::string& why) {
   return false;
 }
 
-// Ranks that help in a run: all that were started with this process, where that is to make one mesh.
+// Ranks that help in a run: all processes started with this one, if they are to make one mesh.
 int ranksOf(int argc, char** argv) {
   const auto isShard = [](const char* argument) { return std::string_view(argument).starts_with("--shard"); };
   const bool together = argc > 1 && std::string_view(argv[1]) == "mesh" && std::none_of(argv + 2, argv + argc, isShard);
@@ -104,7 +104,7 @@ int guardedMain(int argc, char** argv, Interrupt& interrupt, int ranks) {
   } catch (const OutputError& error) {
     return failWith(kExitOutput, error.what());
   } catch (const Cancelled&) {
-    // Whoever reads the progress is gone, or cannot store it.
+    // The reader of the progress has ended, or cannot store it.
     if (!interrupt.requested() && !flushOutput(why)) return failWith(kExitOutput, why);
     return fail(kExitInterrupted, "interrupted");
   } catch (const std::bad_alloc&) {
@@ -112,7 +112,7 @@ int guardedMain(int argc, char** argv, Interrupt& interrupt, int ranks) {
   } catch (const HelperOutOfMemory& error) {
     return fail(kExitInput, error.what());
   } catch (const std::exception& error) {
-    return failWith(kExitBug, std::string("this is a bug of coastmesh, please report it: ") + error.what());
+    return failWith(kExitBug, std::string("this is a bug in coastmesh, please report it: ") + error.what());
   }
 }
 

@@ -12,9 +12,9 @@ namespace coastmesh {
 
 namespace {
 
-// An idle post looks for messages so often: first at once, then less and less.
+// Interval at which an idle post checks for messages: short at first, then longer.
 constexpr auto kLeastPause = std::chrono::microseconds(20), kMostPause = std::chrono::microseconds(1000);
-// What an end of all ranks for want of memory says to who started them: that of input that is too large.
+// Exit code if all ranks are ended for lack of memory: that of an input that is too large.
 constexpr int kNoMemoryCode = 3, kBugCode = 70;
 
 }  // namespace
@@ -98,14 +98,14 @@ void Post::run(std::unique_ptr<Transport> (*join)(), int expected_ranks, std::ui
     return;
   }
   joined(nullptr);
-  // No mesh can come of it any more; nobody waits for this thread in a way that could be told.
+  // The run cannot make a mesh any more, and this thread has no caller to report to.
   try {
     carry(*transport);
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "coastmesh: error: rank %d on %s: there is not enough memory\n", rank_, host_.c_str());
     transport->abort(kNoMemoryCode);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "coastmesh: error: rank %d on %s: this is a bug of coastmesh, please report it: %s\n", rank_,
+    std::fprintf(stderr, "coastmesh: error: rank %d on %s: this is a bug in coastmesh, please report it: %s\n", rank_,
                  host_.c_str(), error.what());
     transport->abort(kBugCode);
   }

@@ -61,7 +61,7 @@ DefectRow rowOf(const ApartWater& water, const Grid& grid) {
   const auto& [a, b, c] = grid.triangles[water.triangle];
   const Point centre = centroid(grid.nodes[a], grid.nodes[b], grid.nodes[c]);
   DefectRow row{"water apart", {}, centre, water.triangle, -1, static_cast<double>(water.triangles), {}};
-  row.detail = std::to_string(water.triangles) + " triangles that nothing joins to an open boundary";
+  row.detail = std::to_string(water.triangles) + " triangles without a connection to an open boundary";
   return row;
 }
 
@@ -164,33 +164,32 @@ int runCheck(const CheckUsage& usage, Run& run) {
 
 Command declareCheck(CLI::App& root) {
   auto usage = std::make_shared<CheckUsage>();
-  OptionTable table = commandOptions("check", "Look for defects in a mesh; exit code 1 where there are any");
+  OptionTable table = commandOptions("check", "Look for defects in a mesh; exit code 1 if there are any");
   declareMeshFile(table, "MESH", "mesh to check", usage->mesh);
   table.section(Section::Input);
-  table.texts({"--input", "What the mesh was made from"}, usage->input.files, kVectorFile, false,
-              "what the mesh was made from: its points and edges have to be in the mesh; repeat it for several");
-  declareTargets(table, usage->targets,
-                 "also look for all that makes the model refuse the mesh; repeat it for several");
+  table.texts({"--input", "Input of the mesh"}, usage->input.files, kVectorFile, false,
+              "what the mesh was made from; its points and edges must be in the mesh; can be repeated");
+  declareTargets(table, usage->targets, "also look for what the model would reject; can be repeated");
   table.section(Section::Sizes);
   table.number({"--time-step", "Time step"}, usage->target_check.time_step_s, "S", {0.0, 1e6},
-               "also look for triangles whose Courant number with this time step is above 1, or as --target has it; 0 "
-               "leaves them out");
+               "also look for triangles whose Courant number with this time step is above 1, or the limit of --target; "
+               "0: no such test");
   table.section(Section::Triangles);
-  table.number({"--min-angle", "Smallest angle"}, usage->check.min_angle_deg, "DEG", {0.0, 60.0},
-               "smallest angle asked for");
-  table.number({"--max-angle", "Largest angle"}, usage->check.max_angle_deg, "DEG", {60.0, 180.0},
-               "largest angle asked for");
+  table.number({"--min-angle", "Minimum angle"}, usage->check.min_angle_deg, "DEG", {0.0, 60.0},
+               "minimum angle of the triangles");
+  table.number({"--max-angle", "Maximum angle"}, usage->check.max_angle_deg, "DEG", {60.0, 180.0},
+               "maximum angle of the triangles");
   declareSurface(table, usage->input.surface);
   table.section(Section::Triangles);
   table.flag({"--delaunay", "Look for edges that are not Delaunay"}, usage->check.delaunay,
-             "also look for edges that are not Delaunay; always done with --input, without which edges inside the mesh "
-             "cannot be known as constraints");
+             "look for edges that are not Delaunay too; always done with --input; without it, constraints inside the "
+             "mesh are unknown and may be reported");
   table.flag({"--pinches", "Look for nodes where the mesh touches itself"}, usage->check.pinches,
-             "also look for nodes in which the mesh touches itself");
+             "look for nodes where the mesh touches itself too");
   table.needing({"--input"}, [&] {
     declareInputOptions(table, usage->input);
-    declarePinches(table, {"--input-pinches", "Where shores of that touch"},
-                   "the --pinches that the mesh was made with from the --input", usage->input);
+    declarePinches(table, {"--input-pinches", "Pinches of the input"},
+                   "value of --pinches with which the mesh was made from --input", usage->input);
   });
   table.section(Section::Output);
   table.output({"-o,--output", "Defects"}, usage->output, {},
@@ -199,7 +198,7 @@ Command declareCheck(CLI::App& root) {
   table.section(Section::Run);
   table.flag({"--quiet", "No summary"}, usage->quiet, "print nothing");
   table.example("coastmesh check lake.nc --input lake.geojson --min-angle 33",
-                "is the mesh sound, does it hold the angle, is all of the input in it?");
+                "is the mesh valid, does it meet the angle, is all of the input in it?");
   table.example("coastmesh check grid.2dm -o defects.gpkg", "the defects as a layer of points");
   return {{root, std::move(table)}, [usage](Run& run) { return runCheck(*usage, run); }};
 }

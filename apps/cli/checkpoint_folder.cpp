@@ -172,7 +172,7 @@ CheckpointFolder::CheckpointFolder(const std::string& folder, CheckpointHeader h
   std::error_code error;
   made_ = fs::create_directory(folder_, error);
   if (!made_ && !fs::is_directory(folder_)) {
-    if (fs::exists(folder_)) throw OptionError("--checkpoint " + folder + ": is no folder");
+    if (fs::exists(folder_)) throw OptionError("--checkpoint " + folder + ": is not a folder");
     throw OutputError("the folder '" + folder +
                       "' cannot be made: " + (error ? error.message() : std::strerror(ENOENT)));
   }
@@ -230,11 +230,10 @@ void CheckpointFolder::lock() {
     if (error != 0 && error != EWOULDBLOCK) failToKeep(path, error);
     std::this_thread::sleep_for(kWait);
   }
-  throw OptionError("--checkpoint " + folder_.string() +
-                    ": another run is at work there; give each a folder of its own");
+  throw OptionError("--checkpoint " + folder_.string() + ": another run is using it; give each run its own folder");
 }
 
-std::string CheckpointFolder::remedy() const { return ": remove the folder '" + folder_.string() + "' to begin anew"; }
+std::string CheckpointFolder::remedy() const { return ": remove the folder '" + folder_.string() + "' to start over"; }
 
 void CheckpointFolder::requireSameRun(const CheckpointHeader& kept) const {
   const std::string start = "--checkpoint " + folder_.string() + ": was begun ";
@@ -250,13 +249,13 @@ void CheckpointFolder::requireSameRun(const CheckpointHeader& kept) const {
   for (std::size_t i = 0; i < std::max(kept.files.size(), header_.files.size()); ++i) {
     if (i < kept.files.size() && i < header_.files.size() && kept.files[i] == header_.files[i]) continue;
     const std::string& path = i < header_.files.size() ? header_.files[i].path : kept.files[i].path;
-    throw InputError("'" + path + "' is not what it was when '" + folder_.string() + "' was begun" + remedy());
+    throw InputError("'" + path + "' has changed since '" + folder_.string() + "' was begun" + remedy());
   }
 }
 
 void CheckpointFolder::begin(std::uint64_t input_digest, std::size_t groups) {
   if (begun_ && std::tie(header_.input_digest, header_.groups) != std::tuple(input_digest, std::uint64_t{groups}))
-    throw InputError("the input is not what it was when '" + folder_.string() + "' was begun" + remedy());
+    throw InputError("the input has changed since '" + folder_.string() + "' was begun" + remedy());
   if (!begun_) {
     // What a run left that ended while its files were being removed.
     removeKept();

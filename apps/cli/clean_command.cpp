@@ -219,7 +219,7 @@ int runClean(const CleanUsage& usage, Run& run) {
 Command declareClean(CLI::App& root) {
   auto usage = std::make_shared<CleanUsage>();
   OptionTable table =
-      commandOptions("clean", "Write the plane graph that would be meshed, and what was changed for it");
+      commandOptions("clean", "Write the plane graph that would be meshed, and the changes made to the input");
   table.arguments("INPUT", usage->input.files, "vector files that GDAL reads ('-': standard input), or one .poly");
   table.section(Section::Output);
   table.output({"-o,--output", "Output"}, usage->output, {.required = true},
@@ -228,16 +228,16 @@ Command declareClean(CLI::App& root) {
   declareSurface(table, usage->input.surface);
   declarePinches(table, usage->input);
   table.section(Section::Boundaries);
-  table.text(
-      {"--boundary-column", "Column of the types"}, usage->boundary_column, "NAME",
-      "the column of INPUT with the types of boundaries, which go into the layer pslg and from there into a mesh");
+  table.text({"--boundary-column", "Column of boundary types"}, usage->boundary_column, "NAME",
+             "column of INPUT with the boundary types, which the layer pslg keeps for meshing");
   table.section(Section::Output);
   table.output({"--report", "Report"}, usage->report, {.standard_output = true},
-               "write what was read and mended, and the time it took, as JSON; - prints it in place of the summary");
+               "write what was read and repaired, and the time, as JSON; - prints it instead of the summary");
   table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace a file that exists");
   table.section(Section::Run);
   table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
-  table.example("coastmesh clean lakes.shp -o cleaned.gpkg", "see in a GIS what would be meshed, and what was mended");
+  table.example("coastmesh clean lakes.shp -o cleaned.gpkg",
+                "view in a GIS what would be meshed, and what was repaired");
   return {{root, std::move(table)}, [usage](Run& run) { return runClean(*usage, run); }};
 }
 

@@ -32,13 +32,13 @@ int runGather(GatherUsage& usage, Run& run) {
 
 Command declareGather(CLI::App& root) {
   auto usage = std::make_shared<GatherUsage>();
-  OptionTable table = commandOptions("gather", "Put the shards of a mesh together, as if it had been made in one run");
+  OptionTable table = commandOptions("gather", "Combine the shards of a mesh into the result of a single run");
   table.arguments("SHARD", usage->shards, "all .shard files of a run, in any order; its inputs are read again");
   declareMeshes(table, usage->whole, false);
   declareRunOutputs(table, usage->whole);
   table.section(Section::Run);
   table.integer({"--threads", "Threads"}, usage->whole.mesh.threads, "N", 0, 1024,
-                "threads to work on, 0 for all cores; never changes the result");
+                "threads to use, 0 for all cores; does not change the result");
   table.example("coastmesh gather lakes-*.shard -o lakes.nc --report lakes.json", "all lakes, from their shards");
   return {{root, std::move(table)}, [usage](Run& run) { return runGather(*usage, run); }};
 }

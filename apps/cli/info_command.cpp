@@ -67,13 +67,13 @@ std::string describe(const InfoUsage& usage, Run& run) {
 
 Command declareInfo(CLI::App& root) {
   auto usage = std::make_shared<InfoUsage>();
-  OptionTable table = commandOptions("info", "Report what a mesh, a vector file or a .poly holds");
+  OptionTable table = commandOptions("info", "Describe a mesh, a vector file or a .poly");
   declareMeshFile(table, "FILE", "mesh, vector file or .poly", usage->file);
   declareSurface(table, usage->surface);
   table.section(Section::Output);
-  table.flag({"--json", "As JSON"}, usage->json, "print it as JSON");
+  table.flag({"--json", "As JSON"}, usage->json, "print the description as JSON");
   table.example("coastmesh info lake.nc", "counts, extent, quality and a histogram of angles");
-  table.example("coastmesh info lakes.shp", "what there is to mesh");
+  table.example("coastmesh info lakes.shp", "the features of a vector file");
   return {{root, std::move(table)}, [usage](Run& run) {
             std::fputs(describe(*usage, run).c_str(), stdout);
             return static_cast<int>(kExitDone);

@@ -26,8 +26,8 @@ std::optional<int> g_finished;
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr unsigned kSecondsToRemove = 10;  // what crashed may have left a lock closed
 
-// Which shortage an error tells of; null where it tells of none. Without an exception it is GDAL that ends the process,
-// which it does where memory lacks.
+// The type of memory shortage in an error; null if it is another error. Without an exception it is GDAL that ends the
+// process, which it does if memory runs out.
 const char* shortage() {
   const std::exception_ptr current = std::current_exception();
   if (!current) return kNoMemory;
@@ -42,7 +42,7 @@ const char* shortage() {
   }
 }
 
-// Nothing here asks for memory.
+// Nothing here allocates memory.
 void tell(const char* text) { [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text)); }
 
 void removeWhatIsHalfWritten() {
@@ -60,10 +60,10 @@ void removeWhatIsHalfWritten() {
 [[noreturn]] void endAtOnce() {
   const char* const lacking = shortage();
   removeWhatIsHalfWritten();
-  end(lacking, "this is a bug of coastmesh, please report it: an error where none may be thrown");
+  end(lacking, "this is a bug in coastmesh, please report it: an error where none may be thrown");
 }
 
-// A library that is given no memory may take no notice, or end the process itself.
+// A library whose allocation fails may ignore it, or end the process itself.
 void crashed(int number) {
   for (const int other : kCrashes) signal(other, SIG_DFL);
   signal(SIGALRM, SIG_DFL);
@@ -71,22 +71,22 @@ void crashed(int number) {
   removeWhatIsHalfWritten();
   const char* const lacking = memoryLacked() || CPLGetLastErrorNo() == CPLE_OutOfMemory ? kNoMemory : nullptr;
   rlimit core{};
-  // Whoever wants to see what it died of does so.
+  // For users who want to see the cause.
   if (lacking == nullptr && getrlimit(RLIMIT_CORE, &core) == 0 && core.rlim_cur > 0) raise(number);
-  end(lacking, "this is a bug of coastmesh, or of a library, please report it: it crashed");
+  end(lacking, "this is a bug in coastmesh, or of a library, please report it: it crashed");
 }
 
-// A library ends the process, as HDF5 does where it cannot begin. Once main has returned there is nothing under guard.
+// A library ends the process, as HDF5 does if it cannot start. After main has returned there is nothing to remove.
 void endedFromWithin() {
   if (g_interrupt == nullptr || g_finished) return;
   removeWhatIsHalfWritten();
   const bool lacking = memoryLacked() || CPLGetLastErrorNo() == CPLE_OutOfMemory;
-  end(lacking ? kNoMemory : nullptr, "a library ended the process, as it may where memory lacks");
+  end(lacking ? kNoMemory : nullptr, "a library ended the process, possibly for lack of memory");
 }
 
 }  // namespace
 
-// A stack that has run over leaves no room for this one.
+// A stack overflow leaves no room for this handler.
 void catchCrashes() {
   static bool caught = false;  // in main at the latest, before there are threads
   if (std::exchange(caught, true)) return;
@@ -98,7 +98,7 @@ void catchCrashes() {
   sigaltstack(&other, nullptr);
   for (const int number : kCrashes) {
     struct sigaction now {};
-    // Who looks for such errors, a sanitizer say, has its own.
+    // Sanitizers have their own handler for such errors.
     if (sigaction(number, nullptr, &now) != 0 || now.sa_handler != SIG_DFL) continue;
     struct sigaction wanted {};
     wanted.sa_handler = crashed;
@@ -109,7 +109,7 @@ void catchCrashes() {
 
 namespace {
 
-// Before main, where declarations ask for memory already.
+// Before main, since initialisers already allocate memory.
 [[gnu::constructor(101)]] void beforeMain() {
   std::set_terminate(endAtOnce);
   std::set_new_handler([] {

@@ -13,8 +13,7 @@ namespace {
 OptionTable declareOptions(MeshRunUsage& usage) {
   OptionTable table = commandOptions("mesh", "Mesh the polygons and closed lines of vector files, or a .poly");
   table.arguments(kInputs, usage.mesh.job.input.files,
-                  "vector files that GDAL reads ('-': standard input), or one .poly; none need be given for "
-                  "--domain globe",
+                  "vector files that GDAL reads ('-': standard input), or one .poly; optional with --domain globe",
                   [usage = &usage.mesh.job.input] { return usage->frame.side == DomainSide::Globe; });
   declareMeshes(table, usage, true);
   declareMeshOptions(table, usage.mesh);
@@ -28,27 +27,26 @@ OptionTable declareOptions(MeshRunUsage& usage) {
           "without an output that is UGRID (.nc)");
   table.section(Section::Output);
   table.text({"--shard", "Share of the features"}, usage.shard, "I/N",
-             "mesh but the I-th of N shares of like work of all groups of features that touch; the same shares in each "
-             "run. With .shard files as outputs gather puts them together");
+             "mesh only the I-th of N shares of about equal work; features that touch stay together, and every run has "
+             "the same shares. gather combines .shard outputs");
   declarePerFeature(table, usage);
   declareRunOutputs(table, usage);
   table.section(Section::Run);
   table.text({"--checkpoint", "Checkpoint"}, usage.checkpoint, "DIR",
-             "keep what is done in this folder, after each round: where the run is killed, the same command goes on "
-             "from there, to the same bytes; the folder goes when the run is done");
+             "save finished work in this folder, after each round; if the run is killed, the same command resumes from "
+             "there and makes the same bytes; the folder is removed when the run is complete");
   table.example("coastmesh mesh lake.geojson -o lake.gpkg -o lake.nc", "a lake as GIS layers and as a UGRID grid");
   table.example("coastmesh mesh sea.shp -o fort.14 --min-angle 35 --size-max 5000",
                 "a sea for ADCIRC: angles of 35 degrees and more, no edge longer than 5 km");
   table.example("coastmesh mesh lakes.gpkg -o lakes.msh --min-island-area 10000 --report lakes.json",
-                "many lakes for Gmsh's readers, islands below a hectare filled, with a report for scripts");
-  table.example("coastmesh mesh --domain globe --size 200000 -o globe.nc",
-                "all of the Earth, closed: no pole and no meridian is special");
+                "many lakes for programs that read Gmsh, islands below a hectare filled, with a JSON report");
+  table.example("coastmesh mesh --domain globe --size 200000 -o globe.nc", "the whole Earth, closed");
   table.example("coastmesh mesh lakes.gpkg --shard 3/7 -o lakes-3.shard --skip-existing",
                 "the third of seven shares of many lakes, for coastmesh gather");
   table.example("coastmesh mesh sea.shp -o sea.nc --size-max 500 --checkpoint sea.kept",
-                "a mesh that takes hours: where it is killed, the same line again goes on");
+                "a mesh that takes hours; after a kill the same command resumes");
   table.example("coastmesh mesh lakes.gpkg --per-feature -o lake-{}.nc --skip-existing",
-                "a file for each lake; the same line again makes what is missing");
+                "a file for each lake; the same command again makes what is missing");
   return table;
 }
 

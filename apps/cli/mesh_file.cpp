@@ -10,7 +10,7 @@ void declareMeshFile(OptionTable& table, const std::string& name, const std::str
   table.argument(name, file.path, help);
   table.section(Section::Input);
   table.text({"--assume-crs", "CRS of the mesh"}, file.crs, "CRS",
-             "CRS of the mesh where its file does not say one; without this option a plane is assumed then");
+             "CRS of the mesh, if its file has none; default: a plane");
 }
 
 namespace {

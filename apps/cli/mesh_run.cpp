@@ -81,7 +81,7 @@ std::optional<int> doneBefore(const MeshRunUsage& usage, const Run& run, const G
     const ShardHeader header = readShardHeader(output.path);
     const auto [shard, shards] = shardOf(usage.shard);
     if (header.options != given || header.shard != shard || header.shards != shards)
-      throw OptionError("'" + output.path + "' is there, but of another run: give another name, or --overwrite");
+      throw OptionError("'" + output.path + "' exists, but belongs to another run: give another name, or --overwrite");
     code = header.exit_code;
   }
   return code;
@@ -116,30 +116,29 @@ void declareMeshes(OptionTable& table, MeshRunUsage& usage, bool with_shards) {
     return filesOf(gridFormatFor(path, usage.format), path);
   };
   table.section(Section::Output);
-  table.outputs({"-o,--output", "Outputs"}, usage.outputs, {.required = true, .files = files},
-                with_shards ? "mesh to write, or a .shard for gather; repeat it for several"
-                            : "mesh to write; repeat it for several");
-  table.text({"--format", "Format"}, usage.format, "NAME", "format of the output, where its ending does not say");
+  table.outputs(
+      {"-o,--output", "Outputs"}, usage.outputs, {.required = true, .files = files},
+      with_shards ? "mesh to write, or a .shard for gather; can be repeated" : "mesh to write; can be repeated");
+  table.text({"--format", "Format"}, usage.format, "NAME", "format of the output, if its ending does not determine it");
 }
 
 void declareRunOutputs(OptionTable& table, MeshRunUsage& usage) {
   table.section(Section::Output);
   declareParts(table, usage.parts, usage.outputs, usage.format);
   table.output({"--report", "Report"}, usage.report, {.standard_output = true},
-               "write a report as JSON; - prints it in place of the summary");
-  table.output({"--edits", "What was changed"}, usage.edits, {},
-               "write what cleaning and --coast follow changed, as points with its kind and the feature: a .gpkg, "
+               "write a report as JSON; - prints it instead of the summary");
+  table.output({"--edits", "Changes to the input"}, usage.edits, {},
+               "write the changes made by cleaning and --coast follow, as points with kind and feature: a .gpkg, "
                ".geojson or .fgb");
   table.section(Section::Run);
-  table.choice(
-      {"--progress", "Show of progress"}, usage.progress, {"auto", "bar", "log", "json", "none"},
-      "how to show progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, else lines); "
-      "or JSON lines on stdout");
+  table.choice({"--progress", "Progress display"}, usage.progress, {"auto", "bar", "log", "json", "none"},
+               "progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, otherwise lines); "
+               "or JSON lines on stdout");
   table.section(Section::Output);
   table.flag({"--overwrite", "Replace files"}, usage.overwrite, "replace files that exist");
   table
-      .flag({"--skip-existing", "Skip what is there"}, usage.skip_existing,
-            "do nothing where all outputs are there already; where some are not, make and replace all")
+      .flag({"--skip-existing", "Skip existing outputs"}, usage.skip_existing,
+            "do nothing if all outputs exist; if any is missing, make and replace all")
       .ignoredWith({"--overwrite"});
   table.section(Section::Run);
   table.flag({"--quiet", "No summary"}, usage.quiet, "print no summary");
@@ -155,16 +154,16 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   std::tie(job.exchange.shard, job.exchange.shards) = shardOf(usage.shard);
   const bool to_shard = grids.size() < usage.outputs.size();
   if (to_shard && std::ranges::count(job.input.files, "-") > 0)
-    throw OptionError("a .shard is gathered with its input, which standard input is not: give a file");
+    throw OptionError("gather reads the input of a .shard again, which standard input does not allow: give a file");
   MeshUsage of_job;
   const bool keeps = !usage.checkpoint.empty();
   if (keeps && std::ranges::count(job.input.files, "-") > 0)
-    throw OptionError("--checkpoint reads the input again to go on, which standard input allows once: give a file");
+    throw OptionError("--checkpoint reads the input again to resume, which standard input does not allow: give a file");
   const GivenOptions given = to_shard || keeps ? givenOptions(run.options, meshJobOptions(of_job)) : GivenOptions();
   const bool skips = usage.skip_existing && !usage.overwrite;
   if (skips) {
     if (const std::optional<int> code = doneBefore(usage, run, given)) {
-      if (!usage.quiet) std::fputs("all outputs are there already\n", stdout);
+      if (!usage.quiet) std::fputs("all outputs exist already\n", stdout);
       return *code;
     }
   }

@@ -35,7 +35,7 @@ int runPartition(const PartitionUsage& usage, Run& run) {
   Interrupt& interrupt = run.interrupt;
   const PartitionOptions options = partitionFor(usage.parts, usage.outputs, usage.format);
   if (!options.elements && !options.nodes)
-    throw OptionError("no output holds parts: give one that is .prop, partmesh.txt, rpart.out, .nc or .msh");
+    throw OptionError("no output can hold parts: give .prop, partmesh.txt, rpart.out, .nc or .msh");
   RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
   outputs.addGrids(usage.outputs, usage.format);
   outputs.addReport(usage.report);
@@ -62,19 +62,19 @@ int runPartition(const PartitionUsage& usage, Run& run) {
 
 Command declarePartition(CLI::App& root) {
   auto usage = std::make_shared<PartitionUsage>();
-  OptionTable table = commandOptions("partition", "Deal a mesh out to the processes of a solver");
+  OptionTable table = commandOptions("partition", "Assign a mesh to the processes of a solver");
   declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
-  table.integerArgument("N", usage->parts, 1, kMostParts, "how many processes");
+  table.integerArgument("N", usage->parts, 1, kMostParts, "number of processes");
   declareGridOutputs(table, usage->outputs, usage->format);
   table.section(Section::Output);
   table.output({"--report", "Report"}, usage->report, {.standard_output = true},
-               "write a report as JSON; - prints it in place of the summary");
+               "write a report as JSON; - prints it instead of the summary");
   table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace files that exist");
   table.section(Section::Run);
   table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
   table.example("coastmesh partition hgrid.gr3 480 -o partition.prop", "for SCHISM on 480 processes");
   table.example("coastmesh partition fort.14 64 -o partmesh.txt -o parts.nc",
-                "for ADCIRC's adcprep, and to look at as a layer");
+                "for ADCIRC's adcprep, and as a layer to view");
   return {{root, std::move(table)}, [usage](Run& run) { return runPartition(*usage, run); }};
 }
 

@@ -19,10 +19,9 @@ bool anyHolds(const std::vector<std::string>& outputs, const std::string& format
 void declareParts(OptionTable& table, std::uint64_t& parts, const std::vector<std::string>& outputs,
                   const std::string& format) {
   table
-      .integer({"--partition", "Parts for processes"}, parts, "N", 0, kMostParts,
-               "deal the mesh out to N processes of a solver, 0 for none: SCHISM's partition.prop, ADCIRC's "
-               "partmesh.txt and "
-               "FESOM2's dist_N/rpart.out as outputs of these names, and in .nc and .msh")
+      .integer({"--partition", "Number of parts"}, parts, "N", 0, kMostParts,
+               "assign the mesh to N processes of a solver, 0: none; written to outputs named partition.prop (SCHISM), "
+               "partmesh.txt (ADCIRC) or dist_N/rpart.out (FESOM2), and in .nc and .msh")
       .needs(
           [&outputs, &format] {
             return anyHolds(outputs, format, GridPart::Partition) || anyHolds(outputs, format, GridPart::NodePartition);
@@ -33,7 +32,7 @@ void declareParts(OptionTable& table, std::uint64_t& parts, const std::vector<st
 PartitionOptions partitionFor(std::uint64_t parts, const std::vector<std::string>& outputs, const std::string& format) {
   for (const std::string& path : outputs)
     if (parts == 0 && gridFormatFor(path, format).beside_grid)
-      throw OptionError("'" + path + "' holds the parts of a mesh: say with --partition how many");
+      throw OptionError("'" + path + "' holds the parts of a mesh: give their number with --partition");
   for (const std::string& path : outputs) {
     const GridFormat& known = gridFormatFor(path, format);
     if (known.name != "fesom_partition") continue;

@@ -48,9 +48,9 @@ void requirePossible(const MeshRunUsage& usage) {
     throw OptionError(
         "--per-feature meshes the inside of each feature: leave out --domain, --bbox, --clip and --water-at");
   if (job.input.dissolve) throw OptionError("--per-feature and --dissolve: leave out one of them");
-  if (!usage.edits.empty()) throw OptionError("--edits is of one mesh: leave it out with --per-feature");
+  if (!usage.edits.empty()) throw OptionError("--edits applies to a single mesh: leave it out with --per-feature");
   if (!usage.checkpoint.empty())
-    throw OptionError("--checkpoint is of one mesh: with --per-feature --skip-existing goes on where a run ended");
+    throw OptionError("--checkpoint applies to a single mesh: with --per-feature, --skip-existing resumes a run");
   if (usage.report == "-" && usage.progress == "json")
     throw OptionError("--report - and --progress json both write to standard output: give the report a file");
   for (const std::string& file : job.input.files)
@@ -61,9 +61,8 @@ void requirePossible(const MeshRunUsage& usage) {
       throw OptionError("'" + output + "': --per-feature writes no .shard; gather has nothing to do");
     if (fs::path(output).filename().string().find(kPlaceOfName) == std::string::npos ||
         fs::path(output).parent_path().string().find(kPlaceOfName) != std::string::npos)
-      throw OptionError(
-          "--output " + output +
-          ": with --per-feature a file's name has to say by {} where each feature's goes, such as lake-{}.nc");
+      throw OptionError("--output " + output +
+                        ": with --per-feature a file name needs {} for the name of each feature, such as lake-{}.nc");
   }
 }
 
@@ -289,15 +288,13 @@ int exitCodeOf(const FeatureSums& sums) {
 
 void declarePerFeature(OptionTable& table, MeshRunUsage& usage) {
   table.section(Section::Output);
-  table.flag(
-      {"--per-feature", "A mesh for each feature"}, usage.per_feature,
-      "mesh each feature alone, into files of its own: {} in the names of outputs, such as lake-{}.nc, stands for "
-      "the feature's number, or what --name-field says. One that cannot be meshed is left out, with exit code 1; "
-      "with --skip-existing those that are there stay, with --shard only a share of them is made");
+  table.flag({"--per-feature", "One mesh per feature"}, usage.per_feature,
+             "mesh each feature on its own, into its own files: {} in output names, such as lake-{}.nc, is replaced by "
+             "the feature's number or its --name-field. A feature that cannot be meshed is left out, with exit code 1; "
+             "with --skip-existing existing files are kept, with --shard only a share of them is made");
   table
       .text({"--name-field", "Attribute with names"}, usage.name_field, "NAME",
-            "the attribute that {} stands for, made safe for names of files; a feature without a value goes by its "
-            "number")
+            "attribute that replaces {}, made safe for file names; a feature without a value uses its number")
       .needs({"--per-feature"});
 }
 

@@ -81,39 +81,38 @@ Command declarePlot(CLI::App& root) {
   declareMeshFile(table, "MESH", "mesh to draw", usage->mesh);
   table.section(Section::Output);
   table.output({"-o,--output", "Picture"}, usage->output, {.required = true},
-               "picture to write, .svg or .png, or a page for a browser, .html, to pan, zoom and pick numbers from");
+               "picture to write: .svg, .png, or an interactive page for a browser, .html");
   table.section(Section::Picture);
   table.integer({"--size", "Size in pixels"}, usage->plot.size_px, "PX", PlotOptions::kLeastSize,
                 PlotOptions::kMostSize, "longer side of the map");
   table.numbers(
       {"--bbox", "Bounding box"}, "W,S,E,N", false,
       [&plot = usage->plot](const std::vector<double>& sides) { return storeBox(sides, plot); },
-      "what to show, in the mesh's CRS; all of it by default");
-  table.text({"--view", "View"}, usage->view, "VIEW",
-             "plane: a conformal one fitted to the mesh; orthographic=LON,LAT: a globe seen from above that place, or "
-             "without it from above the middle of the mesh; natural-earth=LON: all of the Earth about that longitude, "
-             "or 0");
+      "part to show, in the mesh's CRS; default: the whole mesh");
+  table.text(
+      {"--view", "View"}, usage->view, "VIEW",
+      "plane: a conformal projection fitted to the mesh; orthographic=LON,LAT: a globe seen from above that point "
+      "(default: the middle of the mesh); natural-earth=LON: a world map centred on that longitude (default: 0)");
   const auto on_plane = [usage = usage.get()] { return usage->view == "plane"; };
   table.option("--bbox").needs(on_plane, "with a globe as --view");
   table.choice({"--color", "Colour of triangles"}, usage->color, plotColorNames(),
-               "what the triangles' colour shows, in a page at first (angle without this option); quality is 4 sqrt(3) "
-               "area / sum of squared edges, 1 for equilateral ones");
-  table.flag({"--edges,!--no-edges", "Draw edges"}, usage->plot.edges, "draw the triangles' edges");
-  table.flag(
-      {"--degrees", "Dots on irregular nodes"}, usage->plot.degrees,
-      "draw a dot on each node inside the mesh that has not six neighbours: green for 5, orange for 7, purple for "
-      "other numbers");
+               "what the colour of triangles shows; in a page, the initial choice (default: angle); quality is 4 "
+               "sqrt(3) area / sum of squared edges, 1 for equilateral triangles");
+  table.flag({"--edges,!--no-edges", "Draw edges"}, usage->plot.edges, "draw edges of the triangles");
+  table.flag({"--degrees", "Dots on irregular nodes"}, usage->plot.degrees,
+             "draw a dot on each interior node that does not have six neighbours: green for 5, orange for 7, purple "
+             "for other numbers");
   table.option("--degrees").needs(on_plane, "with a globe as --view");
   table.number({"--min-angle", "Angle shown in red"}, usage->plot.min_angle_deg, "DEG", {0.0, 60.0},
                "show triangles with a smaller angle in red");
   table.section(Section::Output);
   table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace a file that exists");
   table.example("coastmesh plot lake.nc -o lake.png --color angle", "a picture coloured by the smallest angle");
-  table.example("coastmesh plot lake.nc -o lake.html", "a page to look around in, which needs no network");
+  table.example("coastmesh plot lake.nc -o lake.html", "an interactive page that needs no network");
   table.example("coastmesh plot lake.nc -o shapes.png --color quality --degrees", "how regular it is");
   table.example("coastmesh plot lake.nc -o bay.svg --bbox=-90.5,46.5,-90,47", "a part of it, as a vector drawing");
-  table.example("coastmesh plot lake.nc -o globe.png --view orthographic=-60,30", "where on the globe it lies");
-  table.example("coastmesh plot globe.nc -o world.png --view natural-earth --color size", "all of the Earth");
+  table.example("coastmesh plot lake.nc -o globe.png --view orthographic=-60,30", "its place on the globe");
+  table.example("coastmesh plot globe.nc -o world.png --view natural-earth --color size", "a world map");
   return {{root, std::move(table)}, [usage](Run& run) { return runPlot(*usage, run); }};
 }
 

@@ -116,7 +116,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
     app.exit(asked, text, errors);
     throw UsageText{text.str()};
   } catch (const CLI::ParseError& error) {
-    throw OptionError(mistakeOf(error) + "; coastmesh COMMAND --help shows what there is");
+    throw OptionError(mistakeOf(error) + "; coastmesh COMMAND --help lists the options");
   }
   std::set<std::string> names;
   for (const Command& command : commands) names.insert(command.line.options().name());

@@ -37,12 +37,12 @@ std::string contentsOf(const std::string& path, std::size_t most) {
 ShardHeader readHeader(ByteReader& reader, const std::string& path) {
   std::string magic(kMagic.size(), ' ');
   for (char& c : magic) reader.pass(c);
-  if (magic != kMagic) throw InputError("'" + path + "' is no file that mesh --shard wrote");
+  if (magic != kMagic) throw InputError("'" + path + "' was not written by mesh --shard");
   ShardHeader header;
   reader.pass(header.version);
   if (header.version != COASTMESH_VERSION)
     throw InputError("'" + path + "' was made by coastmesh " + header.version + ", this is " + COASTMESH_VERSION +
-                     ": make it anew");
+                     ": make it again");
   reader.pass(header);
   return header;
 }
@@ -59,7 +59,7 @@ std::string_view unsealed(const std::string& bytes, const std::string& path) {
   if (bytes.size() < sizeof sum) throw InputError("'" + path + "' ends too early");
   const std::string_view content = std::string_view(bytes).substr(0, bytes.size() - sizeof sum);
   std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
-  if (sum != checksumOf(content)) throw InputError("'" + path + "' is damaged, or not whole: make it anew");
+  if (sum != checksumOf(content)) throw InputError("'" + path + "' is damaged, or not whole: make it again");
   return content;
 }
 
@@ -150,10 +150,10 @@ GatheredShards::GatheredShards(const std::vector<std::string>& paths) : paths_(p
     const ShardHeader header = readHeader(reader, paths_[f]);
     if (f == 0) header_ = header;
     if (!header.ofSameRun(header_) || header.shard >= header.shards)
-      throw InputError("'" + paths_[f] + "' is of another run than '" + paths_[0] +
+      throw InputError("'" + paths_[f] + "' belongs to another run than '" + paths_[0] +
                        "': other options, or another number of shards");
     if (header.input_digest != header_.input_digest || header.groups != header_.groups)
-      throw InputError("'" + paths_[f] + "' was made of another input than '" + paths_[0] + "': make it anew");
+      throw InputError("'" + paths_[f] + "' was made of another input than '" + paths_[0] + "': make it again");
     const auto [file, added] = file_of.emplace(header.shard, f);
     if (!added)
       throw InputError("'" + paths_[f] + "' and '" + paths_[file->second] + "' are both shard " +
@@ -186,7 +186,7 @@ GatheredShards::GatheredShards(const std::vector<std::string>& paths) : paths_(p
   while (places_.contains(group)) ++group;
   if (group < header_.groups) {
     throw InputError("group " + std::to_string(group + 1) + " of the run of '" + paths_[0] +
-                     "' is in no shard: make them anew");
+                     "' is in no shard: make them again");
   }
 }
 

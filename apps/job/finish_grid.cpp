@@ -27,8 +27,8 @@ std::vector<std::string> FinishReport::warnings() const {
   for (const auto& [target, defect] : repairs.left)
     ++left.try_emplace({target, defect.kind}, 0, defect.place).first->second.first;
   for (const auto& [which, count] : left)
-    all.push_back("could not be mended for " + nameOf(which.first) + ": " + std::string(toString(which.second)) + ", " +
-                  std::to_string(count.first) + " in all, the first at " + pointText(count.second));
+    all.push_back("could not be repaired for " + nameOf(which.first) + ": " + std::string(toString(which.second)) +
+                  ", " + std::to_string(count.first) + " in all, the first at " + pointText(count.second));
   return all;
 }
 

@@ -36,16 +36,16 @@ void requireOneFrame(const InputOptions& options) {
     throw OptionError("--domain " + nameOfUnframed(side) + " has no frame: leave out --bbox, --clip and --water-at");
   if (side == DomainSide::Globe) {
     if (options.surface.kind == SurfaceKind::Plane)
-      throw OptionError("--domain globe is on no plane: leave out --surface plane");
-    if (options.crs != "auto") throw OptionError("--domain globe is on no plane: leave out --crs");
+      throw OptionError("--domain globe uses no plane: leave out --surface plane");
+    if (options.crs != "auto") throw OptionError("--domain globe uses no plane: leave out --crs");
   }
   if (options.frame.box && !options.clip.empty())
     throw OptionError("--bbox and --clip both bound the domain: give one of them");
   if (options.frame.side == DomainSide::Outside && !options.frame.box && options.clip.empty() &&
       !options.frame.water_at)
     throw OptionError(
-        "--domain outside: water outside of land has to end somewhere: give --bbox W,S,E,N or --clip FILE, or "
-        "--domain ocean for all that there is on Earth");
+        "--domain outside: the water needs a limit: give --bbox W,S,E,N or --clip FILE, or --domain ocean for all "
+        "water on Earth");
 }
 
 std::vector<Source> sourcesOf(const InputOptions& options) {
@@ -78,7 +78,7 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
     for (const auto& line : feature.lines) look(feature, line);
   }
   if (odd == nullptr) return;
-  report.warnings.push_back(featureText(*odd) + ": has coordinates that are no longitudes and latitudes of " +
+  report.warnings.push_back(featureText(*odd) + ": has coordinates that are not longitudes and latitudes of " +
                             nameOf(coastline.crs) + ": all are taken as metres in a plane");
   coastline.crs = {};
 }
@@ -150,7 +150,7 @@ void JobInput::bendEdges() {
   std::size_t count = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g)
     count += coastmesh::bendEdges(coastline_, groups_[g], projectionOf(g), options_.edges, options_.edge_tolerance_m);
-  report_.notes.push_back(std::to_string(count) + " points were put on edges that would else leave their " +
+  report_.notes.push_back(std::to_string(count) + " points were added to edges that would otherwise leave their " +
                           (options_.edges == EdgeLine::LonLat ? "straight lines" : "geodesics") +
                           " by more than --edge-tolerance");
 }
@@ -159,7 +159,7 @@ void JobInput::readPolyFile(const std::string& path) {
   if (sourcesOf(options_).size() > 1 || options_.frame.side != DomainSide::Auto || options_.frame.box ||
       options_.frame.water_at) {
     throw OptionError("'" + path +
-                      "' says itself what is meshed; leave out --domain, --bbox, --clip, --water-at, --constraints, "
+                      "' defines the domain itself; leave out --domain, --bbox, --clip, --water-at, --constraints, "
                       "--weirs and --regions");
   }
   if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
@@ -198,8 +198,7 @@ void JobInput::requireSurface() {
   if (plane.empty()) {
     if (surface.where_known)
       report_.notes.push_back(
-          "angles and lengths are those on a sphere, as the target takes latitudes; give --surface "
-          "ellipsoid or plane to have them there");
+          "angles and lengths are measured on a sphere, as the target does; --surface ellipsoid or plane changes that");
   } else if (surface.where_known) {
     surface.kind = SurfaceKind::Plane;
   } else {

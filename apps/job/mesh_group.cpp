@@ -85,7 +85,7 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
   const VertexDemand& demand = error.demand;
   std::string text = "these sizes ";
   if (demand.map_too_large) {
-    text += "change so much that a map of them takes more than the mesh may, most of all near ";
+    text += "vary so much that storing them takes more memory than the mesh may, most of all near ";
   } else {
     text += demand.vertices > kMostReported ? "ask for more than " : "ask for about ";
     text += amount("%.2g", std::min(demand.vertices, kMostReported)) + " vertices, most of them near ";
@@ -99,7 +99,7 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
   } else {
     text += "there is memory for about " + amount("%.2g", room.memory / kBytesPerVertex);
   }
-  text += ": ask for larger ones, or give a larger --size-min";
+  text += ": request larger sizes, or give a larger --size-min";
   return over_budget ? text + " or --max-vertices" : text;
 }
 
@@ -381,10 +381,10 @@ MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&
     result.refusal_place = domain.projection.inverse(error.place);
     throw InputError(featureText(task.firstFeature()) + ": the bounds on angles and lengths take more than " +
                      amount("%.2g", static_cast<double>(most)) +
-                     " vertices, which is all that there is memory for, the last of them near " +
+                     " vertices, the most that fit in memory, the last of them near " +
                      pointText(*result.refusal_place) +
-                     ": mend shores there that all but coincide (--snap, --simplify), ask for less, or give "
-                     "--max-vertices for a mesh as far as those go");
+                     ": repair shores that almost coincide there (--snap, --simplify), relax the bounds, or give "
+                     "--max-vertices to stop at that number");
   }
   result.mesh_s = region.seconds;
   result.refine = std::move(region.stats);

@@ -111,7 +111,7 @@ void setFromKeywords(OptionTable& table, const py::dict& keywords, std::vector<s
     const OptionTable::Entry& entry = *option->entry;
     if (option->former)
       warnings.push_back(keyword + " is called " + keywordOf(entry.name) +
-                         " now; the next version will not take the former name");
+                         " now; the next version will not accept the former name");
     const py::object value = plain(py::reinterpret_borrow<py::object>(given));
     // One group of numbers is a list as well as several of them are.
     const bool one = !entry.multiple || !isList(value) || (entry.kind == OptionKind::Numbers && numbersOf(value));

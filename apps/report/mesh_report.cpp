@@ -276,14 +276,14 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
               "\n";
   if (job.sizes.any())
     text += "about " + grouped(static_cast<std::uint64_t>(std::min(result.estimated_vertices, 1e18))) +
-            " vertices were to be expected of these sizes\n";
+            " vertices were expected from these sizes\n";
   if (quality.bounds.below > 0) text += boundText(quality.bounds) + "\n";
   if (result.short_of.count > 0) {
     const RefineOptions& asked = job.mesh.refine;
     char bound[80];
     std::snprintf(bound, sizeof bound, asked.max_angle_deg < 180.0 ? "%g to %g degrees" : "at least %g degrees",
                   asked.min_angle_deg, asked.max_angle_deg);
-    text += grouped(result.short_of.count) + " triangles fall short of what was asked (" + bound + ")\n";
+    text += grouped(result.short_of.count) + " triangles miss a requirement (" + bound + ")\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";
   const auto isOpenRing = [](const Boundary& boundary) {

@@ -15,15 +15,15 @@ std::vector<std::string> warningsOf(const MeshJobResult& result) {
   if (result.turned > 0) {
     all.push_back("triangles that are not counter-clockwise on the ground: " + std::to_string(result.turned) +
                   ", the first at " + pointText(result.turned_places.front()) +
-                  ": sides that are straight in the working plane are not so there; cut the long edges of the input at "
-                  "that place (ogr2ogr -segmentize), or widen its angle");
+                  ": sides that are straight in the working plane are curved there; divide the long edges of the input "
+                  "at that place (ogr2ogr -segmentize), or widen its angle");
   }
   if (result.short_of.count > 0 && !result.finish.repairs.repairs.empty() &&
       result.short_of.count > result.short_before_repairs) {
-    all.push_back("repairs for --target left triangles short of the bounds that were asked for: " +
-                  std::to_string(result.short_of.count) + " in all, the first at " +
-                  pointText(result.short_of.places.front().place) + "; before there were " +
-                  std::to_string(result.short_before_repairs));
+    all.push_back(
+        "repairs for --target left triangles that miss the requested bounds: " + std::to_string(result.short_of.count) +
+        " in all, the first at " + pointText(result.short_of.places.front().place) + "; before there were " +
+        std::to_string(result.short_before_repairs));
   }
   if (result.regions == 0 && result.refusals.size() == 1) return all;
   const std::size_t shown = std::min(kRefusalsShown, result.refusals.size());

@@ -72,9 +72,9 @@ CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& e
 OptionTable commandOptions(const std::string& name, const std::string& help) {
   OptionTable table(name, help);
   table.section(Section::Run);
-  table.file({kConfig, "Options from a file"},
-             "take options from a TOML or JSON file, by their long names without dashes; those given here go before "
-             "it");
+  table.file(
+      {kConfig, "Options from a file"},
+      "read options from a TOML or JSON file, by their long names without dashes; the command line overrides it");
   return table;
 }
 
@@ -108,8 +108,7 @@ void CommandLine::complete(const std::set<std::string>& commands, std::vector<st
   const std::vector<OptionValue>& files = table_->given(kConfig);
   if (!files.empty()) takeConfig(std::get<std::string>(files.front()), *table_, commands, warnings);
   const std::vector<std::string> missing = table_->missing();
-  if (!missing.empty())
-    throw OptionError(missing.front() + " is required; coastmesh COMMAND --help shows what there is");
+  if (!missing.empty()) throw OptionError(missing.front() + " is required; coastmesh COMMAND --help lists the options");
 }
 
 std::vector<std::string> CommandLine::withPresentNames(std::vector<std::string> arguments,
@@ -123,7 +122,7 @@ std::vector<std::string> CommandLine::withPresentNames(std::vector<std::string> 
     const auto found = present.find(argument.substr(0, sign));
     if (found == present.end()) continue;
     warnings.push_back(found->first + " is called " + found->second +
-                       " now; the next version will not take the former name");
+                       " now; the next version will not accept the former name");
     argument.replace(0, sign, found->second);
   }
   return arguments;

@@ -109,7 +109,7 @@ void takeConfig(const std::string& file, OptionTable& table, const std::set<std:
     if (!seen.insert(option).second)
       throw OptionError(where + " is given twice, perhaps by another name or in another section");
     if (!present.empty())
-      warnings.push_back(where + " is called '" + present + "' now; the next version will not take the former name");
+      warnings.push_back(where + " is called '" + present + "' now; the next version will not accept the former name");
     if (!given.contains(option)) give(*option, entry, where, table);
   }
 }

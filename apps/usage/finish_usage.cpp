@@ -31,41 +31,36 @@ void declareFinishOptions(OptionTable& table, FinishOptions& options) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   DepthOptions& depth = options.depth;
   table.section(Section::Depths);
-  table.texts({"--bathymetry", "Rasters of depths"}, depth.files, kRasterFile, false,
-              "raster that gives the nodes their depth; repeat it for several, the first that has a value counts");
+  table.texts({"--bathymetry", "Depth rasters"}, depth.files, kRasterFile, false,
+              "raster with the depths of the nodes; can be repeated, the first with a value at a node is used");
   table.needing({"--bathymetry"}, [&] {
-    declareEnum(table, {"--depth-method", "Depth at a node"}, depth.method, kDepthMethodNames,
-                "depth between the four pixels round a node, or the average over the pixels in its triangles");
+    declareEnum(table, {"--depth-method", "Interpolation of depths"}, depth.method, kDepthMethodNames,
+                "between the four pixels around a node, or the average over the pixels in its triangles");
     table.choice(
-        {"--depth-sign", "Sign of the rasters"}, "up", {"up", "down"},
+        {"--depth-sign", "Sign of depths"}, "up", {"up", "down"},
         [&depth](const std::string& chosen) { depth.positive_down = chosen == "down"; },
-        "whether the rasters hold elevations (positive up) or depths (positive down)");
+        "up: the rasters hold elevations; down: they hold depths");
     table.number({"--water-level", "Water level"}, depth.water_level_m, "M", {-kInfinity, kInfinity},
-                 "height of the still water above the rasters' zero, which depths are counted from");
-    table.number({"--min-depth", "Least depth"}, depth.min_depth_m, "M", {-kInfinity, kInfinity},
-                 "nodes shallower than this are lowered");
-    declareEnum(
-        table, {"--depth-fill", "Nodes without a depth"}, depth.fill, kDepthFillNames,
-        "what nodes get for which no raster has a value: the mean of their neighbours, the value of the nearest "
-        "node, or none");
+                 "height of the still water above the rasters' zero; depths are measured from it");
+    table.number({"--min-depth", "Minimum depth"}, depth.min_depth_m, "M", {-kInfinity, kInfinity},
+                 "lower nodes that are shallower than this");
+    declareEnum(table, {"--depth-fill", "Nodes without a depth"}, depth.fill, kDepthFillNames,
+                "value of nodes for which no raster has one: the mean of their neighbours, the value of the nearest "
+                "node, or none");
   });
   BoundaryOptions& boundaries = options.boundaries;
   table.section(Section::Boundaries);
-  table.texts(
-      {"--boundaries", "Types of boundaries"}, boundaries.files, kVectorFile, false,
-      "polygons, or lines along the shore, whose column says what the boundary is there: land, open or river, or a "
-      "number of ADCIRC's; repeat it for several, the last counts");
-  table.text(
-      {"--boundary-column", "Column of the types"}, boundaries.column, "NAME",
-      "the column with the types of boundaries, in INPUT too where it is given; else the first called type, role, "
-      "boundary, ibtype or kind");
-  table.number(
-      {"--open-deeper", "Open where deeper than"}, boundaries.open_deeper_m, "M", {-kInfinity, kInfinity},
-      "boundaries of outer loops are open where they are deeper than this; sides of a frame are open everywhere");
-  table.number({"--min-boundary", "Shortest boundary"}, boundaries.least_length_m, "M", {0.0, kInfinity},
-               "boundaries shorter than this become part of the longer one beside them");
-  declareTargets(table, options.targets,
-                 "mend what would make the model refuse the mesh, each repair being reported; repeat it for several");
+  table.texts({"--boundaries", "Boundary types"}, boundaries.files, kVectorFile, false,
+              "polygons, or lines along the shore, with a column that sets the type of the boundary there: land, open, "
+              "river or an ADCIRC boundary number; can be repeated, the last is used");
+  table.text({"--boundary-column", "Column of boundary types"}, boundaries.column, "NAME",
+             "column with the boundary types, also in INPUT if given; default: the first column named type, role, "
+             "boundary, ibtype or kind");
+  table.number({"--open-deeper", "Open where deeper than"}, boundaries.open_deeper_m, "M", {-kInfinity, kInfinity},
+               "outer boundaries are open where they are deeper than this; sides of a frame are always open");
+  table.number({"--min-boundary", "Minimum boundary length"}, boundaries.least_length_m, "M", {0.0, kInfinity},
+               "boundaries shorter than this are merged into the longer one beside them");
+  declareTargets(table, options.targets, "repair what the model would reject, and report each repair; can be repeated");
 }
 
 }  // namespace coastmesh

@@ -8,8 +8,8 @@ void declareGridOutputs(OptionTable& table, std::vector<std::string>& outputs, s
   const auto files = [&format](const std::string& path) { return filesOf(gridFormatFor(path, format), path); };
   table.section(Section::Output);
   table.outputs({"-o,--output", "Outputs"}, outputs, {.required = true, .files = files},
-                "mesh to write; repeat it for several");
-  table.text({"--format", "Format"}, format, "NAME", "format of the output, where its ending does not say");
+                "mesh to write; can be repeated");
+  table.text({"--format", "Format"}, format, "NAME", "format of the output, if its ending does not determine it");
 }
 
 }  // namespace coastmesh

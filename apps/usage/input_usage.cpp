@@ -49,14 +49,14 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
   constexpr NumberRange kNotNegative{0.0, std::numeric_limits<double>::infinity()};
   table.section(Section::Input);
   table.texts({"--layer", "Layers to read"}, options.filter.layers, "NAME", false,
-              "read only this layer; repeat it for several");
+              "read only this layer; can be repeated");
   table.text({"--where", "Features to read"}, options.filter.where, "SQL",
-             "read only features for which this holds, such as \"kind = 'sea' AND area > 5\"");
+             "read only features that satisfy this expression, such as \"kind = 'sea' AND area > 5\"");
   FrameOptions& frame = options.frame;
   table.section(Section::Domain);
   table
       .choice(
-          {"--domain", "What is meshed"}, "auto", {"auto", "inside", "outside", "ocean", "land", "globe"},
+          {"--domain", "Domain to mesh"}, "auto", {"auto", "inside", "outside", "ocean", "land", "globe"},
           [&frame](const std::string& chosen) {
             frame.side = chosen == "inside"    ? DomainSide::Inside
                          : chosen == "outside" ? DomainSide::Outside
@@ -65,10 +65,10 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
                          : chosen == "globe"   ? DomainSide::Globe
                                                : DomainSide::Auto;
           },
-          "what is meshed: the inside of polygons, or the water outside of land polygons, as far as --bbox or "
-          "--clip; of polygons of the Earth's land its ocean, all of it, or the land; or the whole globe, closed, with "
-          "polygons and the rest as regions, and without INPUT too; auto: "
-          "inside polygons, and beside lines within a frame on the side of the water")
+          "inside: the inside of polygons; outside: the water around land polygons, up to --bbox or --clip; ocean: all "
+          "water of the Earth, given its land polygons; land: those polygons; globe: the whole globe, closed, with "
+          "polygons and the rest as regions (INPUT may be omitted); auto: the inside of polygons, or the water beside "
+          "lines within --bbox or --clip")
       .needs(
           [&frame, &options] {
             const bool unframed =
@@ -80,60 +80,57 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
   table.numbers(
       {"--bbox", "Bounding box"}, "W,S,E,N", false,
       [&frame](const std::vector<double>& sides) { return storeBox(sides, frame.box); },
-      "mesh only within this box, in the input's CRS; its sides become open boundaries; across the antimeridian "
-      "where E "
-      "is less than W");
+      "mesh only within this box, in the input's CRS; its sides become open boundaries; a box with E less than W "
+      "crosses the antimeridian");
   table.text({"--clip", "Clip to polygons"}, options.clip, kVectorFile,
              "mesh only within these polygons; their sides become open boundaries");
   table.numbers(
-      {"--water-at", "Place in the water"}, "LON,LAT", false,
+      {"--water-at", "Point in the water"}, "LON,LAT", false,
       [&frame](const std::vector<double>& place) { return storePlace(place, frame.water_at); },
-      "a place in the water, in the input's CRS: mesh this side of the coasts");
+      "point in the water, in the input's CRS: mesh this side of the coasts");
   table.texts({"--constraints", "Lines and points to keep"}, options.constraints, kVectorFile, false,
               "lines and points in the water that become edges and vertices of the mesh");
   table.texts({"--weirs", "Weirs"}, options.weirs, kVectorFile, false,
-              "lines in the water that become edges of the mesh, marked as weirs where the output has room for lines");
+              "lines in the water that become edges of the mesh, marked as weirs if the output can hold lines");
   table.texts({"--regions", "Regions to mark"}, options.regions, kVectorFile, false,
-              "polygons that mark the triangles in them");
+              "polygons whose name is given to the triangles inside");
   table.flag({"--dissolve", "Join polygons that share an edge"}, options.dissolve,
-             "polygons that share an edge become one: lakes cut at a map sheet or a meridian leave no trace");
+             "join polygons that share an edge, so that cuts at map sheets or meridians leave no trace");
   table.section(Section::Coast);
   table.number({"--snap", "Snapping distance"}, options.snap_m, "M", kNotNegative,
-               "points nearer than this become one; in a plane only where it is given", &options.snap_in_plane);
-  table.number({"--simplify", "Tolerance of simplification"}, options.simplify_m, "M", kNotNegative,
-               "how far the simplified shore may lie from the input");
+               "points closer than this are merged; in a plane only if given", &options.snap_in_plane);
+  table.number({"--simplify", "Simplification tolerance"}, options.simplify_m, "M", kNotNegative,
+               "maximum distance of the simplified shore from the input");
   table.section(Section::Input);
   table.choice(
       {"--edges", "Edges of the input"}, kEdgeLineNames.front(), {kEdgeLineNames.begin(), kEdgeLineNames.end()},
       [&options](const std::string& chosen) {
         options.edges = static_cast<EdgeLine>(std::ranges::find(kEdgeLineNames, chosen) - kEdgeLineNames.begin());
       },
-      "what an edge between two points of the input is: a straight line in the working plane, in the input's "
-      "longitudes and latitudes (or x and y), or a geodesic; long edges get points on it");
+      "what an edge between two points of the input is: plane: a straight line in the working plane; lonlat: in the "
+      "input's longitudes and latitudes (or x and y); geodesic; points are added to long edges");
   table
-      .number({"--edge-tolerance", "Tolerance of the edges"}, options.edge_tolerance_m, "M",
-              {0.001, std::numeric_limits<double>::infinity()}, "how far edges may lie from these lines")
+      .number({"--edge-tolerance", "Tolerance of edges"}, options.edge_tolerance_m, "M",
+              {0.001, std::numeric_limits<double>::infinity()}, "maximum distance of edges from these lines")
       .needs({"--edges"});
   table.section(Section::Coast);
   table.number({"--min-island-area", "Smallest island"}, options.min_island_area_m2, "M2", kNotNegative,
                "fill islands smaller than this");
   table.section(Section::Input);
-  table.text(
-      {"--crs", "Working plane"}, options.crs, "CRS",
-      "plane to work in: auto fits a conformal projection, plane takes coordinates as they are, or anything that "
-      "PROJ knows");
+  table.text({"--crs", "Working plane"}, options.crs, "CRS",
+             "auto fits a conformal projection, plane uses coordinates as they are; or any CRS that PROJ knows");
 }
 
 void declareSurface(OptionTable& table, SurfaceChoice& surface) {
   table.section(Section::Input);
   table.choice(
-      {"--surface", "Surface measured on"}, kSurfaceNames.front(), {kSurfaceNames.begin(), kSurfaceNames.end()},
+      {"--surface", "Surface for measurements"}, kSurfaceNames.front(), {kSurfaceNames.begin(), kSurfaceNames.end()},
       [&surface](const std::string& chosen) {
         surface.kind = static_cast<SurfaceKind>(std::ranges::find(kSurfaceNames, chosen) - kSurfaceNames.begin());
       },
-      "what lengths and angles are measured on: the plane, flat triangles between places on the ellipsoid, or on the "
-      "sphere of models that take latitudes as they are; auto: the ellipsoid for what is larger than a cap of 30 "
-      "degrees, the sphere with --target fesom or mpas, else the plane");
+      "where lengths and angles are measured: in the plane, or on flat triangles between points on the ellipsoid, or "
+      "on a sphere with unchanged latitudes, as some models use it; auto: the ellipsoid if the domain is larger than a "
+      "cap of 30 degrees, the sphere with --target fesom or mpas, otherwise the plane");
 }
 
 void chooseSurface(const std::vector<std::string>& targets, SurfaceChoice& surface) {
@@ -147,11 +144,10 @@ void declarePinches(OptionTable& table, const OptionNames& names, const std::str
 }
 
 void declarePinches(OptionTable& table, InputOptions& options) {
-  declarePinches(
-      table, {"--pinches", "Where shores touch"},
-      "places where shores touch in one point: keep them, or open them for water to pass: the narrower corner of "
-      "land gives way by a twentieth of the shortest edge there",
-      options);
+  declarePinches(table, {"--pinches", "Where shores touch"},
+                 "places where shores touch in one point: keep them, or open them so that water can pass: the narrower "
+                 "corner of land recedes by a twentieth of the shortest edge there",
+                 options);
 }
 
 }  // namespace coastmesh

@@ -35,28 +35,29 @@ void chooseLargestAngle(MeshUsage& usage) {
 void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
   RefineOptions& refine = usage.job.mesh.refine;
   table.section(Section::Triangles);
-  table.number({"--min-angle", "Smallest angle"}, refine.min_angle_deg, "DEG", {0.0, 45.0}, "smallest angle asked for");
+  table.number({"--min-angle", "Minimum angle"}, refine.min_angle_deg, "DEG", {0.0, 45.0},
+               "minimum angle of the triangles");
   double& max_angle = refine.max_angle_deg;
-  table.number({"--max-angle", "Largest angle"}, max_angle, "DEG", {60.0, 180.0},
-               "largest angle asked for; 180 sets no bound; 89 with --target mpas where nothing is said",
+  table.number({"--max-angle", "Maximum angle"}, max_angle, "DEG", {60.0, 180.0},
+               "maximum angle of the triangles; 180: no limit; with --target mpas the default is 89",
                &usage.max_angle_given);
-  table.choice({"--algorithm", "Placing of points"}, usage.algorithm,
-               {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)}, "where the points go that mend bad triangles");
+  table.choice({"--algorithm", "Placement of points"}, usage.algorithm,
+               {std::begin(kAlgorithmNames), std::end(kAlgorithmNames)},
+               "where points are inserted to remove bad triangles");
   table
-      .flag({"--coarsen,!--no-coarsen", "Take out needless vertices"}, usage.job.mesh.coarsen,
-            "take out vertices that the bounds do not need; the algorithms other than relocate do so only when asked",
+      .flag({"--coarsen,!--no-coarsen", "Remove unneeded vertices"}, usage.job.mesh.coarsen,
+            "remove unneeded vertices, which the bounds do not require; by default only with --algorithm relocate",
             &usage.coarsen_given)
       .formerly({"--shrink", "--no-shrink"});
   declareSizing(table, usage.job.sizes, usage.sizing);
   table.section(Section::Triangles);
-  table.flag({"--smooth,!--no-smooth", "Optimise for longer"}, usage.job.mesh.smooth,
-             "optimise the shapes of triangles for longer; where no sizes are asked for, at all");
+  table.flag({"--smooth,!--no-smooth", "Optimise longer"}, usage.job.mesh.smooth,
+             "optimise longer; without sizes, shapes are optimised only with this option");
   table
-      .choice(
-          {"--quality", "Aim of the optimiser"}, usage.quality, {std::begin(kGoalNames), std::end(kGoalNames)},
-          "what the optimiser holds above equilateral triangles: centred asks for no angle above 90 degrees, so that "
-          "circumcentres lie within (C-grids), links for neighbours' circumcentres twice as far apart as D-Flow FM "
-          "asks, which shape keeps too")
+      .choice({"--quality", "Goal of the optimiser"}, usage.quality, {std::begin(kGoalNames), std::end(kGoalNames)},
+              "what the optimiser enforces besides regular triangles: shape: circumcentres of neighbours as far apart "
+              "as D-Flow FM requires; links: twice as far; centred: no angle above 90 degrees, so that circumcentres "
+              "are inside their triangles (C-grids)")
       .needs(
           [&usage] {
             const MeshOptions& mesh = usage.job.mesh;
@@ -69,17 +70,17 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
   declareFinishOptions(table, usage.job.finish);
   table.section(Section::Triangles);
   table.integer(
-      {"--max-vertices", "Most vertices"}, refine.max_vertices, "N", 3, std::numeric_limits<std::uint64_t>::max(),
-      "stop refining at so many vertices, with exit code 1; where sizes ask for clearly more, nothing is made");
+      {"--max-vertices", "Maximum number of vertices"}, refine.max_vertices, "N", 3,
+      std::numeric_limits<std::uint64_t>::max(),
+      "stop refining at this number of vertices, with exit code 1; if sizes require many more, no mesh is made");
   table.section(Section::Run);
-  table.flag({"--cut,!--no-cut", "Cut large seas into pieces"}, usage.cut,
-             "large seas are refined in pieces at the same time");
+  table.flag({"--cut,!--no-cut", "Cut large seas into pieces"}, usage.cut, "refine large seas in pieces, in parallel");
   table.section(Section::Output);
   table.flag({"--mark-pieces", "Mark the pieces"}, usage.job.mesh.mark_pieces,
-             "write which piece each triangle was refined in, to .nc, for plot --color piece");
+             "write the piece in which each triangle was refined to .nc, for plot --color piece");
   table.section(Section::Run);
   table.integer({"--threads", "Threads"}, usage.threads, "N", 0, 1024,
-                "threads to work on, 0 for all cores; never changes the result");
+                "threads to use, 0 for all cores; does not change the result");
 }
 
 namespace {

@@ -34,48 +34,46 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
   constexpr NumberRange kNotNegative{0.0, kInfinity};
   table.section(Section::Sizes);
   table.number({"--size", "Size everywhere"}, sizes.size_m, "M", kAboveZero,
-               "length that edges should have everywhere, where nothing else asks for less");
+               "edge length everywhere, unless another option requests less");
   table
-      .number({"--size-min", "Smallest size"}, sizes.least_m, "M", kNotNegative,
-              "no size is less; edges shorter than it are reported, with exit code 1 where --coast follow leaves one "
-              "shorter than half")
+      .number({"--size-min", "Minimum size"}, sizes.least_m, "M", kNotNegative,
+              "no size is smaller; shorter edges are reported, with exit code 1 if --coast follow leaves one shorter "
+              "than half of it")
       .needs(kSizes);
-  table.number({"--size-max", "Largest size"}, sizes.most_m, "M", kAboveZero,
-               "no size is more; given without any other size, no edge is longer");
+  table.number({"--size-max", "Maximum size"}, sizes.most_m, "M", kAboveZero,
+               "no size is larger; without any other size, no edge is longer");
   table
       .number({"--grade", "Gradation of sizes"}, sizes.gradation, "G", {0.0, 1.0, true},
               "sizes at two places differ by at most this times their distance", &usage.grade_given)
       .needs(kSizes);
-  table.number({"--size-shore", "Size at the shore"}, sizes.shore_m, "M", kAboveZero,
-               "length that edges should have at the shore");
+  table.number({"--size-shore", "Size at the shore"}, sizes.shore_m, "M", kAboveZero, "edge length at the shore");
   table
       .number({"--shore-rate", "Growth away from the shore"}, sizes.shore_rate, "R", {0.0, 1000.0},
-              "how fast that grows with the distance from the shore")
+              "how fast that size grows with the distance from the shore")
       .needs({"--size-shore"});
   table.number({"--channel-elements", "Elements across channels"}, sizes.channel_elements, "N", {0.0, 1000.0},
-               "elements across channels and straits; 0 asks for none");
+               "elements across channels and straits; 0: not used");
   table.texts({"--size-features", "Features with sizes"}, sizes.features, kVectorFile, false,
-              "points, lines and polygons with a size in metres on them as the attribute 'size', and how fast it grows "
-              "with the "
-              "distance as 'rate', else --grade");
+              "points, lines and polygons with a size in metres in the attribute 'size', and its growth with the "
+              "distance in 'rate' (default: --grade)");
   table.texts({"--size-raster", "Rasters of sizes"}, sizes.rasters, kRasterFile, false,
-              "raster of sizes in metres; of several the first that covers a place counts");
+              "raster of sizes in metres; of several, the first that covers a place is used");
   table.number({"--wave-elements", "Elements per wavelength"}, sizes.depth.wave_elements, "N", {0.0, 1e9},
-               "elements on each length of the wave; 0 asks for none");
+               "elements per wavelength of a long wave, given --bathymetry; 0: not used");
   table
-      .number({"--wave-period", "Period of the wave"}, sizes.depth.period_s, "S", {0.1, 1e8},
-              "period of that wave; the default is that of the M2 tide")
+      .number({"--wave-period", "Wave period"}, sizes.depth.period_s, "S", {0.1, 1e8},
+              "period of that wave; default: the M2 tide")
       .needs({"--wave-elements"});
-  table.number({"--slope-elements", "Elements by the slope"}, sizes.depth.slope_elements, "N", {0.0, 1000.0},
-               "elements on 2 pi times the depth over its slope; 0 asks for none");
+  table.number({"--slope-elements", "Elements per slope length"}, sizes.depth.slope_elements, "N", {0.0, 1000.0},
+               "elements per length of 2 pi times depth over slope; 0: not used");
   table
-      .number({"--slope-filter", "Length of slopes that count"}, sizes.depth.slope_filter_m, "M", kNotNegative,
-              "slopes of what is shorter do not count; the default is --size-min", &usage.filter_given)
+      .number({"--slope-filter", "Slope filter length"}, sizes.depth.slope_filter_m, "M", kNotNegative,
+              "slopes of features shorter than this are ignored; default: --size-min", &usage.filter_given)
       .needs({"--slope-elements"});
   table.numbers(
       {"--depth-band", "Sizes by depth"}, "FROM,TO,SIZE", true,
       [&sizes](const std::vector<double>& numbers) { return storeBand(numbers, sizes.depth.bands); },
-      "size where the depth is FROM or more and less than TO, all in metres, depths positive");
+      "size where the depth is at least FROM and less than TO, all in metres, depths positive");
   table.section(Section::Coast);
   table.choice(
       {"--coast", "Detail of the coast"}, "keep", {"keep", "follow"},
@@ -83,44 +81,44 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
         usage.coast_given = true;
         sizes.coast = chosen == "follow" ? CoastDetail::Follow : CoastDetail::Keep;
       },
-      "whether the coast keeps its detail, or follows the sizes: its edges become about as long as they are, water and "
-      "land narrower than elements go, and so do islands smaller than one");
+      "keep the coast as it is, or generalise it to follow the sizes: its edges become about that long, and water, "
+      "land and islands narrower than an element are removed");
   table
       .number({"--channel-min", "Narrowest channel"}, sizes.follow.channel_min, "N", {0.0, 100.0},
-              "with --coast follow: water narrower than N times the size there is closed; 0 closes none")
+              "with --coast follow: close water narrower than N times the size there; 0 closes none")
       .needs({"--coast follow"});
   table
       .number({"--strait-min", "Narrowest strait"}, sizes.follow.strait_min, "N", {0.0, 100.0},
-              "with --coast follow: narrow water that alone joins waters is not closed but made --channel-min times "
-              "the size there wide, where it is no narrower than N times that and to widen it takes less than a "
-              "quarter of the water behind; what --channel-min says widens none")
+              "with --coast follow: a narrow connection of waters, at least N times the size there wide, is widened to "
+              "--channel-min times the size instead of closed, if this takes less than a quarter of the water behind "
+              "it; N of --channel-min or more widens none")
       .needs({"--coast follow"});
   table
       .number({"--land-min", "Narrowest land"}, sizes.follow.land_min, "N", {0.0, 100.0},
-              "with --coast follow: spits and capes narrower than N times the size there go; 0 keeps them")
+              "with --coast follow: remove spits and capes narrower than N times the size there; 0 keeps them")
       .needs({"--coast follow"});
   table
       .choice(
-          {"--keep-water", "Waters that stay"}, "auto", {"auto", "largest", "open", "all"},
+          {"--keep-water", "Waters to keep"}, "auto", {"auto", "largest", "open", "all"},
           [&sizes](const std::string& chosen) {
             sizes.keep_water_given = chosen != "auto";
             sizes.follow.keep = chosen == "largest" ? KeepWater::Largest
                                 : chosen == "open"  ? KeepWater::Open
                                                     : KeepWater::All;
           },
-          "with --coast follow: of water that closing cuts into parts, the largest stays, what reaches an open "
-          "boundary (or else the largest), or all; auto is all, but with --target open without what the frame only "
-          "grazes: less than a tenth of the largest at an open boundary, or all of those where they are less than a "
-          "tenth of the water")
+          "with --coast follow: which parts of the water to keep if closing divides it: largest; open: those at an "
+          "open boundary, or the largest if there are none; all; auto: all, but with --target those at an open "
+          "boundary, without parts less than a tenth as large as the largest of them (or the largest part of all if "
+          "they are less than a tenth of the water)")
       .needs({"--coast follow"});
   table
-      .texts({"--passages", "Passages kept open"}, sizes.passages, kVectorFile, false,
-             "with --coast follow: lines along which water stays open, made as wide as --passage-elements where it is "
+      .texts({"--passages", "Passages to keep open"}, sizes.passages, kVectorFile, false,
+             "with --coast follow: lines along which water stays open, widened to --passage-elements where it is "
              "narrower; their attribute 'name' is reported")
       .needs({"--coast follow"});
   table
       .number({"--passage-elements", "Elements across passages"}, sizes.passage_elements, "N", {0.5, 100.0},
-              "how many elements lie across each of them")
+              "elements across passages")
       .needs({"--passages"});
   table
       .texts({"--barriers", "Barriers"}, sizes.barriers, kVectorFile, false,
@@ -128,13 +126,12 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
       .needs({"--coast follow"});
   table.section(Section::Sizes);
   table.number({"--time-step", "Time step"}, sizes.time_step_s, "S", {0.0, 1e6},
-               "no element smaller than the Courant number allows with this time step; triangles in which it does not "
-               "hold are reported, with exit code 1; 0 asks for none");
+               "no element is smaller than --courant allows for this time step; triangles that miss it are reported, "
+               "with exit code 1; 0: not used");
   table
-      .number(
-          {"--courant", "Largest Courant number"}, sizes.courant, "C", {1e-3, 1e3},
-          "largest Courant number: sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the "
-          "depth of its deepest corner")
+      .number({"--courant", "Maximum Courant number"}, sizes.courant, "C", {1e-3, 1e3},
+              "sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the depth of its "
+              "deepest corner")
       .needs({"--time-step"});
 }
 

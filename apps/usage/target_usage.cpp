@@ -6,7 +6,7 @@ namespace coastmesh {
 
 void declareTargets(OptionTable& table, std::vector<std::string>& names, const std::string& help) {
   table.section(Section::Boundaries);
-  table.texts({"--target", "Models to suit"}, names, allTargetNames(), false, help);
+  table.texts({"--target", "Target models"}, names, allTargetNames(), false, help);
 }
 
 }  // namespace coastmesh

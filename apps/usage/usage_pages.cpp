@@ -169,11 +169,9 @@ std::string manOfAll(const Json& usage) {
             roff(format["description"].get<std::string>() + way) + "\n";
   }
   page +=
-      ".SH EXIT STATUS\n.TP\n.B 0\ndone\n.TP\n.B 1\ndone, but short of what was asked\n.TP\n.B 2\nwrong usage\n.TP\n.B "
-      "3\n"
-      "input unreadable or unusable\n.TP\n.B 4\noutput could not be written\n.TP\n.B 5\ninterrupted; no partial file "
-      "is "
-      "left\n.TP\n.B 70\na bug of coastmesh\n";
+      ".SH EXIT STATUS\n.TP\n.B 0\ndone\n.TP\n.B 1\ndone, but the result misses a requirement\n.TP\n.B 2\nwrong "
+      "usage\n.TP\n.B 3\ninput unreadable or unusable, or not enough memory\n.TP\n.B 4\noutput could not be "
+      "written\n.TP\n.B 5\ninterrupted; no partial file is left\n.TP\n.B 70\na bug in coastmesh\n";
   for (const char* verb : {"mesh"}) page += manExamples(commandNamed(usage, verb));
   return page;
 }
@@ -191,16 +189,14 @@ std::string formerly(const Json& option) {
   std::string names;
   for (const auto& [former, present] : option["former_names"].items())
     names += (names.empty() ? "`" : ", `") + former + "`";
-  return "; formerly " + names + ", deprecated: taken with a warning in this version, not in the next";
+  return "; formerly " + names + ", deprecated: works in this version with a warning, not in the next";
 }
 
 std::string markdown(const Json& usage) {
   std::string page =
-      "# Every command and option\nMade from the program's own table by `coastmesh --usage-as markdown`; do not "
-      "edit. What stands in italics is what dialogs call the option.\n\n"
-      "Units: M metres on the ground, M2 square metres, DEG degrees. In a plane without a place on Earth, metres are "
-      "its "
-      "units.\n";
+      "# Every command and option\nMade from the program's own table by `coastmesh --usage-as markdown`; do not edit. "
+      "Names in italics are the labels in dialogs.\n\nUnits: M metres on the ground, M2 square metres, DEG degrees. In "
+      "a plane without a CRS, lengths are in its units.\n";
   for (const Json& command : usage["commands"]) {
     page += "\n## coastmesh " + command["command"].get<std::string>();
     for (const Json& argument : command["arguments"]) {

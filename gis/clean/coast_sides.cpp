@@ -84,14 +84,14 @@ class WaterFinder {
     }
     if (all == 0) {
       throw InputError(
-          "no coastline lies within the frame, so that nobody can tell whether there is water: give "
-          "--water-at LON,LAT, or another frame");
+          "no coastline lies within the frame, so it is unknown whether there is water: give --water-at LON,LAT, or "
+          "another frame");
     }
     if (agreeing < kAgreement * all) {
       char text[256];
       std::snprintf(text, sizeof text,
-                    "only %.0f %% of the coastlines' length has water on its right, as OpenStreetMap has it, so that "
-                    "their directions say nothing: give --water-at LON,LAT",
+                    "only %.0f %% of the coastlines' length has water on its right, as in OpenStreetMap, so their "
+                    "direction does not identify the water: give --water-at LON,LAT",
                     100 * agreeing / all);
       throw InputError(text);
     }
@@ -99,7 +99,7 @@ class WaterFinder {
     char text[256];
     std::snprintf(text, sizeof text,
                   "meshed the side to the right of the coastlines, where OpenStreetMap has the water (%.4g %% of their "
-                  "length agree); --water-at LON,LAT tells otherwise",
+                  "length agree); --water-at LON,LAT sets another side",
                   100 * agreeing / all);
     report_.notes.emplace_back(text);
   }
@@ -168,7 +168,7 @@ class WaterFinder {
                     std::ceil(metres * 1.1 * 1000) / 1000);
       text += more;
     } else {
-      text += ": carry it on, or give a frame that it reaches";
+      text += ": continue it, or give a frame that it reaches";
     }
     throw InputError(text);
   }

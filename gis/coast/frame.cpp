@@ -405,8 +405,7 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
     coastline.water_at = options.water_at;
     setUses(coastline, FeatureUse::Coast);
   } else if (!framed && options.side == DomainSide::Outside) {
-    throw InputError(
-        "--domain outside: water outside of land has to end somewhere: give --bbox W,S,E,N or --clip FILE");
+    throw InputError("--domain outside: the water needs a limit: give --bbox W,S,E,N or --clip FILE");
   }
   if (!framed) return report;
   refuseOddFrames(coastline);

@@ -43,7 +43,7 @@ Crs parseCrs(const std::string& text) {
   // Without leave to open files or the net: a mistyped code is an error, not a look-up.
   const char* const options[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
   if (text.empty() || srs.SetFromUserInput(text.c_str(), options) != OGRERR_NONE) {
-    throw InputError("\"" + text + "\" is no CRS that PROJ knows" +
+    throw InputError("\"" + text + "\" is not a CRS that PROJ knows" +
                      (errors.text().empty() ? "" : " (" + errors.text() + ")") +
                      ": give \"plane\", a code such as EPSG:32616, WKT or a PROJ string");
   }

@@ -107,7 +107,7 @@ CrsMap::CrsMap(const OGRSpatialReference& from, const OGRSpatialReference& to) {
   const OgrErrors errors;
   const Pair& pair = pairOfThread(ends_);
   if (!pair.forward || !pair.inverse) {
-    throw InputError("PROJ knows no way from the CRS " + named(from) + " to " + named(to) +
+    throw InputError("PROJ has no transformation from the CRS " + named(from) + " to " + named(to) +
                      (errors.text().empty() ? "" : " (" + errors.text() + ")"));
   }
 }

@@ -42,7 +42,7 @@ std::string noteOn(const FollowNotes& notes, const FollowOptions& options, const
   for (const CutOffWater& cut_off : waters) area += cut_off.water.area;
   std::string note = areaText(area, notes.area, projection) + " of the water " +
                      (options.keep == KeepWater::All ? "is meshed apart" : "is left out") + ", " +
-                     std::to_string(waters.size()) + " waters that nothing joins to the " +
+                     std::to_string(waters.size()) + " waters without a connection to the " +
                      (options.keep == KeepWater::Largest || none_kept_open ? "largest" : "others");
   std::size_t named = 0;
   for (const auto& [water, way] : waters) {
@@ -52,16 +52,17 @@ std::string noteOn(const FollowNotes& notes, const FollowOptions& options, const
     if (water.at_open) note += ", which has an open boundary";
     note += way.exists ? ", behind water " + lengthText(way.width_m, projection) + " wide at " +
                              placeText(way.place, projection)
-                       : ", which nothing joins to them in the data";
+                       : ", without a connection in the data";
   }
-  note += "; --passages or a smaller --channel-min keep what joins them, a smaller --strait-min widens it";
+  note += "; --passages or a smaller --channel-min keep the connection open, a smaller --strait-min widens it";
   if (options.keep != KeepWater::All) note += ", --keep-water all keeps them as they are";
   return note;
 }
 
 std::string noteOn(const std::vector<JoinedWater>& joined, double area, const Projection& projection) {
   std::string note =
-      "straits that alone join waters were widened to an element instead of closed, for the largest of " +
+      "straits that are the only connection between waters were widened to an element instead of closed, for the "
+      "largest of " +
       std::to_string(joined.size()) + " waters: ";
   for (std::size_t i = 0; i < std::min(kNamedStraits, joined.size()); ++i) {
     const WaterWay& way = joined[i].way;

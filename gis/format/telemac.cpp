@@ -156,7 +156,7 @@ BoundaryNodes boundaryNodesOf(const Grid& grid, const std::string& path) {
       if (seen[node])
         throw OutputError("cannot write '" + path + "': the mesh touches itself in the node at " +
                           std::to_string(grid.nodes[node].x) + ", " + std::to_string(grid.nodes[node].y) +
-                          ", which TELEMAC's files cannot say; mend it with --target telemac");
+                          ", which TELEMAC's files cannot hold; repair it with --target telemac");
       seen[node] = true;
       const BoundaryRole before = roleOf(loop[(i + loop.size() - 1) % loop.size()], node);
       const BoundaryRole after = roleOf(node, loop[(i + 1) % loop.size()]);

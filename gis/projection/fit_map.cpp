@@ -258,8 +258,8 @@ LonLat centreAwayFromLand(const std::vector<RingGroup>& groups, double west, con
   if (!clearest.best()) offerInsides(groups, clearest);
   if (!clearest.best()) {
     throw InputError(
-        "the features cover the whole globe but for places less than some 100 km wide, and a plane needs a wider one: "
-        "leave one out, as --bbox=-180,-85,180,90 does round the south pole");
+        "the features leave no gap on the globe wider than about 100 km, which the projection needs: leave some area "
+        "out, as --bbox=-180,-85,180,90 does around the south pole");
   }
   return {Math::AngNormalize(clearest.best()->lon + 180), -clearest.best()->lat};
 }
@@ -364,7 +364,7 @@ FittedMap fitMap(const std::vector<LonLat>& places, const std::vector<RingGroup>
 }
 
 FittedMap mapOfEmptyGlobe(const Ellipsoid& ellipsoid) {
-  return because(stereographic({17.3, 40.9}, ellipsoid, true), "nothing lies on the globe");
+  return because(stereographic({17.3, 40.9}, ellipsoid, true), "the globe is empty");
 }
 
 }  // namespace coastmesh

@@ -25,7 +25,7 @@ std::vector<Point> takeChain(const OGRSimpleCurve& curve, GeometryParts& parts, 
     const Point p{curve.getX(static_cast<int>(i)), curve.getY(static_cast<int>(i))};
     if (!isInRange(p)) {
       throw InputError(where() + ", vertex " + std::to_string(i + 1) + " of " + std::to_string(n) + ", is no place (" +
-                       inWords(p.x) + ", " + inWords(p.y) + "): mend or remove this feature");
+                       inWords(p.x) + ", " + inWords(p.y) + "): repair or remove this feature");
     }
     chain[i] = p;
   }
@@ -37,7 +37,7 @@ void takePoint(const OGRPoint& point, const std::string& what, GeometryParts& pa
   const Point p{point.getX(), point.getY()};
   if (!isInRange(p)) {
     throw InputError(what + " is a point that is no place (" + inWords(p.x) + ", " + inWords(p.y) +
-                     "): mend or remove this feature");
+                     "): repair or remove this feature");
   }
   parts.points.push_back(p);
 }

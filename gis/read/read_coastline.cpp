@@ -48,8 +48,9 @@ class Reprojection {
     const OGRSpatialReference from_srs = toOgr(from), to_srs = toOgr(to);
     transformation_.reset(OGRCreateCoordinateTransformation(&from_srs, &to_srs));
     if (transformation_) return;
-    throw InputError(source_ + ": PROJ knows no way from its CRS, " + nameOf(from) + ", to that of the first source, " +
-                     name_ + (errors_.text().empty() ? "" : " (" + errors_.text() + ")"));
+    throw InputError(source_ + ": PROJ has no transformation from its CRS, " + nameOf(from) +
+                     ", to that of the first source, " + name_ +
+                     (errors_.text().empty() ? "" : " (" + errors_.text() + ")"));
   }
 
   void apply(std::vector<Point>& chain, std::int64_t fid) const {

@@ -19,7 +19,7 @@ namespace coastmesh {
 
 namespace {
 
-// OGR gives coordinates in the order that the layer's axis mapping says: true where that is y, x.
+// OGR returns coordinates in the order of the layer's axis mapping: whether that is y, x.
 bool axesSwapped(const OGRSpatialReference& srs) {
   OGRSpatialReference traditional(srs);
   traditional.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -35,7 +35,7 @@ std::vector<std::pair<std::string, std::string>> attributesOf(OGRFeature& featur
   return attributes;
 }
 
-// Of a table of texts: one that is no geometry in WKT becomes no geometry, and OGR does not say so.
+// For text tables: text that is not valid WKT becomes a missing geometry, and OGR does not report it.
 void refuseOddWkt(OGRFeature& feature, const std::string& what) {
   if (feature.GetGeomFieldCount() == 0) return;
   const std::string_view column = feature.GetGeomFieldDefnRef(0)->GetNameRef();
@@ -45,7 +45,7 @@ void refuseOddWkt(OGRFeature& feature, const std::string& what) {
     constexpr std::size_t kShown = 60;
     const std::string text = oneLine(feature.GetFieldAsString(i), kShown);
     if (text.find_first_not_of(' ') != text.npos) {
-      throw InputError(what + ": its " + name + " is no geometry (" + text + "): mend or remove this feature");
+      throw InputError(what + ": its " + name + " is no geometry (" + text + "): repair or remove this feature");
     }
   }
 }
@@ -147,7 +147,7 @@ class LayerReader {
     report.unclosed_rings += parts.unclosed_rings;
   }
 
-  // A lone geometry that no table row goes with: its polygons are features of their own.
+  // A single geometry without a table row: its polygons become features.
   void takeBareApart() {
     Feature whole = std::move(raw_.features.front());
     raw_.features.clear();
@@ -182,13 +182,13 @@ std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, const std::st
   return raw;
 }
 
-// OGR leaves out of GeoJSON what is no geometry, be it a hole of a polygon, as if it were not there; or it says what is
-// wrong with one, but not which.
+// OGR drops invalid geometries of GeoJSON, even a hole of a polygon, silently; or it reports the error, but not the
+// feature.
 void refuseOddGeojson(const OpenSource& source, const OgrErrors& errors) {
   if (!errors.failed() && errors.leftOut().empty()) return;
   if (source.dataset->GetDriverName() != std::string_view("GeoJSON")) return;
   if (const std::optional<std::string> odd = oddGeojson(source.dataset->GetDescription())) {
-    throw InputError(source.name + ", " + *odd + ": mend or remove this feature");
+    throw InputError(source.name + ", " + *odd + ": repair or remove this feature");
   }
 }
 

@@ -49,7 +49,7 @@ void openLoneWall(RepairState& state, const FoundDefect& found) {
       if (mesh.triangles[t].adj[i] != kNone || mesh.origin(e) != node) continue;
       state.links.kinds[edgeKey(node, mesh.target(e))] = openingAt(state, node);
       state.disturbed[t] = true;
-      addRepair(state, found, state.grid.nodes[node], "solid edge between openings opened");
+      addRepair(state, found, state.grid.nodes[node], "solid edge between open boundaries opened");
       return;
     }
   }
@@ -69,7 +69,7 @@ void reportRebuilt(RepairState& state, std::span<const FoundDefect> pending, std
     ++by_kind.try_emplace({found.target, found.defect.kind}, 0, &found).first->second.first;
   for (const auto& [which, counted] : by_kind)
     addRepair(state, *counted.second, counted.second->defect.place,
-              "boundaries put together anew for " + std::to_string(counted.first) +
+              "boundaries rebuilt for " + std::to_string(counted.first) +
                   " of it: " + std::to_string(boundaries_before) + " before, " +
                   std::to_string(state.grid.boundaries.size()) + " now");
 }

@@ -73,7 +73,7 @@ void doublePinchedNode(RepairState& state, const FoundDefect& found) {
     const std::uint32_t twin = detachTriangles(grid, node, fans[f], apart);
     moveKinds(state.links, fans[f], node, twin);
     addRepair(state, found, place,
-              "node doubled, and moved apart by " + distanceText(grid.crs, place, grid.nodes[twin]));
+              "node duplicated and moved apart by " + distanceText(grid.crs, place, grid.nodes[twin]));
   }
   for (const std::uint32_t t : state.links.triangles_at[node])
     state.touched[t] = state.changed[t] = state.disturbed[t] = true;
@@ -85,7 +85,7 @@ void takeOutOrphan(RepairState& state, const FoundDefect& found) {
   state.touched[t] = state.dead[t] = true;
   const GridCorners& v = state.grid.triangles[t];
   for (unsigned i = 0; i < 3; ++i) state.links.kinds.erase(edgeKey(v[i], v[next3(i)]));
-  addRepair(state, found, state.grid.nodes[v[0]], "triangle taken out");
+  addRepair(state, found, state.grid.nodes[v[0]], "triangle removed");
 }
 
 void turnClockwise(RepairState& state, const FoundDefect& found) {

@@ -143,7 +143,7 @@ void takeOutNode(RepairState& state, std::uint32_t node, const FoundDefect& foun
   state.grid.triangles[round[0]] = corners;
   for (const std::uint32_t t : round) state.touched[t] = state.disturbed[t] = true;
   state.changed[round[0]] = state.dead[round[1]] = state.dead[round[2]] = true;
-  addRepair(state, found, found.defect.place, "node taken out");
+  addRepair(state, found, found.defect.place, "node removed");
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ std::vector<FoundDefect> withoutRepeats(const std::vector<FoundDefect>& defects)
 
 void requireNoWeirs(const Grid& grid) {
   if (std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return !boundary.weir.empty(); }))
-    throw InputError("the mesh has weirs and defects; mend these by hand, or take the weirs out");
+    throw InputError("the mesh has weirs and defects; repair the defects by hand, or remove the weirs");
 }
 
 void requireTriangles(const Grid& grid, std::span<const Target> targets) {
@@ -72,7 +72,7 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::WrongCount:
       return addRepair(state, found, found.defect.place, "counted anew: " + found.defect.text);
     case TargetDefectKind::UnusedNode:  // goes when the round ends
-      return addRepair(state, found, found.defect.place, "node taken out");
+      return addRepair(state, found, found.defect.place, "node removed");
     case TargetDefectKind::Clockwise:
       return turnClockwise(state, found);
     case TargetDefectKind::PinchedNode:

@@ -46,7 +46,7 @@ void requireNumbers(double length, const Surface& surface) {
   if (length >= kLeastLatticeEdge * surface.radius()) return;
   char text[160];
   std::snprintf(text, sizeof text,
-                "edges of %.3g m all over the globe take more triangles than can be numbered: ask for %.3g m or more",
+                "edges of %.3g m on the whole globe need more triangles than can be numbered: request %.3g m or more",
                 length, kLeastLatticeEdge * surface.radius());
   throw InputError(text);
 }

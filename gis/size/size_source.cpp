@@ -300,7 +300,7 @@ Pslg boundaryOf(const Box& box) {
 }  // namespace
 
 TooManyVertices::TooManyVertices(VertexDemand d)
-    : std::runtime_error("sizes ask for more vertices than there is room for"), demand(std::move(d)) {}
+    : std::runtime_error("sizes require more vertices than there is room for"), demand(std::move(d)) {}
 
 SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   SizeInputs inputs;
@@ -394,8 +394,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     const double most = 0.5 * options.gradation / for_scale * reach_m;
     if (most < options.least_m) {
       throw InputError(
-          "--grade: on a projection with so much change of scale, sizes of --size-min cannot differ by as "
-          "little as that; give a larger one");
+          "--grade: too small for sizes of --size-min on a projection whose scale varies so much; give a larger one");
     }
     source.limitSize(most);
     for_scale = 0.5 * options.gradation;

@@ -201,7 +201,7 @@ TEST_F(Checkpoint, IsOfOneCommandAndInput) {
   expectRefused(keeping(lake()), 2, "was begun with another INPUT");
   const std::string text = readText(input);
   writeText(input, text + "\n");
-  expectRefused(keeping(input), 3, "lakes.geojson' is not what it was");
+  expectRefused(keeping(input), 3, "lakes.geojson' has changed since");
   EXPECT_TRUE(std::filesystem::exists(kept("run")));
 }
 
@@ -250,7 +250,7 @@ TEST_F(Checkpoint, TheFolderIsItsOwn) {
   // One that is there already, and empty, will do.
   EXPECT_EQ(runProgram(keeping(input)).code, 0);
   write("text", "text");
-  expectRefused(command(input, {"--overwrite", "--checkpoint", file("text")}), 2, "is no folder");
+  expectRefused(command(input, {"--overwrite", "--checkpoint", file("text")}), 2, "is not a folder");
   expectRefused(command(input, {"--overwrite", "--checkpoint", file("no/kept")}), 4, "cannot be made");
 }
 
@@ -260,7 +260,7 @@ TEST_F(Checkpoint, BelongsToOneRunAtATime) {
   const int lock = open(kept("coastmesh.lock").c_str(), O_RDWR | O_CLOEXEC);
   ASSERT_GE(lock, 0);
   ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
-  expectRefused(keeping(input), 2, "another run is at work there");
+  expectRefused(keeping(input), 2, "another run is using it");
   close(lock);
   EXPECT_EQ(runProgram(keeping(input)).code, 0);
 }

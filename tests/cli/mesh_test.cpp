@@ -225,7 +225,7 @@ TEST_F(MeshRun, OptionsChangeTheMesh) {
 // One version long: in scripts and files that were written for the last one.
 TEST_F(MeshRun, FormerNamesOfOptionsAndKeysAreTakenWithAWarning) {
   const auto warning = [](const std::string& former, const std::string& present) {
-    return former + " is called " + present + " now; the next version will not take the former name";
+    return former + " is called " + present + " now; the next version will not accept the former name";
   };
   const Json present = report({"--no-coarsen"}), plain = report();
   EXPECT_TRUE(present["warnings"].empty());

@@ -227,7 +227,7 @@ TEST_F(Partition, WhatCannotBeIsRefused) {
   };
   const std::string grid = mesh();
   refused({"mesh", lake(), "-o", file("a.prop")}, 2, "--partition");
-  refused({"partition", grid, "4", "-o", file("a.2dm")}, 2, "no output holds parts");
+  refused({"partition", grid, "4", "-o", file("a.2dm")}, 2, "no output can hold parts");
   refused({"partition", grid, "0", "-o", file("a.prop")}, 2, "N");
   refused({"partition", grid, "four", "-o", file("a.prop")}, 2, "N");
   refused({"partition", grid, "900000", "-o", file("a.prop")}, 3, "too few");

@@ -140,14 +140,14 @@ TEST_F(Shard, IsNotMadeTwice) {
   writeText(file("r.json"), "precious");
   const ProgramRun second = runProgram(words({"--skip-existing"}));
   EXPECT_EQ(second.code, first.code);
-  EXPECT_THAT(second.output, HasSubstr("there already"));
+  EXPECT_THAT(second.output, HasSubstr("exist already"));
   EXPECT_EQ(readText(file("r.json")), "precious");
   // One of its files lacks: all are made anew.
   std::filesystem::remove(file("r.json"));
   EXPECT_EQ(runProgram(words({"--skip-existing"})).code, first.code);
   EXPECT_NE(readText(file("r.json")), "precious");
   // What is there is of another run.
-  expectRefused(words({"--skip-existing", "--min-angle", "20"}), 2, "of another run");
+  expectRefused(words({"--skip-existing", "--min-angle", "20"}), 2, "to another run");
   expectRefused(words({}), 4, "exists already");
 }
 
@@ -193,8 +193,8 @@ TEST_F(Shard, WhatDoesNotGoTogetherIsRefused) {
   expectRefused(with({shardFile(1), shardFile(2), shardFile(2), shardFile(3)}), 3, "give it once");
   const ProgramRun other =
       runProgram({"mesh", input, "--shard", "3/3", "-o", file("other.shard"), "--min-angle", "20", "--quiet"});
-  expectRefused(with({shardFile(1), shardFile(2), file("other.shard")}), 3, "of another run");
-  expectRefused(with({input}), 3, "no file that mesh --shard wrote");
+  expectRefused(with({shardFile(1), shardFile(2), file("other.shard")}), 3, "to another run");
+  expectRefused(with({input}), 3, "was not written by mesh --shard");
   std::string bytes = readText(shardFile(3));
   for (const std::size_t size : {bytes.size() - 1, bytes.size() / 2, std::size_t{40}}) {
     writeText(file("cut.shard"), bytes.substr(0, size));
@@ -224,7 +224,7 @@ TEST_F(Shard, OfAnotherVersionIsRefused) {
   for (const std::string other : {"0.0.9", "12.10.11-rc1"}) {
     writeText(shardFile(2), withVersion(bytes, other));
     const std::string why =
-        "s2.shard' was made by coastmesh " + other + ", this is " + programVersion() + ": make it anew";
+        "s2.shard' was made by coastmesh " + other + ", this is " + programVersion() + ": make it again";
     expectRefused(gather(2, {"-o", file("g.nc")}), 3, why);
     expectRefused({"mesh", input, "--shard", "2/2", "-o", shardFile(2), "--skip-existing"}, 3, why);
   }

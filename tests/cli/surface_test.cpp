@@ -190,7 +190,7 @@ TEST_F(SurfaceRuns, ModelsThatTakeLatitudesAsSphericalGetTheirSphere) {
     EXPECT_EQ(reported()["mesh"]["surface"]["kind"], "sphere");
     const Angles angles = anglesIn(readText(file("m.2dm")), true);
     EXPECT_NEAR(reported()["mesh"]["min_angle_deg"].get<double>(), angles.least, 1e-6);
-    EXPECT_THAT(run.output, HasSubstr("as the target takes latitudes"));
+    EXPECT_THAT(run.output, HasSubstr("as the target does"));
     EXPECT_EQ(run.output.find("as MPAS needs it") != std::string::npos, target == "mpas");
     EXPECT_EQ(reported()["refine"]["max_angle_deg"], target == "mpas" ? 89.0 : 180.0);
     EXPECT_LE(angles.most, target == "mpas" ? 89.0 + 1e-6 : 180.0);
@@ -221,7 +221,8 @@ TEST_F(SurfaceRuns, EdgesOfTheInputAreTheLinesAskedFor) {
   };
   EXPECT_GT(furthestOff({"--size", "50000"}), 10000.0);
   EXPECT_LT(furthestOff({"--size", "50000", "--edges", "lonlat", "--edge-tolerance", "500"}), 501.0);
-  EXPECT_THAT(mesh(bay, {"--edges", "geodesic"}).output, HasSubstr(" points were put on edges that would else leave"));
+  EXPECT_THAT(mesh(bay, {"--edges", "geodesic"}).output,
+              HasSubstr(" points were added to edges that would otherwise leave"));
   const std::string poly = write("a.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
   for (const auto& words : {std::vector<std::string>{poly}, {bay, "--crs", "plane"}}) {
     std::vector<std::string> options(words.begin() + 1, words.end());

@@ -132,7 +132,7 @@ TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
     EXPECT_EQ(report["refine"]["unresolved"]["places"].size(), sharp);
     EXPECT_EQ(report["mesh"]["unresolved"], sharp);
     EXPECT_EQ(run.code, sharp == 0 ? 0 : 1) << run.errors;
-    EXPECT_EQ(run.errors.find("repairs for --target left triangles short") != std::string::npos, sharp > 0);
+    EXPECT_EQ(run.errors.find("repairs for --target left triangles that miss") != std::string::npos, sharp > 0);
     EXPECT_EQ(runProgram({"check", file(out), "--min-angle", "42"}).code, run.code);
     return sharp;
   };
@@ -175,7 +175,7 @@ TEST_F(Target, ADoubledNodeHasTheSizeOfTheNodeThatItWas) {
   ASSERT_EQ(run.code, 0) << run.errors;
   const Json repairs = Json::parse(readText(file("report.json"))).at("repairs").at("done");
   ASSERT_EQ(repairs.size(), 1u);
-  EXPECT_THAT(repairs[0].at("repair").get<std::string>(), testing::StartsWith("node doubled"));
+  EXPECT_THAT(repairs[0].at("repair").get<std::string>(), testing::StartsWith("node duplicated"));
   const auto mended = sizesIn(file("mended_nodes.geojson"));
   ASSERT_EQ(mended.size(), plain.size() + 1);
   for (const auto& [place, size] : mended) {

@@ -29,7 +29,7 @@ from random_inputs import Case
 GRIDS = ["m.nc", "m.2dm", "m.14", "m.gr3", "m.msh", "m_22.msh", "m.node", "m.slf", "m.vtu", "m_grd.dat"]
 LAYERS = ["m.gpkg", "m.geojson", "m.shp"]
 # What one format cannot say, and refuses.
-PINCHED = "which TELEMAC's files cannot say"
+PINCHED = "which TELEMAC's files cannot hold"
 SECONDS, BYTES = 120, 6 << 30
 LARGEST_COORDINATE, LEAST_DISTANCE = 1e70, 1e-70
 
@@ -155,7 +155,7 @@ def main():
                 shutil.copytree(scratch, given.keep / str(number), dirs_exist_ok=True)
                 (given.keep / str(number) / "failure").write_text(f"{failure}\n")
                 print(f"case {number} ({case.world.kind}; {' '.join(case.options)}): {failure}", flush=True)
-    print(f"{len(numbers)} runs from {numbers[0]} on: {codes[0]} done, {codes[1]} short of what was asked, "
+    print(f"{len(numbers)} runs from {numbers[0]} on: {codes[0]} done, {codes[1]} missing a requirement, "
           f"{codes[2] + codes[3]} refused, {failed} failed")
     # A harness whose inputs are all refused finds nothing.
     sys.exit(failed > 0 or (len(numbers) >= 40 and codes[0] + codes[1] < len(numbers) / 2))

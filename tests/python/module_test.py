@@ -314,7 +314,7 @@ class FilesTest(unittest.TestCase):
             warnings.simplefilter("always")
             former = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, shrink=False)
         self.assertEqual([str(w.message) for w in caught],
-                         ["shrink is called coarsen now; the next version will not take the former name"])
+                         ["shrink is called coarsen now; the next version will not accept the former name"])
         present = coastmesh.mesh(SQUARE, BOUNDARY, size_max=0.3, coarsen=False)
         self.assertFalse(former.report["refine"]["coarsen"])
         self.assertEqual(former.report["mesh"]["digest"], present.report["mesh"]["digest"])

@@ -140,7 +140,7 @@ class ProviderTest(unittest.TestCase):
         self.assertGreater(compared, 90)
         mesh = provider.algorithm("mesh")
         self.assertEqual(mesh.parameterDefinition("BBOX").description(), "Bounding box")
-        self.assertEqual(mesh.parameterDefinition("WATER_AT").description(), "Place in the water")
+        self.assertEqual(mesh.parameterDefinition("WATER_AT").description(), "Point in the water")
         advanced = {p.name() for p in mesh.parameterDefinitions() if p.flags() & p.FlagAdvanced}
         self.assertLessEqual({"SLOPE_FILTER", "ALGORITHM", "THREADS", "SNAP", "REPORT"}, advanced)
         self.assertFalse({"INPUT", "OUTPUT", "BBOX", "WATER_AT", "SIZE_MAX", "MIN_ANGLE", "BATHYMETRY"} & advanced)

@@ -75,7 +75,7 @@ class QgisProcessTest(unittest.TestCase):
     def test_help_shows_the_programs_own_options(self):
         run = self.call("help", "coastmesh:mesh")
         self.assertEqual(run.returncode, 0)
-        self.assertIn("smallest angle asked for", run.stdout)
+        self.assertIn("minimum angle of the triangles", run.stdout)
 
     def test_an_error_is_shown_and_fails(self):
         empty = self.path("empty.geojson")

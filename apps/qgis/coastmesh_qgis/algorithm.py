@@ -252,7 +252,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         if self.name() == "check":
             results["SOUND"] = int(code != SHORT)
         elif code == SHORT:
-            feedback.pushWarning("The result is short of what was asked; the lines above and the report say where.")
+            feedback.pushWarning("The result misses a requirement; the lines above and the report say where.")
         if self.name() == "check":
             return results
         for name, layer, _ in LAYERS.get(self.name(), []):

@@ -38,7 +38,7 @@ def by_present_names(options, parameters):
             old, new = parameter_name({"name": former}), parameter_name(option)
             if old in values:
                 values.setdefault(new, values.pop(old))
-                warnings.append(f"{old} is called {new} now; the next version will not take the former name")
+                warnings.append(f"{old} is called {new} now; the next version will not accept the former name")
     return values, warnings
 
 

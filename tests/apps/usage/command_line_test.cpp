@@ -146,8 +146,8 @@ TEST_F(CommandLineTest, FormerNamesBecomeThePresentOnesWithAWarning) {
   Words warnings;
   EXPECT_EQ(line_.withPresentNames({"--no-felt", "--angle", "3", "--felt=true", "--", "--felt"}, warnings),
             (Words{"--no-coarsen", "--angle", "3", "--coarsen=true", "--", "--felt"}));
-  EXPECT_EQ(warnings, (Words{"--no-felt is called --no-coarsen now; the next version will not take the former name",
-                             "--felt is called --coarsen now; the next version will not take the former name"}));
+  EXPECT_EQ(warnings, (Words{"--no-felt is called --no-coarsen now; the next version will not accept the former name",
+                             "--felt is called --coarsen now; the next version will not accept the former name"}));
   warnings.clear();
   const Words present{"--coarsen", "--no-coarsen", "--felted", "felt"};
   EXPECT_EQ(line_.withPresentNames(present, warnings), present);

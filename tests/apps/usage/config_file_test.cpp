@@ -183,9 +183,9 @@ TEST_F(ConfigFile, ASwitchWithoutAnOppositeIsNotGivenWhereItIsOff) {
 
 TEST_F(ConfigFile, FormerNamesAreTakenWithAWarning) {
   for (const auto& [text, sentence] :
-       {std::pair("felt = false\n", "'felt' is called 'coarsen' now; the next version will not take the former name"),
+       {std::pair("felt = false\n", "'felt' is called 'coarsen' now; the next version will not accept the former name"),
         std::pair("no-felt = true\n",
-                  "'no-felt' is called 'no-coarsen' now; the next version will not take the former name")}) {
+                  "'no-felt' is called 'no-coarsen' now; the next version will not accept the former name")}) {
     const std::string file = write("a.toml", text);
     const auto job = taken(file);
     EXPECT_FALSE(job->coarsen);

@@ -108,11 +108,12 @@ TEST(FollowSizes, AStraitALittleNarrowerThanAnElementThatAloneJoinsWatersIsWiden
       EXPECT_GE(leastApart(coarse), 0.75 * 2.0);
       ASSERT_EQ(report.notes.size(), 1u);
       double x = 0.0, y = 0.0, wide = 0.0, length = 0.0, behind = 0.0;
-      ASSERT_EQ(std::sscanf(report.notes[0].c_str(),
-                            "straits that alone join waters were widened to an element instead of closed, for the "
-                            "largest of 1 waters: (%lf, %lf), %lf wide, about %lf long, to %lf",
-                            &x, &y, &wide, &length, &behind),
-                5)
+      ASSERT_EQ(
+          std::sscanf(report.notes[0].c_str(),
+                      "straits that are the only connection between waters were widened to an element "
+                      "instead of closed, for the largest of 1 waters: (%lf, %lf), %lf wide, about %lf long, to %lf",
+                      &x, &y, &wide, &length, &behind),
+          5)
           << report.notes[0];
       EXPECT_NEAR(x, 25.0, 6.0);
       EXPECT_NEAR(y, 10.0, 1.0);

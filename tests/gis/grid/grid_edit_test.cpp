@@ -373,10 +373,10 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
     if (below(random, 2) == 0) targets.push_back(kAll[below(random, 6)]);
     const RepairReport report = repairForTargets(grid, targets);
     for (const Repair& repair : report.repairs) {
-      doubled += repair.what.starts_with("node doubled");
+      doubled += repair.what.starts_with("node duplicated");
       split += repair.what == "edge split";
       flipped += repair.what == "edge flipped";
-      taken_out += repair.what == "triangle taken out";
+      taken_out += repair.what == "triangle removed";
     }
     const std::set<double> known(before.z.begin(), before.z.end());
     for (std::size_t i = 0; i < grid.nodes.size(); ++i) {

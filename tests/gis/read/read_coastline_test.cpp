@@ -148,7 +148,7 @@ TEST_F(ReadCoastline, RefusesPartsOfGeojsonThatAreNoGeometry) {
         {text, R"(outer ring, vertex 2, is no place (["9", 0]))"},
         {type, "of the type 'Polygn'"}}) {
     const std::string file = geojson("odd.geojson", {kSquare, geometry});
-    expectRefused({file}, {"odd.geojson, feature 1: " + what, "mend or remove this feature"});
+    expectRefused({file}, {"odd.geojson, feature 1: " + what, "repair or remove this feature"});
   }
 }
 
