@@ -12,17 +12,17 @@
 
 namespace coastmesh {
 
-// Rank 0's side of a run on several ranks: the others help with pieces.
+// Rank 0's side of a run on several ranks: the others process pieces.
 class Cluster {
  public:
-  // `stopped` says whether the run is being given up, so that the others are not waited for.
+  // `stopped` says whether the run is being aborted, so that the others are not waited for.
   Cluster(Post& post, std::function<bool()> stopped);
-  // Sends the others away.
+  // Tells the others to end.
   ~Cluster();
   Cluster(const Cluster&) = delete;
   Cluster& operator=(const Cluster&) = delete;
 
-  // Lets the others begin, each with so many threads, or as many as it has cores where that is 0.
+  // Tells the others to begin, each with so many threads, or if 0 with as many as it has cores.
   void start(int threads);
   const Helpers& helpers() const { return helpers_; }
 
@@ -34,15 +34,15 @@ class Cluster {
   Helpers helpers_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  int gone_ = 0;            // ranks that have said so
-  std::vector<int> rooms_;  // one a rank: requests that it has room for
+  int gone_ = 0;            // ranks that are ready
+  std::vector<int> rooms_;  // for each rank: requests that it has room for
   struct Awaited {
     std::function<void(Reply&&)> take;
-    bool has_room = false;  // that is free again when it has come
+    bool has_room = false;  // whose room is free again once it has arrived
   };
   std::map<std::uint64_t, Awaited> awaited_;
   std::uint64_t requests_ = 0, pieces_ = 0;
-  std::vector<double> peak_mib_;  // one a rank
+  std::vector<double> peak_mib_;  // one for each rank
   std::uint32_t regions_ = 0;
 };
 

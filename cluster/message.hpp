@@ -6,22 +6,22 @@
 
 namespace coastmesh {
 
-// What ranks tell one another. Rank 0 asks, the others answer.
+// Messages between ranks. Rank 0 sends requests, the others reply.
 struct Message {
   enum class Kind : std::uint64_t {
-    Start,    // to all: begin to work, with `number` threads, or as many as there are cores where that is 0
+    Start,    // to all: begin, with `number` threads, or if 0 with as many as there are cores
     Ready,    // from a rank: it works with `number` threads, `region` as of Reply
-    Begin,    // to all: `bytes` are what pieces of `region` share
-    Request,  // one piece of `region`, under a `number` of its own
-    Ask,      // something that is of no region, under a `number` of its own
-    Reply,    // to the request of that number; `outcome` says what `bytes` are, `region` the rank's memory, KiB
+    Begin,    // to all: `bytes` are the shared context of the pieces of `region`
+    Request,  // one piece of `region`, with a unique `number`
+    Ask,      // a request without a region, with a unique `number`
+    Reply,    // to the request of that number; `outcome` is the type of `bytes`, `region` the rank's memory, KiB
     End,      // to all: no more of `region`
-    Stop,     // to all: there is no more to be done
-    Gone,     // from a rank, to that: it sends nothing more
+    Stop,     // to all: the run is done
+    Gone,     // from a rank, to Stop: it sends nothing more
   };
   Kind kind = Kind::Stop;
   std::uint64_t region = 0, number = 0, outcome = 0;
-  std::shared_ptr<const std::string> bytes;  // shared where the same goes to several; null: none
+  std::shared_ptr<const std::string> bytes;  // shared if sent to several ranks; null: none
 };
 
 }  // namespace coastmesh

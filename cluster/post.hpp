@@ -14,11 +14,11 @@
 
 namespace coastmesh {
 
-// Carries messages to and from the other ranks, on a thread of its own: the only one that uses the transport.
+// Sends and receives messages, on its own thread: the only one that uses the transport.
 class Post {
  public:
-  // Returns when the ranks have joined. `command` stands for what this process was started with, which must be the same
-  // on all ranks. Throws CannotJoin.
+  // Returns when all ranks have joined. `command` is the command line of this process, which must be the same on all
+  // ranks. Throws CannotJoin.
   Post(std::unique_ptr<Transport> (*join)(), int expected_ranks, std::uint64_t command);
   ~Post() { leave(); }
   Post(const Post&) = delete;
@@ -29,14 +29,14 @@ class Post {
   const std::string& host() const { return host_; }
   std::uint64_t bytesMoved() const { return moved_; }
 
-  // `take(message, from)` is called for each message from now on, from the post's thread; it must not throw.
+  // From now on `take(message, from)` is called for each message, on the post's thread; it must not throw.
   void listen(std::function<void(Message&&, int from)> take);
   // From any thread.
   void send(int to, Message message);
   void sendToOthers(const Message& message);
-  // Both are the end. Sends what is still to be sent, and waits for all ranks to come here;
+  // Both end the post. This one sends what is pending, and waits until all ranks have called it;
   void finish();
-  // leaves at once.
+  // this one ends at once.
   void leave();
 
  private:

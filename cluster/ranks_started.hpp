@@ -2,13 +2,13 @@
 
 namespace coastmesh {
 
-// How many processes this one was started with, itself included, by mpirun or the like, as these say in the
-// environment: 1 where nothing says so. And which of them it is, from 0.
+// The number of processes started together by mpirun or a similar launcher, this one included, as the environment says:
+// 1 if it says nothing. And the number of this process, from 0.
 int ranksStarted();
 int rankStarted();
 
-// Has a launcher that speaks PMI, as MPICH's, end all ranks with this exit code: it would make one of its own where a
-// rank ends without MPI's leave. Does nothing elsewhere.
+// Makes a launcher that speaks PMI, such as MPICH's, end all ranks with this exit code; otherwise it chooses its own if
+// a rank ends without finalising MPI. Does nothing with other launchers.
 void tellLauncher(int exit_code);
 
 }  // namespace coastmesh

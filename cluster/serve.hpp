@@ -8,15 +8,15 @@
 
 namespace coastmesh {
 
-// How a rank other than 0 serves; all may be called from several threads.
+// How a rank other than 0 works; all functions may be called from several threads.
 struct ServeOptions {
-  std::function<bool()> stopped;                  // from time to time: whether this process is to end before
-  std::function<bool()> memory_lacked;            // after a piece: then it is answered as one that takes too much
-  std::function<double()> peak_mib;               // the most memory that this process has held
-  std::function<Reply(std::string_view)> answer;  // to what is asked that is of no region
+  std::function<bool()> stopped;                  // called from time to time: whether this process must end early
+  std::function<bool()> memory_lacked;            // called after a piece: whether it fails for lack of memory
+  std::function<double()> peak_mib;               // the peak memory of this process
+  std::function<Reply(std::string_view)> answer;  // answers requests without a region
 };
 
-// What ranks other than 0 do: they answer rank 0's requests until it sends them away. False where they were stopped.
+// The loop of ranks other than 0: answers rank 0's requests until told to end. False if stopped.
 bool serveRankZero(Post& post, const ServeOptions& options);
 
 }  // namespace coastmesh

@@ -9,12 +9,12 @@
 
 namespace coastmesh {
 
-// This process cannot work with those that it was started with: why, and what to do.
+// This process cannot work with those it was started with; the message says why, and what to do.
 struct CannotJoin : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// How the processes of one run reach one another. All of it is called from the thread that made it.
+// Communication between the processes of a run. All functions are called from the thread that created it.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -23,26 +23,26 @@ class Transport {
   virtual int ranks() const = 0;
   virtual std::string host() const = 0;
   virtual std::string library() const = 0;
-  // Whether all ranks say the same: every rank has to call it.
+  // Whether all ranks pass the same value: every rank must call it.
   virtual bool agree(std::uint64_t what) = 0;
 
-  // Returns at once; messages from one rank to another come in the order sent.
+  // Returns at once; messages from one rank to another arrive in the order sent.
   virtual void send(int to, Message&& message) = 0;
-  // Takes a message that has come; false where none has. `from` is who sent it.
+  // Takes a message that has arrived; false if there is none. `from` is its sender.
   virtual bool receive(Message& message, int& from) = 0;
-  // Goes on with what is on its way; true where nothing is.
+  // Advances pending transfers; true if there are none.
   virtual bool isIdle() = 0;
   // Of all messages, sent and received.
   virtual std::uint64_t bytesMoved() const = 0;
 
-  // Waits until all ranks have come here; nothing else may be called after it.
+  // Waits until all ranks have called it; nothing else may be called afterwards.
   virtual void finish() = 0;
-  // Ends all ranks, this one too.
+  // Ends all ranks, including this one.
   [[noreturn]] virtual void abort(int exit_code) = 0;
 };
 
-// Joins the other processes that were started with this one. Which library does it is decided by what is linked: MPI
-// (cluster/mpi), or none (cluster/alone). Throws CannotJoin.
+// Joins the other processes that were started with this one. The linked library does it: MPI (cluster/mpi), or none
+// (cluster/alone). Throws CannotJoin.
 std::unique_ptr<Transport> joinRanks();
 
 }  // namespace coastmesh

@@ -30,13 +30,13 @@ struct Bounds {
   }
 };
 
-// Boxes along Hilbert's curve, halved again and again: node k has the halves 2 k and 2 k + 1.
+// A binary tree of boxes, in Hilbert order: the children of node k are 2 k and 2 k + 1.
 class BoxHalves {
  public:
   BoxHalves() = default;
   explicit BoxHalves(std::span<const Bounds> boxes);
 
-  // Calls `found(item)` for every item all of whose nodes `enter(bounds)` lets in.
+  // Calls `found(item)` for every item whose ancestors all pass `enter(bounds)`.
   template <typename Enter, typename Found>
   void visit(const Enter& enter, const Found& found) const {
     if (!items_.empty()) visitFrom(1, 0, items_.size(), enter, found);

@@ -6,7 +6,7 @@
 
 namespace coastmesh {
 
-// Whether a number is 0 or has a size that coordinates and distances can have, so that nothing overflows on the way.
+// Whether a number is 0 or in the range of coordinates and distances, so that nothing overflows later.
 inline bool isComputable(double value) {
   return value == 0.0 || (std::abs(value) >= kLeastDistance && std::abs(value) <= kLargestCoordinate);
 }

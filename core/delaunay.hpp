@@ -25,8 +25,8 @@ struct PslgDefect {
   };
   Kind kind;
   Point place;
-  SegmentId segment = kNone;  // the one involved, where there is one
-  SegmentId other = kNone;    // and the other one, where there are two
+  SegmentId segment = kNone;  // the segment involved, if any
+  SegmentId other = kNone;    // the second one, if there are two
   std::string message;        // a sentence, without the place
 };
 
@@ -35,9 +35,9 @@ struct BadPslg : std::runtime_error {
   PslgDefect defect;
 };
 
-// The constrained Delaunay triangulation of the PSLG's domain: holes and outside are carved, regions labelled.
-// Throws BadPslg, and nothing else, where the input is no PSLG or encloses no area. Cost O(n log n) time, O(n) memory.
-// The surface is for speed alone: what lies near to one another on it is numbered so.
+// The constrained Delaunay triangulation of the PSLG's domain: holes and outside are removed, regions labelled. Throws
+// only BadPslg, if the input is not a valid PSLG or encloses no area. O(n log n) time, O(n) memory. The surface affects
+// only the numbering: vertices close together on it get close numbers.
 TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface = {});
 
 }  // namespace coastmesh

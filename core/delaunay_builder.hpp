@@ -11,37 +11,37 @@
 
 namespace coastmesh {
 
-// The constrained Delaunay triangulation of points that grows by a point or a segment at a time. What is outside the
-// convex hull is triangles too: with a ghost for their third corner, which is numbered after all points. So every edge
-// has two sides. Where the points are on one line there is no triangulation.
+// A constrained Delaunay triangulation built by inserting points and segments. The outside of the convex hull is filled
+// with ghost triangles, whose third corner is numbered after all points, so that every edge has two sides. If all
+// points are on one line there is no triangulation.
 class DelaunayBuilder {
  public:
-  // What a point or a segment meets where it must not.
+  // Thrown if a point or a segment meets what it must not touch.
   struct Clash : std::runtime_error {
     enum class Kind { PointsCoincide, PointOnSegment, SegmentsCross, SegmentsCoincide };
     Clash(Kind k, VertexId v, SegmentId s)
         : std::runtime_error("no planar straight-line graph"), kind(k), at(v), other(s) {}
     Kind kind;
-    VertexId at;      // the vertex that is met
-    SegmentId other;  // the segment that is met
+    VertexId at;      // the vertex that was met
+    SegmentId other;  // the segment that was met
   };
 
-  // Inserts all points: in rounds, each along Hilbert's curve, so that each point lies near the one before and no order
-  // of them makes many triangles for nothing. Throws Clash for points at the same place.
+  // Inserts all points: in rounds, each along Hilbert's curve, so that each point is near the previous one and no input
+  // order creates many temporary triangles. Throws Clash if two points coincide.
   explicit DelaunayBuilder(std::span<const Point> points, const Surface& surface = {});
 
   bool hasTriangles() const { return !mesh_.triangles.empty(); }
 
-  // Makes the edge from a to b, if it is not there, and a segment of it. Throws Clash.
+  // Makes the edge from a to b, if it does not exist, and marks it as part of a segment. Throws Clash.
   void insertSegment(VertexId a, VertexId b, SegmentId seg);
 
-  // Ghosts included; all linked.
+  // Including ghosts; all linked.
   std::span<const Triangle> triangles() const { return mesh_.triangles; }
   bool isGhost(TriId t) const {
     const auto& v = mesh_.triangles[t].v;
     return v[0] == ghost_ || v[1] == ghost_ || v[2] == ghost_;
   }
-  // A triangle that holds x, a ghost where x is outside the convex hull. Looks from `near` on.
+  // A triangle that contains x, a ghost if x is outside the convex hull. The search starts at `near`.
   TriId locate(const Point& x, TriId near) const;
 
  private:
@@ -59,7 +59,7 @@ class DelaunayBuilder {
   std::span<const Point> points_;
   VertexId ghost_;
   LinkedTriangles mesh_;
-  std::vector<TriId> triangle_of_;  // one of the triangles round a vertex
+  std::vector<TriId> triangle_of_;  // one triangle around each vertex
 
   // Scratch.
   struct CavityEdge {
@@ -69,13 +69,13 @@ class DelaunayBuilder {
   std::vector<EdgeRef> stack_;
   std::vector<TriId> cavity_;
   std::vector<CavityEdge> cavity_edges_;
-  // One side of what a new segment goes through, from its first end to its last. Edge k ends at corner k + 1; further
-  // edges are inner ones.
+  // One side of the cavity of a new segment, from its first end to its last. Edge k ends at corner k + 1; edges beyond
+  // those are interior ones.
   static constexpr std::size_t kNoPartner = ~std::size_t{0};
   struct SideEdge {
     EdgeRef inside, beyond;
     SegmentId seg;
-    std::size_t partner;  // the same edge from its other side, where both are inside
+    std::size_t partner;  // the same edge from its other side, if both are inside
   };
   struct Side {
     std::vector<VertexId> corners;
@@ -83,11 +83,11 @@ class DelaunayBuilder {
   };
   struct Scanned {
     VertexId v;
-    std::size_t edge;  // that leads here from the one before
+    std::size_t edge;  // the edge from the previous corner to this one
   };
   Side sides_[2];  // left, right
   std::vector<Scanned> scan_;
-  std::size_t filled_ = 0;  // triangles of cavity_ that are in use again
+  std::size_t filled_ = 0;  // triangles of cavity_ that are reused
 };
 
 }  // namespace coastmesh

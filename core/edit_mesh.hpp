@@ -13,55 +13,55 @@ namespace coastmesh {
 
 enum class VertexKind : std::uint8_t {
   Input,    // never moved, never removed
-  Segment,  // lies inside an input segment: slides along it at most
+  Segment,  // lies inside an input segment: may only slide along it
   Free,
 };
 
 using Corners = std::array<VertexId, 3>;
 
-// One edge of the boundary of a patch of triangles, the patch to its left.
+// One edge of the boundary of a patch of triangles, with the patch to its left.
 struct BoundaryEdge {
   VertexId a = kNone;
   VertexId b = kNone;
-  EdgeRef beyond = kNone;  // the same edge seen from outside the patch; kNone where there is nothing
+  EdgeRef beyond = kNone;  // the same edge seen from outside the patch; kNone on the boundary of the mesh
   SegmentId seg = kNone;
 };
 
-// Some triangles and their boundary. For a patch without holes the boundary is one loop, in order, counter-clockwise.
+// Some triangles and their boundary. The boundary of a patch without holes is one loop, in order, counter-clockwise.
 struct Patch {
   std::vector<TriId> triangles;
   std::vector<BoundaryEdge> boundary;
 };
 
-// New numbers by old ones; kNone for what is gone.
+// New numbers, indexed by the old ones; kNone for removed items.
 struct Renumbering {
   std::vector<VertexId> vertex;
   std::vector<TriId> triangle;
 };
 
-// What lies round a vertex: a full turn of triangles, those from boundary to boundary, or more than were asked for.
+// Type of a star: closed, open from boundary to boundary, or with more triangles than the given limit.
 enum class StarKind { Closed, Open, TooMany };
 
-// What is round a vertex, counter-clockwise: where each edge of its link starts, and the triangle there.
+// The link of a vertex, counter-clockwise: where each of its edges starts, and the triangle there.
 struct Ring {
   std::vector<VertexId> corners;
   std::vector<TriId> triangles;
 };
 
-// A triangulation under change: compact arrays with free lists.
-// Operations that change it append the triangles they made or changed to `touched`.
+// A triangulation that can be edited: compact arrays with free lists. Operations append the triangles that they make or
+// change to `touched`.
 class EditMesh : private LinkedTriangles {
  public:
   explicit EditMesh(TriMesh&& mesh);
 
-  // The mesh without dead entries. Input vertices keep their numbers; Steiner points, and triangles with them, are put
-  // in an order that keeps neighbours near in memory. Leaves `regions` empty.
+  // The mesh without dead entries. Input vertices keep their numbers; Steiner points and triangles are reordered so
+  // that neighbours are close in memory. Leaves `regions` empty.
   TriMesh release() {
     Renumbering by;
     return release(by, true);
   }
-  // The same, and the new numbers; unless `along_curve`, Steiner points stay in the order that they are in.
-  TriMesh release(Renumbering& by, bool along_curve);  // the mesh is empty after it
+  // The same, and the new numbers; without `along_curve` Steiner points keep their order.
+  TriMesh release(Renumbering& by, bool along_curve);  // the mesh is empty afterwards
 
   const Point& point(VertexId v) const { return points_[v]; }
   const Point& corner(TriId t, unsigned i) const { return points_[triangles[t].v[i]]; }
@@ -69,7 +69,7 @@ class EditMesh : private LinkedTriangles {
   bool isLiveVertex(VertexId v) const { return triangle_of_[v] != kNone; }
   VertexKind kind(VertexId v) const { return kinds_[v]; }
   TriId triangleOf(VertexId v) const { return triangle_of_[v]; }
-  // How many triangles have v as a corner.
+  // The number of triangles with corner v.
   std::size_t trianglesRound(VertexId v) const { return triangles_round_[v]; }
   TriId triangleSlots() const { return static_cast<TriId>(triangles.size()); }
   VertexId vertexSlots() const { return static_cast<VertexId>(points_.size()); }
@@ -85,8 +85,8 @@ class EditMesh : private LinkedTriangles {
   using LinkedTriangles::twin;
   bool isConstrained(EdgeRef e) const { return segment(e) != kNone || twin(e) == kNone; }
 
-  // Calls `visit` with the edge opposite v in each triangle round it, counter-clockwise from the triangle `home` on:
-  // once round, or up to the boundary. Visits no more than `most`.
+  // Calls `visit` with the edge opposite v in each triangle around it, counter-clockwise from the triangle `home`: once
+  // around, or up to the boundary. Visits at most `most`.
   template <typename Visit>
   StarKind walkRound(VertexId v, TriId home, std::size_t most, const Visit& visit) const {
     TriId t = home;
@@ -103,42 +103,42 @@ class EditMesh : private LinkedTriangles {
     return StarKind::Closed;
   }
 
-  // The edges opposite v in the triangles round it, counter-clockwise; of an open star from boundary to boundary. At a
-  // pinched vertex: the star that holds triangleOf(v). Where there are more than `most` the edges are some of them.
+  // The edges opposite v in the triangles around it, counter-clockwise; from boundary to boundary if the star is open.
+  // At a pinched vertex: the star with triangleOf(v). If there are more than `most`, only some of the edges.
   StarKind star(VertexId v, std::vector<EdgeRef>& opposite,
                 std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
-  // The same as a ring, from the triangle `home` on. REQUIRES: v is not on the boundary.
+  // The same as a ring, starting at the triangle `home`. REQUIRES: v is not on the boundary.
   StarKind ring(VertexId v, TriId home, std::size_t most, Ring& ring) const;
 
-  // The triangles round the given vertices and their boundary. REQUIRES: the vertices are connected by edges, none is
-  // on the boundary of the mesh. Returns false where the patch is not a disk.
+  // The triangles around the given vertices and their boundary. REQUIRES: the vertices are connected by edges, and none
+  // is on the boundary of the mesh. Returns false if the patch is not a disk.
   bool gatherPatch(std::span<const VertexId> vertices, Patch& patch) const;
 
   struct Place {
-    TriId triangle = kNone;   // holds the point, where nothing is in the way
-    EdgeRef blocked = kNone;  // else the subsegment that is
+    TriId triangle = kNone;   // contains the point, if no obstacle was met
+    EdgeRef blocked = kNone;  // otherwise the subsegment that was met
   };
-  // Walks towards x, not across segments or the boundary. Both are kNone where the walk does not end.
+  // Walks towards x, without crossing segments or the boundary. Both are kNone if the walk does not end.
   Place locate(const Point& x, TriId from) const;
 
-  // The triangles whose circumcircles hold x, as far as x sees them. REQUIRES: x lies in `start`. The boundary is in
-  // order. Returns false where rounding leaves x on or beyond the boundary.
+  // The triangles whose circumcircles contain x and that are visible from x, with their boundary in order. REQUIRES: x
+  // lies in `start`. Returns false if rounding puts x on or outside the boundary.
   bool findCavity(const Point& x, TriId start, Patch& cavity) const;
 
-  // Fills a cavity with a fan round a new free vertex.
+  // Fills a cavity with a fan around a new free vertex.
   VertexId insertInCavity(const Point& x, const Patch& cavity, std::vector<TriId>& touched);
 
-  // The same for x on a subsegment: the triangles on both sides, and their boundary without the subsegment, side by
-  // side.
+  // The same for x on a subsegment: the triangles on both sides, and their boundaries without the subsegment, one after
+  // the other.
   bool findSplitCavity(EdgeRef edge, const Point& x, Patch& cavity) const;
 
-  // Splits a subsegment with a new vertex at x, on it as well as doubles allow. Returns kNone, and changes nothing,
-  // where rounding would turn a triangle over.
+  // Splits a subsegment with a new vertex at x, which is on it up to rounding. Returns kNone, and changes nothing, if
+  // rounding would invert a triangle.
   VertexId splitSegment(EdgeRef edge, const Point& x, std::vector<TriId>& touched);
 
-  // Puts other triangles into a patch. `fresh` covers it with the same boundary; edges of `fresh` that `inner` names,
-  // either way round, become subsegments. Vertices in `gone` die. Does not restore the Delaunay property.
+  // Replaces the triangles of a patch. `fresh` covers it with the same boundary; edges of `fresh` named by `inner`, in
+  // either direction, become subsegments. Vertices in `gone` are removed. Does not restore the Delaunay property.
   void replace(const Patch& patch, std::span<const Corners> fresh, std::span<const VertexId> gone,
                std::vector<TriId>& touched, std::span<const BoundaryEdge> inner = {});
 
@@ -148,10 +148,10 @@ class EditMesh : private LinkedTriangles {
   // property.
   void setPoint(VertexId v, const Point& to) { points_[v] = to; }
 
-  // Lawson's flips, from all edges of the triangles in `touched` on; appends the triangles they change.
+  // Lawson's flips, starting with all edges of the triangles in `touched`; appends the triangles that change.
   void restoreDelaunay(std::vector<TriId>& touched);
 
-  // The same where `touched` is the star of v, which has no boundary.
+  // The same if `touched` is the closed star of v.
   void restoreDelaunayRound(VertexId v, std::vector<TriId>& touched);
 
  private:
@@ -167,8 +167,8 @@ class EditMesh : private LinkedTriangles {
 
   std::vector<Point> points_;
   std::vector<VertexKind> kinds_;
-  std::vector<TriId> triangle_of_;              // one of the triangles round a vertex
-  std::vector<std::uint32_t> triangles_round_;  // one a vertex: how many
+  std::vector<TriId> triangle_of_;              // one triangle around each vertex
+  std::vector<std::uint32_t> triangles_round_;  // number of triangles of each vertex
   std::vector<TriId> free_triangles_;
   std::vector<VertexId> free_vertices_;
   VertexId input_vertices_ = 0;
@@ -181,10 +181,10 @@ class EditMesh : private LinkedTriangles {
 
 namespace detail {
 
-// The point of a chain, other than its ends, whose circle through the ends holds no other. 0 where all lie behind.
+// The point of a chain, other than its ends, whose circle through the ends contains no other. 0 if all are behind.
 std::size_t delaunayApex(const EditMesh& mesh, std::span<const VertexId> chain);
 
-// Triangulates a chain, closed by the edge from its last point to its first.
+// Triangulates a chain that is closed by the edge from its last point to its first.
 template <typename Accept>
 bool triangulateChain(const EditMesh& mesh, std::span<const VertexId> chain, std::vector<Corners>& triangles,
                       const Accept& accept) {
@@ -198,8 +198,8 @@ bool triangulateChain(const EditMesh& mesh, std::span<const VertexId> chain, std
 
 }  // namespace detail
 
-// The Delaunay triangulation of a simple polygon given counter-clockwise: k - 2 triangles. Returns false where it has
-// none without a turned triangle, or as soon as `accept` refuses a triangle.
+// The Delaunay triangulation of a simple polygon, given counter-clockwise: k - 2 triangles. Returns false if it has
+// none without an inverted triangle, or as soon as `accept` rejects a triangle.
 template <typename Accept>
 bool triangulatePolygon(const EditMesh& mesh, std::span<const VertexId> polygon, std::vector<Corners>& triangles,
                         const Accept& accept) {

@@ -7,17 +7,17 @@
 
 namespace coastmesh {
 
-// Replaces an edge by the other diagonal of its two triangles, which keep their slots: of the edge b -> c of a triangle
-// a b c, beyond which d lies, that triangle becomes a b d and the other a d c. The edge must have a triangle on both
-// sides. Returns false where these make no convex quadrilateral.
+// Replaces an edge by the other diagonal of its two triangles, which keep their slots: for the edge b -> c of triangle
+// a b c, with d on the other side, that triangle becomes a b d and the other a d c. The edge must have two triangles.
+// Returns false if they do not form a convex quadrilateral.
 bool flipEdge(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e);
 
-// The same where that makes the edge Delaunay; returns false where it is so already.
+// The same if it makes the edge Delaunay; returns false if it already is.
 bool flipToDelaunay(std::span<const Point> points, std::span<Triangle> triangles, EdgeRef e);
 
-// Lawson's flips: takes edges off `waiting` until none is left, flips those that `mayFlip(e)` allows and that are not
-// Delaunay, calls `flipped(t, n)` with their two triangles, and lets the four edges round these wait. REQUIRES: an edge
-// that may flip has two sides.
+// Lawson's flips: takes edges off `waiting` until it is empty, flips those that `mayFlip(e)` allows and that are not
+// Delaunay, calls `flipped(t, n)` with their two triangles, and adds the four edges around them. REQUIRES: edges that
+// may be flipped have two sides.
 template <typename MayFlip, typename Flipped>
 void flipWaiting(std::span<const Point> points, std::span<Triangle> triangles, std::vector<EdgeRef>& waiting,
                  const MayFlip& mayFlip, const Flipped& flipped) {
@@ -32,7 +32,7 @@ void flipWaiting(std::span<const Point> points, std::span<Triangle> triangles, s
   }
 }
 
-// The same from the given edges on, but for segments. Returns the triangles that changed, some of them several times.
+// The same from the given edges, except segments. Returns the triangles that changed, some of them several times.
 std::vector<TriId> restoreDelaunay(TriMesh& mesh, std::vector<EdgeRef> edges);
 
 }  // namespace coastmesh

@@ -5,16 +5,16 @@
 
 namespace coastmesh {
 
-// The domain round a vertex between two constraints (segments or the boundary).
+// A sector of the domain at a vertex, between two adjacent constraints (segments or the boundary).
 struct Sector {
-  double angle = 0.0;      // radians; of a vertex without constraints 2 pi
-  unsigned triangles = 0;  // that fill it
+  double angle = 0.0;      // radians; 2 pi for a vertex without constraints
+  unsigned triangles = 0;  // triangles in the sector
   EdgeRef right =
       kNone;  // the constrained edge that leaves the vertex, the sector to its left; kNone without constraints
   EdgeRef left = kNone;  // the constrained edge that enters the vertex, the sector to its left
 };
 
-// The sector that corner `i` of triangle `t` lies in. Works on TriMesh and EditMesh.
+// The sector that contains corner `i` of triangle `t`. Works on TriMesh and EditMesh.
 template <typename Mesh>
 Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
   const auto& home = mesh.triangle(t);
@@ -24,7 +24,7 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
     return s.seg[indexOf(e)] != kNone || s.adj[indexOf(e)] == kNone;
   };
   Sector sector;
-  // Clockwise to the constraint.
+  // Walks clockwise to the constraint.
   TriId first = t;
   bool round = false;
   while (true) {
@@ -56,8 +56,8 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
 }
 
 // Whether the sector that begins at corner `i` of triangle `t`, with a constrained edge to its right, can be too small
-// for the bounds or have to be split on shells. Without a largest angle only sectors below a right angle can: no
-// trigonometry for the many others.
+// for the bounds or may need splits on shells. Without a maximum angle only sectors below a right angle can, so that
+// the others need no trigonometry.
 bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& bound);
 
 }  // namespace coastmesh

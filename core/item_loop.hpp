@@ -7,15 +7,15 @@
 
 namespace coastmesh {
 
-// Calls `work(i)` for every i below `count`, in any order or at the same time: who calls lends this room its threads.
+// Calls `work(i)` for every i below `count`, in any order or in parallel: with the threads of the caller.
 using ItemLoop = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
 
 inline void inOrder(std::size_t count, const std::function<void(std::size_t)>& work) {
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
-// `make(first, last)` of stretches that make up 0 to `count`, in their order. Where the stretches end depends on
-// nothing but `count` and on `least`, the items that are worth a stretch: what is summed over them is the same on any
+// Calls `make(first, last)` for ranges that cover 0 to `count`, and returns the results in order. The ranges depend
+// only on `count` and on `least`, the smallest useful number of items, so that sums over them are the same for any
 // number of threads.
 template <typename Make>
 auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make, std::size_t least = 8192) {
@@ -26,7 +26,7 @@ auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make, st
   return made;
 }
 
-// `work(first, last)` of the same stretches.
+// `work(first, last)` for the same ranges.
 template <typename Work>
 void forStretches(const ItemLoop& loop, std::size_t count, const Work& work, std::size_t least = 8192) {
   overStretches(
@@ -38,7 +38,7 @@ void forStretches(const ItemLoop& loop, std::size_t count, const Work& work, std
       least);
 }
 
-// `work(i)` for every i below `count`, by stretches.
+// `work(i)` for every i below `count`, range by range.
 template <typename Work>
 void forEachByStretches(const ItemLoop& loop, std::size_t count, const Work& work) {
   forStretches(loop, count, [&](std::size_t first, std::size_t last) {
@@ -46,9 +46,9 @@ void forEachByStretches(const ItemLoop& loop, std::size_t count, const Work& wor
   });
 }
 
-// Makes room for `count` items, its memory touched by all threads: a page costs much more when it is first written than
-// later, and `resize` alone would do all of that in one thread. And room for `spare` more, whose memory is not touched:
-// it is none as long as nobody needs it.
+// Resizes a list to `count` items, its memory touched by all threads: the first write to a page is much more expensive
+// than later ones, and `resize` alone would do all of them on one thread. Reserves room for `spare` more items, whose
+// memory is not touched and so costs nothing until used.
 template <typename Item>
 void reserveOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count, std::size_t spare = 0) {
   if (count <= items.capacity()) return;
@@ -62,13 +62,13 @@ void reserveOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count
   forStretches(loop, (bytes - used) / kPage, touch, 64);
 }
 
-// Frees the memory of a list, which `items = {}` keeps.
+// Frees the memory of a list, which `items = {}` would keep.
 template <typename Item>
 void freeMemoryOf(std::vector<Item>& items) {
   items = std::vector<Item>();
 }
 
-// Makes room for `count` items, all of which are to be written anew, and some more.
+// Resizes a list to `count` items that will all be overwritten, with some spare room.
 template <typename Item>
 void resizeAnew(const ItemLoop& loop, std::vector<Item>& items, std::size_t count) {
   if (count > items.capacity()) {
@@ -78,7 +78,7 @@ void resizeAnew(const ItemLoop& loop, std::vector<Item>& items, std::size_t coun
   items.resize(count);
 }
 
-// What several stretches listed, as one list.
+// Concatenates the lists of several ranges.
 template <typename Item>
 std::vector<Item> joined(std::vector<std::vector<Item>>&& lists) {
   if (lists.size() == 1) return std::move(lists.front());

@@ -22,16 +22,16 @@ constexpr unsigned indexOf(EdgeRef e) { return e & 3u; }
 constexpr unsigned next3(unsigned i) { return i == 2 ? 0 : i + 1; }
 constexpr unsigned prev3(unsigned i) { return i == 0 ? 2 : i - 1; }
 
-// In place of a segment: an edge of a patch's boundary, which is not to be changed while the patch is worked on.
+// Replaces a segment: a boundary edge of a patch that must not change while the patch is worked on.
 inline constexpr SegmentId kFrozen = kNone - 1;
 
 struct Triangle {
   std::array<VertexId, 3> v{kNone, kNone, kNone};     // counter-clockwise
   std::array<EdgeRef, 3> adj{kNone, kNone, kNone};    // the same edge seen from the other side
-  std::array<SegmentId, 3> seg{kNone, kNone, kNone};  // the input segment that edge i is a piece of
+  std::array<SegmentId, 3> seg{kNone, kNone, kNone};  // the input segment that contains edge i
 };
 
-// Triangles that know their neighbours. core/links.hpp writes what links them.
+// Triangles that know their neighbours. Only core/links.hpp changes the links.
 struct LinkedTriangles {
   std::vector<Triangle> triangles;
 
@@ -45,7 +45,7 @@ struct LinkedTriangles {
   // The index of v in t. REQUIRES: v is a corner of t.
   unsigned cornerOf(TriId t, VertexId v) const {
     const auto& c = triangles[t].v;
-    return (c[1] == v ? 1u : 0u) | (c[2] == v ? 2u : 0u);  // no branch: there is nothing to predict
+    return (c[1] == v ? 1u : 0u) | (c[2] == v ? 2u : 0u);  // without a branch, which could not be predicted
   }
 };
 

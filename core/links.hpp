@@ -7,10 +7,10 @@
 
 namespace coastmesh {
 
-// How triangles hang together: all writes of `Triangle::adj` and `Triangle::seg` in core and parallel are made here.
-// Each writes both sides of an edge, or one whole triangle, so that no edge can be seen differently from its two sides.
+// Links between triangles: all writes of `Triangle::adj` and `Triangle::seg` in core and parallel are here. Each
+// function writes both sides of an edge, or one whole triangle, so that the two sides always agree.
 
-// Lets the two sides of an edge name each other. REQUIRES: they run between the same vertices, in opposite directions.
+// Links the two sides of an edge. REQUIRES: they run between the same vertices, in opposite directions.
 inline void setTwins(std::span<Triangle> triangles, EdgeRef e, EdgeRef f) {
   Triangle &one = triangles[triOf(e)], &other = triangles[triOf(f)];
   assert(one.v[next3(indexOf(e))] == other.v[prev3(indexOf(f))]);
@@ -19,14 +19,14 @@ inline void setTwins(std::span<Triangle> triangles, EdgeRef e, EdgeRef f) {
   other.adj[indexOf(f)] = e;
 }
 
-// Makes an edge, on both its sides, a piece of a segment, or of none.
+// Makes an edge, on both its sides, part of a segment, or of none.
 inline void setSegment(std::span<Triangle> triangles, EdgeRef e, SegmentId seg) {
   Triangle& own = triangles[triOf(e)];
   own.seg[indexOf(e)] = seg;
   if (const EdgeRef f = own.adj[indexOf(e)]; f != kNone) triangles[triOf(f)].seg[indexOf(f)] = seg;
 }
 
-// Both at once; `f` is kNone where `e` is on the boundary of the mesh.
+// Both at once; `f` is kNone if `e` is on the boundary of the mesh.
 inline void link(std::span<Triangle> triangles, EdgeRef e, EdgeRef f, SegmentId seg) {
   assert(e != kNone);
   if (f == kNone) {
@@ -38,11 +38,11 @@ inline void link(std::span<Triangle> triangles, EdgeRef e, EdgeRef f, SegmentId 
   triangles[triOf(e)].seg[indexOf(e)] = seg;
 }
 
-// A triangle of its own: its edges are to be linked.
+// A new triangle, with edges still to be linked.
 inline Triangle unlinked(const std::array<VertexId, 3>& corners) { return {.v = corners}; }
 
-// A triangle as it is where triangles and vertices have other numbers. `triangle(t)` is the new number of a neighbour,
-// kNone of one that is not there: that edge is on the boundary then, and `bare` in place of its segment unless that is
+// A copy of a triangle with renumbered triangles and vertices. `triangle(t)` is the new number of a neighbour, or
+// kNone if it is not included: that edge is then on the boundary, with `bare` in place of its segment unless that is
 // kNone.
 template <typename NewTriangle, typename NewVertex>
 Triangle renumbered(const Triangle& from, const NewTriangle& triangle, const NewVertex& vertex,
@@ -62,8 +62,8 @@ Triangle renumbered(const Triangle& from, const NewTriangle& triangle, const New
   return to;
 }
 
-// An edge that its two sides do not agree on: other ends, another segment, or not each other's twin. kNone where there
-// is none. Triangles whose first corner is kNone are passed over. Meant for asserts: goes through all triangles.
+// An edge whose two sides disagree: different ends, different segments, or not each other's twin. kNone if there is
+// none. Triangles whose first corner is kNone are skipped. For asserts: visits all triangles.
 EdgeRef findBrokenLink(std::span<const Triangle> triangles);
 
 }  // namespace coastmesh

@@ -11,8 +11,8 @@
 
 namespace coastmesh {
 
-// The quality measure: of the plane, and in `isBad` of the surface that it stands for. Tests that decide on topology
-// are exact and lie in core/predicates.hpp.
+// Quality measures in the plane; `isBad` measures on the surface that the plane represents. Tests that decide topology
+// are exact and are in core/predicates.hpp.
 
 inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y}; }
 inline Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
@@ -22,7 +22,7 @@ inline double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b
 inline double squaredLength(const Point& a) { return dot(a, a); }
 inline double squaredDistance(const Point& a, const Point& b) { return squaredLength(b - a); }
 inline double distance(const Point& a, const Point& b) { return std::sqrt(squaredDistance(a, b)); }
-// From the nearer end: a foot of the perpendicular is rounded to the grain of coordinates, differences are not.
+// From the nearer end: the foot of the perpendicular is rounded to the resolution of coordinates, differences are not.
 inline double squaredDistanceToSegment(const Point& p, const Point& a, const Point& b) {
   const Point ab = b - a, ap = p - a, bp = p - b;
   const double from_a = dot(ap, ab), from_b = -dot(bp, ab);
@@ -31,14 +31,14 @@ inline double squaredDistanceToSegment(const Point& p, const Point& a, const Poi
   const double area = cross(ab, from_a < from_b ? ap : bp);
   return area * area / squaredLength(ab);
 }
-// The foot of the perpendicular from p on the line through a and b, which differ.
+// The foot of the perpendicular from p on the line through a and b. REQUIRES: a and b differ.
 inline Point projectedOnLine(const Point& p, const Point& a, const Point& b) {
   return a + (dot(p - a, b - a) / squaredDistance(a, b)) * (b - a);
 }
 inline Point midpoint(const Point& a, const Point& b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
 inline Point centroid(const Point& a, const Point& b, const Point& c) { return (1.0 / 3.0) * (a + b + c); }
 
-// The angle at b on the way a, b, c, in radians, 0 to pi.
+// The angle a b c at b, in radians, 0 to pi.
 inline double angleAt(const Point& b, const Point& a, const Point& c) {
   return std::atan2(std::abs(cross(a - b, c - b)), dot(a - b, c - b));
 }
@@ -54,11 +54,11 @@ inline Point circumcenterOffset(const Point& a, const Point& b, const Point& c) 
 constexpr double toRadians(double deg) { return deg * std::numbers::pi / 180.0; }
 constexpr double toDegrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
-// What is asked of a triangle's angles, in the forms that tests need. The bounds are a millionth of a degree stricter
-// than asked, so that rounding a coordinate, once projected, does not break them.
+// Bounds on a triangle's angles, in the forms that tests need. They are a millionth of a degree stricter than
+// requested, so that rounding a projected coordinate does not violate them.
 struct AngleBound {
   double min_angle;  // radians
-  double max_angle;  // radians; pi where nothing is asked
+  double max_angle;  // radians; pi if there is no bound
   double cos_min;
   double sin_min;
   double cot_min;
@@ -74,7 +74,7 @@ struct AngleBound {
 
   static constexpr double kMarginDeg = 1e-6;
 
-  // Whether an input angle (radians) can be cut into angles within the bounds.
+  // Whether an input angle (radians) can be divided into angles within the bounds.
   bool canDivide(double angle) const {
     const double largest = std::min(max_angle, std::numbers::pi - 2.0 * min_angle);
     const double pieces = std::max(1.0, std::ceil(angle / largest - 1e-9));
@@ -82,17 +82,17 @@ struct AngleBound {
   }
 };
 
-// What is asked of every triangle: of its angles, and of the length of its edges, on the surface.
+// Bounds on every triangle: on its angles, and on the length of its edges, measured on the surface.
 struct TriangleBound : AngleBound {
-  double squared_size;                 // longest edge, squared; infinite where nothing is asked
-  const SizeFunction* size = nullptr;  // lengths wanted; null where none are
-  double longest_share = 0.0;          // longest edge as a share of the length wanted at the triangle's centroid
-  Surface surface;                     // that the plane stands for
+  double squared_size;                 // longest edge, squared; infinite if there is no bound
+  const SizeFunction* size = nullptr;  // requested lengths; null if there are none
+  double longest_share = 0.0;          // longest edge as a share of the requested length at the triangle's centroid
+  Surface surface;                     // represented by the plane
 
   TriangleBound(double min_angle_deg, double max_angle_deg, double size_max)
       : AngleBound(min_angle_deg, max_angle_deg), squared_size(size_max * size_max) {}
 
-  // With lengths wanted besides.
+  // With requested lengths as well.
   TriangleBound(double min_angle_deg, double max_angle_deg, double size_max, const SizeFunction* wanted, double share)
       : TriangleBound(min_angle_deg, max_angle_deg,
                       wanted == nullptr ? size_max : std::min(size_max, share * wanted->most())) {
@@ -102,8 +102,8 @@ struct TriangleBound : AngleBound {
 };
 
 struct TriangleShape {
-  double squared[3];  // of edge i, opposite corner i
-  unsigned shortest;  // index of the shortest edge; of equal ones the first
+  double squared[3];  // squared length of edge i, opposite corner i
+  unsigned shortest;  // index of the shortest edge; the first if several are equal
   unsigned longest;
 
   TriangleShape(const Point& a, const Point& b, const Point& c, const Surface& surface = {})
@@ -119,8 +119,8 @@ struct TriangleShape {
   }
 };
 
-// cot(smallest angle) exceeds the bound; free of square roots, divisions and branches. The smallest angle has the
-// largest scalar product of its sides, and twice the area is the vector product at every corner.
+// Whether cot(smallest angle) exceeds the bound, without square roots, divisions and branches. The smallest angle has
+// the largest scalar product of its sides, and twice the area is the vector product at every corner.
 inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c, double cot_min) {
   const Point ab = b - a, bc = c - b, ca = a - c;
   const double at_a = -dot(ab, ca), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
@@ -129,8 +129,8 @@ inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c,
   return most > cot_min * std::abs(cross(ab, ca));
 }
 
-// cos(largest angle) is below the bound. By the product of the two edges at that corner: squared lengths cancel in
-// needles.
+// Whether cos(largest angle) is below the bound. Uses the product of the two edges at that corner, since squared
+// lengths cancel in needle-shaped triangles.
 inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, double cos_max) {
   const Point ab = b - a, bc = c - b, ca = a - c;
   const double la = squaredLength(bc), lb = squaredLength(ca), lc = squaredLength(ab);
@@ -145,23 +145,23 @@ inline bool isLongerThanWanted(const Point& a, const Point& b, const Point& c, d
   return squared_longest > longest * longest;
 }
 
-// On a sphere in the frame at p: to second order where the segment is near, and less than half a sphere away at all.
+// On a sphere measured in the frame at p: to second order if the segment is near, and always less than half a sphere.
 double distanceToSegment(const Surface& surface, const Point& p, const Point& a, const Point& b);
 
-// Of the flat triangle between places of the surface; 0 or more on a sphere, on either side of it in the plane.
+// Area of the flat triangle between points of the surface; never negative on a sphere, signed in the plane.
 double areaOn(const Surface& surface, const Point& a, const Point& b, const Point& c);
 
-// Whether the longest edge of a triangle, given squared, is longer than asked.
+// Whether the longest edge of a triangle, given squared, exceeds the bounds.
 inline bool isTooLong(const Point& a, const Point& b, const Point& c, double squared_longest,
                       const TriangleBound& bound) {
   if (squared_longest > bound.squared_size) return true;
   return bound.size != nullptr && isLongerThanWanted(a, b, c, squared_longest, bound);
 }
 
-// The same on a sphere, of the flat triangle between the places there.
+// `isBad` on a sphere, for the flat triangle between the points there.
 bool isBadOnSphere(const Point& a, const Point& b, const Point& c, const TriangleBound& bound);
 
-// Whether a triangle falls short of what is asked.
+// Whether a triangle misses the bounds.
 inline bool isBad(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
   if (bound.surface.isCurved()) return isBadOnSphere(a, b, c, bound);
   if (bound.min_angle > 0.0 && isSmallestAngleBelow(a, b, c, bound.cot_min)) return true;

@@ -2,8 +2,8 @@
 
 namespace coastmesh {
 
-// A place in a plane: the one that is meshed, or that of a CRS, whose x are eastings or longitudes as its files have
-// them. Longitudes and latitudes on an ellipsoid are a LonLat: see gis/crs/lon_lat.hpp.
+// A point in a plane: the plane that is meshed, or that of a CRS with eastings or longitudes as x, as in its files.
+// Longitudes and latitudes on an ellipsoid are a LonLat: see gis/crs/lon_lat.hpp.
 struct Point {
   double x = 0.0;
   double y = 0.0;
@@ -11,7 +11,7 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
-// The order that breaks ties: by x, then y.
+// The order used to break ties: by x, then y.
 inline bool lexLess(const Point& a, const Point& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
 }  // namespace coastmesh

@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// For tables of points that are equal: 0 and -0 hash alike.
+// For hash tables of points: 0 and -0, which are equal, have the same hash.
 struct PointHash {
   std::size_t operator()(const Point& p) const {
     const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value + 0.0); };

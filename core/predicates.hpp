@@ -7,7 +7,7 @@
 namespace coastmesh {
 
 namespace detail {
-// The error bounds hold as long as products do not underflow; what is as small as this is left to exact arithmetic.
+// The error bounds hold unless products underflow; smaller values are left to exact arithmetic.
 inline constexpr double kUnderflow = 1e-250;
 
 int orient2dExact(const Point& a, const Point& b, const Point& c);

@@ -13,14 +13,14 @@
 
 namespace coastmesh {
 
-// The three angles of abc in degrees, at a, b and c. REQUIRES: no two corners equal.
+// The three angles of abc in degrees, at a, b and c. REQUIRES: corners are distinct.
 std::array<double, 3> anglesDeg(const Point& a, const Point& b, const Point& c);
 
 // The smallest of them.
 double leastAngleDeg(const Point& a, const Point& b, const Point& c);
 
-// The same of the flat triangle between places in space, and on the sphere that a plane stands for. Places may be
-// equal: the angles are 0°, 0° and 180° then.
+// The same for the flat triangle between points in space, or on the sphere that a plane represents. Points may
+// coincide: the angles are then 0°, 0° and 180°.
 std::array<double, 3> spaceAnglesDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);
 double leastSpaceAngleDeg(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c);
 std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Point& c, const Surface& surface);
@@ -28,9 +28,9 @@ std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Poi
 double signedArea(const Point& a, const Point& b, const Point& c);
 
 struct MeshQuality {
-  std::uint64_t vertices = 0;  // those that a triangle uses
+  std::uint64_t vertices = 0;  // used by a triangle
   std::uint64_t triangles = 0;
-  double area = 0.0;  // plane units squared, or those of space; of flat triangles
+  double area = 0.0;  // plane units squared, or those of space; sum of flat triangles
   double min_angle_deg = 180.0;
   double max_angle_deg = 0.0;
   double shortest_edge = std::numeric_limits<double>::infinity();  // plane units, or those of space
@@ -41,7 +41,7 @@ struct MeshQuality {
   void add(const MeshQuality& other);
 };
 
-// Of the flat triangles between `places`, one a point of the mesh, where there are any; else of those of the plane.
+// Measures the flat triangles between `places`, one for each point of the mesh, if given; otherwise those of the plane.
 // Input angles are found in the mesh itself: see InputCorners.
 MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max_angle_deg = 180.0,
                            const ItemLoop& loop = inOrder, std::span<const SpacePoint> places = {});

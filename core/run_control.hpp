@@ -5,16 +5,16 @@
 
 namespace coastmesh {
 
-// Thrown out of any long stage soon after `RunControl::cancelled` returns true. Nothing of the stage's result is kept.
+// Thrown from any long stage soon after `RunControl::cancelled` returns true. The stage's result is discarded.
 struct Cancelled : std::runtime_error {
   Cancelled() : std::runtime_error("interrupted") {}
 };
 
-// How a long stage talks to whoever started it. Both functions may be empty, and are called from the stage's own
+// Communication of a long stage with its caller. Both functions may be empty, and are called from the stage's own
 // thread, every few thousand steps.
 struct RunControl {
   std::function<bool()> cancelled;
-  std::function<void(double)> progress;  // share of the stage that is done, 0 to 1, an estimate
+  std::function<void(double)> progress;  // completed share of the stage, 0 to 1, an estimate
 
   void checkpoint(double share) const {
     if (cancelled && cancelled()) throw Cancelled();

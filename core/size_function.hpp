@@ -7,21 +7,21 @@
 
 namespace coastmesh {
 
-// How long edges should be, place by place: the sizing interface of the core. Lengths are those on the surface that the
-// plane stands for. Implementations hold no
-// state that reading changes: any number of threads may ask at the same time.
+// The requested edge length at each place: the sizing interface of the core. Lengths are on the surface that the
+// plane represents. Implementations have no state that reading changes: any number of threads may read at the same
+// time.
 class SizeFunction {
  public:
   virtual ~SizeFunction() = default;
 
-  // The length wanted at x: finite, above 0, for every finite x.
+  // The requested length at x: finite, above 0, for every finite x.
   virtual double at(const Point& x) const = 0;
-  // `sizes[i]` becomes the length at `places[i]`: where places that follow one another are near to one another this may
-  // cost less.
+  // Sets `sizes[i]` to the length at `places[i]`; may be faster if consecutive places are close to each
+  // other.
   virtual void sample(std::span<const Point> places, std::span<double> sizes) const {
     for (std::size_t i = 0; i < places.size(); ++i) sizes[i] = at(places[i]);
   }
-  // Bounds of what `at` returns anywhere.
+  // Bounds of the values of `at`.
   virtual double least() const = 0;
   virtual double most() const = 0;
 };

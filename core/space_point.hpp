@@ -4,7 +4,7 @@
 
 namespace coastmesh {
 
-// A place in space; or a vector.
+// A point or a vector in space.
 struct SpacePoint {
   double x = 0.0, y = 0.0, z = 0.0;
 };

@@ -12,30 +12,30 @@
 #include "core/point.hpp"
 
 namespace coastmesh {
-// A triangle mesh that is compact: every triangle is live; points may be unused where the input had points off the
+// A compact triangle mesh: every triangle is valid; points may be unused if the input has points outside the
 // domain.
 struct TriMesh : LinkedTriangles {
   // The first `input_vertices` points are the PSLG's, in its order, bit for bit; Steiner points follow.
   std::vector<Point> points;
-  std::vector<RegionId> regions;  // one a triangle: the feature it belongs to
+  std::vector<RegionId> regions;  // for each triangle: its feature
   VertexId input_vertices = 0;
 
   const Point& point(VertexId v) const { return points[v]; }
 };
 
-// An edge that more than two triangles, or two triangles of opposite orientation, claim.
+// An edge claimed by more than two triangles, or by two of opposite orientation.
 struct EdgeConflict {
   VertexId a = kNone;
   VertexId b = kNone;
 };
 
-// Links triangles given by their corners (any rotation, counter-clockwise) into a mesh without constraints, all of
-// region 0. Edges that cannot be linked are left as boundary and listed in `conflicts`.
+// Links triangles given by their corners (in any rotation, counter-clockwise) into a mesh without constraints, all in
+// region 0. Edges that cannot be linked become boundary and are listed in `conflicts`.
 TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<VertexId, 3>> corners,
                       std::vector<EdgeConflict>& conflicts);
 
-// One triangle around each vertex as the edge that starts there; a boundary edge where there is one. kNone for an
-// unused vertex.
+// For each vertex one edge that starts there; a boundary edge if there is one. kNone for an unused
+// vertex.
 std::vector<EdgeRef> outgoingEdges(const TriMesh& mesh);
 
 // The boundary as closed loops of vertices with the mesh to the left: outer loops counter-clockwise, holes clockwise.
@@ -43,7 +43,7 @@ std::vector<EdgeRef> outgoingEdges(const TriMesh& mesh);
 // vertex once for every fan of triangles there.
 std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
-// One a vertex: 1 where a triangle has it as a corner.
+// For each vertex: 1 if it is the corner of a triangle.
 std::vector<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 // A hash of coordinates and corners, in order. Equal meshes, bit for bit, give equal digests on every machine.

@@ -8,17 +8,17 @@
 
 namespace coastmesh {
 
-// `text` as one line: runs of white space and control characters become one blank. What is longer than `longest` bytes
-// ends at a word, with "…".
+// `text` as one line: runs of white space and control characters become one blank. Text of more than `longest` bytes is
+// cut after a word, with "…".
 std::string oneLine(std::string_view text, std::size_t longest = std::numeric_limits<std::size_t>::max());
 
-// Options ask for what cannot be, whatever the input holds (exit code 2).
+// Options request something impossible, for any input (exit code 2).
 struct OptionError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The input cannot be read or used (exit code 3). The text is one sentence on one line, whatever goes into it: the
-// file, the feature, the place, what to do.
+// The input cannot be read or used (exit code 3). The text is one sentence on one line: the file, the feature, the
+// place, what to do.
 struct InputError : std::runtime_error {
   explicit InputError(const std::string& text) : std::runtime_error(oneLine(text)) {}
 };

@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// A hash of bytes, by which damaged ones are known: the same however they are handed over, on one kind of machine. No
-// defence against who means harm.
+// A hash of bytes to detect damage: independent of how the bytes are split, for one kind of machine. Not secure against
+// deliberate changes.
 class ByteHash {
  public:
   void add(std::string_view bytes) {
@@ -46,7 +46,7 @@ class ByteHash {
   }
 
   std::uint64_t value_ = 0, count_ = 0;
-  std::size_t begun_ = 0;  // bytes of a word that is not whole yet
+  std::size_t begun_ = 0;  // bytes of an incomplete word
   char word_[kWord] = {};
 };
 

@@ -18,17 +18,17 @@
 
 namespace coastmesh {
 
-// Values as bytes, for one version of coastmesh on one kind of machine: the same bits come back. What is neither plain
-// nor one of the library's types has a function partsOf that names its members.
+// Values as bytes, for one version of coastmesh on one kind of machine, read back bit for bit. A type that is neither
+// plain nor from the library has a function partsOf that lists its members.
 
-// All but the list of bounds that are missed, which is made of the whole at the end.
+// All except the list of missed bounds, which is made from the whole mesh at the end.
 auto partsOf(auto& stats) requires std::is_same_v<std::remove_cvref_t<decltype(stats)>, RefineStats> {
   auto& [steiner_points, by_type, segment_splits, relocations, removals, merges, unmended, budget_reached, unresolved] =
       stats;
   return std::tie(steiner_points, by_type, segment_splits, relocations, removals, merges, unmended, budget_reached);
 }
 
-// What is copied as it lies: there are no gaps between members.
+// Copied as it is in memory: there are no gaps between members.
 template <typename T>
 struct HasNoGaps : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Point>> {};
 template <typename T, std::size_t N>
@@ -36,7 +36,7 @@ struct HasNoGaps<std::array<T, N>> : HasNoGaps<T> {};
 template <typename T>
 concept Plain = HasNoGaps<T>::value && std::is_trivially_copyable_v<T>;
 
-// `Sink::append(data, size)` takes the bytes.
+// `Sink::append(data, size)` receives the bytes.
 template <typename Sink>
 class BasicByteWriter {
  public:
@@ -74,7 +74,7 @@ class BasicByteWriter {
   {
     std::apply([this](const auto&... parts) { (pass(parts), ...); }, partsOf(whole));
   }
-  // Eight flags a byte.
+  // Eight flags per byte.
   template <typename Flags>
   void passFlags(const Flags& flags) {
     pass(static_cast<std::uint64_t>(flags.size()));
@@ -99,13 +99,13 @@ class BasicByteWriter {
 };
 using ByteWriter = BasicByteWriter<std::string>;
 
-// Hands bytes on as they come. What it is given outlives it.
+// Passes bytes on as they arrive. The given function must outlive it.
 struct PutSink {
   const std::function<void(std::string_view)>* put = nullptr;
   void append(const char* bytes, std::size_t size) const { (*put)({bytes, size}); }
 };
 
-// Every call throws Error, made from a text, where the bytes end too early; `what` names them in its message.
+// Every call throws Error, constructed from a text, if the bytes end too early; the message names them as `what`.
 template <typename Error>
 class BasicByteReader {
  public:
@@ -163,7 +163,7 @@ class BasicByteReader {
     flags.resize(count);
     for (std::size_t i = 0; i < count; ++i) flags[i] = (bytes[i / 8] >> (i % 8) & 1u) != 0;
   }
-  // So many bytes as they are, which live as long as all.
+  // That many bytes, which live as long as the whole.
   std::string_view passView(std::uint64_t size) {
     need(size);
     const std::string_view view = bytes_.substr(at_, size);
@@ -190,7 +190,7 @@ class BasicByteReader {
   void passAll(Items& items) {
     std::uint64_t count = 0;
     pass(count);
-    // Every item takes a byte at least.
+    // Every item takes at least one byte.
     need(count);
     items.resize(count);
     if constexpr (Plain<typename Items::value_type>) {

@@ -10,21 +10,21 @@ namespace coastmesh {
 
 // An edge along which the mesh was cut.
 struct CutEdge {
-  VertexId a = kNone, b = kNone;  // in the submesh's numbers, the submesh to the left of a -> b
+  VertexId a = kNone, b = kNone;  // in the submesh's numbers, with the submesh to the left of a -> b
   EdgeRef name = kNone;           // the same on both sides
-  EdgeRef beyond = kNone;         // the other side, in the whole's numbers, where that belongs to no piece
-  SegmentId seg = kNone;          // what kFrozen stands for
+  EdgeRef beyond = kNone;         // the other side, in the whole mesh's numbers, if it is in no piece
+  SegmentId seg = kNone;          // the segment that kFrozen replaces
 };
 
-// A piece of a partition, cut out, and how it hangs together with the others.
+// A piece of a partition, cut out, with its connections to the others.
 struct CutSubmesh {
   MeshState state;
-  std::vector<VertexId> fixed;  // the number in the whole of each of the first `input_vertices` vertices
-  std::vector<VertexId> own;    // the numbers in the whole of the vertices that it has alone, before it is worked on
-  std::vector<CutEdge> edges;   // by a, then b
+  std::vector<VertexId> fixed;  // the number in the whole mesh of each of the first `input_vertices` vertices
+  std::vector<VertexId> own;    // the numbers in the whole mesh of its own vertices, before it is worked on
+  std::vector<CutEdge> edges;   // sorted by a, then b
 };
 
-// Scratch of one thread: the local number of each vertex of the whole, kNone between calls.
+// Per-thread scratch: the local number of each vertex of the whole mesh, kNone between calls.
 using VertexNumbers = std::vector<VertexId>;
 
 CutSubmesh cutOut(const MeshState& whole, const Partition& partition, PieceId piece, VertexNumbers& numbers);

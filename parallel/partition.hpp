@@ -14,7 +14,7 @@ namespace coastmesh {
 
 using PieceId = std::uint32_t;
 
-// Cuts by straight lines, halves of halves. Without nodes it is one piece.
+// A tree of cuts along straight lines, by repeated halving. Without nodes there is one piece.
 struct CutTree {
   struct Node {
     unsigned axis = 0;
@@ -23,21 +23,21 @@ struct CutTree {
     PieceId piece = 0;                     // of a leaf
     bool leaf = true;
   };
-  double cosine = 1.0, sine = 0.0;  // of the angle that the cuts are turned by
+  double cosine = 1.0, sine = 0.0;  // of the angle by which the cuts are turned
   std::vector<Node> nodes;
 
   std::array<double, 2> turn(const Point& p) const;
   PieceId pieceAt(const std::array<double, 2>& turned) const;
 };
 
-// Which piece each triangle goes to.
+// The piece of each triangle.
 struct Partition {
   PieceId pieces = 0;
-  std::vector<PieceId> piece_of;  // one a triangle; kNone where it stays where it is
+  std::vector<PieceId> piece_of;  // one for each triangle; kNone if it is in no piece
   // The triangles of piece p, in the order of their numbers: triangles[first[p]] to triangles[first[p + 1]].
   std::vector<TriId> triangles;
   std::vector<std::size_t> first;
-  std::vector<TriId> slot_of;  // one a triangle: its place within its piece
+  std::vector<TriId> slot_of;  // for each triangle: its index within its piece
   CutTree tree;
 
   std::span<const TriId> of(PieceId p) const { return std::span(triangles).subspan(first[p], first[p + 1] - first[p]); }
@@ -52,7 +52,7 @@ struct Partition {
 void partition(const TriMesh& mesh, std::span<const TriId> some, PieceId pieces, double angle,
                const std::function<double(TriId)>& weight, Recorder& recorder, Partition& parts);
 
-// The piece that each triangle's centroid lies in.
+// The piece that contains each triangle's centroid.
 std::vector<PieceId> piecesOf(const TriMesh& mesh, const CutTree& tree, const ItemLoop& loop);
 
 }  // namespace coastmesh

@@ -12,17 +12,17 @@
 
 namespace coastmesh {
 
-// What all pieces of one region share, for whoever works on some of them elsewhere.
+// The shared data of all pieces of a region, for whoever processes some of them elsewhere.
 struct PieceContext {
   Pslg pslg;
-  RefineOptions options;                        // but for what a PieceTask says
-  std::unique_ptr<const SizeFunction> size;     // that `options` point to
-  std::shared_ptr<const InputCorners> corners;  // null where there are none
+  RefineOptions options;                        // except what a PieceTask contains
+  std::unique_ptr<const SizeFunction> size;     // referred to by `options`
+  std::shared_ptr<const InputCorners> corners;  // null if there are none
 };
 
-// The same as bytes. REQUIRES: wanted lengths, where there are some, are a SizeTree or a ConstantSize.
+// The same as bytes. REQUIRES: requested lengths, if any, are a SizeTree or a ConstantSize.
 std::string contextBytes(const Pslg& pslg, const RefineOptions& options, const InputCorners* corners);
-// Throws std::runtime_error where the bytes are not of a context.
+// Throws std::runtime_error if the bytes are not a context.
 PieceContext contextFrom(std::string_view bytes);
 
 }  // namespace coastmesh

@@ -15,10 +15,10 @@ namespace coastmesh {
 
 enum class PieceWork : std::uint8_t { Refine, RefineAndMend, Repair, Coarsen, Optimise };
 
-// What is done to a piece of a mesh, and under which of the options that change from round to round.
+// The operation on a piece of a mesh, and those of its options that change from round to round.
 struct PieceTask {
   PieceWork work = PieceWork::Refine;
-  std::int32_t sweeps = 0;  // of Optimise
+  std::int32_t sweeps = 0;  // for Optimise
   double min_angle_deg = 0.0, max_angle_deg = 180.0;
   double size_max = 0.0, size_scale = 1.0;
   std::uint64_t max_vertices = 0;
@@ -29,14 +29,14 @@ struct PieceTask {
 RefineStats workOn(const PieceTask& task, MeshState& state, const Pslg& pslg, const RefineOptions& options,
                    const RunControl& control);
 
-// A piece as bytes: where its triangles are linked follows from their corners, and is left out. What all pieces of a
-// region share is left out too.
+// A piece as bytes. Links between triangles follow from their corners, and are left out. So is the shared context of a
+// region's pieces.
 std::string requestFor(const PieceTask& task, const MeshState& state);
-// Reads what answers a request into the piece that was sent. Throws OutOfRoom where that was the answer,
-// HelperFailed and HelperOutOfMemory.
+// Reads the reply to a request into the piece that was sent. Throws OutOfRoom if that was the reply, HelperFailed and
+// HelperOutOfMemory.
 RefineStats takePiece(Reply&& reply, MeshState& state);
 
-// Does what a request asks for; gives the reply's bytes. Throws Cancelled, and std::runtime_error for no request.
+// Executes a request; returns the reply's bytes. Throws Cancelled, and std::runtime_error for an invalid request.
 std::string answerPiece(std::string_view request, const PieceContext& context, const RunControl& control);
 
 }  // namespace coastmesh

@@ -11,23 +11,23 @@
 
 namespace coastmesh {
 
-// Seconds that the processor has spent on this thread.
+// Processor seconds of this thread.
 double threadSeconds();
 
-// Runs parallel loops and writes down, under a name that lives as long as the program, how long each of their items
-// took: seconds of the processor's, so that other programs on the machine do not count. What lies between two loops is
-// work that was done alone. Used from one thread.
+// Runs parallel loops and records, under a name with static lifetime, how long each of their items took: in processor
+// seconds, so that other programs on the machine do not count. The time between two loops is single-threaded work. To
+// be used from one thread.
 class Recorder {
  public:
   void forEach(std::string_view name, std::size_t count, const RunControl& control,
                const std::function<void(std::size_t)>& work);
 
-  // The same as a loop to lend.
+  // The same as a loop to pass on.
   ItemLoop loop(std::string_view name, const RunControl& control = {}) {
     return [this, name, control](std::size_t count, const auto& work) { forEach(name, count, control, work); };
   }
 
-  // What was written down; `rest` names what was done alone since the last loop.
+  // The records; `rest` is the name of the single-threaded work since the last loop.
   WorkLog finish(std::string_view rest = "rest");
 
  private:

@@ -10,38 +10,38 @@
 
 namespace coastmesh {
 
-// Runs of rounds, one after another.
+// Stages of rounds, one after another.
 enum class RoundsStage : std::uint8_t { Refine, Coarsen, Optimise };
 
-// What rounds have done, besides the mesh.
+// Results of rounds besides the mesh.
 struct RoundsTally {
   RefineStats stats;            // without `steiner_points` and `unresolved`
-  std::uint64_t pieces = 0;     // of the round that was cut into the most
+  std::uint64_t pieces = 0;     // of the round with the most pieces
   CutTree cuts;                 // of that round
-  std::int32_t cut_rounds = 0;  // of this run; the angle of the next cuts hangs on it
+  std::int32_t cut_rounds = 0;  // of this run; it determines the angle of the next cuts
 };
 
-// The round that comes next.
+// The next round.
 struct RoundPlace {
   std::uint32_t step = 0, round = 0;
 };
 
-// Keeps the mesh of a region after each round; and knows what an earlier run kept, so that its rounds are not done
-// again. The mesh that comes of it is the same.
+// Saves the mesh of a region after each round, and provides what an earlier run saved, so that its rounds are not
+// repeated. The resulting mesh is the same.
 class RoundKeeper {
  public:
-  // `fingerprint` stands for all that the mesh depends on; `notes` has the surface and the corners, which are not kept.
-  // Throws BadCheckpoint where what was kept is of another fingerprint.
+  // `fingerprint` represents everything that the mesh depends on; `notes` has the surface and the corners, which are
+  // not saved. Throws BadCheckpoint if what was saved has another fingerprint.
   RoundKeeper(const RegionCheckpoint& checkpoint, std::uint64_t fingerprint, const VertexNotes& notes);
 
-  // Whether an earlier run has done all of that stage.
+  // Whether an earlier run has completed that stage.
   bool isPast(RoundsStage stage) const { return kept_ && kept_->stage > stage; }
-  // What the stages before that one did, of which `tally` is known here; more is where an earlier run did them.
+  // Results of the stages before that one: `tally` is this run's; an earlier run may have done more.
   const RoundsTally& begin(RoundsStage stage, RoundsTally tally);
-  // Where an earlier run was in this stage, with the mesh and the tally as they were then; none where it did not come
-  // to the stage. To be called once a stage, after `begin`.
+  // The state of an earlier run in this stage, with the mesh and the tally at that time; none if it did not reach the
+  // stage. Must be called once for each stage, after `begin`.
   std::optional<RoundPlace> goOn(MeshState& whole, RoundsTally& tally);
-  // Keeps what this stage has come to, with the round that comes next. Throws what the checkpoint throws.
+  // Saves the state of this stage, with the next round. Throws what the checkpoint throws.
   void keep(const RoundPlace& next, const MeshState& whole, const RoundsTally& tally) const;
 
  private:

@@ -7,26 +7,26 @@
 
 namespace coastmesh {
 
-// A stretch of a run: what one thread did alone, then pieces of work for as many threads as there are. Seconds.
+// A stage of a run: single-threaded work, then pieces of work for all threads. Seconds.
 struct Stage {
-  std::string_view name;  // of the pieces of work; lives as long as the program
+  std::string_view name;  // of the pieces of work; static lifetime
   double alone = 0.0;
   std::vector<double> items;  // in the order in which threads take them
 };
 
-// What a run did, stage after stage; no item of a stage begins before the stage before it has ended.
+// The stages of a run; no item of a stage begins before the previous stage has ended.
 struct WorkLog {
   std::vector<Stage> stages;
 
   void addAlone(std::string_view name, double seconds) { stages.push_back({name, seconds, {}}); }
   void append(WorkLog&& other);
-  // The stages of some names.
+  // The stages with some names.
   WorkLog only(std::initializer_list<std::string_view> names) const;
-  // All the work, in seconds of one thread.
+  // All work, in single-threaded seconds.
   double work() const;
-  // What any number of threads has to wait for.
+  // The lower limit for any number of threads.
   double criticalPath() const;
-  // How long the run takes with so many threads: each takes the next item when it has ended one.
+  // The time of the run with so many threads, each taking the next item when it has finished one.
   double timeOn(std::size_t threads) const;
 };
 

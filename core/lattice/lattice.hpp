@@ -26,25 +26,25 @@ struct Lattice {
   Point at(std::int64_t a, std::int64_t b) const;
 };
 
-// The places of one lattice that are to be vertices.
+// The points of one lattice that become vertices.
 struct LatticePlaces {
   Lattice lattice;
   LatticeRows places;
 };
 
-// What a lattice is laid for.
+// The requirements for lattices.
 struct LatticeWishes {
   double size_max = std::numeric_limits<double>::infinity();  // longest edge, plane units
-  const SizeFunction* size = nullptr;                         // lengths wanted; null where none are
-  double min_angle_deg = 0.0, max_angle_deg = 180.0;          // what every triangle is to hold
+  const SizeFunction* size = nullptr;                         // requested lengths; null if there are none
+  double min_angle_deg = 0.0, max_angle_deg = 180.0;          // bounds on every triangle
   std::uint64_t most_places = 0;                              // of all lattices together
 };
 
-// Where one length is wanted over many triangles, equilateral ones of that length are the best and the fewest: the
-// places of lattices that lie in the domain of a mesh made by `constrainedDelaunay`, clear of its segments and points,
-// where the lattice's spacing is about the length wanted. One lattice for each such length. None where neither a
-// longest edge nor lengths are asked for, or where that would be more places than allowed. The same for any number of
-// threads. Cost: of the order of the vertices that there will be.
+// Where the requested length is constant over many triangles, equilateral triangles of that length are the best and the
+// fewest. Returns the points of such lattices within the domain of a mesh made by `constrainedDelaunay`, clear of its
+// segments and points: one lattice for each length. None if neither a maximum edge length nor lengths are given, or if
+// there would be more points than allowed. The same for any number of threads. Cost: proportional to the expected
+// vertices.
 std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes& wishes,
                                        const ItemLoop& loop = inOrder);
 

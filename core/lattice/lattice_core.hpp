@@ -12,19 +12,19 @@
 
 namespace coastmesh {
 
-// The triangles of a lattice that lie so far inside that nothing round it changes them: they are kept out of a mesh
-// while that is refined, and put into it at the end.
+// Triangles of a lattice so far inside that no change around the lattice affects them: they are kept out of a mesh
+// while it is refined, and inserted at the end.
 struct LatticeCore {
   Lattice lattice;
-  LatticeRows edge;      // the core's boundary: vertices of the mesh in any case
+  LatticeRows edge;      // the core's boundary: always vertices of the mesh
   LatticeRows interior;  // the core's other corners
-  LatticeRows up, down;  // its triangles, by their place (a, b)
+  LatticeRows up, down;  // its triangles, by their lattice coordinates (a, b)
 };
 
-// The mesh of a PSLG and of the places of lattices, to be refined.
+// The mesh of a PSLG and of lattice points, ready to be refined.
 struct LatticeMesh {
-  // The first vertices are the PSLG's, then those on the boundary of cores; edges there are kFrozen, and
-  // `input_vertices` counts both. The other places follow.
+  // The first vertices are the PSLG's, then those on the boundaries of cores; edges there are kFrozen, and
+  // `input_vertices` counts both. The other lattice points follow.
   TriMesh mesh;
   VertexId pslg_vertices = 0;
   std::vector<LatticeCore> cores;
@@ -33,13 +33,13 @@ struct LatticeMesh {
   std::uint64_t coreTriangles() const;
 };
 
-// Triangulates a PSLG with the places of lattices in its domain. `with_cores` keeps their inner triangles out.
-// REQUIRES: the places as `layLattices` found them.
+// Triangulates a PSLG with the lattice points in its domain. `with_cores` keeps the inner triangles of lattices out.
+// REQUIRES: points found by `layLattices`.
 LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattices, bool with_cores,
                             const ItemLoop& loop = inOrder);
 
-// Puts the cores into the mesh, which may have been refined, with `input_vertices` unchanged; it counts the PSLG's
-// alone then, and no edge is frozen any more. Fills no regions.
+// Inserts the cores into the mesh, which may have been refined, with `input_vertices` unchanged. Afterwards it counts
+// only the PSLG's, and no edge is frozen. Does not set regions.
 void insertCores(TriMesh& mesh, VertexId pslg_vertices, const std::vector<LatticeCore>& cores,
                  const ItemLoop& loop = inOrder);
 

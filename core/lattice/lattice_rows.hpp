@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// Integers from `first` to before `last`.
+// Integers from `first` up to, but not including, `last`.
 struct Interval {
   std::int64_t first = 0;
   std::int64_t last = 0;
@@ -19,25 +19,25 @@ struct Interval {
 // A set of integers: disjoint intervals that do not touch, ascending.
 using Intervals = std::vector<Interval>;
 
-// The set that any intervals make up; empty ones count for nothing.
+// The union of any intervals; empty ones are ignored.
 Intervals unionOf(Intervals any);
 Intervals intersectionOf(std::span<const Interval> a, std::span<const Interval> b);
 Intervals differenceOf(std::span<const Interval> a, std::span<const Interval> b);
 Intervals shifted(std::span<const Interval> a, std::int64_t by);
 std::int64_t countOf(std::span<const Interval> a);
 
-// Places of a lattice of equilateral triangles, row by row. Place (a, b) of row b has the neighbours (a ± 1, b),
-// (a, b ± 1), (a - 1, b + 1) and (a + 1, b - 1).
+// Points of a lattice of equilateral triangles, row by row. Point (a, b) of row b has the neighbours (a ± 1, b), (a, b
+// ± 1), (a - 1, b + 1) and (a + 1, b - 1).
 struct LatticeRows {
   std::int64_t first = 0;  // the number of the first row
   std::vector<Intervals> rows;
 
-  // Row b, which may lie beyond those that are kept: empty there.
+  // Row b; empty beyond the stored rows.
   std::span<const Interval> row(std::int64_t b) const;
   std::int64_t count() const;
 };
 
-// Place a of row b.
+// Point a of row b.
 struct LatticePlace {
   std::int64_t a = 0;
   std::int64_t b = 0;
@@ -46,7 +46,7 @@ struct LatticePlace {
 // Row by row, ascending.
 std::vector<LatticePlace> placesIn(const LatticeRows& set);
 
-// `make(b)` for every row that `like` has.
+// `make(b)` for every row of `like`.
 template <typename Make>
 LatticeRows eachRow(const LatticeRows& like, const ItemLoop& loop, const Make& make) {
   LatticeRows made{like.first, std::vector<Intervals>(like.rows.size())};
@@ -54,7 +54,7 @@ LatticeRows eachRow(const LatticeRows& like, const ItemLoop& loop, const Make& m
   return made;
 }
 
-// The places of which all six neighbours are in the set as well.
+// The points whose six neighbours are all in the set.
 LatticeRows eroded(const LatticeRows& set, const ItemLoop& loop);
 
 }  // namespace coastmesh

@@ -8,20 +8,20 @@
 
 namespace coastmesh {
 
-// How often every vertex gets its turn: where lengths are wanted, and where a mesh as good as it gets is asked for
-// besides. Vertices at rest are passed over, so that later sweeps cost less.
+// Number of sweeps: if lengths are requested, and if the longest optimisation is requested as well. Vertices at rest
+// are skipped, so that later sweeps cost less.
 inline constexpr int kOptimiseSweeps = 6, kMostOptimiseSweeps = 30;
 
-// Makes triangles as near to equilateral, vertices as near to six neighbours and edges as near to the lengths wanted as
-// it can: moves free vertices, merges those too near to one another or with too few neighbours, exchanges diagonals.
-// Where no lengths are wanted, those that edges have are. Where they are, vertices slide along segments besides, and at
-// poor triangles one may come in, unless `max_vertices` is given. Every triangle holds the bounds throughout. REQUIRES:
-// `mesh` as `refine` or `coarsen` left it, with the same options. `unresolved` in the result replaces that of before.
-// Throws Cancelled.
+// Makes triangles as equilateral, numbers of neighbours as close to six and edges as close to the requested lengths as
+// possible: moves free vertices, merges those too close to one another or with too few neighbours, exchanges diagonals.
+// Without requested lengths, edges keep theirs. With them, vertices also slide along segments, and one may be inserted
+// at poor triangles, unless `max_vertices` is set. Every triangle stays within the bounds. REQUIRES: `mesh` as returned
+// by `refine` or `coarsen`, with the same options. `unresolved` in the result replaces the earlier one. Throws
+// Cancelled.
 RefineStats optimise(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, int sweeps,
                      const RunControl& control = {});
 
-// The same for the due vertices of a part of a larger mesh, as `coarsenSubmesh`.
+// The same for the due vertices of a part of a larger mesh, like `coarsenSubmesh`.
 RefineStats optimiseSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, int sweeps,
                             const RunControl& control = {});
 

@@ -18,22 +18,22 @@
 
 namespace coastmesh {
 
-// Triangles of a shape below this are mended for themselves.
+// Triangles of a poorer shape than this are repaired one by one.
 inline constexpr double kPoorShape = 0.9;
 
-// One run over a mesh. In optimiser.cpp what is done at a vertex, in mend_poorest.cpp what is tried where that leaves
-// a poor triangle.
+// One run over a mesh. optimiser.cpp has the operations at a vertex, mend_poorest.cpp what is tried on triangles that
+// are still poor afterwards.
 class Optimiser {
   static constexpr double kEnoughCentred = 0.035;  // the cotangent of 88 degrees
 
  public:
   Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options);
-  // Of a part of a larger mesh: only the due vertices, and clear of frozen edges.
+  // For a part of a larger mesh: only the due vertices, and not beside frozen edges.
   Optimiser(MeshState&& state, const Pslg& pslg, const RefineOptions& options);
   Optimiser(const Optimiser&) = delete;
   Optimiser& operator=(const Optimiser&) = delete;
 
-  // Gives every due vertex its turn so many times, then the poorest triangles theirs.
+  // Processes every due vertex in so many sweeps, then the poorest triangles.
   void run(int sweeps, const RunControl& control);
 
   TriMesh release() { return mesh_.release(); }
@@ -41,16 +41,16 @@ class Optimiser {
   RefineStats& stats() { return stats_; }
 
  private:
-  // What is tried at a poor triangle, at one of its corners or the edge opposite.
+  // An attempt to improve a poor triangle, at one of its corners or at the edge opposite.
   enum class Change { None, Remove, Insert, Split };
   struct Trial {
     Change change = Change::None;
     unsigned corner = 0;
   };
-  // Of the triangles round a vertex.
+  // Measures of the triangles around a vertex.
   struct StarCost {
-    double sum;          // what they cost
-    double least_shape;  // of the poorest
+    double sum;          // sum of their costs
+    double least_shape;  // quality of the poorest
   };
   struct PoorTriangle {
     double shape;
@@ -58,7 +58,7 @@ class Optimiser {
     Corners corners;
   };
 
-  // A patch of another's mesh, to try something in.
+  // A patch of another run's mesh, to try an operation in.
   Optimiser(const Submesh& patch, const Optimiser& parent);
 
   bool isDue(VertexId v) const { return due_.empty() || due_[v]; }
@@ -110,10 +110,10 @@ class Optimiser {
   bool isHeldByFrozen(const Submesh& patch) const;
   bool wouldFlip(const Submesh& patch, const TriMesh& solved) const;
 
-  // Whether a triangle of such an area, doubled, and such squared edges in the frame is certainly counter-clockwise and
-  // within the angles asked.
+  // Whether a triangle with this doubled area and these squared edges in the frame is certainly counter-clockwise and
+  // within the bounds on angles.
   bool isClear(double doubled, double squares) const {
-    constexpr double kSmall = 1e-4;  // of the frame: beyond it shapes there are not those on the sphere
+    constexpr double kSmall = 1e-4;  // of the frame: beyond it shapes differ from those on the sphere
     return 2.0 * kRootOfThree * doubled > clear_shape_ * squares && bound_.surface.curvature * squares < kSmall;
   }
   const Point& corner(std::size_t i) const {
@@ -138,26 +138,26 @@ class Optimiser {
   EditMesh mesh_;
   VertexOps ops_;
   DiagonalExchange exchange_;
-  double clear_shape_;   // triangles of a better shape hold the bound
-  bool flips_may_harm_;  // they keep the smallest angle, but not the largest, nor the longest edge
+  double clear_shape_;   // triangles of a better shape meet the bound
+  bool flips_may_harm_;  // flips preserve the smallest angle, but not the largest, nor the longest edge
   bool is_submesh_ = false;
-  bool any_bad_ = false;  // whether there is a triangle, excused by the input, that nothing may change
+  bool any_bad_ = false;  // whether a triangle excused by the input, which nothing may change, exists
   bool mends_poor_ = false;
-  bool goes_far_ = false;  // whether vertices are tried beyond the place they aim at
+  bool goes_far_ = false;  // whether over-relaxation is tried
   RefineStats stats_;
-  std::vector<double> wanted_;        // one a vertex: the length wanted there
-  std::vector<std::uint8_t> active_;  // one a vertex: whether anything changed round it since its last turn
-  std::vector<std::uint8_t> due_;     // one a vertex; empty where all are
-  std::vector<VertexId> waiting_;     // corners of poor triangles that wait for the next round
+  std::vector<double> wanted_;        // the requested length at each vertex
+  std::vector<std::uint8_t> active_;  // for each vertex: whether its surroundings changed since its last turn
+  std::vector<std::uint8_t> due_;     // one for each vertex; empty if all are
+  std::vector<VertexId> waiting_;     // corners of poor triangles, for the next round
 
   // Scratch.
-  Ring ring_;  // of the vertex whose turn it is, of one on the boundary with a corner more than triangles
-  // Where that vertex lay when the ring was gathered: in this frame places are moved and costs are reckoned.
+  Ring ring_;  // of the current vertex; on the boundary it has one corner more than triangles
+  // Position of that vertex when the ring was gathered: the frame in which positions and costs are computed.
   Frame frame_{{}, {}};
   std::vector<Point> seen_;             // the ring's corners in the frame, on a sphere
   bool is_open_ = false;                // whether that vertex is on the boundary
-  SegmentId segment_ = kNone;           // that it lies on; kNone where it is free
-  std::array<std::size_t, 2> along_{};  // the ends of its two subsegments, in the ring
+  SegmentId segment_ = kNone;           // its segment; kNone if it is free
+  std::array<std::size_t, 2> along_{};  // the ends of its two subsegments, as indices in the ring
   std::vector<EdgeRef> star_;
   std::vector<int> excesses_;  // of the ring's corners
   std::vector<TriId> touched_;

@@ -11,18 +11,18 @@ namespace coastmesh {
 
 inline constexpr double kRootOfThree = 1.7320508075688772;
 
-// 4√3 area / Σ edge²: 1 of an equilateral triangle, 0 of a flat one, below 0 of one that is turned over.
+// 4√3 area / Σ edge²: 1 for an equilateral triangle, 0 for a flat one, negative for an inverted one.
 inline double shapeOf(const Point& a, const Point& b, const Point& c) {
   const double squares = squaredDistance(a, b) + squaredDistance(b, c) + squaredDistance(c, a);
   return 2.0 * kRootOfThree * cross(b - a, c - a) / squares;
 }
 
-// To which part sizes count in what follows, and the least that it can be.
+// The weight of sizes in the following cost, and its smallest possible value.
 inline constexpr double kSizeShare = 0.1, kLeastTriangleCost = 1.0 + 2.0 * kSizeShare;
 
-// What the optimiser makes small in the sum: the inverse of the shape, and to a smaller part how far the area is from
-// that of an equilateral triangle with edges of the length wanted. Of `doubled`, twice the area, above 0, and the sum
-// of the squared edges.
+// The cost whose sum the optimiser reduces: the inverse of the shape, and with a smaller weight the deviation of the
+// area from that of an equilateral triangle of the requested length. Arguments: twice the area (`doubled`), above 0,
+// and the sum of the squared edges.
 inline double costOf(double doubled, double squares, double wanted) {
   const double ideal = 0.5 * kRootOfThree * wanted * wanted, inverse = 1.0 / doubled;
   return squares * inverse * (0.5 / kRootOfThree) + kSizeShare * (doubled / ideal + ideal * inverse);
@@ -32,32 +32,32 @@ inline double squaresOf(const Point& a, const Point& b, const Point& c) {
   return squaredDistance(a, b) + squaredDistance(b, c) + squaredDistance(c, a);
 }
 
-// The same; infinite of a triangle that is turned over.
+// The same; infinite for an inverted triangle.
 inline double costOf(const Point& a, const Point& b, const Point& c, double wanted) {
   const double doubled = cross(b - a, c - a);
   return doubled > 0.0 ? costOf(doubled, squaresOf(a, b, c), wanted) : std::numeric_limits<double>::infinity();
 }
 
-// The best shape that a triangle with that angle can have: of all the one with equal sides at it.
+// The best shape that a triangle with that angle can have: that of the isosceles one.
 inline double bestShapeWith(double angle) { return kRootOfThree * std::sin(angle) / (2.0 - std::cos(angle)); }
 
-// The cotangent of the angle at p of a triangle p, a, b, counter-clockwise.
+// The cotangent of the angle at p of the counter-clockwise triangle p, a, b.
 inline double cotAt(const Point& p, const Point& a, const Point& b) { return dot(a - p, b - p) / cross(a - p, b - p); }
 
-// The cotangent of the largest angle: below 0 of an obtuse triangle.
+// The cotangent of the largest angle: negative for an obtuse triangle.
 inline double centrednessOf(const Point& a, const Point& b, const Point& c) {
   return std::min({cotAt(a, b, c), cotAt(b, c, a), cotAt(c, a, b)});
 }
 
-// How far apart the circumcentres of the triangles beside the edge from p to q are, over half the sum of the square
-// roots of their areas; below 0 where they have changed sides. D-Flow FM calls a link below 0.1 small.
+// The distance of the circumcentres of the triangles beside the edge from p to q, over half the sum of the square roots
+// of their areas; negative if they have changed sides. D-Flow FM calls a link below 0.1 small.
 inline double linkShareOf(const Point& p, const Point& q, const Point& left, const Point& right) {
   const double length = 0.5 * distance(p, q) * (cotAt(left, p, q) + cotAt(right, q, p));
   const double roots = std::sqrt(0.5 * cross(q - p, left - p)) + std::sqrt(0.5 * cross(p - q, right - q));
   return length / (0.5 * roots);
 }
 
-// Whether that is at least `share`, without square roots; false says nothing. By (√a + √b)² ≤ 2 (a + b).
+// Whether that is at least `share`, without square roots; false means unknown. By (√a + √b)² ≤ 2 (a + b).
 inline bool isLinkClearOf(double share, const Point& p, const Point& q, const Point& left, const Point& right) {
   const double at_left = cross(p - left, q - left), at_right = cross(q - right, p - right);
   if (at_left <= 0.0 || at_right <= 0.0) return false;

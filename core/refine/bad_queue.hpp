@@ -11,14 +11,14 @@
 
 namespace coastmesh {
 
-// A bad triangle that waits. It carries its corners, so that it is known to be stale once the slot holds another
+// A queued bad triangle. It stores its corners, so that it is recognised as stale once its slot holds another
 // triangle.
 struct BadTriangle {
   TriId triangle = kNone;
   Corners corners{};
 };
 
-// Bad triangles, least rank first; of one rank the older first.
+// Bad triangles, lowest rank first; within a rank the oldest first.
 class BadQueue {
  public:
   bool empty() const { return size_ == 0; }
@@ -52,7 +52,7 @@ class BadQueue {
     std::size_t next = 0;
   };
 
-  // Makes buckets for all ranks from the lowest so far to this one, in words of 64.
+  // Extends the buckets from the lowest rank so far to this one, in words of 64.
   void cover(std::uint32_t rank) {
     if (buckets_.empty()) lowest_ = rank / 64 * 64;
     if (rank < lowest_) {
@@ -71,9 +71,9 @@ class BadQueue {
   }
 
   std::uint32_t lowest_ = 0;           // rank of the first bucket
-  std::vector<Bucket> buckets_;        // one a rank
-  std::vector<std::uint64_t> filled_;  // one bit a bucket
-  std::size_t first_word_ = 0;         // no bucket before this word's is filled
+  std::vector<Bucket> buckets_;        // one for each rank
+  std::vector<std::uint64_t> filled_;  // one bit for each bucket
+  std::size_t first_word_ = 0;         // all buckets before this word are empty
   std::size_t size_ = 0;
 };
 

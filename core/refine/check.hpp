@@ -15,21 +15,21 @@
 namespace coastmesh {
 
 struct CheckOptions {
-  double min_angle_deg = 0.0;    // degrees; 0 asks nothing
-  double max_angle_deg = 180.0;  // degrees; 180 asks nothing
+  double min_angle_deg = 0.0;    // degrees; 0: no bound
+  double max_angle_deg = 180.0;  // degrees; 180: no bound
   bool delaunay = true;
-  std::span<const SpacePoint> places = {};  // one a point of the mesh, for angles; none: those of the plane
-  // The mesh goes round a sphere, and has `places`: the plane shows one triangle, or a few, from the other side. They
-  // run counter-clockwise in space as all others do, and nothing is asked of circles through their corners.
+  std::span<const SpacePoint> places = {};  // one for each point of the mesh, for angles; empty: the plane's
+  // The mesh covers a whole sphere, and has `places`: the plane shows one or a few triangles from the other side. In
+  // space they are counter-clockwise like all others; their circumcircles are not tested.
   bool closed = false;
-  bool pinches = false;              // report pinched vertices; the core allows them where the input has them
-  const PslgCover* cover = nullptr;  // of the PSLG, by its first triangulation, for a mesh of ours; none: worked out
+  bool pinches = false;              // report pinched vertices, which the core allows where the input has them
+  const PslgCover* cover = nullptr;  // of the PSLG, from its first triangulation, for our own meshes; null: computed
 };
 
-// Every defect of the mesh, by kind and then in order of triangles. `pslg` may be null: then the mesh is checked for
-// itself. With it, a mesh of ours (`input_vertices` set) is compared by index; one that was read from a file by
-// coordinates. `bounds` may be null: it receives how many triangles break the bounds, those that are excused too; none
-// where the mesh does not hold together.
+// Every defect of the mesh, by kind and then in the order of triangles. `pslg` may be null: then only the mesh itself
+// is checked. With it, our own mesh (`input_vertices` set) is compared by index, a mesh from a file by coordinates.
+// `bounds` may be null: it receives the number of triangles that miss the bounds, excused ones included; none if the
+// mesh is not consistent.
 std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const CheckOptions& options,
                                   const ItemLoop& loop = inOrder, BoundCounts* bounds = nullptr);
 

@@ -11,20 +11,20 @@
 
 namespace coastmesh {
 
-// Labels on segments say what the domain is, but not whether a point without segments lies in it.
+// Labels on segments define the domain, but not whether a point without segments is inside it.
 bool labelsTellAll(const Pslg& pslg);
 
-// What the first triangulation of a PSLG covers, which has no vertices but its own: the domain, where labels do not
-// tell all.
+// The part covered by the first triangulation of a PSLG, which has no other vertices: the domain, if labels do not
+// fully define it.
 PslgCover coverOf(const TriMesh& coarse, const Pslg& pslg);
 
-// Compares a mesh of ours with the PSLG that it was made from: vertices bit for bit, segments as chains of edges, area.
-// `used` is what `usedVertices` says of the mesh; `known` is what the domain covers, or null: then it is worked out.
+// Compares our own mesh with the PSLG that it was made from: vertices bit for bit, segments as chains of edges, area.
+// `used` is the result of `usedVertices`; `known` is what the domain covers, or null: then it is computed.
 void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, const Pslg& pslg,
                        const PslgCover* known, const ItemLoop& loop, std::vector<MeshDefect>& defects);
 
-// The same for a mesh that was read from a file: vertices are matched by their coordinates, segments by walking along
-// edges. Edges that are found to be pieces of a segment are marked in the mesh.
+// The same for a mesh from a file: vertices are matched by their coordinates, segments by walking along edges. Edges
+// that are part of a segment are marked in the mesh.
 void checkAgainstInputByPlace(TriMesh& mesh, const Pslg& pslg, std::vector<MeshDefect>& defects);
 
 }  // namespace coastmesh

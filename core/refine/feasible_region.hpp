@@ -11,16 +11,16 @@
 
 namespace coastmesh {
 
-// An edge of a vertex's link; the vertex lies to the left of x -> y.
+// An edge of a vertex's link; the vertex is to the left of x -> y.
 struct LinkEdge {
   Point x;
   Point y;
 };
 
-// The disk whose boundary sees an edge under the smallest angle, the edge being of length 1.
+// The disk whose boundary sees an edge of length 1 under the minimum angle.
 struct PetalShape {
   double radius;
-  double height;  // of its centre above the edge
+  double height;  // height of its centre above the edge
 
   explicit PetalShape(const AngleBound& bound) : radius(0.5 / bound.sin_min), height(radius * bound.cos_min) {}
 };
@@ -54,15 +54,15 @@ class FeasibleRegion {
  public:
   explicit FeasibleRegion(const TriangleBound& bound) : bound_(bound), petal_(bound) {}
 
-  // A point inside the region, or nothing where there is none (or one thinner than rounding).
+  // A point inside the region, or none if the region is empty (or thinner than rounding).
   std::optional<Point> findPoint(std::span<const LinkEdge> link);
 
   struct Look {
     std::optional<Point> point;  // of the region
-    bool is_empty = false;       // certainly; where there is no point either it is thin, and not known
+    bool is_empty = false;       // certain; if no point is found either, the region is thin and undecided
   };
-  // The same for smallest angles alone, quickly. Of a part of a link, too: where the region of that is empty, so is
-  // that of the whole.
+  // A quick test for minimum angles alone. It also applies to a part of a link: if the region of that is empty, so is
+  // the whole one.
   Look look(std::span<const LinkEdge> link);
 
   // The same in parts, for who has several links with edges in common: the edges made ready, the box round all their

@@ -11,11 +11,11 @@ enum class DefectKind {
   BrokenTopology,  // neighbours that do not point back, an edge of three triangles, a corner out of range
   NotCounterClockwise,
   PinchedVertex,    // two fans of triangles meet in a vertex
-  MissingVertex,    // an input vertex that bounds the domain is not in the mesh, bit for bit
+  MissingVertex,    // an input vertex on the domain's boundary is not in the mesh, bit for bit
   MissingSegment,   // an input segment is not a chain of edges
   NotDelaunay,      // an unconstrained edge that is not locally Delaunay
-  AngleBelowBound,  // a triangle short of the bound that no corner of the input excuses
-  WrongArea,        // the triangles do not cover the domain just once
+  AngleBelowBound,  // a triangle misses the bounds, not excused by a corner of the input
+  WrongArea,        // the triangles do not cover the domain exactly once
   UnusedVertex,     // a Steiner point without triangles
 };
 

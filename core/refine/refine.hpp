@@ -17,21 +17,21 @@
 
 namespace coastmesh {
 
-// Refines a mesh made by `constrainedDelaunay(pslg)` until every triangle that no corner of the input excuses holds the
-// bounds, or until no further point helps. The result is valid, constrained Delaunay and compact in every case; what
-// falls short is in `unresolved`. Ends by itself: every vertex inserted keeps a distance that the input's own spacing
-// bounds from below. Throws Cancelled, OutOfRoom, and std::invalid_argument for options beyond their ranges.
+// Refines a mesh made by `constrainedDelaunay(pslg)` until every triangle meets the bounds, except those excused by a
+// corner of the input, or until no further point helps. The result is always valid, constrained Delaunay and compact;
+// what misses the bounds is in `unresolved`. It terminates: every inserted vertex keeps a minimum distance that depends
+// on the input's spacing. Throws Cancelled, OutOfRoom, and std::invalid_argument for options out of range.
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
 
-// The same where free vertices are there already: `notes` are those on the mesh before them, and on them.
+// The same for a mesh that already has free vertices: `notes` are those on the mesh before them, and on them.
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                    const RunControl& control = {});
 
-// Takes out and merges vertices that the bounds do not need. REQUIRES: `mesh` as `refine` left it, with the same
+// Removes and merges vertices that the bounds do not need. REQUIRES: `mesh` as returned by `refine`, with the same
 // options. `unresolved` in the result replaces that of `refine`. Throws Cancelled.
 RefineStats coarsen(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
 
-// How many vertices that leaves.
+// The number of vertices after coarsening.
 std::size_t coarsenedSize(TriMesh mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
 
 }  // namespace coastmesh

@@ -18,51 +18,51 @@
 
 namespace coastmesh {
 
-// What runs differ in. Repair tries several on a patch.
+// Parameters in which runs differ. Repair tries several on a patch.
 struct RefineVariant {
   double aim_deg = 0.0;      // new points aim at an angle this much above the bound
-  bool worst_first = false;  // smallest angle first, not shortest edge
-  double free_share = 0.0;   // least distance to other vertices, as a share of the input's spacing
-  // Splits the sides of an input angle too small for the bounds where the triangle that fills it keeps points away from
-  // its base; else it stays as it is.
+  bool worst_first = false;  // order by smallest angle, not by shortest edge
+  double free_share = 0.0;   // minimum distance to other vertices, as a share of the input's spacing
+  // Splits the sides of an input angle too small for the bounds if the triangle that fills it blocks points at its
+  // base; otherwise it stays as it is.
   bool opens_corners = false;
-  // Leaves alone what reaches a frozen edge, and keeps it for later. Else a frozen edge is a wall like a segment.
+  // Skips what reaches a frozen edge, and keeps it for later. Otherwise a frozen edge is an obstacle like a segment.
   bool clear_of_frozen = false;
 };
 
 RefineVariant usualVariant(const RefineOptions& options);
 
-// The state of one run of refinement, which the functions here, in mend_triangles and in repair work on.
+// The state of one refinement run, shared by the functions here, in mend_triangles and in repair.
 struct RefineRun {
-  // The notes are those of `noteInput`, or on a part of a larger mesh what is known of its vertices.
+  // `notes` are those of `noteInput`, or on a part of a larger mesh the known notes on its vertices.
   RefineRun(TriMesh&& unrefined, const Pslg& input, const RefineOptions& wanted, VertexNotes&& known,
             const RefineVariant& how);
-  RefineRun(const RefineRun&) = delete;  // its parts hold references to one another
+  RefineRun(const RefineRun&) = delete;  // its members refer to one another
   RefineRun& operator=(const RefineRun&) = delete;
 
   const Pslg& pslg;
   const RefineOptions& options;
   RefineVariant variant;
   TriangleBound bound;
-  TriangleBound strict;  // the same without wanted lengths
+  TriangleBound strict;  // the same without requested lengths
   EditMesh mesh;
   RefineStats stats;
   SteinerSearch search;
   VertexOps ops;
-  double cos_lens;            // cosine of the angle under which a vertex that encroaches sees a subsegment
-  double squared_resolution;  // no vertex is put nearer to another: there rounding decides what an angle is
+  double cos_lens;            // cosine of the angle under which an encroaching vertex sees a subsegment
+  double squared_resolution;  // minimum distance of vertices: closer together, angles are decided by rounding
 
   VertexNotes notes;
-  std::vector<std::uint8_t> moves;  // one a vertex: relocations so far
+  std::vector<std::uint8_t> moves;  // number of relocations of each vertex
 
   BadQueue queue;
-  std::vector<TriId> touched;  // changed, and not yet looked at
-  // One a fixed vertex: on a frozen edge that the run is to keep clear of; empty where there is none.
+  std::vector<TriId> touched;  // changed, and not yet examined
+  // For each fixed vertex whether it is on a frozen edge that the run must avoid; empty if there are none.
   std::vector<bool> frozen;
   std::unordered_map<TriId, Corners> deferred;
-  std::set<std::pair<VertexId, VertexId>> stuck;  // subsegments that rounding lets no one split
+  std::set<std::pair<VertexId, VertexId>> stuck;  // subsegments that cannot be split because of rounding
 
-  // Memory that is used again and again: who takes one of these fills it first.
+  // Reused memory: each user fills it first.
   struct Memory {
     Patch patch;
     std::vector<VertexId> polygon;
@@ -71,32 +71,32 @@ struct RefineRun {
   PatchNumbers patch_numbers;
 };
 
-// Whether a triangle breaks the bounds and no corner of the input excuses it.
+// Whether a triangle misses the bounds without a corner of the input to excuse it.
 bool violatesBound(const RefineRun& run, TriId t);
 
-// Whether a patch is next to a frozen edge, and is to be left alone for that.
+// Whether a patch is next to a frozen edge, and must therefore be skipped.
 bool isBarred(const RefineRun& run, const Patch& patch);
 
-// Keeps a triangle for later, as long as it has the same corners.
+// Keeps a triangle for later; valid while it has the same corners.
 inline void defer(RefineRun& run, TriId t) { run.deferred[t] = run.mesh.triangle(t).v; }
 bool isDeferred(const RefineRun& run, TriId t);
 
-// The local feature size of the input, from above: that of a vertex nearby and the distance to it. It grows with the
-// distance from what is fine in the input as fast as any good mesh can.
+// An upper bound of the local feature size of the input: that of a nearby vertex plus the distance to it. It grows with
+// the distance from fine input as fast as any good mesh can.
 double spacingAt(const RefineRun& run, const Point& x, const Patch& cavity);
 
 // Of a new vertex.
 void noteVertex(RefineRun& run, VertexId v, double spacing);
 
-// Puts a triangle into the queue where it is bad; the same of all that were touched.
+// Queues a triangle if it is bad; the same for all that were touched.
 void enqueueIfBad(RefineRun& run, TriId t);
 void enqueueTouched(RefineRun& run);
 
-// Takes a free vertex out, and each that can go.
+// Removes a free vertex, and each that can be removed.
 bool removeFreeVertex(RefineRun& run, VertexId v);
 void stripFreeVertices(RefineRun& run);
 
-// The mesh, which the run is then without.
+// Moves the mesh out of the run.
 TriMesh releaseMesh(RefineRun& run);
 
 }  // namespace coastmesh

@@ -20,18 +20,18 @@ enum class SteinerType : unsigned {
 struct SteinerPoint {
   Point place;
   SteinerType type = SteinerType::OwnCircumcenter;
-  TriId near = kNone;              // a triangle whose circumcircle holds the place
+  TriId near = kNone;              // a triangle whose circumcircle contains the point
   double squared_clearance = 0.0;  // to the nearest visible vertex
 };
 
-// Finds the place where a vertex mends a bad triangle.
+// Finds the point to insert for a bad triangle.
 class SteinerSearch {
  public:
   // Points aim at an angle that is `aim` (radians) above the bound.
   SteinerSearch(Algorithm algorithm, const TriangleBound& bound, double aim, double scale = 1.0)
       : algorithm_(algorithm),
         bound_(bound),
-        // A little more than the bound: rounding finds a triangle bad whose apex is on the petal's boundary.
+        // Slightly above the bound: otherwise rounding makes a triangle with its apex on the petal's boundary bad.
         sin_place_(std::sin(bound.min_angle + toRadians(AngleBound::kMarginDeg) + aim)),
         scale_(scale) {}
 
@@ -41,13 +41,13 @@ class SteinerSearch {
  private:
   struct Step {
     EdgeRef edge;  // the Voronoi edge to follow is dual to it
-    Point from;    // where that edge starts: a circumcentre inside the petal, relative to the origin
+    Point from;    // start of that edge: a circumcentre inside the petal, relative to the origin
   };
 
   Algorithm algorithm_;
   const TriangleBound& bound_;
-  double sin_place_;  // of the smallest angle that points aim at
-  double scale_;      // wanted lengths are aimed at times this
+  double sin_place_;  // of the minimum angle that points aim at
+  double scale_;      // factor on the requested lengths that points aim at
   std::vector<Step> steps_;
 };
 

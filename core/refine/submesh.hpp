@@ -13,33 +13,33 @@
 
 namespace coastmesh {
 
-// A mesh and what is known of it between runs: the whole between two rounds, or a submesh of it that is worked on.
+// A mesh and its attributes between runs: the whole between two rounds, or a submesh that is worked on.
 struct MeshState {
   TriMesh mesh;                             // no regions
-  VertexNotes notes;                        // each list empty where no one needs it
-  std::vector<std::uint8_t> due_triangles;  // one a triangle, or empty: to be looked at by refinement
-  std::vector<std::uint8_t> due_vertices;   // one a vertex, or empty: to be looked at by coarsening and the optimiser
+  VertexNotes notes;                        // each list empty if not needed
+  std::vector<std::uint8_t> due_triangles;  // one for each triangle, or empty: to be examined by refinement
+  std::vector<std::uint8_t> due_vertices;   // one for each vertex, or empty: for coarsening and optimiser to examine
 };
 
-// Some triangles of a mesh, its parent, as a mesh of their own. The edges that they share with the parent's other
-// triangles are frozen: they carry kFrozen in place of a segment, and what works on the submesh keeps them. The
-// boundary of the domain stays as it is.
+// Some triangles of a mesh, its parent, as a separate mesh. Edges shared with other triangles of the parent
+// are frozen: they carry kFrozen in place of a segment and must be kept. The boundary of the domain stays as
+// it is.
 struct Submesh {
   TriMesh mesh;  // the first `input_vertices` are fixed: input vertices and those on frozen edges
   VertexNotes notes;
   std::vector<TriId> triangles;  // the parent's number of each triangle
   std::vector<VertexId> parent;  // the parent's number of each vertex
-  std::vector<EdgeRef> frozen;   // the frozen edges, in the parent's numbers, as seen from inside
+  std::vector<EdgeRef> frozen;   // the frozen edges, in the parent's numbers, seen from inside
 };
 
-// What a parent knows of some of its vertices, of which the first `fixed` are a submesh's fixed ones, as notes on
-// these.
+// The parent's notes on some of its vertices, as notes on a submesh whose first `fixed` vertices they
+// are.
 VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId parent_inputs,
                     const VertexNotes& notes);
 
-// Those triangles of a TriMesh or EditMesh, whose first `parent_inputs` vertices are input vertices.
-//   slotOf(t)    the place of one of the parent's triangles among `triangles`, kNone of others
-//   numberOf(v)  room for the new number of one of the parent's vertices, by reference; kNone before, filled after
+// Takes these triangles out of a TriMesh or EditMesh whose first `parent_inputs` vertices are input vertices.
+// `slotOf(t)`: the index of a parent's triangle in `triangles`, kNone for others. `numberOf(v)`: by reference, storage
+// for the new number of a parent's vertex; kNone before, set afterwards.
 template <typename Mesh, typename SlotOf, typename NumberOf>
 Submesh extractSubmesh(const Mesh& parent, VertexId parent_inputs, const VertexNotes& notes,
                        std::span<const TriId> triangles, const SlotOf& slotOf, const NumberOf& numberOf) {
@@ -56,7 +56,7 @@ Submesh extractSubmesh(const Mesh& parent, VertexId parent_inputs, const VertexN
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i), twin = parent.twin(e);
       if (const VertexId v = parent.apex(e); v < parent_inputs) number(v);
-      // Where the parent's own boundary is frozen, it is here too.
+      // Where the parent's own boundary is frozen, it stays so.
       if (twin == kNone ? parent.segment(e) != kFrozen : slotOf(triOf(twin)) != kNone) continue;
       number(parent.origin(e));
       number(parent.target(e));
@@ -77,28 +77,28 @@ Submesh extractSubmesh(const Mesh& parent, VertexId parent_inputs, const VertexN
   return sub;
 }
 
-// Numbers in a patch of a mesh's triangles and vertices, to be used again for the next patch: all kNone in between.
+// Numbers for the triangles and vertices of a patch, reused for the next patch: all kNone in between.
 struct PatchNumbers {
   std::vector<TriId> triangle;
   std::vector<VertexId> vertex;
 };
 
-// Some triangles, those that touch them, those that touch these, and so on for `rings` rings.
+// Some triangles, extended by `rings` layers of touching triangles.
 std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings,
                                    PatchNumbers& scratch);
 
-// Those triangles as a mesh.
+// Takes these triangles out as a mesh.
 Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings,
                       PatchNumbers& scratch);
 
-// Puts another mesh of the same submesh (fixed vertices and frozen edges unchanged) into the parent's mesh. Appends the
-// vertices and the triangles that are new there. Does not restore the Delaunay property. REQUIRES: the parent is as it
-// was at the extraction.
+// Puts another mesh of the same submesh (fixed vertices and frozen edges unchanged) back into the parent's mesh.
+// Appends the vertices and triangles that are new there. Does not restore the Delaunay property. REQUIRES: the parent
+// is unchanged since the extraction.
 void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std::vector<VertexId>& added,
              std::vector<TriId>& touched);
 
-// The triangles of a mesh that are at most so many edges away from some of them, as a mesh. `notes` are those on input
-// vertices, as `noteInput` made them.
+// The triangles of a mesh within a number of edges from some of them, as a mesh. `notes` are those on input vertices,
+// made by `noteInput`.
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges,
                     const ItemLoop& loop = inOrder);
 

@@ -9,24 +9,24 @@
 
 namespace coastmesh {
 
-// What a run knows of vertices besides their places. Lengths are those on the surface.
+// A run's data on vertices besides their positions. Lengths are on the surface.
 struct VertexNotes {
   Surface surface;
-  std::vector<double> spacing;     // one a vertex: the local feature size of the input there, from above
-  std::vector<double> shell_unit;  // one an input vertex: radius of a shell round it; 0 where no small angle is there
-  std::vector<bool> small_angle;   // one an input vertex: some sector of it is too small for the bounds
+  std::vector<double> spacing;     // for each vertex: an upper bound of the input's local feature size there
+  std::vector<double> shell_unit;  // for each input vertex: radius of a shell around it; 0 if there is no small angle
+  std::vector<bool> small_angle;   // for each input vertex: whether one of its sectors is too small for the bounds
   std::shared_ptr<const InputCorners>
-      corners;  // of the whole input, on a part of the mesh too; null where there are none
+      corners;  // of the whole input, also on a part of the mesh; null if there are none
 };
 
-// Notes on a mesh as `constrainedDelaunay` made it.
+// Notes on a mesh made by `constrainedDelaunay`.
 VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound);
 
-// Gives vertices that have no spacing yet the distance to their nearest neighbour for it.
+// Sets the spacing of vertices that have none to the distance of their nearest neighbour.
 void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes);
 
-// Makes notes on input vertices, as `noteInput` made them, notes on a mesh that has free vertices besides, of which
-// those below `mesh.input_vertices` count as input.
+// Extends notes on input vertices, made by `noteInput`, to a mesh that has free vertices too, of which those below
+// `mesh.input_vertices` count as input.
 void noteFurther(const TriMesh& mesh, VertexNotes& notes);
 
 }  // namespace coastmesh

@@ -15,65 +15,65 @@
 
 namespace coastmesh {
 
-// Changes round a vertex or two that leave only good triangles there: moving a vertex, taking it out, merging two into
-// one. Each is tested on the link alone and done only where it succeeds; then the Delaunay property is restored by
-// flips, which never lower the smallest angle. Changed triangles are appended to `touched`.
+// Operations on one or two vertices that leave only good triangles: moving a vertex, removing it, merging two into one.
+// Each is tested on the link alone and done only if it succeeds; flips then restore the Delaunay property, which never
+// reduces the smallest angle. Changed triangles are appended to `touched`.
 class VertexOps {
  public:
   VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound);
 
-  // From now on leaves alone what a frozen edge is next to: it is another's to change too.
+  // From now on skips what is next to a frozen edge, since others may change it too.
   void keepClearOfFrozen() { clear_of_frozen_ = true; }
 
-  // From now on rejects any flip that involves a bad triangle: an input angle may excuse that triangle but not the one
-  // that the flip would make.
+  // From now on rejects any flip that involves a bad triangle: an input angle may excuse that triangle but not the
+  // result of the flip.
   void keepBadInPlace();
 
   // Algorithm 2 of Erten & Üngör (2007), for one vertex: moves it to where every triangle of its star is good. We
-  // differ: the region of good places is found exactly, and a vertex on a segment slides along it.
+  // differ: the feasible region is computed exactly, and a vertex on a segment slides along it.
   bool relocate(VertexId v, std::vector<TriId>& touched);
 
-  // Takes out a vertex where the hole that it leaves triangulates without a bad triangle. On a segment the two
-  // subsegments become one.
+  // Removes a vertex if the hole can be triangulated without a bad triangle. On a segment the two subsegments become
+  // one.
   bool remove(VertexId v, std::vector<TriId>& touched);
 
-  // The same where one triangle, its corners in any order, need not be good.
+  // The same, except that one triangle, its corners in any order, need not be good.
   bool removeInto(const Corners& excused, VertexId v, std::vector<TriId>& touched);
 
-  // The same whatever triangles it leaves.
+  // The same for any triangles.
   bool removeAnyway(VertexId v, std::vector<TriId>& touched);
 
-  // Replaces the two ends of an edge by one vertex in the feasible region of both stars together; `stays` moves there
-  // and keeps its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
+  // Replaces the two ends of an edge by one vertex in the feasible region of both stars; `stays` moves there and keeps
+  // its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
   bool merge(VertexId goes, VertexId stays, std::vector<TriId>& touched);
 
-  // Tries merge with each neighbour of v that is no input vertex; of two free vertices only with the later, where each
-  // gets its turn.
+  // Tries to merge v with each neighbour that is not an input vertex; of two free vertices only with the later one, if
+  // each is processed.
   bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
 
-  // What may be tried with a vertex, in this order until something succeeds.
+  // The operations to try on a vertex, in this order until one succeeds.
   struct Tries {
     std::size_t removes_up_to = 0;  // removal, of a vertex with at most so many triangles
-    bool merges = false;            // as mergeWithNeighbour, each getting its turn
-    bool moves = false;             // as relocate
+    bool merges = false;            // like mergeWithNeighbour, if each is processed
+    bool moves = false;             // like relocate
   };
   enum class Change { None, Removed, Merged, Moved };
-  // The same as these one after another, with one walk round the vertex.
+  // The same as these one after another, with a single walk around the vertex.
   Change tryInTurn(VertexId v, const Tries& tries, std::vector<TriId>& touched);
 
-  // Whether beyond an edge, given as seen from there (kNone: nothing), lies a bad triangle.
+  // Whether there is a bad triangle beyond an edge, given as seen from there (kNone: boundary).
   bool isBadBeyond(EdgeRef e) const;
 
  private:
-  // What is to be replaced round a vertex, or round two that become one.
+  // What is replaced around a vertex, or around two that become one.
   struct Star {
-    Patch patch;  // the triangles, and their boundary without the edges below that end at the vertex
+    Patch patch;                       // the triangles, and their boundary without the following edges at the vertex
     std::vector<BoundaryEdge> spokes;  // subsegments that end at the vertex, as edges from it
-    std::vector<BoundaryEdge> sides;   // of them, those on the boundary of the mesh, the mesh to their left
+    std::vector<BoundaryEdge> sides;   // those of them on the boundary of the mesh, with the mesh to their left
 
     void clear();
   };
-  // A triangle of the star of a free vertex: scalar products at its corners, of link edge x -> y and the vertex, and
+  // A triangle of the star of a free vertex: scalar products at its corners, for link edge x -> y and the vertex, and
   // twice its area.
   struct FanTriangle {
     double at_x, at_y, at_vertex, area;
@@ -130,16 +130,16 @@ class VertexOps {
   const TriangleBound& bound_;
   bool clear_of_frozen_ = false;
   bool bad_stays_ = false;
-  // One a vertex, in the plane: whether it was a corner of a bad triangle when these were to stay. No other triangle
-  // gets bad: flips keep the smallest angle. Nothing is known of later vertices.
+  // For each vertex, in the plane: whether it was a corner of a bad triangle when these were to be kept. No other
+  // triangle becomes bad, since flips preserve the smallest angle. Later vertices are not included.
   std::vector<std::uint8_t> at_bad_;
-  std::size_t most_triangles_;  // no vertex can have more round it without a bad one among them
-  bool flips_may_harm_;         // they keep the smallest angle, but not the largest, nor the longest edge
+  std::size_t most_triangles_;  // no vertex can have more triangles without a bad one among them
+  bool flips_may_harm_;         // flips preserve the smallest angle, but not the largest, nor the longest edge
 
   FeasibleRegion region_;
 
-  // Memory that is used again and again. Whoever takes one of these fills it first, and hands it on as an argument:
-  // nothing is left in them for another to read.
+  // Reused memory. Each user fills it first and passes it on as an argument: nothing in it is kept for
+  // others.
   struct Memory {
     Ring ring;
     Star star;

@@ -10,10 +10,10 @@
 
 namespace coastmesh {
 
-// Lengths and areas on the surface of what is given in its plane. Of a plane they are those of the plane, to the bit.
+// Lengths and areas on the surface, from coordinates in its plane. For a plane they are the plane's, bit for bit.
 
-// Of the shortest way on the surface, from the straight way through space; and back. No arc is longer than half round
-// the sphere.
+// The length of the shortest path on the surface from the straight distance in space, and back. No arc is longer than
+// half a great circle.
 inline double arcOfChord(const Surface& surface, double chord) {
   if (!surface.isCurved()) return chord;
   const double per_length = std::sqrt(surface.curvature);
@@ -28,7 +28,7 @@ inline double arcBetween(const Surface& surface, const Point& a, const Point& b)
   return arcOfChord(surface, surface.chord(a, b));
 }
 
-// Between what bounds length on the surface over length in the plane lies within a square.
+// The bounds of length on the surface over length in the plane within a square.
 struct ShrinkRange {
   double low = 1.0, high = 1.0;
 };
@@ -40,7 +40,7 @@ inline ShrinkRange shrinkIn(const Surface& surface, const SizeBox& box) {
           surface.shrinkAt({std::max(x - box.half, 0.0), std::max(y - box.half, 0.0)})};
 }
 
-// Of a rectangle of the plane between two corners.
+// Of a rectangle of the plane, given by two corners.
 double areaOn(const Surface& surface, const Point& low, const Point& high);
 inline double areaOn(const Surface& surface, const SizeBox& box) {
   return areaOn(surface, box.centre - Point{box.half, box.half}, box.centre + Point{box.half, box.half});

@@ -8,11 +8,11 @@
 
 namespace coastmesh {
 
-// Sizes of a surface as lengths in its plane, for what measures there: a length along a straight line at a place,
-// short enough that the shrink hardly changes on it.
+// Sizes on a surface as lengths in its plane, for code that measures there: the length of a straight line at a place,
+// short enough that the scale hardly changes along it.
 class PlaneSizes final : public SizeFunction {
  public:
-  // Of what lies in the box from `low` to `high`; beyond it lengths grow no further. `size` has to outlive this.
+  // For the box from `low` to `high`; outside it lengths grow no further. `size` must outlive this.
   PlaneSizes(const SizeFunction& size, const Surface& surface, const Point& low, const Point& high)
       : size_(size),
         surface_(surface),

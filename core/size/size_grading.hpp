@@ -29,30 +29,30 @@ namespace coastmesh {
 //   0 --- 1 --- 2     0 ----------- 2
 using LeafVertices = std::array<std::uint32_t, 9>;
 
-// From where they are graded, sizes grow by this share of the gradation: between vertices a cone is steeper than it is.
+// Sizes start growing by this share of the gradation: between vertices a cone is steeper than it should be.
 inline constexpr double kSizeGrowth = 0.94;
 
-// At vertices: the size wanted there (infinite: none), the size allowed, the vertex from which that grows (kNone where
-// nothing smaller lies near), and whether it has spread to its neighbours.
+// For each vertex: the requested size (infinite: none), the allowed size, the vertex from which that grows (kNone if
+// nothing smaller is near), and whether it has spread to its neighbours.
 struct GradedSizes {
   std::vector<double> own, size;
   std::vector<std::uint32_t> source;
   std::vector<std::uint8_t> is_spread;  // of vertices that are new, missing
 };
 
-// Where the vertices of such cells lie, and how fast sizes may grow there.
+// Where the vertices of such cells are, and how fast sizes may grow there.
 struct SizeGrid {
   const SizePlaces& places;  // in multiples of `unit`, from `origin`
   double unit = 1.0;
   Point origin;
-  Surface surface;  // that the plane stands for
+  Surface surface;  // represented by the plane
   double gradation = 0.3;
 
   // From the grid's own origin.
   Point placeOf(std::uint32_t v) const { return {unit * places[v].x, unit * places[v].y}; }
   double shrinkAt(std::uint32_t v) const;                          // length on the surface over length in the plane
   double distanceBetween(std::uint32_t v, std::uint32_t w) const;  // on the surface
-  // The steepest gradient, in the plane, that grows no faster than the gradation on the surface, anywhere in a cell.
+  // The steepest gradient, in the plane, that is within the gradation on the surface anywhere in a cell.
   double slopeIn(const LeafVertices& leaf) const;
 };
 
@@ -61,15 +61,15 @@ class SizeGrading {
  public:
   SizeGrading(GradedSizes& sizes, const SizeGrid& grid, std::span<const LeafVertices> leaves, const ItemLoop& loop);
 
-  // Takes over cells that were split: `changed` are those of `leaves` that are new or have other vertices than before;
-  // the others are where they were.
+  // Updates after cells were split: `changed` are those of `leaves` that are new or have new vertices; the others keep
+  // their place.
   void update(std::span<const LeafVertices> leaves, std::span<const std::uint32_t> changed);
 
-  // From the feet of triangles that are much too steep, and from what grew before next to vertices that are new, sizes
-  // grow with the distance on the surface; where none are wanted, they grow from those round it.
+  // From the lowest vertices of triangles that are much too steep, and from earlier growth next to new vertices, sizes
+  // grow with the distance on the surface; where none are requested, they grow from their surroundings.
   void spread();
   // Lowers what is steeper than the gradation as little as each triangle needs, and rounds to single precision.
-  // Afterwards no triangle is.
+  // Afterwards no triangle is too steep.
   void flatten();
 
  private:
@@ -113,9 +113,9 @@ class SizeGrading {
   GradedSizes& sizes_;
   SizeGrid grid_;
   std::span<const LeafVertices> leaves_;
-  // The cells round a vertex, by quadrants from the upper right one; twice one that meets it with the middle of a side.
+  // The cells around a vertex, by quadrants from the upper right one; twice one with it in the middle of a side.
   std::vector<std::array<std::uint32_t, 4>> round_;
-  std::vector<std::uint32_t> halves_;  // of the side of the largest cell round a vertex, in units
+  std::vector<std::uint32_t> halves_;  // side of the largest cell around each vertex, in units
   std::vector<std::uint32_t> seen_;    // while sizes are flattened: the batch that listed a cell last
   std::uint32_t seen_last_ = 0;
   const ItemLoop& loop_;

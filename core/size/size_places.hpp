@@ -10,7 +10,7 @@
 
 namespace coastmesh {
 
-// Numbers for places of a fine grid, in the order in which they come first: a hash table of numbers alone.
+// Consecutive numbers for points of a fine grid, in order of first use: a hash table of numbers only.
 class SizePlaces {
  public:
   struct Place {
@@ -20,7 +20,7 @@ class SizePlaces {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(places_.size()); }
   const Place& operator[](std::uint32_t number) const { return places_[number]; }
-  // kNone where it has none.
+  // kNone if the point has no number.
   std::uint32_t find(const Place& place) const { return table_.empty() ? kNone : table_[slotOf(place)]; }
   std::uint32_t add(const Place& place) {
     if (8 * places_.size() >= 3 * table_.size()) grow();
@@ -31,7 +31,7 @@ class SizePlaces {
     }
     return number;
   }
-  // Start to bring from memory what adding a place needs: first where it stands, some time later its number's place.
+  // Prefetch what adding a point needs: first its slot, some time later the entry of its number.
   [[gnu::always_inline]] void fetchSlot(const Place& place) const {
     if (!table_.empty()) __builtin_prefetch(&table_[firstSlotOf(place) & (table_.size() - 1)]);
   }
@@ -40,7 +40,7 @@ class SizePlaces {
     const std::uint32_t number = table_[firstSlotOf(place) & (table_.size() - 1)];
     if (number != kNone) __builtin_prefetch(&places_[number]);
   }
-  // Numbers all anew: `order` holds the numbers that places have, each once, in the order of those that they get.
+  // Renumbers all points: `order` lists the old numbers, each once, in the order of the new ones.
   void reorder(const std::vector<std::uint32_t>& order) {
     std::vector<Place> places;
     places.reserve(order.size() + order.size() / 32);
@@ -58,19 +58,19 @@ class SizePlaces {
  private:
   static constexpr std::size_t kBlock = 64;
 
-  // Where the search for a place begins, and its step. Places of a row of cells of one level follow one another there:
-  // a block of 8 by 8 stays together.
+  // Start and step of the search for a point. Points in a row of cells of one level follow one another there: a block
+  // of 8 by 8 stays together.
   static std::uint64_t firstSlotOf(const Place& place, std::uint64_t* step = nullptr) {
     constexpr int kMostShift = 31;
     const int level = std::min(std::countr_zero(place.x | place.y), kMostShift);
     const std::uint64_t x = place.x >> level, y = place.y >> level;
     std::uint64_t hash = ((y >> 3) << 32 | (x >> 3)) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(level);
     hash = (hash ^ (hash >> 32)) * 0xD6E8FEB86659FD93u;
-    // An odd step comes by every slot.
+    // An odd step visits every slot.
     if (step) *step = (hash >> 40) * kBlock + 1;
     return (hash >> 20) * kBlock + (y & 7) * 8 + (x & 7);
   }
-  // Where it is, or the free slot where it would be.
+  // The slot of a point, or the free slot for it.
   std::size_t slotOf(const Place& place) const {
     std::uint64_t step;
     const std::uint64_t last = table_.size() - 1;

@@ -9,8 +9,8 @@
 
 namespace coastmesh {
 
-// Numbers that wait by their sizes, in batches of a 64th of an octave, the least first; within a batch the older comes
-// first. An exact order would cost a heap, and would jump about in memory from one to the next.
+// A queue of numbers by size, in batches of a 64th of an octave, smallest first; within a batch first in, first out. An
+// exact order would need a heap, with scattered memory accesses.
 class SizeQueue {
  public:
   struct Entry {
@@ -18,7 +18,7 @@ class SizeQueue {
     std::uint32_t number;
   };
 
-  // What is less than the batch taken out last joins the next one.
+  // Anything below the batch taken last joins the next one.
   void push(const Entry& entry) {
     const std::size_t batch = std::max(batchOf(entry.size), next_);
     if (waiting_.empty()) lowest_ = batch;
@@ -30,8 +30,8 @@ class SizeQueue {
     waiting_[batch - lowest_].push_back(entry);
   }
 
-  // Takes out the next batch, into `batch`; false where there is none. Until another is taken, what is pushed for it
-  // is the next one.
+  // Takes the next batch into `batch`; false if there is none. Until another is taken, numbers pushed for it form the
+  // next one.
   bool take(std::vector<Entry>& batch) {
     batch.clear();
     next_ = std::max(next_, lowest_);
@@ -44,9 +44,9 @@ class SizeQueue {
  private:
   static std::size_t batchOf(double size) { return std::bit_cast<std::uint64_t>(size) >> 46; }
 
-  std::vector<std::vector<Entry>> waiting_;  // batches from `lowest_` on
+  std::vector<std::vector<Entry>> waiting_;  // batches starting with `lowest_`
   std::size_t lowest_ = 0;
-  std::size_t next_ = 0;  // no batch before this one is filled
+  std::size_t next_ = 0;  // all batches before this one are empty
 };
 
 }  // namespace coastmesh

@@ -11,9 +11,9 @@
 
 namespace coastmesh {
 
-// Those of some places, in the plane, that lie within a convex ring and are nowhere nearer to one of its corners, to a
-// segment or to a point of `pslg` than the clearance, a length on the surface. REQUIRES: the surface is curved, the
-// ring counter-clockwise round the origin, the clearance above 0.
+// Those of some points, in the plane, that are within a convex ring and no closer to its corners, or to a segment or
+// point of `pslg`, than the clearance, a length on the surface. REQUIRES: the surface is curved, the ring
+// counter-clockwise around the origin, the clearance above 0.
 std::vector<Point> clearPlaces(std::span<const SpacePoint> places, const Pslg& pslg, std::span<const Point> ring,
                                const Surface& surface, double clearance, const ItemLoop& loop = inOrder);
 

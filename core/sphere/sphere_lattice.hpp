@@ -11,9 +11,9 @@
 
 namespace coastmesh {
 
-// A lattice of equilateral triangles wrapped round an icosahedron (Caspar, Klug, "Physical principles in the
-// construction of regular viruses", 1962): from one corner to the next it takes h steps, turns to the left by 60
-// degrees and takes k more.
+// A lattice of equilateral triangles on an icosahedron (Caspar, Klug, "Physical principles in the construction of
+// regular viruses", 1962): from one corner to the next it takes h steps, turns left by 60 degrees and takes k
+// more.
 struct SphereLattice {
   std::int64_t h = 1, k = 0;  // 0 <= k <= h, h > 0
 
@@ -22,24 +22,24 @@ struct SphereLattice {
   std::int64_t vertices() const { return 10 * trianglesOfFace() + 2; }
 };
 
-// The lattice whose edges come nearest to this length, on the sphere of radius 1; within a hundredth, one without turns
+// The lattice whose edges are closest to this length, on the sphere of radius 1; within a hundredth, one without turns
 // (k = 0), whose triangles are better. REQUIRES: at least `kLeastLatticeEdge`.
 SphereLattice sphereLattice(double edge);
 
-// Finer lattices have more triangles than there are numbers for: an edge is named by four times its triangle.
+// Finer lattices would exceed the range of edge numbers, which are four times those of triangles.
 inline constexpr double kLeastLatticeEdge = 1.7e-4;
 
-// The first places of a lattice: a pole and its neighbours.
+// The first points of a lattice: a pole and its neighbours.
 inline constexpr std::size_t kLatticePole = 1, kLatticeRing = 5;
 
-// Its places on the sphere of radius 1, each once. The first is the pole (0, 0, -1), the next five are its neighbours,
-// counter-clockwise in the plane that the sphere is mapped to from there. Edges are 0.9 to 1.1 of their mean, angles
-// 49 to 77 degrees; without turns 54 to 72.
+// Its points on the sphere of radius 1, each once. The first is the pole (0, 0, -1), the next five are its neighbours,
+// counter-clockwise in the plane projected from there. Edges are 0.9 to 1.1 of their mean, angles 49 to 77 degrees;
+// without turns 54 to 72.
 std::vector<SpacePoint> placesOf(const SphereLattice& lattice, const ItemLoop& loop = inOrder);
 
-// The closed mesh of one without turns, in the plane of a curved surface: its vertices in the same order but for the
-// pole, which is the last, as far from the origin as a `SphereCap` has it. Without regions; nothing is input. REQUIRES:
-// k = 0, h > 1, and edges of at least `kLeastLatticeEdge`.
+// The closed mesh of a lattice without turns, in the plane of a curved surface: its vertices in the same order except
+// the pole, which is last, as far from the origin as in a `SphereCap`. Without regions; no vertex is input. REQUIRES: k
+// = 0, h > 1, and edges of at least `kLeastLatticeEdge`.
 TriMesh meshOf(const SphereLattice& lattice, const Surface& surface, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

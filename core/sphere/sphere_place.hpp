@@ -8,10 +8,10 @@
 
 namespace coastmesh {
 
-// Places on the sphere of radius 1 in the plane that a curved surface is mapped to, and back: (0, 0, 1) lies at the
-// origin, (0, 0, -1) beyond all of the plane.
+// From the sphere of radius 1 to the plane of a curved surface, and back: (0, 0, 1) is the origin, (0, 0, -1) the point
+// at infinity.
 inline Point planeOf(const SpacePoint& place, const Surface& surface) {
-  // Near the pole without the difference of two numbers that are almost equal.
+  // Near the pole, without the difference of two almost equal numbers.
   const double up = place.z > 0.0 ? 1.0 + place.z : (place.x * place.x + place.y * place.y) / (1.0 - place.z);
   const double scale = 2.0 * surface.radius() / up;
   return {scale * place.x, scale * place.y};

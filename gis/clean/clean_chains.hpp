@@ -25,7 +25,7 @@ struct CleanChain {
   enum class Role { Outer, Hole, Line, Point };
   Role role = Role::Outer;
   std::uint32_t feature = 0;   // index into Coastline::features
-  std::vector<VertexId> walk;  // a ring's first vertex is not repeated; a point's is one vertex
+  std::vector<VertexId> walk;  // a ring's first vertex is not repeated; a point has one vertex
 
   bool isRing() const { return role == Role::Outer || role == Role::Hole; }
 };
@@ -34,17 +34,17 @@ struct CleanChain {
 struct CleanChains {
   CleanVertices vertices;
   std::vector<CleanChain> chains;
-  double snap = 0;  // the snap distance in the plane; 0 where it is too small to matter
+  double snap = 0;  // the snap distance in the plane; 0 if too small to matter
   Resolution resolution;
   std::optional<Seam> seam;
-  // Whether features of these uses are there; a frame round the whole globe leaves no chain.
+  // Whether features of these uses exist; a frame around the whole globe leaves no chain.
   bool framed = false, land = false, coast = false;
-  std::vector<std::uint32_t> beyond;  // features that hold what lies beyond all of the plane, ascending
+  std::vector<std::uint32_t> beyond;  // features that contain the plane's point at infinity, ascending
 };
 
-// Projects the members' points, makes one vertex of those equal or nearer than the snap distance (the first stays),
-// takes repeated points and spikes out of chains and drops chains without area and islands too small. Throws InputError
-// for a point that cannot be projected.
+// Projects the members' points, merges those that are equal or within the snap distance (the first stays), removes
+// repeated points and spikes from chains, and drops chains without area and islands too small. Throws InputError for a
+// point that cannot be projected.
 CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t>& members,
                        const Projection& projection, const CleanOptions& options, CleanReport& report,
                        const ItemLoop& loop = inOrder);

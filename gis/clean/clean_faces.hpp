@@ -7,20 +7,20 @@
 
 namespace coastmesh {
 
-// Edges that part two labels and lines inside the domain, from the lower to the higher vertex, sorted; and vertices
-// asked for that lie on none of them.
+// Edges that separate two labels, and lines inside the domain, from the lower to the higher vertex, sorted; and
+// requested vertices that lie on none of them.
 struct LabelledEdges {
   std::vector<Segment> segments;  // tagged: see segment_tags.hpp
   std::vector<VertexId> points;
   std::vector<VertexId> traces;   // vertices of edges that were dissolved, ascending
   std::vector<DomainLine> lines;  // what the tags refer to
-  RegionId beyond = kOutside;     // the label of what goes on beyond all edges
+  RegionId beyond = kOutside;     // the label outside all edges
 };
 
-// Labels the faces between noded edges: a face belongs to the first feature that holds it by the even-odd rule, within
-// the frame where there is one; framed water belongs to the frame. With `dissolve` features that share an edge are one,
-// the first of them. What is dropped goes to the report. Throws
-// InputError where coasts leave open which side is water.
+// Labels the faces between noded edges: a face belongs to the first feature that contains it by the even-odd rule,
+// within the frame if there is one; framed water belongs to the frame. With `dissolve`, features that share an edge are
+// one, the first of them. What is dropped goes to the report. Throws InputError if coasts do not determine which side
+// is water.
 LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
                          const Projection& projection, bool dissolve, CleanReport& report,
                          const ItemLoop& loop = inOrder);

@@ -15,19 +15,19 @@ struct EdgeUse {
   VertexId high() const { return std::max(a, b); }
 };
 
-// Edges that meet in common end points only.
+// Edges that meet only in common end points.
 struct NodedEdges {
-  // Sorted by low end, high end, rings before lines, feature. A feature's rings use an edge once at most (two uses
-  // cancel: even-odd), lines of one FeatureUse once at most.
+  // Sorted by low end, high end, rings before lines, feature. The rings of a feature use an edge at most once (two uses
+  // cancel: even-odd), lines of one FeatureUse at most once.
   std::vector<EdgeUse> uses;
-  std::vector<char> crossed;  // by chain: whether one of its edges crossed another edge
+  std::vector<char> crossed;  // for each chain: whether one of its edges crossed another edge
 };
 
-// Puts a vertex where edges cross, and lets edges pass through the vertices that lie on them (nearer than the snap
-// distance), until no two edges meet but in a common end point, exactly. New vertices are appended to
-// `chains.vertices`. What a new vertex or edge comes nearer to than the snap distance it passes through too, as long as
-// that ends (where three vertices stand little more than it apart, an edge between two may stay a seventh nearer to the
-// third); after that the grain of `chains.resolution` takes its place. Throws InputError where that comes to no end.
+// Inserts vertices where edges cross, and leads edges through the vertices that lie on them (within the snap distance),
+// until edges meet only in common end points, exactly. New vertices are appended to `chains.vertices`. New vertices and
+// edges pass through whatever is within the snap distance of them, as long as this terminates (if three vertices are
+// little more than that apart, an edge between two may stay a seventh closer to the third); after that the grain of
+// `chains.resolution` is used. Throws InputError if that does not terminate.
 NodedEdges nodeChains(CleanChains& chains, const Coastline& coastline, const Projection& projection,
                       CleanReport& report, const ItemLoop& loop = inOrder);
 

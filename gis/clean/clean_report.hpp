@@ -13,31 +13,31 @@
 namespace coastmesh {
 
 enum class EditKind {
-  RepeatedPoint,    // a point that repeats the one before it, or comes nearer to another than the snap distance
-  Spike,            // an edge that runs out and back along itself
-  SelfCrossing,     // two edges of a feature cross: a vertex was put there
-  FeaturesCross,    // edges of two features cross: a vertex was put there
+  RepeatedPoint,    // a point that repeats the previous one, or is within the snap distance of another
+  Spike,            // an edge that runs back along itself
+  SelfCrossing,     // two edges of a feature cross: a vertex was inserted
+  FeaturesCross,    // edges of two features cross: a vertex was inserted
   TouchingRing,     // a ring meets another, or itself, in a vertex: the domain is pinched there (nothing was changed)
-  OverlappingEdge,  // two edges run along one another, or a vertex lies on an edge: made to meet in vertices
+  OverlappingEdge,  // two edges overlap, or a vertex lies on an edge: made to meet in vertices
   DegenerateRing,   // a ring without area was dropped
   SmallIsland,      // dropped for `min_island_area_m2`
   SimplifiedPoint,  // dropped for `simplify_m`
-  FeaturesOverlap,  // a place lies in two features: the first of them keeps it; the edit names the other
+  FeaturesOverlap,  // a place is in two features: the first of them applies; the edit names the other
   MisplacedRing,    // a hole outside its outer ring, or an outer ring inside another: taken by the even-odd rule
-  OutsideWater,     // a point asked for as a vertex lies outside of the domain: dropped
-  DissolvedEdge,    // an edge between two features, or a vertex that only such an edge had made: dropped by `dissolve`
-  OpenedPinch,      // water passes where rings touched, or crossed, in a vertex: made by `Pinches::Open`
-  ClosedWater,      // water narrower or smaller than the elements wanted there: closed by `followSizes`
+  OutsideWater,     // a point requested as a vertex is outside the domain: dropped
+  DissolvedEdge,    // an edge between two features, or a vertex only of such edges: dropped by `dissolve`
+  OpenedPinch,      // water can pass where rings touched, or crossed, in a vertex: made by `Pinches::Open`
+  ClosedWater,      // water narrower or smaller than the elements there: closed by `followSizes`
   DroppedSpit,      // land narrower than these that ends in water: dropped by `followSizes`
   CutOffWater,      // water cut off where narrow water was closed: left out by `followSizes`
-  MovedPoint,       // a point of the shore: moved by `followSizes` within half the size wanted there
-  WidenedPassage,   // one that the user named, or that alone joins waters: land beside it gave way, by `followSizes`
-  Barrier,          // water on a line that the user named: closed by `followSizes`
+  MovedPoint,       // a point of the shore: moved by `followSizes`, by at most half the size there
+  WidenedPassage,   // given by the user, or the only connection of waters: land beside it receded, by `followSizes`
+  Barrier,          // water on a line given by the user: closed by `followSizes`
 };
 inline constexpr std::size_t kEditKinds = 20;
 std::string_view toString(EditKind kind);  // "repeated point"
 
-// One change made to the input.
+// One change to the input.
 struct Edit {
   EditKind kind;
   Point place;  // in the input's CRS
@@ -46,8 +46,8 @@ struct Edit {
 
 struct CleanReport {
   std::vector<Edit> edits;
-  std::vector<std::string> notes;     // what was decided where the input left a choice
-  std::vector<std::string> warnings;  // what of that costs more than people may expect
+  std::vector<std::string> notes;     // decisions where the input was ambiguous
+  std::vector<std::string> warnings;  // those of them that cost more than users may expect
   std::array<std::uint64_t, kEditKinds> counts{};
 
   void add(EditKind kind, const Point& place, std::int64_t fid) {

@@ -15,17 +15,17 @@ struct TouchChain {
   bool closed = true;
 };
 
-// A point that was put into an edge it lies on.
+// A point inserted into an edge that it lies on.
 struct Touch {
   std::size_t chain;
   Point place;
 };
 
-// Points that lie on an edge of another chain, or of their own, become points of that edge as well: what touches in the
-// input's coordinates (polygons cut along a grid of longitudes, say) must touch in the working plane too, where its
-// edges run a little differently. On an edge lies what is no further from it than `tolerance`, 0 or more, or than
-// coordinates are rounded, in the coordinates' own unit; what is as near to one of its ends is left to snapping. Edges
-// wider than `widest` are left alone: longitudes that jump from one end of the map to the other do not run between.
+// Points that lie on an edge of another chain, or of their own, become points of that edge: features that touch in the
+// input's coordinates (such as polygons cut along a grid of longitudes) must touch in the working plane too, where
+// edges are slightly different lines. A point is on an edge if it is within `tolerance`, 0 or more, or within the
+// rounding of coordinates, in their own unit; points that close to one of its ends are left to snapping. Edges wider
+// than `widest` are skipped: longitudes that jump from one end of the map to the other do not run between.
 std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains, double tolerance,
                                         double widest = std::numeric_limits<double>::infinity(),
                                         const ItemLoop& loop = inOrder);

@@ -9,14 +9,14 @@
 
 namespace coastmesh {
 
-// One edge of the map as a coast sees it.
+// An edge of the map, as used by coasts.
 struct CoastEdge {
   VertexId low = kNone, high = kNone;
   bool parts = false;  // a coast runs along it: water on one side, land on the other
-  // By how much coasts run upwards along it (from low to high) rather than downwards: 0, 1 or -1 as a rule.
+  // How many more coasts run upwards along it (from low to high) than downwards: usually 0, 1 or -1.
   int direction = 0;
   bool line = false;          // an open line of a coast
-  bool of_frame = false;      // the frame's boundary runs along it
+  bool of_frame = false;      // the frame's boundary is along it
   std::uint32_t feature = 0;  // of the coast
 };
 
@@ -27,10 +27,10 @@ struct CoastMap {
   std::optional<std::uint32_t> seed;  // a face that is water
 };
 
-// By face: whether it is water. Crossing a coast leads from water to land or back; which is which is told by
-// the seed, else by OpenStreetMap's rule: water lies to the right of a coast.
-// What was decided goes to `report.notes`. Throws InputError for a coast that ends without meeting another or the
-// frame, for lines that do not agree on the rule, and for a frame without a coast.
+// For each face whether it is water. Crossing a coast leads from water to land or back; the seed decides which is
+// which, otherwise OpenStreetMap's rule: water is to the right of a coast. Decisions go to `report.notes`. Throws
+// InputError for a coast that ends without meeting another or the frame, for lines that do not agree on the rule, and
+// for a frame without a coast.
 std::vector<char> findWater(const CoastMap& coast, const CleanVertices& vertices, const Coastline& coastline,
                             const Projection& projection, CleanReport& report);
 

@@ -16,8 +16,8 @@ class RingArea {
  public:
   explicit RingArea(const Crs& crs);
 
-  // The area that a ring encloses, never negative: on the ellipsoid in square metres, edges geodesic, or in the plane.
-  // A ring around a pole without edges along the antimeridian encloses the smaller part of the globe.
+  // The area that a ring encloses, never negative: on the ellipsoid in square metres, with geodesic edges, or in the
+  // plane. A ring around a pole without edges along the antimeridian encloses the smaller part of the globe.
   double of(const Ring& ring) const;
 
  private:
@@ -28,11 +28,11 @@ class RingArea {
   EdgeArea edges_;
 };
 
-// Area of the group's polygons on the ellipsoid (or in the plane), holes taken out, in square metres, edges geodesic.
+// Area of the group's polygons without holes, on the ellipsoid (or in the plane), in square metres, edges geodesic.
 double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members,
                     const ItemLoop& loop = inOrder);
 
-// Area of what the domain's labels hold, as above.
+// Area that the domain's labels cover, as above.
 double geodesicArea(const Domain& domain, const Crs& crs);
 
 }  // namespace coastmesh

@@ -15,9 +15,9 @@ struct Seam {
   bool holds(const Point& p) const { return p.x == west || p.x == east; }
 };
 
-// Where the rings' longitudes span exactly 360 degrees (data cut at the antimeridian, say) and `projection` brings the
-// first and the last meridian together, edges that run along either of the two get the points that lie on the other as
-// well, so that the two sides of the cut agree. Points are only added.
+// If the rings' longitudes span exactly 360 degrees (as in data cut at the antimeridian) and `projection` brings the
+// first and the last meridian together, edges along either of the two also get the points of the other, so that the two
+// sides of the cut agree. Points are only added.
 std::optional<Seam> healSeam(const std::vector<Ring*>& rings, const Crs& crs, const Projection& projection);
 
 }  // namespace coastmesh

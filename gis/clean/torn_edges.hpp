@@ -9,16 +9,16 @@
 
 namespace coastmesh {
 
-// A ring or a line of the input, and where its points lie in the working plane.
+// A ring or a line of the input, and its points in the working plane.
 struct ProjectedChain {
-  std::string owner;  // as errors name it
+  std::string owner;  // name for error messages
   std::span<const Point> points, plane;
   bool closed = false;
 };
 
-// Throws InputError, with the edge, where `projection` shows the two ends of an edge far apart that the input's
-// coordinates have near one another: a CRS of the user's choice may be torn where the input is not, at ±180 or along
-// the edge of an interrupted map. `extent` is that of the whole plane: a tear reaches through a good part of it.
+// Throws InputError, with the edge, if `projection` shows the two ends of an edge far apart although they are close in
+// the input's coordinates: a user's CRS may have a discontinuity where the input has none, at ±180 or at the edge of an
+// interrupted map. `extent` is that of the whole plane: a discontinuity spans a large part of it.
 void requireUntorn(const ProjectedChain& chain, double extent, const Crs& crs, const Projection& projection);
 
 }  // namespace coastmesh

@@ -20,17 +20,17 @@ struct Polygon {
   std::vector<Ring> holes;
 };
 
-// What a feature is for.
+// The purpose of a feature.
 enum class FeatureUse {
   Area,        // its inside is meshed; its open lines are constraints
-  Land,        // its inside is left out of the frame's water
-  Coast,       // its rings and lines part water from land within the frame
-  Frame,       // nothing outside of it is meshed; where it runs through water, the boundary is open
-  Constraint,  // lines and points that become edges and vertices where they lie in water
+  Land,        // its inside is excluded from the frame's water
+  Coast,       // its rings and lines separate water from land within the frame
+  Frame,       // nothing outside it is meshed; where it crosses water, the boundary is open
+  Constraint,  // lines and points that become edges and vertices where they are in water
   Weir,        // the same for lines that are weirs
-  Region,      // polygons that give the triangles in them a region
-  Open,        // lines: where they run along the boundary, open water goes on beyond
-  Boundary,    // lines along the boundary that say the types of its parts, and nothing else
+  Region,      // polygons that assign a region to the triangles inside
+  Open,        // lines: where they run along the boundary, it is open
+  Boundary,    // lines along the boundary that only define the types of its parts
 };
 
 // One feature of a vector layer.
@@ -38,23 +38,23 @@ struct Feature {
   std::int64_t fid = 0;
   std::string source;  // "file" or "file|layer", as errors name it
   std::vector<Polygon> polygons;
-  std::vector<std::vector<Point>> lines;                        // open chains, of line features that closed no ring
-  std::vector<std::pair<std::string, std::string>> attributes;  // name, value as text; nulls are left out
+  std::vector<std::vector<Point>> lines;                        // open chains, of lines that closed no ring
+  std::vector<std::pair<std::string, std::string>> attributes;  // name, value as text; nulls are omitted
   FeatureUse use = FeatureUse::Area;
-  bool from_lines = false;    // its rings were made of lines
-  bool clipped = false;       // far-off parts of it were cut off, or longitudes jump: its rings' sides say nothing
-  std::string region;         // of a meshed part: the region it lies in
-  std::vector<Point> points;  // of a constraint: vertices to be
-  std::vector<Point> vertex_order;  // of a cleaned part: vertices as they were numbered, those of other features too
+  bool from_lines = false;          // its rings were made of lines
+  bool clipped = false;             // distant parts were cut off, or longitudes jump: sides of its rings mean nothing
+  std::string region;               // of a meshed part: its region
+  std::vector<Point> points;        // of a constraint: points that become vertices
+  std::vector<Point> vertex_order;  // of a cleaned part: numbered vertices, those of other features too
 };
 
-// What was read, in the input's own CRS and with its own coordinates, nothing mended yet.
+// The input as read, in its own CRS and coordinates, not repaired yet.
 struct Coastline {
   std::vector<Feature> features;
   Crs crs;
-  std::optional<Point> water_at;  // a place in the water: what crosses no shore from there is meshed, and nothing else
+  std::optional<Point> water_at;  // a point in the water: only what can be reached from it is meshed
   bool framed_by_box = false;     // its Frame was given as a box
-  // All of the globe is meshed: the feature, without any shape, that holds what no other holds.
+  // The whole globe is meshed: this feature, without a shape, contains what no other does.
   std::optional<std::size_t> rest;
 };
 

@@ -5,7 +5,7 @@
 
 namespace coastmesh {
 
-// The box of all that a feature holds: rings, lines and points, in the input's CRS.
+// The box of all parts of a feature: rings, lines and points, in the input's CRS.
 Box boundsOf(const Feature& feature);
 
 }  // namespace coastmesh

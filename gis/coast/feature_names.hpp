@@ -9,19 +9,19 @@
 
 namespace coastmesh {
 
-// The value of the attribute "name", else of the first that has "name" in its own; in capitals or not. Empty: none.
+// The value of the attribute "name", else of the first with "name" in its own name; case-insensitive. Empty: none.
 std::string_view nameOf(const std::vector<std::pair<std::string, std::string>>& attributes);
 
-// Whether an attribute may be meant: "name" is in its own.
+// Whether an attribute may be used: it has "name" in its name.
 bool isNameAttribute(std::string_view attribute);
 
-// A place as notes and errors say it: "-87.5, 41.25".
+// A place in the format of notes and errors: "-87.5, 41.25".
 std::string placeInWords(const Point& place);
 
-// What a region is called: its attribute "tag", "region" or "name", else the number of its feature.
+// The name of a region: its attribute "tag", "region" or "name", else the number of its feature.
 std::string regionNameOf(const Feature& feature);
 
-// What a line of the feature is called: its name, or that of the region whose border it is. Empty: nothing.
+// The name of a line of the feature: its own, or that of the region whose border it is. Empty: none.
 std::string lineNameOf(const Feature& feature);
 
 }  // namespace coastmesh

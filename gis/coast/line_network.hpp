@@ -12,10 +12,10 @@ struct Arc {
   std::uint32_t from = 0, to = 0;  // nodes
   std::vector<Point> points;       // both ends included
   std::size_t origin = 0;
-  std::int64_t balance = 0;  // points of lines that run as the arc does, less those of lines that run against it
+  std::int64_t balance = 0;  // points of lines in the arc's direction, minus those of the others
 };
 
-// Arcs that form a ring, each with the way in which it is gone through.
+// Arcs that form a ring, each with its direction.
 struct ArcUse {
   std::uint32_t arc = 0;
   bool reversed = false;
@@ -26,8 +26,8 @@ struct PeeledNetwork {
   std::vector<std::uint32_t> open;  // arcs in no ring
 };
 
-// Takes a planar net of arcs apart into rings from the outside inwards, see `joinLines`. REQUIRES: nodes below
-// `node_count`. Every arc comes out once.
+// Divides a planar network of arcs into rings from the outside inwards, see `joinLines`. REQUIRES: nodes below
+// `node_count`. Every arc is returned once.
 PeeledNetwork peelNetwork(const std::vector<Arc>& arcs, std::uint32_t node_count);
 
 }  // namespace coastmesh

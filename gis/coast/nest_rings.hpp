@@ -14,8 +14,8 @@ struct NestedRing {
 };
 
 // Even-odd nesting: a ring in no other is an outer ring, one directly inside an outer ring is its hole, one directly
-// inside a hole is an outer ring again. Rings may touch; of rings that cross, one lies in the other where its first
-// vertex does. Outer rings come in the order given.
+// inside a hole is an outer ring again. Rings may touch; if rings cross, one is inside the other if its first vertex
+// is. Outer rings are in the order given.
 std::vector<NestedRing> nestRings(const std::vector<Ring>& rings);
 
 }  // namespace coastmesh

@@ -5,10 +5,10 @@
 
 namespace coastmesh {
 
-// What a segment of a `Domain` is, as its `Segment::tag`. Markers of a .poly, which are the user's own, are small
-// numbers; a shore has 0. A line inside the domain that the user named has its place in `Domain::lines`, counted from
+// The meaning of `Segment::tag` in a `Domain`. A user's markers of a .poly are small numbers; a shore has
+// 0. A line inside the domain given by the user has its index in `Domain::lines`, counted from
 // kFirstLineTag.
-inline constexpr std::int32_t kOpenTag = 0x40000000;  // on the frame's boundary: open water goes on beyond
+inline constexpr std::int32_t kOpenTag = 0x40000000;  // on the frame's boundary: open water
 inline constexpr std::int32_t kFirstLineTag = kOpenTag + 1;
 
 inline bool isLineTag(std::int32_t tag) { return tag >= kFirstLineTag; }

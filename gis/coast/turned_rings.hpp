@@ -6,28 +6,28 @@
 
 namespace coastmesh {
 
-// How a chain of longitudes and latitudes goes on past the antimeridian.
+// The continuation of a chain of longitudes and latitudes past the antimeridian.
 struct Turns {
-  std::vector<int> of;  // by point: turns of 360 degrees to be added, so that no edge jumps; 0 for the first
-  int round = 0;        // of a ring: turns at its end; not 0 where it goes round a pole
+  std::vector<int> of;  // for each point: turns of 360 degrees to add, so that no edge jumps; 0 for the first
+  int round = 0;        // of a ring: turns at its end; not 0 if it goes around a pole
   bool any = false;     // whether an edge jumps at all
 };
 
-// An edge of more than 180 degrees jumps from one end of the map to the other. One of exactly 360 does so where others
-// jump too, since both of its ends then lie on one meridian, but not where it alone would keep the ring from closing;
-// where no other does, the ring is one of the map, and such an edge goes along all of it. An edge from a pole to the
-// same pole has no length, whatever its longitudes.
+// An edge of more than 180 degrees jumps from one end of the map to the other. An edge of exactly 360 jumps if others
+// do, since both of its ends are then on one meridian, except if it alone would keep the ring from closing. If no other
+// edge jumps, the ring is one of the map, and such an edge runs along all of it. An edge from a pole to the same pole
+// has no length, for any longitudes.
 Turns turnsOf(const std::vector<Point>& lonlat, bool closed);
 
-// Whether an edge goes from one end of the map to the other: the ring crosses the antimeridian, or goes round a pole.
+// Whether an edge goes from one end of the map to the other: the ring crosses the antimeridian or surrounds a pole.
 bool longitudesJump(const Ring& lonlat);
 
-// The pole that a ring which goes round one holds: the nearer, -90 or 90.
+// The pole inside a ring that surrounds one: the closer one, -90 or 90.
 double poleWithin(const Ring& lonlat);
 
-// A ring in longitudes and latitudes as rings of the plate carrée that hold the same places. One whose longitudes jump
-// across the antimeridian goes on past it, and is there in three turns; one that goes round a pole is closed by way of
-// the pole that is nearer. Any other is given as it is.
+// A ring in longitudes and latitudes as rings of the plate carrée with the same inside. A ring that jumps across the
+// antimeridian is continued past it and returned at three offsets; one around a pole is closed through the closer pole.
+// Any other is returned unchanged.
 std::vector<Ring> turnedRings(const Ring& lonlat);
 
 }  // namespace coastmesh

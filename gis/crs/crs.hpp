@@ -6,21 +6,21 @@
 
 namespace coastmesh {
 
-// `text` is "plane" or anything that PROJ knows: "EPSG:32616", WKT, a PROJ string. Vertical axes are dropped; a local
-// (engineering) CRS is a plane. Throws InputError, also for geocentric CRS and for geographic ones that do not measure
-// in degrees.
+// `text` is "plane" or anything that PROJ accepts: "EPSG:32616", WKT, a PROJ string. Vertical axes are dropped; a local
+// (engineering) CRS is a plane. Throws InputError, also for geocentric CRS and for geographic ones with units other
+// than degrees.
 Crs parseCrs(const std::string& text);
 
 Crs wgs84();
 
-// True iff coordinates mean the same place in both.
+// Whether coordinates mean the same place in both.
 bool sameCrs(const Crs& a, const Crs& b);
 
-// Metres on the ground that a unit of the coordinates stands for, at a scale of 1; of degrees those at the equator; 1
-// for a plane.
+// Metres on the ground per unit of the coordinates, at a scale of 1; for degrees at the equator; 1 for a
+// plane.
 double metresPerUnit(const Crs& crs);
 
-// For people: "EPSG:32616", else the name that the CRS gives itself, else "plane".
+// For messages: "EPSG:32616", else the CRS's own name, else "plane".
 std::string nameOf(const Crs& crs);
 
 }  // namespace coastmesh

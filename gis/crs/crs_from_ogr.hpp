@@ -6,8 +6,8 @@
 
 namespace coastmesh {
 
-// The CRS that `srs` stands for; a plane for null. Looks for the EPSG code where the source gave none, as the WKT of a
-// .prj file never does.
+// The CRS of `srs`; a plane for null. Looks up the EPSG code if the source has none, as in the WKT of a .prj
+// file.
 Crs fromOgr(const OGRSpatialReference* srs);
 
 }  // namespace coastmesh

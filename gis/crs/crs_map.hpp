@@ -9,15 +9,15 @@
 
 namespace coastmesh {
 
-// PROJ's transformation from one CRS to another, usable from several threads at once: PROJ's own objects are not, so
-// each thread makes its own. Cheap to copy.
+// PROJ's transformation between two CRS, usable from several threads at once: PROJ's objects are not, so each thread
+// creates its own. Cheap to copy.
 class CrsMap {
  public:
-  // Throws InputError where PROJ knows no way.
+  // Throws InputError if PROJ has no transformation.
   CrsMap(const OGRSpatialReference& from, const OGRSpatialReference& to);
 
   Point forward(const Point& p) const;  // not finite where `p` has no image
-  Point inverse(const Point& p) const;  // of `forward`, to rounding
+  Point inverse(const Point& p) const;  // of `forward`, up to rounding
 
   struct Ends;
 
@@ -25,7 +25,7 @@ class CrsMap {
   std::shared_ptr<const Ends> ends_;
 };
 
-// The geographic CRS under a projected one. REQUIRES: !crs.isPlane(). Throws InputError where there is none.
+// The geographic CRS of a projected one. REQUIRES: !crs.isPlane(). Throws InputError if there is none.
 OGRSpatialReference geographicBase(const Crs& crs);
 
 }  // namespace coastmesh

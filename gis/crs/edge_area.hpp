@@ -6,22 +6,22 @@
 
 namespace coastmesh {
 
-// Areas between geodesics and the equator, in square metres: of edges that go east, north of the equator, positive. A
+// Areas between geodesics and the equator, in square metres, positive for edges going east, north of the equator. A
 // million short edges take 0.05 s, with GeographicLib's PolygonArea 2 s, more than reading them.
 class EdgeArea {
  public:
   EdgeArea(double semi_major_m, double flattening);
 
-  // What a vertex brings to its two edges.
+  // The contribution of a vertex to its two edges.
   struct Vertex {
     double lon_deg = 0, lat_deg = 0;
     double sin_lat = 0;
-    double per_radian = 0;  // area between its parallel and the equator, for a radian of longitude
+    double per_radian = 0;  // area between its parallel and the equator, per radian of longitude
   };
   Vertex at(const LonLat& place) const;
 
-  // REQUIRES: the longitudes are less than 180 degrees apart as they are given, no pole between them or among them. To
-  // some 1e-9 of what the edge might enclose with others of its length.
+  // REQUIRES: the longitudes are less than 180 degrees apart as given, with no pole between or among them. Accurate to
+  // about 1e-9 of what the edge might enclose with others of its length.
   double under(const Vertex& from, const Vertex& to) const;
 
   const GeographicLib::Geodesic& geodesic() const { return geodesic_; }

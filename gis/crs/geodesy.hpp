@@ -13,12 +13,12 @@
 
 namespace coastmesh {
 
-// Whether there is such a place: longitudes within ±540, which is -180 to 180, 0 to 360, and some overlap, and
+// Whether such a place exists: longitudes within ±540, which covers -180 to 180, 0 to 360, and some overlap, and
 // latitudes within ±90.
 bool isOnEarth(const LonLat& place);
 
-// Throws InputError with `path`, the number of the node, and its place, where one has none on the ellipsoid of the
-// grid's CRS. What passes can be measured, projected, and read again from whatever it is written to.
+// Throws InputError with `path`, the number of the node, and its place, if a node has no place on the ellipsoid of the
+// grid's CRS. Otherwise it can be measured, projected, and read back from any output.
 void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::string& path);
 
 // Areas of triangles on the ellipsoid of `crs`, edges geodesic, in square metres; positive for counter-clockwise ones.
@@ -26,12 +26,12 @@ void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::stri
 // ten million. Throws InputError where a node has no place on the ellipsoid.
 std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                   const Crs& crs, const ItemLoop& loop = inOrder);
-// The same of few triangles among many nodes: only theirs are looked at.
+// The same for a few triangles among many nodes: only their nodes are used.
 std::vector<double> areasOfFew(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                const Crs& crs);
 
-// Measures edges between nodes, which must live as long as it: in metres on the ellipsoid of `crs`, to 1e-6 of them up
-// to 1000 km; in a plane: in its units. Throws InputError as `triangleAreas` does.
+// Measures edges between nodes, which must outlive it: in metres on the ellipsoid of `crs`, with a relative error of
+// 1e-6 up to 1000 km; in a plane: in its units. Throws InputError like `triangleAreas`.
 class EdgeMeter {
  public:
   EdgeMeter(std::span<const Point> nodes, const Crs& crs, const ItemLoop& loop = inOrder);
@@ -41,7 +41,7 @@ class EdgeMeter {
   std::array<double, 3> of(const std::array<std::uint32_t, 3>& corners) const {
     return {between(corners[0], corners[1]), between(corners[1], corners[2]), between(corners[2], corners[0])};
   }
-  // The least of these, for less than all of them.
+  // The shortest of these, faster than all of them.
   double shortestOf(const std::array<std::uint32_t, 3>& corners) const;
 
  private:
@@ -50,7 +50,7 @@ class EdgeMeter {
   std::vector<std::array<double, 3>> places_;  // of the nodes, centred on the Earth; empty in a plane
 };
 
-// So measured, the edges of all triangles.
+// The edges of all triangles, measured in this way.
 std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
                                                std::span<const std::array<std::uint32_t, 3>> triangles, const Crs& crs);
 

@@ -14,7 +14,7 @@ class CrsMap;
 // one. Cheap to copy; usable from several threads at once.
 class GeographicMap {
  public:
-  // REQUIRES: !crs.isPlane(). Throws InputError where PROJ knows no way.
+  // REQUIRES: !crs.isPlane(). Throws InputError if PROJ has no transformation.
   explicit GeographicMap(const Crs& crs);
 
   LonLat forward(const Point& input) const;  // not finite where `input` has no place

@@ -4,8 +4,8 @@
 
 namespace coastmesh {
 
-// A place on an ellipsoid, in degrees. What a file or the user gives is a Point in the coordinates of a CRS, which may
-// be anything: GeographicMap makes one of the other.
+// A point on an ellipsoid, in degrees. Files and users give a Point in coordinates of any CRS; GeographicMap converts
+// between the two.
 struct LonLat {
   double lon = 0.0;
   double lat = 0.0;
@@ -13,7 +13,7 @@ struct LonLat {
   friend bool operator==(const LonLat&, const LonLat&) = default;
 };
 
-// Coordinates of a geographic CRS, whose x are longitudes, and the way back.
+// Coordinates of a geographic CRS, with longitudes as x, and back.
 inline LonLat asLonLat(const Point& geographic) { return {geographic.x, geographic.y}; }
 inline Point asGeographic(const LonLat& place) { return {place.lon, place.lat}; }
 

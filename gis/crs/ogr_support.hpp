@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// Collects GDAL's messages in this thread for as long as it lives, so that none reaches stderr.
+// Collects GDAL's messages in this thread during its lifetime, so that none reaches stderr.
 class OgrErrors {
  public:
   OgrErrors();
@@ -18,8 +18,8 @@ class OgrErrors {
 
   bool failed() const { return failed_; }            // an error, not only warnings, since the start or `clear`
   const std::string& text() const { return text_; }  // the first error, else the first warning: one line, not long
-  // The first that the GeoJSON driver says of a geometry that it leaves out, or a part of it: no more than a message
-  // for debugging, which GDAL gives where CPL_DEBUG is "GeoJSON".
+  // The first message of the GeoJSON driver on a geometry, or a part of one, that it drops: only a debug message, which
+  // GDAL issues if CPL_DEBUG is "GeoJSON".
   const std::string& leftOut() const { return left_out_; }
   void clear();
 
@@ -31,7 +31,7 @@ class OgrErrors {
   std::string left_out_;
 };
 
-// Sets a GDAL configuration option in this thread for as long as it lives.
+// Sets a GDAL configuration option in this thread during its lifetime.
 class OgrOption {
  public:
   OgrOption(const char* name, const char* value);
@@ -45,8 +45,8 @@ class OgrOption {
   bool was_set_;
 };
 
-// Makes GDAL's drivers known. GDAL itself goes through all of them whenever it is asked, which takes as long as opening
-// a small file does; here only the first call does anything.
+// Registers GDAL's drivers. GDAL itself goes through all of them at every call, which takes as long as opening a small
+// file; here only the first call does anything.
 void registerDrivers();
 
 // With x = easting or longitude. REQUIRES: not a plane.

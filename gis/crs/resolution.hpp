@@ -19,12 +19,12 @@ struct Resolution {
   double gap = 0;  // between a vertex and another, or an edge that does not end there: the snap distance, or the grain
 };
 
-// REQUIRES: one point of the CRS for each of the plane. `scale` is the greatest plane length over true length, `snap`
+// REQUIRES: one point of the CRS for each of the plane. `scale` is the largest plane length over true length, `snap`
 // the snap distance in the plane.
 Resolution resolutionOf(const std::vector<Point>& plane, const std::vector<Point>& input, const Crs& crs, double scale,
                         double snap);
 
-// Of a graph that is in the plane already, and was not snapped.
+// Of a graph that is already in the plane, and was not snapped.
 Resolution resolutionOf(const std::vector<Point>& plane);
 
 }  // namespace coastmesh

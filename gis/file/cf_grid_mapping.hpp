@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// What the CF conventions say of a CRS beside its WKT (CF 1.8, Appendix F).
+// The attributes of a CRS in the CF conventions besides its WKT (CF 1.8, Appendix F).
 struct CfGridMapping {
   std::string name;  // grid_mapping_name; "Unknown projected" as D-FlowFM has it where CF knows no name
   std::vector<std::pair<std::string, double>> parameters;

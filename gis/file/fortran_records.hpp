@@ -16,11 +16,11 @@ class FortranWriter {
  public:
   explicit FortranWriter(std::string path) : path_(path), file_(std::move(path)) {}
 
-  // Each writes one record; throws OutputError, also for one past the 2 GiB that its length can say.
+  // Each writes one record; throws OutputError, also for one longer than the 2 GiB limit of its length.
   void text(std::string_view value);
   void integers(std::span<const std::int32_t> values);
   void doubles(std::span<const double> values);
-  // The same of `value(i)` for every i below `count`, made by the threads of `loop`.
+  // The same for `value(i)` for every i below `count`, made by the threads of `loop`.
   void integers(const ItemLoop& loop, std::size_t count, const std::function<std::int32_t(std::size_t)>& value);
   void doubles(const ItemLoop& loop, std::size_t count, const std::function<double(std::size_t)>& value);
   void close() { file_.close(); }
@@ -32,13 +32,13 @@ class FortranWriter {
   TextWriter file_;
 };
 
-// Throws InputError where a record is not of the size that is asked for.
+// Throws InputError if a record does not have the requested size.
 class FortranReader {
  public:
   explicit FortranReader(const std::string& path);
 
   bool atEnd() const { return at_ >= bytes_.size(); }
-  std::size_t nextSize() const;  // bytes of the record to come
+  std::size_t nextSize() const;  // bytes of the next record
   std::string text();
   std::vector<std::int32_t> integers(std::size_t count);
   std::vector<double> reals(std::size_t count, std::size_t bytes_each);  // of 4 or 8 bytes

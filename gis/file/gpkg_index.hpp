@@ -16,14 +16,14 @@ namespace coastmesh {
 // R*Tree: entering rows one by one, as OGR before 3.7 does, takes five times as long as writing the features.
 class GeoPackageIndex {
  public:
-  // The page that each table begins in.
+  // The first page of each table.
   struct Roots {
     std::uint64_t nodes = 0, rows = 0, parents = 0;
   };
   // Bytes of a node of a tree in a file with pages of 4096.
   static constexpr std::size_t kNodeBytes = 1228;
 
-  // `box` of each row below `rows`, which has the fid row + 1; from several threads at the same time.
+  // `box` of each row below `rows`, which has the fid row + 1; called from several threads at the same time.
   GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std::uint32_t row)> box, const ItemLoop& loop);
 
   // The box of all rows. REQUIRES: there is a row.
@@ -39,7 +39,7 @@ class GeoPackageIndex {
   };
   struct Level {
     std::uint64_t first = 0;  // the number of its first node; others follow it
-    std::vector<Cell> nodes;  // as the level above has them
+    std::vector<Cell> nodes;  // in the order of the level above
   };
 
   std::size_t levelOf(std::uint64_t node) const;

@@ -14,11 +14,11 @@
 
 namespace coastmesh {
 
-// A NetCDF file that is open as long as this lives. Writing throws OutputError with the path and the reason, reading
+// An open NetCDF file. Writing throws OutputError with the path and the reason, reading
 // InputError.
 class NetcdfWriter {
  public:
-  // `large`: arrays past 4 GiB, in a format that fewer programs read.
+  // `large`: arrays of more than 4 GiB, in a format that fewer programs read.
   NetcdfWriter(std::string path, bool large);
   ~NetcdfWriter();
   NetcdfWriter(const NetcdfWriter&) = delete;
@@ -37,8 +37,8 @@ class NetcdfWriter {
   void put(int variable, const double* values);
   void put(int variable, const signed char* values);
   void put(int variable, const char* values);
-  // `count` values of a variable of NC_INT or NC_DOUBLE, which is what `valueOf(i)` returns. They are made when the
-  // file is closed, by the threads of `close`, and written past the library, which has but one.
+  // `count` values of a variable of NC_INT or NC_DOUBLE, returned by `valueOf(i)`. They are made when the file is
+  // closed, by the threads of `close`, and written without the library, which is single-threaded.
   template <typename ValueOf>
   void putLater(int variable, std::size_t count, ValueOf valueOf) {
     using Value = decltype(valueOf(count));
@@ -53,7 +53,7 @@ class NetcdfWriter {
  private:
   void check(int status) const;
 
-  // Values in the order of bytes that the format has, from byte `first` of all of them on.
+  // Values in the format's byte order, starting with byte `first` of all of them.
   template <typename Value, typename ValueOf>
   static void fillWith(std::uint64_t first, std::span<std::byte> bytes, const ValueOf& valueOf) {
     using Bits = std::conditional_t<sizeof(Value) == 4, std::uint32_t, std::uint64_t>;
@@ -102,7 +102,7 @@ class NetcdfReader {
   bool hasVariable(const std::string& name) const;
   std::vector<std::size_t> shape(const std::string& variable) const;
   std::vector<std::string> dimensionsOf(const std::string& variable) const;
-  // Empty where there is none, or it is not text.
+  // Empty if there is none, or it is not text.
   std::string text(const std::string& variable, const std::string& attribute) const;
   std::string globalText(const std::string& attribute) const;
   std::optional<double> number(const std::string& variable, const std::string& attribute) const;

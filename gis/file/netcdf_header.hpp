@@ -6,13 +6,13 @@
 
 namespace coastmesh {
 
-// True iff no list or value in the header of a classic NetCDF file (CDF-1, 2 or 5) claims more bytes than the file has,
-// and all variables and attributes are of types that such files have; also for every other file. The NetCDF library
-// allocates and reads whatever a damaged header claims.
+// Whether no list or value in the header of a classic NetCDF file (CDF-1, 2 or 5) claims more bytes than the file has,
+// and all variables and attributes have types of such files; true for every other file. The NetCDF library allocates
+// and reads whatever a damaged header claims.
 bool headerFitsFile(const std::string& path);
 
-// Where the values of each variable of a classic NetCDF file begin, in bytes, in the order of their numbers; of none
-// where the file cannot be read. REQUIRES: what can be read of the header is sound.
+// The offset in bytes of the values of each variable of a classic NetCDF file, in the order of their numbers; empty if
+// the file cannot be read. REQUIRES: the readable part of the header is valid.
 std::vector<std::uint64_t> beginningsOfVariables(const std::string& path);
 
 }  // namespace coastmesh

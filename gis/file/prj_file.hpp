@@ -6,13 +6,13 @@
 
 namespace coastmesh {
 
-// The .prj file that says the CRS of `path` for formats that have no room for it inside.
+// The .prj file with the CRS of `path`, for formats that cannot hold it.
 std::string prjBeside(const std::string& path);
 
 // Writes the CRS of the mesh file `path` beside it as ESRI's WKT; nothing for a plane. Throws OutputError.
 void writePrjBeside(const std::string& path, const Crs& crs);
 
-// The CRS that a .prj beside `path` says; `unsaid` where there is none. Throws InputError.
+// The CRS in a .prj beside `path`; `unsaid` if there is none. Throws InputError.
 Crs readPrjBeside(const std::string& path, const Crs& unsaid = {});
 
 }  // namespace coastmesh

@@ -2,8 +2,8 @@
 
 namespace coastmesh {
 
-// Removes a folder with the files and the few levels of folders in it, and asks for no memory, as there may be none.
-// True where it is not there any more.
+// Removes a folder with its files and a few levels of folders, without allocating memory. True if it no longer
+// exists.
 bool removeFolder(const char* path) noexcept;
 
 }  // namespace coastmesh

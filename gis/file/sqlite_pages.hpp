@@ -17,7 +17,7 @@
 
 namespace coastmesh {
 
-// Writes a number's last so many bytes, eight at most, and gives what comes behind them.
+// Writes a number's last bytes, at most eight, and returns the position after them.
 inline std::byte* putBigEndian(std::byte* to, std::uint64_t value, unsigned bytes) {
   static_assert(std::endian::native == std::endian::little);
   const std::uint64_t turned = __builtin_bswap64(value) >> (64 - 8 * bytes);
@@ -25,11 +25,11 @@ inline std::byte* putBigEndian(std::byte* to, std::uint64_t value, unsigned byte
   return to + bytes;
 }
 
-// The most that a row may have, in bytes, in a file with pages of 4096; what is larger goes another way into SQLite.
+// The maximum size of a row, in bytes, in a file with pages of 4096; larger ones are stored differently by SQLite.
 inline constexpr std::size_t kLargestSqliteRow = 4000;
 
-// A row of a table as SQLite keeps it ("Database File Format", 2.1): one value after another, in the table's order of
-// columns. A column that is the row's number is null. Of some rows only the size is asked for: no value is kept then.
+// A row of a table in SQLite's format ("Database File Format", 2.1): one value after another, in the table's order of
+// columns. A column that is the row's number is null. If only the size is requested, no value is stored.
 class SqliteRow {
  public:
   enum class Keeps { Values, Size };
@@ -46,7 +46,7 @@ class SqliteRow {
     const std::span<std::byte> to = bytes(13 + 2 * value.size(), value.size());
     std::ranges::copy(std::as_bytes(std::span(value)).first(to.size()), to.begin());
   }
-  // To be filled at once; empty where the size alone is asked for.
+  // To be filled at once; empty if only the size is requested.
   std::span<std::byte> blob(std::size_t size) { return bytes(12 + 2 * size, size); }
 
   void clear() { header_size_ = body_size_ = 0; }
@@ -60,7 +60,7 @@ class SqliteRow {
     type(serial);
     return room(body_, body_size_, size);
   }
-  // The next bytes of a part; of a row that would be too large, or of which the size alone is asked for, none.
+  // The next bytes of a part; none if the row would be too large, or only the size is requested.
   std::span<std::byte> room(std::array<std::byte, kLargestSqliteRow>& part, std::size_t& used, std::size_t size) const {
     const std::size_t at = std::exchange(used, used + size);
     return keeps_values_ && used <= part.size() ? std::span(part).subspan(at, size) : std::span<std::byte>();
@@ -68,21 +68,21 @@ class SqliteRow {
 
   bool keeps_values_;
   std::size_t header_size_ = 0, body_size_ = 0;
-  std::array<std::byte, kLargestSqliteRow> header_, body_;  // set as far as they are used
+  std::array<std::byte, kLargestSqliteRow> header_, body_;  // set as far as used
 };
 
-// The rows of a table that is to have no others, numbered from `first` on.
+// The rows of a table without other rows, numbered from `first`.
 struct SqliteTable {
-  std::uint64_t root = 0;  // the page that the table begins in, as sqlite_master says
+  std::uint64_t root = 0;  // the table's first page, from sqlite_master
   std::uint64_t rows = 0;
   std::int64_t first = 1;
-  // From several threads at the same time; of each row first for its size, later for its values.
+  // Called from several threads at the same time; for each row first for its size, later for its values.
   std::function<void(std::uint64_t i, SqliteRow& row)> make;
 };
 
-// Puts rows into a database that no program has open, in place of those that the tables have: their pages are made by
-// all threads and written past SQLite, which takes one row after another. Not for tables with indices besides the order
-// of their rows, nor for what triggers would do. Throws OutputError, also for a file that is no such database.
+// Replaces the rows of tables in a database that no program has open: their pages are made by all threads and written
+// without SQLite, which processes one row after another. Not for tables with indices other than the order of their
+// rows, or with triggers. Throws OutputError, also for a file that is not such a database.
 void writeSqliteTables(const std::string& path, const std::vector<SqliteTable>& tables, const ItemLoop& loop);
 
 }  // namespace coastmesh

@@ -10,31 +10,31 @@
 
 namespace coastmesh {
 
-// One output of one file or of several, made whole or not at all: written aside under the same names in a hidden folder
+// One output of one or several files, written completely or not at all: written under the same names in a hidden folder
 // beside the target, and moved into place by `commit`. The destructor removes what was not committed.
 class StagedFiles {
  public:
-  // Refuses a folder that does not exist, an existing file unless `overwrite`, and whatever `overwrite` says what is no
-  // regular file: a folder, a device, a pipe, a link. Throws OutputError.
+  // Rejects a folder that does not exist, an existing file unless `overwrite`, and, even with `overwrite`, anything
+  // other than a regular file: a folder, a device, a pipe, a link. Throws OutputError.
   StagedFiles(std::string path, OutputFiles files, bool overwrite);
   explicit StagedFiles(const std::string& path, bool overwrite) : StagedFiles(path, {{path}, {}, {}}, overwrite) {}
   ~StagedFiles();
   StagedFiles(StagedFiles&&) noexcept;
   StagedFiles& operator=(StagedFiles&&) = delete;
 
-  // Lets `writer` make the files, given the path of the main one, in place of any made before. Throws what it throws;
-  // an OutputError names the target in place of that path.
+  // Calls `writer` to make the files, given the path of the main one, replacing any made before. Throws what it throws;
+  // an OutputError names the target instead of that path.
   void make(const std::function<void(const std::string& path)>& writer);
   void write(std::string_view content);  // throws OutputError
-  // Drops `target` of what was made and leaves the one that is there already.
+  // Drops the new `target` and keeps the existing one.
   void keep(const std::string& target);
   bool made() const { return made_; }
 
-  void commit();  // as commitTogether
+  void commit();  // like commitTogether
 
   const std::string& path() const { return path_; }
   bool mayReplace() const { return overwrite_; }
-  // Holds everything that is not committed yet; for whoever has to end at once. Empty once moved from or committed.
+  // The folder of everything not committed yet; for emergency exits. Empty once moved from or committed.
   const std::string& stagingFolder() const { return staging_folder_; }
 
  private:
@@ -52,8 +52,8 @@ class StagedFiles {
   std::string staging_folder_;
 };
 
-// Waits until all files are on the disk, moves them into place, and waits for that too. All come into place or, where
-// one cannot, none: then those that were there before are put back. REQUIRES: all are made. Throws OutputError.
+// Syncs all files to disk, moves them into place, and syncs that too. Either all are in place or, if one fails, none:
+// the previous ones are then restored. REQUIRES: all are made. Throws OutputError.
 void commitTogether(std::span<StagedFiles* const> outputs);
 
 }  // namespace coastmesh

@@ -9,33 +9,33 @@
 
 namespace coastmesh {
 
-// A text file, line by line and word by word; words are set apart by blanks, tabs and commas, or by what is in
-// `between`. What does not fit throws InputError with the file and the line.
+// A text file, line by line and word by word; words are separated by blanks, tabs and commas, or by the characters in
+// `between`. Errors throw InputError with the file and the line.
 class TextReader {
  public:
-  // `comment`: from there on a line is ignored; '\0' for none.
+  // `comment`: the rest of a line after it is ignored; '\0' for none.
   explicit TextReader(std::string path, char comment = '\0', std::string_view between = " \t\r,");
 
   bool nextLine();  // goes to the next line that is not blank; false at the end of the file
-  void needLine();  // the same, for a line that has to be there
+  void needLine();  // the same, for a line that must exist
   std::string_view line() const { return line_; }
 
   bool hasWord();           // whether there is another word in the line
   std::string_view word();  // the next word of the line; empty at its end
   double number();          // the next word as a finite number
-  std::int64_t integer();   // one whose negative is one as well
+  std::int64_t integer();   // one whose negative is an integer too
   std::uint64_t count();    // an integer that is not negative
 
   [[noreturn]] void fail(const std::string& what) const;
   const std::string& path() const { return path_; }
-  std::size_t size() const { return text_.size(); }  // bytes in the file: bounds any count that the file claims
+  std::size_t size() const { return text_.size(); }  // bytes in the file: a limit for any count in the file
 
  private:
   bool isBetween(char c) const { return between_[static_cast<unsigned char>(c)]; }
 
   std::string path_;
   char comment_;
-  std::array<bool, 256> between_{};  // the bytes that set words apart
+  std::array<bool, 256> between_{};  // the bytes that separate words
   std::string text_;
   std::size_t next_ = 0;  // where the next line starts
   std::size_t line_number_ = 0;
@@ -43,17 +43,17 @@ class TextReader {
   std::size_t at_ = 0;  // in the line
 };
 
-// Numbers of nodes or elements in a file (any, in any order) to indices by their order.
+// Maps numbers of nodes or elements in a file (any, in any order) to their indices.
 class IdMap {
  public:
-  // `ids` in the file's order; throws through `file.fail` where one repeats.
+  // `ids` in the file's order; throws through `file.fail` if one repeats.
   IdMap(std::vector<std::int64_t> ids, const TextReader& file, std::string_view what);
 
   // kNone for an id that does not exist.
   std::uint32_t indexOf(std::int64_t id) const;
 
  private:
-  // Wraps around for ids below the base, and so is too large for any index.
+  // Wraps around for ids below the base, which makes it too large for any index.
   std::uint64_t fromBase(std::int64_t id) const {
     return static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(base_);
   }

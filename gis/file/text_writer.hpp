@@ -13,7 +13,7 @@
 
 namespace coastmesh {
 
-// Text in memory, with numbers as TextWriter writes them.
+// Text in memory, with numbers as in TextWriter.
 class TextBlock {
  public:
   TextBlock& operator<<(std::string_view text) {
@@ -27,7 +27,7 @@ class TextBlock {
     return number(value);
   }
 
-  // Bytes as they are.
+  // Bytes unchanged.
   void raw(const void* bytes, std::size_t size) { *this << std::string_view(static_cast<const char*>(bytes), size); }
 
   std::string_view text() const { return {bytes_.data(), used_}; }
@@ -50,12 +50,12 @@ class TextBlock {
   std::size_t used_ = 0;
 };
 
-// Writes a text file through a large buffer. Doubles take the fewest digits that read back as the same bits. Every
-// failure of the system throws OutputError with the path and the reason.
+// Writes a text file through a large buffer. Doubles are written with the fewest digits that read back as the same
+// bits. Every failure of the system throws OutputError with the path and the reason.
 class TextWriter {
  public:
   explicit TextWriter(std::string path);
-  ~TextWriter();  // closes, but only `close` says whether all was written
+  ~TextWriter();  // closes, but only `close` reports whether everything was written
   TextWriter(const TextWriter&) = delete;
   TextWriter& operator=(const TextWriter&) = delete;
 
@@ -66,7 +66,7 @@ class TextWriter {
     return number(value);
   }
 
-  // Bytes as they are, for binary parts of a file.
+  // Bytes unchanged, for binary parts of a file.
   void raw(const void* bytes, std::size_t size) { *this << std::string_view(static_cast<const char*>(bytes), size); }
 
   // `row(block, i)` for every i below `count`, in this order in the file, made block by block by the threads of `loop`.
@@ -76,7 +76,7 @@ class TextWriter {
     std::vector<TextBlock> made, next(std::min(kBlocksAtOnce, count / kRowsABlock + 1));
     made.resize(next.size());
     flush();
-    // While some are made one thread writes those made before.
+    // While some are made, one thread writes the previous ones.
     for (std::size_t first = 0, written = 0; first < count || written > 0;) {
       const std::size_t blocks = std::min(next.size(), (count - first + kRowsABlock - 1) / kRowsABlock);
       loop(blocks + 1, [&](std::size_t b) {

@@ -14,9 +14,9 @@ struct CutOffWater {
   WaterWay way;  // to the others, in the data
 };
 
-// What people should know of a shore that was made to follow sizes.
+// Notes for users on a shore that was made to follow sizes.
 struct FollowNotes {
-  double area = 0.0;  // square metres of water, with what is cut off
+  double area = 0.0;  // square metres of water, including what is cut off
   std::vector<CutOffWater> cut_off;
   std::vector<JoinedWater> joined;
   std::vector<ClosedStrait> straits;
@@ -24,8 +24,8 @@ struct FollowNotes {
   std::vector<std::size_t> dry;  // passages that meet no water
 };
 
-// Gives the report sentences that name the largest, with their places in the input's CRS: a warning where more of the
-// water is left out than models forgive, notes else.
+// Adds sentences on the largest changes to the report, with their places in the input's CRS: a warning if more of the
+// water is left out than is acceptable for a model, otherwise notes.
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
                    const Projection& projection, CleanReport& report);
 

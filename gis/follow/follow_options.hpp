@@ -2,16 +2,16 @@
 
 namespace coastmesh {
 
-// Of the parts of each region of water, into which closing may have cut it: all of them, the largest, or those at an
-// open boundary, the largest where none is. Modelled is as Open without what the frame only grazes: less than a tenth
-// of the largest at an open boundary. Where all of those are less than a tenth of the water, the largest stays.
+// Which parts of each region of water to keep, if closing divided it: all, the largest, or those at an open boundary
+// (the largest if there are none). Modelled is like Open without those that the frame only grazes: less than a tenth of
+// the largest at an open boundary. If all of those are less than a tenth of the water, the largest part is kept.
 enum class KeepWater { All, Largest, Open, Modelled };
 
-// What is too narrow to be followed, as a multiple of the size wanted there; 0: nothing is.
+// What is too narrow to be followed, as a multiple of the size there; 0: nothing.
 struct FollowOptions {
   double channel_min = 1.0;  // water
   double land_min = 1.0;     // land
-  // Water that alone joins others, no narrower than this, is made as wide as `channel_min` instead of closed.
+  // Water that is the only connection of others, at least this wide, is widened to `channel_min` instead of closed.
   double strait_min = 0.4;
   KeepWater keep = KeepWater::All;
 };

@@ -10,20 +10,20 @@
 
 namespace coastmesh {
 
-// A morphological opening of the land, with disks of `narrowest` times the size wanted for diameters: what no disk fits
-// into and ends in water goes (spits, capes); so do islands smaller than a triangle of that size. What joins two lands
-// stays, and so does an island longer than three elements, however thin. 0 leaves all of it. What regions of water gain
-// is added to `gained`, as below. The triangles are settled.
+// A morphological opening of the land, with disks of `narrowest` times the size there as diameter: land that no disk
+// fits into and that ends in water is removed (spits, capes), and so are islands smaller than a triangle of that size.
+// Land that connects two lands stays, and so does an island longer than three elements, however thin. 0 keeps
+// everything. The gain of each region of water is added to `gained`, as below. The triangles are settled.
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
               const ShoreEdit& edit, WaterAreas& gained);
 
-// A part of a region of water that nothing joins to the others, mostly since what did was closed.
+// A part of a region of water without a connection to the others, mostly because that was closed.
 struct WaterPart {
   RegionId region = kUnlabelled;
   double area = 0.0;          // square metres
-  bool at_open = false;       // its open boundary is long enough for an element
-  bool kept = false;          // what `KeepWater` says, save that All takes what Modelled does not
-  std::vector<Point> inside;  // places in its largest triangles, the largest first
+  bool at_open = false;       // its open boundary is at least one element long
+  bool kept = false;          // as `KeepWater` says, except that All does not count what Modelled would drop
+  std::vector<Point> inside;  // points in its largest triangles, the largest first
 };
 
 struct OpenedWater {
@@ -31,10 +31,10 @@ struct OpenedWater {
   WaterAreas areas;
 };
 
-// The same for the water: what is narrower is closed (channels, heads of bays, corners), and so is water smaller than a
-// few triangles. Triangles at lines inside the water and at a corner of an open boundary stay. Where nothing would be
-// left, all stays. Of the parts of each region of water, what `keep` says stays. What is left out so is not taken from
-// `gained`. The triangles are not settled.
+// The same for the water: narrower parts are closed (channels, heads of bays, corners), and so is water smaller than a
+// few triangles. Triangles at lines inside the water and at a corner of an open boundary stay. If nothing would be
+// left, all stays. Of the parts of each region of water, those that `keep` says stay. What is left out in this way is
+// not subtracted from `gained`. The triangles are not settled.
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ShoreEdit& edit, WaterAreas& gained);
 

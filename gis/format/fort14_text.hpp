@@ -7,17 +7,17 @@
 
 namespace coastmesh {
 
-// ADCIRC's fort.14, whose layout SCHISM's hgrid.gr3 shares.
+// ADCIRC's fort.14, and SCHISM's hgrid.gr3, which has the same layout.
 enum class Fort14Kind { Adcirc, Schism };
 
-// Title, nodes at `places` with their depth (positive down), triangles, then open boundaries and those of land. Loops
-// that are no islands come as two linked segments, as neither program takes a segment that ends where it starts. A
-// river is a flux segment to ADCIRC and an open one to SCHISM. REQUIRES: no z is unknown.
+// Title, nodes at `places` with their depth (positive down), triangles, then open and land boundaries. Loops other than
+// islands are two linked segments, since neither program accepts a segment that ends where it starts. A river is a flux
+// segment for ADCIRC and an open one for SCHISM. REQUIRES: every z is known.
 void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& places, Fort14Kind kind,
                  const ItemLoop& loop);
 
-// Reads either; the CRS is left out. Segments are taken as they stand, whatever they follow; the `notes` say where
-// counts, numbers and sums are not what the programs demand. Throws InputError.
+// Reads either, without the CRS. Segments are taken as they are, wherever they run; the `notes` say where counts,
+// numbers and sums are not what the programs require. Throws InputError.
 Grid readFort14(const std::string& path);
 
 }  // namespace coastmesh

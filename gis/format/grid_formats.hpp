@@ -12,12 +12,12 @@ namespace coastmesh {
 
 // How a format is written and read.
 struct FormatFunctions {
-  // By the threads of `loop`; the same bytes for any number of them.
+  // With the threads of `loop`; the same bytes for any number of them.
   void (*write)(const Grid&, const std::string& path, const ItemLoop& loop) = nullptr;
-  // `unsaid` is the CRS where nothing says one.
+  // `unsaid` is the CRS if the file has none.
   Grid (*read)(const std::string& path, const Crs& unsaid) = nullptr;
-  OutputFiles (*files)(const std::string& path) = nullptr;  // null: `path` and nothing else
-  // For a format whose files may have the ending of another: whether `path` holds it. Null: only its endings say so.
+  OutputFiles (*files)(const std::string& path) = nullptr;  // null: only `path`
+  // For a format that shares its ending with another: whether `path` holds it. Null: only its endings decide.
   bool (*holds)(const std::string& path) = nullptr;
 };
 
@@ -26,8 +26,8 @@ struct FormatRecord {
   FormatFunctions functions;
 };
 
-// Every format, in the order of messages, by the function that describes it, which stands in the file that writes it. A
-// new format is one line here.
+// Every format, in the order of messages, by the function that describes it, in the file that writes it. A new format
+// is one line here.
 #define COASTMESH_GRID_FORMATS(FORMAT) \
   FORMAT(geoPackageFormat)             \
   FORMAT(geoJsonFormat)                \
@@ -56,10 +56,10 @@ struct FormatRecord {
 COASTMESH_GRID_FORMATS(COASTMESH_FORMAT)
 #undef COASTMESH_FORMAT
 
-// `path` with another ending in place of its last.
+// `path` with its last ending replaced.
 std::string withEnding(const std::string& path, const char* ending);
-OutputFiles withPrjBeside(const std::string& path);  // `path`, and a .prj that says its CRS
-OutputFiles layerFiles(const std::string& path);     // a file each for triangles, nodes, boundaries and lines
+OutputFiles withPrjBeside(const std::string& path);  // `path`, and a .prj with its CRS
+OutputFiles layerFiles(const std::string& path);     // one file each for triangles, nodes, boundaries and lines
 
 const FormatFunctions& functionsOf(const GridFormat& format);
 

@@ -14,18 +14,18 @@ namespace coastmesh {
 
 const std::vector<GridFormat>& gridFormats();
 
-// The format of `path` by its ending, in capitals or not, or of `name` where that is not empty. Throws OutputError with
-// the list of those known.
+// The format of `path` by its ending, case-insensitive, or of `name` if that is not empty. Throws OutputError with the
+// list of known formats.
 const GridFormat& gridFormatFor(const std::string& path, const std::string& name = {});
 
-// A mesh written aside, to be moved into place whole or not at all: see StagedFiles. A .prj beside the target that says
-// the grid's CRS already is left as it is; one that says another counts as an existing target.
+// A mesh that is written to a temporary folder and moved into place completely or not at all: see StagedFiles. A .prj
+// beside the target with the grid's CRS is kept; one with another CRS counts as an existing target.
 class StagedOutput {
  public:
-  // Refuses what StagedFiles refuses, and a format that can only be read. Throws OutputError.
+  // Rejects what StagedFiles rejects, and a format that can only be read. Throws OutputError.
   StagedOutput(const std::string& path, const GridFormat& format, bool overwrite);
 
-  // Files that the run reads; a .prj that belongs to one of them is never replaced.
+  // Input files of the run; a .prj that belongs to one of them is never replaced.
   void protect(const std::vector<std::string>& inputs) { inputs_ = inputs; }
   // Throws OutputError, also for a grid without triangles.
   void write(const Grid& grid, const ItemLoop& loop = inOrder);
@@ -43,10 +43,10 @@ class StagedOutput {
   std::vector<std::string> inputs_;
 };
 
-// Reads a mesh back, in any format of `gridFormats` that is readable. Nodes, triangles and their winding are as
-// the file has them, also unused nodes; `boundaries` is empty where the file has none. Lines are those that run along
-// edges inside the mesh; `notes` say where one of the file does not. Where the file says no CRS it is
-// `unsaid`. Throws InputError.
+// Reads a mesh in any readable format of `gridFormats`. Nodes, triangles and their winding are as in the
+// file, including unused nodes; `boundaries` is empty if the file has none. Lines are those along edges
+// inside the mesh; `notes` name lines of the file that are not. If the file has no CRS it is `unsaid`. Throws
+// InputError.
 Grid readGrid(const std::string& path, const Crs& unsaid = {});
 
 }  // namespace coastmesh

@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// An axis-parallel box, its sides included. A box that holds nothing has its limits the wrong way round.
+// An axis-parallel box, its sides included. An empty box has its limits reversed.
 struct Box {
   double xmin = std::numeric_limits<double>::infinity();
   double ymin = std::numeric_limits<double>::infinity();

@@ -8,10 +8,10 @@
 
 namespace coastmesh {
 
-// Where a point lies with respect to rings, by the even-odd rule.
+// The position of a point relative to rings, by the even-odd rule.
 enum class Location { Outside, Boundary, Inside };
 
-// True iff the closed segments ab and cd share a point; exact.
+// Whether the closed segments ab and cd share a point; exact.
 bool segmentsMeet(const Point& a, const Point& b, const Point& c, const Point& d);
 
 // Closed rings or open chains, indexed by their edges.
@@ -20,7 +20,7 @@ class ChainIndex {
   enum class Kind { Rings, OpenLines };
 
   explicit ChainIndex(Kind kind) : kind_(kind) {}
-  // Chains of less than two points are left out. Call `build` after the last.
+  // Chains of less than two points are dropped. Call `build` after the last.
   void add(std::span<const Point> chain);
   void build();
 
@@ -37,7 +37,7 @@ class ChainIndex {
   void visit(const Box& box, Found&& found) const {
     tree_.visit(box, found);
   }
-  // Where `p` lies; exact, rings may cross themselves and one another. REQUIRES: Kind::Rings.
+  // The position of `p`; exact; rings may cross themselves and one another. REQUIRES: Kind::Rings.
   Location locate(const Point& p) const;
 
  private:

@@ -14,44 +14,44 @@ namespace coastmesh {
 struct PixelReaders;
 
 enum class DepthMethod {
-  Bilinear,  // between the four pixels round a node
-  Average,   // over the pixels in the node's triangles; bilinear where these hold fewer than four
+  Bilinear,  // between the four pixels around a node
+  Average,   // over the pixels in the node's triangles; bilinear if these contain fewer than four
 };
 inline constexpr std::array kDepthMethodNames{"bilinear", "average"};
 
-// What becomes of nodes that no raster has a value for.
+// What to do with nodes for which no raster has a value.
 enum class DepthFill {
   Neighbours,  // the mean of the neighbours that have one, from the known ones outwards
-  Nearest,     // the value of the node that is nearest along the mesh's edges
-  None,        // unknown, which formats of models refuse
+  Nearest,     // the value of the nearest node along the mesh's edges
+  None,        // unknown, which formats of models reject
 };
 inline constexpr std::array kDepthFillNames{"neighbours", "nearest", "none"};
 
 struct DepthOptions {
-  std::vector<std::string> files;  // rasters that GDAL reads, the first that has a value counts; none: no depths
+  std::vector<std::string> files;  // rasters that GDAL reads, the first with a value is used; none: no depths
   DepthMethod method = DepthMethod::Bilinear;
-  bool positive_down = false;  // the rasters hold depths; else elevations, positive up
+  bool positive_down = false;  // the rasters hold depths; otherwise elevations, positive up
   double water_level_m = 0.0;  // metres: height of the still water above the rasters' zero
-  double min_depth_m = -std::numeric_limits<double>::infinity();  // metres: shallower nodes are lowered to it
+  double min_depth_m = -std::numeric_limits<double>::infinity();  // metres: shallower nodes are lowered to this
   DepthFill fill = DepthFill::Neighbours;
-  const PixelReaders* readers = nullptr;  // who reads the rasters between whose pixels depths lie; null: the caller
+  const PixelReaders* readers = nullptr;  // readers of the rasters for bilinear depths; null: the caller
 };
 
 struct DepthReport {
-  std::vector<std::size_t> nodes_of_file;  // one a file: nodes that took their depth from it
+  std::vector<std::size_t> nodes_of_file;  // for each file: nodes that took their depth from it
   std::size_t averaged = 0;                // of these, over their triangles
   std::size_t partial = 0;                 // of these, from pixels some of which have no value
-  std::size_t filled = 0;                  // nodes without a value in any raster that were filled from others
-  std::size_t unknown = 0;                 // and those left without
-  std::size_t lowered = 0;                 // to the least depth
+  std::size_t filled = 0;                  // nodes without a value in any raster, filled from others
+  std::size_t unknown = 0;                 // nodes left without a value
+  std::size_t lowered = 0;                 // to the minimum depth
   std::size_t above_water = 0;
   double least_m = 0.0;  // depth, positive down; of known nodes
   double greatest_m = 0.0;
   std::vector<std::string> warnings;
 };
 
-// Sets the grid's z from rasters in any CRS, read a block at a time: memory does not grow with them. A raster without a
-// CRS is taken to be in the grid's. Throws InputError, Cancelled.
+// Sets the grid's z from rasters in any CRS, read block by block, with constant memory. A raster without a CRS is
+// assumed to be in the grid's. Throws InputError, Cancelled.
 DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control = {});
 
 }  // namespace coastmesh

@@ -6,11 +6,11 @@
 
 namespace coastmesh {
 
-// Gives nodes whose z is unknown the mean of their neighbours' where any is known, from the known ones outwards, one
-// ring after another. Returns how many were filled; pieces of the mesh without a known node stay as they are.
+// Sets unknown z to the mean of the known neighbours', starting from the known nodes, ring by ring. Returns the number
+// of nodes filled; connected parts of the mesh without a known node are unchanged.
 std::size_t fillFromNeighbours(Grid& grid);
 
-// Gives them the z of the known node that is nearest along the mesh's edges.
+// Sets them to the z of the nearest known node along the mesh's edges.
 std::size_t fillFromNearest(Grid& grid);
 
 }  // namespace coastmesh

@@ -12,19 +12,19 @@
 
 namespace coastmesh {
 
-// The grid of several meshed domains, in their order. `coastline.features` gives names; nodes of the PSLG come back
-// with the input's own bits, Steiner points through the domain's inverse projection.
+// The grid of several meshed domains, in their order. `coastline.features` gives names; nodes of the PSLG have the
+// input's own bits, Steiner points come from the domain's inverse projection.
 struct MeshedDomain {
   const Domain* domain = nullptr;
   const TriMesh* mesh = nullptr;
-  const std::vector<double>* size_m = nullptr;  // one a vertex of the mesh; null where no lengths were asked for
+  const std::vector<double>* size_m = nullptr;  // one for each vertex of the mesh; null if no sizes were requested
   const GroundPlaces* ground = nullptr;         // likewise, for angles and coordinates; null: those of the plane
-  // Called when nothing more looks at the mesh's triangles, its largest part, and much of the grid is still to be made:
-  // whoever needs them no more may give them back. May be empty.
+  // Called when the mesh's triangles, its largest part, are no longer used while much of the grid is still to be made:
+  // the caller may then free them. May be empty.
   std::function<void()> triangles_done{};
 };
 Grid makeGrid(const std::vector<MeshedDomain>& parts, const Coastline& coastline, const ItemLoop& loop = inOrder);
-// The same for who gives back the meshes before areas are worked out, which takes memory of its own.
+// The same for a caller that frees the meshes before areas are computed, which needs memory of its own.
 Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
                           const ItemLoop& loop = inOrder);
 

@@ -6,17 +6,17 @@
 
 namespace coastmesh {
 
-// Models that a grid may be for.
+// Models that a grid can be made for.
 enum class Target { Adcirc, Schism, Fvcom, Telemac, Dflowfm, Swan, Fesom, Mpas };
 inline constexpr std::array kTargetNames{"adcirc", "schism", "fvcom", "telemac", "dflowfm", "swan", "fesom", "mpas"};
 
 // "adcirc|schism|…"
 std::string allTargetNames();
 
-// Whether the model takes latitudes for those of a sphere.
+// Whether the model treats latitudes as those of a sphere.
 bool isOnSphere(Target target);
 
-// The models so named, each once, in the order of Target. Throws OptionError for a name that is none.
+// The models with these names, each once, in the order of Target. Throws OptionError for an unknown name.
 std::vector<Target> targetsNamed(const std::vector<std::string>& names);
 
 }  // namespace coastmesh

@@ -10,29 +10,29 @@
 
 namespace coastmesh {
 
-// The time step that a grid leaves to an explicit model (Courant, Friedrichs and Lewy): a triangle's is its shortest
-// edge over sqrt(g d), the speed of a long wave, d being the depth of its deepest corner. So no reading of the depth in
-// a triangle, at its nodes or their mean, gives a shorter one. A time step over it is the triangle's Courant number.
+// The longest time step of an explicit model on a grid (Courant, Friedrichs and Lewy): for a triangle its shortest edge
+// over sqrt(g d), the speed of a long wave, with d the depth of its deepest corner, so that no definition of a
+// triangle's depth gives a shorter one. The Courant number of a triangle is the model's time step over this.
 
-// Seconds, one a triangle: infinite where no corner is under water, NaN where no depth is known.
+// Seconds, for each triangle: infinite if no corner is under water, NaN if no depth is known.
 std::vector<double> timeSteps(const Grid& grid);
 
 // The shortest edge, and the triangle with the shortest time step.
 struct StepReport {
-  double shortest_edge_m = 0.0;                             // of a grid in a plane in its units
+  double shortest_edge_m = 0.0;                             // for a grid in a plane in its units
   Point shortest_edge;                                      // its middle, in the grid's CRS
-  bool has_depths = false;                                  // else there is no time step
-  double step_s = std::numeric_limits<double>::infinity();  // so where nothing is under water
+  bool has_depths = false;                                  // otherwise there is no time step
+  double step_s = std::numeric_limits<double>::infinity();  // infinite if nothing is under water
   Point step_place;                                         // the middle of that triangle
 };
 
-StepReport measureStep(const Grid& grid, const ItemLoop& loop = inOrder);  // of a grid without triangles: as above
+StepReport measureStep(const Grid& grid, const ItemLoop& loop = inOrder);  // for a grid without triangles: as above
 
-// What keeps edges short.
+// The reason why an edge is short.
 enum class ShortCause {
   Shore,     // an edge of the boundary, or of a line inside the mesh
   Narrow,    // an edge from shore to shore
-  Interior,  // sizes or angles near by
+  Interior,  // sizes or angles nearby
 };
 inline constexpr std::size_t kShortCauses = 3;
 std::string_view toString(ShortCause cause);
@@ -41,8 +41,8 @@ std::string_view toString(ShortCause cause);
 struct ShortStep {
   std::uint32_t triangle = 0;
   Point place;            // its middle
-  double step_s = 0.0;    // with a Courant number of 1
-  double needed_m = 0.0;  // of its edges
+  double step_s = 0.0;    // for a Courant number of 1
+  double needed_m = 0.0;  // shortest of its edges
   ShortCause cause = ShortCause::Interior;
 };
 

@@ -25,21 +25,21 @@ class ConformalMap {
   virtual Point forward(const LonLat& place) const = 0;
   virtual LonLat inverse(const Point& plane) const = 0;
   virtual double scaleAt(const Point& plane) const = 0;  // plane length over length on the ellipsoid
-  // The sphere that it is a stereographic map of; flat where there is none.
+  // The sphere of which it is a stereographic map; flat if there is none.
   virtual Surface sphere() const { return {}; }
-  // `inverse`, `scaleAt` and the place in space, metres from the middle of the ellipsoid, in one, which costs little
-  // more than the first; but for that to a few units of the last place. REQUIRES: sphere().isCurved()
+  // `inverse`, `scaleAt` and the point in space, in metres from the centre of the ellipsoid, in one call, little more
+  // expensive than the first; the latter two to a few units of the last place. REQUIRES: sphere().isCurved()
   struct OnGround {
     LonLat place;
     SpacePoint space;
     double scale = 1.0;
   };
   virtual OnGround onGround(const Point&) const { throw std::logic_error("a map of no sphere"); }
-  // The one place that lies beyond all of the plane, where the map shows all others, to a thousandth of a degree.
+  // The place at infinity of the plane, if the map shows all others, to a thousandth of a degree.
   virtual std::optional<LonLat> infinity() const { return std::nullopt; }
 };
 
-// Each has its origin and the scale 1 at the centre named, the conic on its two parallels.
+// Each has its origin at the given centre, with scale 1 there; the conic on its two parallels.
 std::unique_ptr<ConformalMap> transverseMercator(const Ellipsoid& ellipsoid, const LonLat& centre);
 std::unique_ptr<ConformalMap> lambertConic(const Ellipsoid& ellipsoid, const LonLat& centre, double parallel1,
                                            double parallel2);

@@ -8,13 +8,13 @@
 
 namespace coastmesh {
 
-// A smooth map of the plane, tabulated: projections cost more than all else that is done with a place. Usable from
-// several threads.
+// A smooth map of the plane, tabulated: projections cost more than everything else that is done with a place. Usable
+// from several threads.
 class PlaneTable {
  public:
-  // Between the places of the table values lie off by `tolerance` at most, in either coordinate, as far as a test
-  // halfway between them says; where no table of moderate size is good enough, or the map is not finite everywhere,
-  // the map itself is asked.
+  // Interpolated values differ by at most `tolerance`, in either coordinate, as far as a test halfway between the
+  // table's points shows; if no table of moderate size is accurate enough, or the map is not finite everywhere, the map
+  // itself is evaluated.
   PlaneTable(std::function<Point(const Point&)> map, const Box& box, double tolerance);
 
   Point at(const Point& x) const;

@@ -11,7 +11,7 @@ namespace coastmesh {
 // table of the latter, which hardly changes. Usable from several threads.
 class ScaleTable {
  public:
-  // Fast within the box; beyond it the projection is asked.
+  // Fast within the box; outside it the projection is evaluated.
   ScaleTable(const Projection& projection, const Box& box)
       : surface_(projection.surface()),
         table_(
@@ -22,7 +22,7 @@ class ScaleTable {
 
   double at(const Point& x) const { return measureAt(x) / surface_.shrinkAt(x); }
   double measureAt(const Point& x) const { return table_.at(x).x; }
-  const Surface& surface() const { return surface_; }  // what the plane stands for
+  const Surface& surface() const { return surface_; }  // represented by the plane
 
  private:
   static constexpr double kTolerance = 1e-5;

@@ -22,28 +22,28 @@ struct RasterWindow {
   std::int64_t rows = 0;
 };
 
-// Where the pixels of a raster lie, without its values.
+// The geometry of a raster, without its values.
 struct RasterGeometry {
   std::string path;
   int columns = 0, rows = 0;
   int block_columns = 1, block_rows = 1;       // of the file: what is read at once
-  bool in_order = false;                       // a text: what comes before has to be read first
-  std::shared_ptr<const RasterMosaic> mosaic;  // where it is put together from files side by side; else null
-  bool is_exact = true;                        // a pixel is the same in whatever window it is read
+  bool in_order = false;                       // a message: what must be read first
+  std::shared_ptr<const RasterMosaic> mosaic;  // if it is composed of files side by side; otherwise null
+  bool is_exact = true;                        // a pixel is the same in any window
   std::array<double, 6> to_place{};            // GDAL's geotransform
   std::array<double, 6> to_pixel{};            // its inverse
-  Crs crs;                                     // a plane where the raster has none
-  double period = 0.0;  // columns after which longitudes repeat: 360 degrees of them; 0 for other CRS
-  bool wraps = false;   // the last column meets the first, to half a pixel
+  Crs crs;                                     // a plane if the raster has none
+  double period = 0.0;                         // columns after which longitudes repeat: 360 degrees; 0 for other CRS
+  bool wraps = false;                          // the last column meets the first, to half a pixel
 
-  // A place of the raster's CRS in columns and rows, from the corner of the first pixel; longitudes in the turn that
-  // the raster has.
+  // A place of the raster's CRS in columns and rows, from the corner of the first pixel; longitudes in the raster's
+  // range.
   Point pixelOf(const Point& place) const;
   Point placeOf(const Point& pixel) const;
 };
 
-// What was read of a raster: bytes of its pixels, unpacked, as their type has them, those read again included; and the
-// files that they lie in, as far as the raster says.
+// What was read of a raster: bytes of its pixels, unpacked, in their type, including repeated reads; and the files that
+// contain them, as far as the raster says.
 struct RasterUse {
   std::uint64_t bytes = 0;
   std::set<std::string> files;
@@ -54,15 +54,15 @@ struct RasterUse {
   }
 };
 
-// Throws InputError as `RasterBand` does.
+// Throws InputError like `RasterBand`.
 RasterGeometry readRasterGeometry(const std::string& path);
 
-// The first band of a raster that GDAL reads, a window at a time. For one thread. This alone reads rasters, so that
-// what is missing is missing for depths and sizes alike: pixels of no data, those that are no finite number, and those
-// that a mask (of the band, of the raster, an alpha band) leaves out.
+// The first band of a raster that GDAL reads, window by window. For one thread. Only this class reads rasters, so that
+// missing values are the same for depths and sizes: no-data pixels, values that are not finite, and pixels excluded by
+// a mask (of the band, of the raster, an alpha band).
 class RasterBand {
  public:
-  // Throws InputError, also for a raster without a place in its CRS, and for complex numbers.
+  // Throws InputError, also for a raster without georeference, and for complex numbers.
   explicit RasterBand(std::string path);
   ~RasterBand();
   RasterBand(RasterBand&&) noexcept;
@@ -76,12 +76,12 @@ class RasterBand {
   double period() const { return geometry_.period; }
   bool wraps() const { return geometry_.wraps; }
   Point pixelOf(const Point& place) const { return geometry_.pixelOf(place); }
-  // The size of windows that are read with least effort: whole blocks of the file.
+  // The window size that is fastest to read: whole blocks of the file.
   std::int64_t tileColumns() const { return tile_columns_; }
   std::int64_t tileRows() const { return tile_rows_; }
 
-  // The window's values row by row, scale and offset applied, NaN where there is none. Columns past either end wrap
-  // round where `wraps()`. REQUIRES: the window lies in the raster otherwise. Throws InputError.
+  // The window's values row by row, with scale and offset applied, NaN where missing. Columns beyond either end wrap
+  // around if `wraps()`. REQUIRES: otherwise the window is in the raster. Throws InputError.
   std::vector<double> read(const RasterWindow& window) const;
   // What was read so far.
   RasterUse use() const;

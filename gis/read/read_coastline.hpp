@@ -9,19 +9,19 @@
 
 namespace coastmesh {
 
-// Reads every vector layer of every source that OGR opens, in their order. Z and M are dropped, curves become straight
-// pieces. A file that is one bare geometry (a GeoJSON GeometryCollection, say) is taken apart into a feature a polygon,
-// numbered from 0.
-// Lines are joined end to end over all sources (see `joinLines`): closed ones become polygons by even-odd nesting, each
-// a feature with the name and attributes of the first line in it, open ones become features with a line; they come
-// after all polygons.
-// Sources in another CRS than the first are brought to its CRS; where all are in one CRS, coordinates stay bit for bit.
-// A source without a CRS is taken to be in that of the first; a first one without a CRS is taken for WGS 84 where all
-// its coordinates lie within ±180, ±90, else for a plane. Either is warned of.
-// Throws InputError: no such file, empty file, no vector file, no polygon or line in it, a coordinate that is not
-// finite (with feature and vertex), CRS that do not go together, a layer or field that is not there.
-// Sources of another use than Area give their polygons (Frame, Region), lines (Weir) or lines and points (Constraint);
-// closed lines are polygons of a frame.
+// Reads every vector layer of every source that OGR opens, in their order. Z and M are dropped, curves
+// become straight pieces. A file that is one bare geometry (such as a GeoJSON GeometryCollection)
+// becomes one feature per polygon, numbered from 0. Lines are joined end to end over all sources (see
+// `joinLines`): closed ones become polygons by even-odd nesting, each a feature with the name and
+// attributes of the first line in it, open ones become features with a line; they come after all
+// polygons. Sources in another CRS than the first are transformed to its CRS; if all are in one CRS,
+// coordinates stay bit for bit. A source without a CRS is assumed to be in that of the first; a first
+// one without a CRS is assumed to be WGS 84 if all its coordinates are within ±180, ±90, otherwise a
+// plane. Both cause a warning. Throws InputError: no such file, empty file, not a vector file, no
+// polygon or line in it, a coordinate that is not finite (with feature and vertex), incompatible CRS,
+// a layer or field that does not exist. Sources of another use than Area provide their polygons
+// (Frame, Region), lines (Weir) or lines and points (Constraint); closed lines are polygons of a
+// frame.
 Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report);
 Coastline readCoastline(const std::vector<std::string>& sources, ReadReport& report);
 

@@ -12,7 +12,7 @@
 
 namespace coastmesh {
 
-// Layers of one source that hold polygons or lines (or points, for constraints), in the file's order; at least one.
+// Layers of one source that contain polygons or lines (or points, for constraints), in the file's order; at least one.
 // Counts go to `report`.
 std::vector<RawLayer> readLayers(const Source& source, const ReadFilter& filter, ReadReport& report);
 

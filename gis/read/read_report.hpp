@@ -20,15 +20,15 @@ struct ReadReport {
   std::uint64_t points = 0;          // coordinates, as the files count them
   std::uint64_t rings = 0;           // of polygons, those made of lines included
   std::uint64_t skipped_empty = 0;   // features without a geometry, or with an empty one
-  std::uint64_t skipped_points = 0;  // point geometries: nothing to mesh in them
-  std::uint64_t filtered = 0;        // features that a filter of the user's left out
-  std::uint64_t beyond_frame = 0;    // features that framing left out: see `frameCoastline`
-  std::uint64_t unclosed_rings = 0;  // rings of polygons whose last point is not the first: closed
+  std::uint64_t skipped_points = 0;  // point geometries, which cannot be meshed
+  std::uint64_t filtered = 0;        // features excluded by a user's filter
+  std::uint64_t beyond_frame = 0;    // features excluded by framing: see `frameCoastline`
+  std::uint64_t unclosed_rings = 0;  // rings of polygons whose last point is not the first; they were closed
   bool cleaned = false;              // a source was written by `coastmesh clean`
-  bool boundary_types = false;       // and says types of boundaries: see FeatureUse::Boundary
+  bool boundary_types = false;       // and has boundary types: see FeatureUse::Boundary
   std::vector<EarlierEdit> edits;
   std::vector<std::string> warnings;
-  std::vector<std::string> notes;  // what was decided where the input left a choice
+  std::vector<std::string> notes;  // decisions where the input was ambiguous
 };
 
 }  // namespace coastmesh

@@ -7,18 +7,18 @@
 
 namespace coastmesh {
 
-// A source, and what its features are for.
+// A source, and the use of its features.
 struct Source {
-  // What OGR opens: a file, "file|layer", a folder, a URL, "/vsizip/…"; a .zip, .gz or .tar is looked into, and "-" is
-  // standard input.
+  // Anything that OGR opens: a file, "file|layer", a folder, a URL, "/vsizip/…"; archives (.zip, .gz, .tar) are
+  // searched, and "-" is standard input.
   std::string path;
   FeatureUse use = FeatureUse::Area;
 };
 
-// Which features of the sources with FeatureUse::Area are read.
+// Which features are read from the sources with FeatureUse::Area.
 struct ReadFilter {
   std::vector<std::string> layers;  // only layers of these names; empty: all
-  std::string where;                // only features for which this SQL condition holds; empty: all
+  std::string where;                // only features that satisfy this SQL condition; empty: all
 };
 
 }  // namespace coastmesh

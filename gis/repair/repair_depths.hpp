@@ -4,8 +4,8 @@
 
 namespace coastmesh {
 
-// A node of an opening that is above the water gets the depth of the shallowest neighbour below it; where there is none
-// yet, a later round may find one.
+// A node of an open boundary that is above the water gets the depth of the shallowest neighbour below it; if there is
+// none yet, a later round may find one.
 void lowerDryOpening(RepairState& state, const FoundDefect& found);
 
 }  // namespace coastmesh

@@ -4,16 +4,16 @@
 
 namespace coastmesh {
 
-// Repairs of how a mesh hangs together.
+// Repairs of a mesh's topology.
 
-// A node in which the mesh touches itself: each fan of triangles there but the largest gets a node of its own, moved
-// into it.
+// A node where the mesh touches itself: each fan of triangles there except the largest gets its own node, moved into
+// it.
 void doublePinchedNode(RepairState& state, const FoundDefect& found);
 
-// A triangle without a neighbour; the last one stays.
+// A triangle without a neighbour; the last one is kept.
 void takeOutOrphan(RepairState& state, const FoundDefect& found);
 
-// A triangle that goes clockwise; one without area stays.
+// A triangle that is clockwise; one without area is kept.
 void turnClockwise(RepairState& state, const FoundDefect& found);
 
 }  // namespace coastmesh

@@ -10,17 +10,17 @@
 
 namespace coastmesh {
 
-// One thing that was done to a grid for a model.
+// One repair of a grid for a model.
 struct Repair {
   TargetDefectKind kind;         // of the defect
-  std::optional<Target> target;  // the model that minds it; none: the time step is missed, whatever the model
+  std::optional<Target> target;  // the model that rejects it; none: the time step is missed, for any model
   Point place;                   // in the grid's CRS
   std::string what;              // "node doubled, and moved apart by 12.5 m"
 };
 
 struct RepairReport {
   std::vector<Repair> repairs;
-  std::vector<std::pair<Target, TargetDefect>> left;  // what could not be mended
+  std::vector<std::pair<Target, TargetDefect>> left;  // what could not be repaired
 };
 
 }  // namespace coastmesh

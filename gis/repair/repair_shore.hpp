@@ -7,15 +7,15 @@
 
 namespace coastmesh {
 
-// Edits that move the shore of a grid, or take nodes out of it.
+// Edits that move the shore of a grid, or remove nodes of it.
 
-// Where shores lie, so that they do not come too near to one another.
+// The shores, to keep them from getting too close to one another.
 class ShoreIndex {
  public:
   explicit ShoreIndex(const RepairView& view);
 
-  // Whether the edges of the boundary that the edit makes or moves keep away from all others by half of their lengths,
-  // or are no nearer to them than before.
+  // Whether the boundary edges that the edit makes or moves keep half of their lengths from all others, or are no
+  // closer to them than before.
   bool keepsApart(const RepairView& view, const PatchEdit& edit) const;
 
  private:
@@ -23,8 +23,8 @@ class ShoreIndex {
   BoxTree tree_;
 };
 
-// The node `gone` taken to its neighbour `kept`, which goes `share` of the way towards it. None where an end may not
-// move, or the mesh would not stay one.
+// Collapses the node `gone` into its neighbour `kept`, which moves `share` of the way towards it. None if an end may
+// not move, or the mesh would become invalid.
 std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, std::uint32_t kept, double share);
 
 }  // namespace coastmesh

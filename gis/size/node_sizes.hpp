@@ -10,9 +10,9 @@
 
 namespace coastmesh {
 
-// The sizes wanted at a mesh's vertices, in metres: no two at the ends of an edge differ by more than `gradation` times
-// its length, which takes away the last of what rounding and interpolation left. `measure` is length on `surface`, that
-// the plane stands for, over metres at a vertex; it is called by several threads.
+// The sizes at a mesh's vertices, in metres: those at the ends of an edge differ by at most `gradation` times its
+// length, which removes the remaining errors of rounding and interpolation. `measure` is length on `surface`,
+// represented by the plane, over metres at a vertex; it is called by several threads.
 std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double gradation,
                               const std::function<double(VertexId)>& measure, const Surface& surface = {},
                               const ItemLoop& loop = inOrder);

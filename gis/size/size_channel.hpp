@@ -12,12 +12,11 @@ namespace coastmesh {
 
 struct ChannelLines {
   std::vector<SizedLine> lines;
-  double vertices =
-      0.0;  // that they ask for, about; where `complete` is not so, as if the other shores were like these
+  double vertices = 0.0;  // about how many they require; if not `complete`, extrapolated from the shores so far
   bool complete = true;
 };
 
-// What channels may take.
+// The limits for channels.
 struct ChannelRoom {
   double vertices = std::numeric_limits<double>::infinity();
   double lines = std::numeric_limits<double>::infinity();

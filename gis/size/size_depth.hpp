@@ -8,10 +8,10 @@ namespace coastmesh {
 // waves.
 double wavelengthOf(double period_s, double depth_m);
 
-// The least of what the rules want.
+// The minimum of the sizes of several rules.
 TileRule depthRule(const DepthRules& rules);
 
-// For a time step: elements smaller than the way that a long wave goes in `time_step_s`, over `courant`, are too small.
+// For a time step: elements smaller than a long wave's travel in `time_step_s`, over `courant`, are too small.
 TileRule courantRule(double time_step_s, double courant, const DepthRules& rules);
 
 }  // namespace coastmesh

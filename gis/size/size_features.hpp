@@ -11,7 +11,7 @@
 
 namespace coastmesh {
 
-// Points, lines and polygons with the size wanted on and in them, in some CRS of their own.
+// Points, lines and polygons with a size on and in them, in their own CRS.
 struct SizedFeatures {
   struct Part {
     std::vector<Ring> rings;                // of a polygon, even-odd
@@ -22,14 +22,14 @@ struct SizedFeatures {
   std::vector<Part> parts;
 };
 
-// Reads all vector layers of `source`. The attribute `size` (metres, above 0) says what is wanted, the attribute
-// `rate`, where there is one, how fast that grows with the distance; else `usual_rate` does. Brings coordinates to
-// `crs`; a source without a CRS is taken to be in it. Throws InputError: unreadable, no attribute `size`, a size that
-// is not above 0 or a rate below 0, no way between the CRS.
+// Reads all vector layers of `source`. The attribute `size` (metres, above 0) is the size, the optional attribute
+// `rate` its growth with the distance; otherwise `usual_rate`. Transforms coordinates to `crs`; a source without a CRS
+// is assumed to be in it. Throws InputError: unreadable, no attribute `size`, a size that is not above 0 or a rate
+// below 0, no transformation between the CRS.
 SizedFeatures readSizedFeatures(const std::string& source, const Crs& crs, double usual_rate);
 
-// The fields of such features: inside polygons their size, round all of them what grows with the distance. A line that
-// leaves what the projection reaches is left out. `scale` is plane length over metres; distances are those on the
+// The fields of such features: their size inside polygons, growing with the distance around all of them. Lines that
+// leave the area of the projection are dropped. `scale` is plane length over metres; distances are those on the
 // projection's surface.
 std::vector<std::unique_ptr<SizeField>> featureFields(const SizedFeatures& features, const Projection& projection,
                                                       const std::function<double(const Point&)>& scale);

@@ -7,23 +7,23 @@
 
 namespace coastmesh {
 
-// One reason for a size: metres on the ground, above 0, infinite where it asks for nothing; places are those of the
-// working plane, distances those on the surface that it stands for. Fields hold no state that reading changes: any
-// number of threads may ask at the same time. What is asked for in all is the least of several fields: see
+// One source of sizes: metres on the ground, above 0, infinite where it requests nothing; places are those of the
+// working plane, distances those on the surface that it represents. Fields have no state that reading changes: any
+// number of threads may read at the same time. The requested size is the minimum of several fields: see
 // `composeSizes`.
 class SizeField {
  public:
   virtual ~SizeField() = default;
 
-  // `sizes[i]` becomes the size at `places[i]`; places that follow one another are near to one another, as a rule.
+  // Sets `sizes[i]` to the size at `places[i]`; consecutive places are usually close to each other.
   virtual void sample(std::span<const Point> places, std::span<double> sizes) const = 0;
   // Bounds of the sizes within each box, from outside.
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
-  // No size is less anywhere: where another field asks for less, this one is not asked.
+  // No size is smaller anywhere: if another field requests less, this one is not evaluated.
   virtual double least() const { return 0.0; }
-  // What grows with a distance grows no faster: so it is graded before it is interpolated.
+  // Sizes that grow with a distance grow no faster: they are graded before they are interpolated.
   virtual void limitRate(double) {}
-  // Whether all of it does.
+  // Whether all of it grows in this way.
   virtual bool isGraded() const { return false; }
 };
 

@@ -20,17 +20,17 @@ namespace coastmesh {
 // each with the most in it, so that the result is too large by a few hundredths at most, never too small by more.
 class SizeFloor final : public SizeField {
  public:
-  // Over the square `root`, of what `mask` meets. What is no more than `least_m` matters to nobody: sizes are not less
-  // anyway. `scale` is plane length over metres at a place, `surface` what the plane stands for. `loop` lends threads.
+  // Over the square `root`, where `mask` meets it. Values up to `least_m` are ignored: sizes are not smaller anyway.
+  // `scale` is plane length over metres at a place, `surface` is represented by the plane. `loop` provides threads.
   SizeFloor(std::unique_ptr<SizeField> field, double rate, double least_m, std::function<double(const Point&)> scale,
             const SizeBox& root, const DomainMask& mask, const ItemLoop& loop, const Surface& surface = {});
 
-  // Beside what `distances` tells the distance from, in metres times a rate, it is `factor` times as high, and falls to
-  // what it is elsewhere as the distance grows.
+  // Near the lines of `distances`, in metres times a rate, it is `factor` times as high, and falls to its value
+  // elsewhere with growing distance.
   void raiseNear(std::unique_ptr<SizeField> distances, double factor);
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
-  // `high` is infinite where the field is known in a part of the box alone.
+  // `high` is infinite if the field is known only in a part of the box.
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
   void limitRate(double rate) override { rate_ = std::min(rate_, rate); }
 
@@ -43,7 +43,7 @@ class SizeFloor final : public SizeField {
   void build(const DomainMask& mask, const ItemLoop& loop);
   // Length on the surface over metres.
   double measureAt(const Point& x) const { return scale_(x) * surface_.shrinkAt(x); }
-  // The most that steep squares leave in a box, or `most` where that is more; metres.
+  // The maximum that steep squares require in a box, or `most` if that is larger; metres.
   double steepMost(const SizeBox& asked, double most) const;
   void descend(std::uint32_t node, const SizeBox& box, const SizeBox& asked, double rate, double& most) const;
 

@@ -18,13 +18,13 @@
 
 namespace coastmesh {
 
-// Sizes from a raster: each tile of pixels is read once, turned into sizes and kept as a quadtree whose cells are as
-// large as sizes in them are alike, or as half of what they ask for: memory follows the sizes, not the raster. Between
-// pixels' centres sizes are bilinear, but for pixels much smaller than those round them.
+// Sizes from a raster: each tile of pixels is read once, converted to sizes and kept as a quadtree whose cells are as
+// large as sizes in them are alike, or as half the size: memory is proportional to the sizes, not to the raster.
+// Between pixel centres sizes are bilinear, except beside pixels much smaller than their neighbours.
 class RasterField final : public SizeField {
  public:
-  // Of the part of the raster that `box` of the working plane lies in. `input` is the CRS that `projection` starts
-  // from. Throws InputError.
+  // For the part of the raster that covers `box` of the working plane. `input` is the input CRS of `projection`. Throws
+  // InputError.
   RasterField(const RasterGeometry& raster, const Crs& input, const Projection& projection, const Box& box,
               const TileRule& rule, const ItemLoop& loop);
   // Of tiles that were read: one for each of the frame's places.
@@ -46,7 +46,7 @@ class RasterField final : public SizeField {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
-// The first of several fields that wants anything counts.
+// The first of several fields with a value is used.
 class FirstOfFields final : public SizeField {
  public:
   explicit FirstOfFields(std::vector<std::unique_ptr<SizeField>> fields) : fields_(std::move(fields)) {}

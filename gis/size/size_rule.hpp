@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// A square of pixels while it is looked at, with some of its surroundings.
+// A square of pixels to be evaluated, with some of its surroundings.
 struct RasterTile {
   int width = 0, height = 0;       // pixels, without the margin
   int margin = 0;                  // pixels on each side
@@ -22,35 +22,34 @@ struct RasterTile {
   }
 };
 
-// From values to sizes: `sizes` has one a pixel, in rows without margin; infinite where nothing is wanted.
+// From values to sizes: `sizes` has one for each pixel, in rows without margin; infinite where nothing is requested.
 struct TileRule {
-  double margin_m = 0.0;  // of surroundings that the rule looks at; 0: it looks at none
+  double margin_m = 0.0;  // pixels of surroundings that the rule uses; 0: none
   std::function<void(const RasterTile& tile, std::span<float> sizes)> sizes;
 };
 
-// From `from_m` to `to_m` of depth, metres, positive down, the size wanted.
+// The size for depths from `from_m` to `to_m`, metres, positive down.
 struct DepthBand {
   double from_m = 0.0;
   double to_m = 0.0;
   double size_m = 0.0;
 };
 
-// What sizes follow from depths. Depths less than `least_depth_m`, and land, are taken for that much.
+// Sizes that follow from depths. Depths less than `least_depth_m`, and land, count as that depth.
 struct DepthRules {
-  bool positive_down = false;  // the raster holds depths; else heights, positive up
-  double water_level_m = 0.0;  // of the still water above the raster's zero
-  double least_depth_m = 1.0;  // metres, above 0
-  double period_s = 44712.0;   // of the wave, seconds, above 0: that of the M2 tide, 12.42 hours
-  double wave_elements = 0.0;  // elements a wavelength; 0 asks for nothing
-  double slope_elements =
-      0.0;  // elements on the way on which the depth would fall to nothing by 2 pi times its slope; 0 asks for nothing
-  double slope_filter_m = 0.0;  // bumps shorter than this do not count, metres
+  bool positive_down = false;   // the raster holds depths; otherwise heights, positive up
+  double water_level_m = 0.0;   // of the still water above the raster's zero
+  double least_depth_m = 1.0;   // metres, above 0
+  double period_s = 44712.0;    // of the wave, seconds, above 0: that of the M2 tide, 12.42 hours
+  double wave_elements = 0.0;   // elements per wavelength; 0: not used
+  double slope_elements = 0.0;  // elements per length of 2 pi times depth over slope; 0: not used
+  double slope_filter_m = 0.0;  // slopes of features shorter than this are ignored, metres
   std::vector<DepthBand> bands;
 
   bool any() const { return wave_elements > 0.0 || slope_elements > 0.0 || !bands.empty(); }
 };
 
-// A rule as plain values, so that others can be told it.
+// A rule as plain values, to be sent to others.
 struct SizeRule {
   enum class Kind : unsigned char {
     Raw,     // values are sizes

@@ -8,11 +8,11 @@
 
 namespace coastmesh {
 
-// Sizes that grow with the distance from lines, within bounds, and that nothing else decides on: found anew for each
-// place, where a map of them would cost more than the places that are asked for.
+// Sizes that only grow with the distance from lines, within bounds: computed for each place, if a map of them would
+// cost more than the places that are evaluated.
 class SizesByDistance final : public SizeFunction {
  public:
-  // Bounds are metres on the ground, and so are the field's sizes; `scales` is that of the plane, which stands for no
+  // Bounds are metres on the ground, and so are the field's sizes; `scales` is that of the plane, which represents no
   // sphere, within `box`. REQUIRES: least_m <= most_m, finite.
   SizesByDistance(std::unique_ptr<DistanceField> field, double least_m, double most_m,
                   std::shared_ptr<const ScaleTable> scales, const Box& box);

@@ -8,22 +8,22 @@
 
 namespace coastmesh {
 
-// An undirected graph: what a solver works on, and what has to talk to what. The neighbours of `i` are those from
-// `first[i]` to `first[i + 1]`; each edge is there from both of its ends.
+// An undirected graph: what a solver works on, and its communication. The neighbours of `i` are those from `first[i]`
+// to `first[i + 1]`; each edge is listed at both of its ends.
 struct MeshGraph {
   std::vector<std::int32_t> first{0};
   std::vector<std::int32_t> neighbours;
-  std::vector<std::int32_t> weights;  // one a vertex: its work, 1 or more
+  std::vector<std::int32_t> weights;  // for each vertex: its work, 1 or more
 
   std::size_t size() const { return weights.size(); }
 };
 
-// Triangles, joined where they share a side; all of them are the same work. Throws InputError for a grid too large for
-// 32-bit numbers.
+// Triangles, joined if they share a side, all with the same work. Throws InputError for a grid too large for 32-bit
+// numbers.
 MeshGraph elementGraph(const Grid& grid, const ItemLoop& loop = inOrder);
 
-// Nodes, joined by the edges of triangles and across weirs; the work of a node is how many neighbours it has, as
-// adcprep counts it, and 1 for a node of no triangle. Throws InputError likewise.
+// Nodes, joined by the edges of triangles and across weirs; the work of a node is its number of neighbours, as in
+// adcprep, and 1 for a node without triangles. Throws InputError in the same way.
 MeshGraph nodeGraph(const Grid& grid, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

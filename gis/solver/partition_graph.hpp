@@ -8,13 +8,13 @@
 
 namespace coastmesh {
 
-// No part has more than this many times the mean work, where the weights allow it.
+// No part has more than this many times the mean work, if the weights allow it.
 inline constexpr double kMostImbalance = 1.03;
 
 struct PartitionFigures {
   std::uint64_t edge_cut = 0;         // edges of the graph between two parts
-  double balance = 1.0;               // greatest work of a part over the mean
-  std::uint64_t connected_parts = 0;  // parts that hang together
+  double balance = 1.0;               // largest work of a part over the mean
+  std::uint64_t connected_parts = 0;  // parts that are connected
   std::uint64_t least = 0, most = 0;  // vertices of a part
 };
 

@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// What of a grid is dealt out to the parts: solvers differ in what they own.
+// What is partitioned: solvers differ in what they own.
 struct PartitionOptions {
   std::uint32_t parts = 0;  // 0: none
   bool elements = false;
@@ -21,8 +21,8 @@ struct PartitionReport {
   std::optional<PartitionFigures> elements, nodes;
 };
 
-// Fills `part_of` and `node_part_of` of the grid. Throws InputError where it has fewer elements or nodes than there are
-// to be parts.
+// Sets `part_of` and `node_part_of` of the grid. Throws InputError if it has fewer elements or nodes than
+// parts.
 PartitionReport partitionGrid(Grid& grid, const PartitionOptions& options, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh
