@@ -1,9 +1,9 @@
-// malloc and its family for the whole process: what a program defines itself goes before the C library's, for all
-// libraries, operator new and the C library too. Each asks whoever comes next (the C library, or an allocator, heap
-// profiler or fault that is loaded before it) and notes where there was no memory. So does exit, for libraries that end
-// the process then. Part of the program alone: the libraries and the Python module are guests in others' processes.
-// Steps aside where a sanitizer has an allocator of its own, and where the C library is not glibc: there operator new
-// alone is watched (apps/cli/last_resort).
+// malloc and its family for the whole process: definitions in a program take precedence over the C library's, for all
+// libraries, operator new and the C library itself. Each calls the next definition (the C library, or an allocator,
+// heap profiler or fault shim that is loaded before it) and records failures. So does exit, for libraries that end the
+// process after one. Only in the program: the libraries and the Python module run in other programs' processes.
+// Inactive if a sanitizer has its own allocator, and with C libraries other than glibc: there only operator new is
+// watched (apps/cli/last_resort).
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define COASTMESH_OTHER_MALLOC
@@ -133,8 +133,8 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
   return result;
 }
 
-// Libraries end the process where they lack memory, before main even (libnuma, with an exit code that has a meaning
-// here), and while it ends. Coming back from main does not lead here.
+// Libraries may end the process for lack of memory, even before main (libnuma, with an exit code that has a meaning
+// here), and while it ends. Returning from main does not call this.
 void exit(int status) noexcept {
   coastmesh::exitIsCalled();
   if (const auto next = reinterpret_cast<void (*)(int)>(dlsym(RTLD_NEXT, "exit")); next != nullptr) next(status);

@@ -22,7 +22,7 @@ namespace {
 struct CutSide {
   EdgeRef name;
   EdgeRef edge;
-  EdgeRef beyond;  // the other side, where that belongs to no piece
+  EdgeRef beyond;  // the other side, if that is in no piece
   SegmentId seg;
 };
 
@@ -71,7 +71,7 @@ std::vector<CutSide> place(const CutSubmesh& cut, std::span<const VertexId> vert
       const std::pair ends(mesh.origin(edgeRef(t, i)), mesh.target(edgeRef(t, i)));
       const auto endsOf = [](const CutEdge& e) { return std::pair(e.a, e.b); };
       const auto edge = std::ranges::lower_bound(cut.edges, ends, {}, endsOf);
-      // Else the whole has nothing beyond it: it stays frozen.
+      // Otherwise there is nothing beyond it in the whole mesh: it stays frozen.
       if (edge != cut.edges.end() && endsOf(*edge) == ends)
         sides.push_back({edge->name, edgeRef(at, i), edge->beyond, edge->seg});
     }
@@ -119,7 +119,7 @@ void restoreAcross(std::vector<EdgeRef>&& edges, MeshState& whole) {
     if (!whole.due_triangles.empty()) whole.due_triangles[t] = 1;
 }
 
-// Numbers, of vertices or of triangles, that the pieces of a partition give up and take.
+// The numbers, of vertices or of triangles, that the pieces of a partition give up and take.
 class Exchange {
  public:
   // `old(p)` has the numbers that piece p had, `count(p)` says how many it has now; there are numbers up to `end`.
@@ -147,7 +147,7 @@ class Exchange {
     const std::size_t place = further_[p] + i - had.size();
     return place < taken_ ? free_[place] : end_ + static_cast<std::uint32_t>(place - taken_);
   }
-  // What nobody took, ascending.
+  // Unused numbers, ascending.
   std::vector<std::uint32_t> holes() const {
     std::vector<std::uint32_t> left(free_.begin() + static_cast<std::ptrdiff_t>(taken_), free_.end());
     std::ranges::sort(left);
@@ -156,7 +156,7 @@ class Exchange {
 
  private:
   std::uint32_t end_, last_ = 0;
-  std::vector<std::size_t> further_;  // one a piece: how many the pieces before it need beyond those that they had
+  std::vector<std::size_t> further_;  // for each piece: how many the previous pieces need in addition to their own
   std::vector<std::uint32_t> free_;
   std::size_t taken_ = 0;
 };

@@ -36,7 +36,7 @@ void passOn(int signal_number) {
   errno = before;
 }
 
-// Notes that have come whole; what is left of `text` is the beginning of one.
+// Complete notes; what is left of `text` is the beginning of one.
 void takeNotes(std::string& text, std::set<std::string>& folders) {
   std::size_t end = 0;
   while ((end = text.find('\0')) != std::string::npos) {
@@ -46,7 +46,7 @@ void takeNotes(std::string& text, std::set<std::string>& folders) {
   }
 }
 
-// The folders that are under guard when the child is gone.
+// The folders to remove once the child has ended.
 std::set<std::string> foldersLeft(int from_child) {
   std::set<std::string> folders;
   std::string text;
@@ -60,15 +60,15 @@ std::set<std::string> foldersLeft(int from_child) {
   }
 }
 
-// Whoever looks for the process that works does not find the others by its name.
+// Under another name, so that users who look for the working process do not find the others.
 void nameAs([[maybe_unused]] const char* name) {
 #ifdef __linux__
   prctl(PR_SET_NAME, name);
 #endif
 }
 
-// A sweeper, out of reach of whoever ends the run: no signal that is sent to the run or its group comes to it, nor does
-// it hold what the run's end is seen by. It removes what is under guard when the child is gone, however that came.
+// A sweeper that no signal to the run or its group reaches, and that holds no file by which the run's end is detected.
+// It removes the folders once the child has ended, for any reason.
 pid_t makeSweeper(int from_child, int to_sweeper) {
   const pid_t sweeper = fork();
   if (sweeper != 0) return sweeper;
@@ -91,7 +91,7 @@ int statusOf(pid_t process) {
   return status;
 }
 
-// Launchers pass on what ranks say, and drop what they have not read yet once they are told of an end.
+// Launchers forward the output of ranks, and drop what they have not read once a rank has ended.
 void awaitReaderOfErrors() {
   constexpr useconds_t kLook = 20'000, kPassedOn = 200'000;  // microseconds
   constexpr int kMostLooks = 100;
@@ -122,7 +122,7 @@ Keeper::Keeper(const Lost& lost) {
   if (pipe(pipe_ends.data()) != 0) return;
   const auto [from_child, to_sweeper] = pipe_ends;
   const pid_t parent = getpid();
-  // Until the child is known no signal may end the parent alone.
+  // Until the child is known no signal may end only the parent.
   sigset_t signals, before;
   sigemptyset(&signals);
   for (const int signal_number : kStopSignals) sigaddset(&signals, signal_number);
@@ -146,7 +146,7 @@ Keeper::Keeper(const Lost& lost) {
   }
   fcntl(to_sweeper, F_SETFD, FD_CLOEXEC);
   to_sweeper_ = to_sweeper;
-  // Whoever ends the parent's group does not end the child before it has cleaned up.
+  // A signal that ends the parent's group must not end the child before it has cleaned up.
   setpgid(0, 0);
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -163,7 +163,7 @@ void Keeper::note(const std::filesystem::path& folder, bool guarded) const noexc
   if (to_sweeper_ < 0) return;
   std::string_view path = folder.native();
   const char kind = guarded ? kGuarded : kReleased;
-  // Where nobody reads it, there is nobody to clean up.
+  // If nothing reads it, nothing cleans up.
   [[maybe_unused]] ssize_t written = write(to_sweeper_, &kind, 1);
   written = write(to_sweeper_, path.data(), path.size());
   written = write(to_sweeper_, "", 1);

@@ -2,8 +2,8 @@
 
 namespace coastmesh {
 
-// Bytes that the process may still take: what the machine has left, less where its control group or RLIMIT_AS allow
-// less; infinite where nothing says.
+// Bytes that the process can still allocate: what the machine has left, or less if its control group or RLIMIT_AS allow
+// less; infinite if unknown.
 double availableMemory();
 
 }  // namespace coastmesh

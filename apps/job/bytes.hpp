@@ -10,9 +10,9 @@
 
 namespace coastmesh {
 
-// Meshes as bytes, for one version of coastmesh on one kind of machine: the same bits come back.
+// Meshes as bytes, for one version of coastmesh on one kind of machine, read back bit for bit.
 
-// Each names every member, so that a new one does not compile until it is here.
+// Each names every member, so that a new one does not compile until it is added here.
 auto partsOf(auto& crs) requires std::is_same_v<std::remove_cvref_t<decltype(crs)>, Crs> {
   auto& [wkt, authority, geographic, semi_major_m, flattening] = crs;
   return std::tie(wkt, authority, geographic, semi_major_m, flattening);

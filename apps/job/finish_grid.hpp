@@ -11,11 +11,11 @@
 
 namespace coastmesh {
 
-// What is done to a mesh before it is written: depths, boundaries, and what a model needs.
+// What is done to a mesh before it is written: depths, boundaries, repairs for models.
 struct FinishOptions {
   DepthOptions depth;
   BoundaryOptions boundaries;
-  std::vector<std::string> targets;  // names of models that the grid is mended for
+  std::vector<std::string> targets;  // names of models that the grid is repaired for
   RepairOptions repair;
 
   bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
@@ -24,7 +24,7 @@ struct FinishOptions {
 struct FinishReport {
   DepthReport depth;
   BoundaryReport boundaries;
-  bool mended = false;  // repairs were asked for
+  bool mended = false;  // repairs were requested
   RepairReport repairs;
 
   std::vector<std::string> warnings() const;
@@ -33,10 +33,10 @@ struct FinishReport {
 // Throws OptionError, InputError, Cancelled.
 FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control = {});
 
-// For people: a line each on what was done; empty where nothing was asked for.
+// For users: a line for each thing done; empty if nothing was requested.
 std::string finishSummary(const FinishOptions& options, const FinishReport& report);
 
-// Sections of the report as JSON text; "depth" and "repairs" are null where they were not asked for.
+// Sections of the report as JSON text; "depth" and "repairs" are null if they were not requested.
 std::string depthSection(const FinishOptions& options, const FinishReport& report);
 std::string repairSection(const FinishReport& report);
 std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid);

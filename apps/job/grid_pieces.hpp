@@ -12,16 +12,15 @@ namespace coastmesh {
 // A part of a grid as a mesh in a working plane.
 struct GridPiece {
   Projection projection = Projection::plane();
-  TriMesh
-      mesh;  // regions are the grid's `feature_of`, 0 where it has none; constraints: borders between them, and lines
-  // One a point of the mesh, metres, for angles, lengths and areas; empty where the plane itself rules.
+  TriMesh mesh;  // regions are the grid's `feature_of`, 0 if it has none; constraints: borders between them, and lines
+  // One for each point of the mesh, metres, for angles, lengths and areas; empty if the plane itself is the surface.
   std::vector<SpacePoint> places;
-  std::vector<std::uint32_t> nodes;      // one a point of the mesh: the grid's node
-  std::vector<std::uint32_t> triangles;  // one a triangle of the mesh: the grid's triangle
+  std::vector<std::uint32_t> nodes;      // for each point of the mesh: the grid's node
+  std::vector<std::uint32_t> triangles;  // for each triangle of the mesh: the grid's triangle
   std::vector<EdgeConflict> conflicts;   // in points of the mesh
 };
 
-// The grid's triangles in pieces that share no node; pieces and the triangles in them ascend.
+// The grid's triangles in pieces that share no node; pieces, and the triangles in them, ascend.
 std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid);
 
 // A conformal projection fitted to the given triangles, or the identity for a grid without a place on Earth.
@@ -30,7 +29,7 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
 
 GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection);
 
-// Every connected piece in a projection of its own, as `mesh` would have chosen it.
+// Every connected piece in its own projection, as `mesh` would have chosen it.
 std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind = SurfaceKind::Auto);
 
 }  // namespace coastmesh

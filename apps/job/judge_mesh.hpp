@@ -15,10 +15,10 @@
 
 namespace coastmesh {
 
-// What a group of features is meshed in.
+// The plane in which a group of features is meshed.
 struct WorkingPlane {
   Projection projection;
-  double size_max;  // longest edge, units of its surface; infinite where none is asked
+  double size_max;  // longest edge, units of its surface; infinite if there is no bound
 };
 
 struct MeshJudgement {
@@ -26,13 +26,13 @@ struct MeshJudgement {
   Shortfall short_of;
 };
 
-// A finished mesh and what of it falls short of the bounds of `options` on angles, and of the plane's on lengths.
+// Finds the triangles of a finished mesh that miss the bounds of `options` on angles, and of the plane on lengths.
 // `slack_deg` as in `judgeFinished`; `places` are the plane's in space.
 MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const RefineOptions& options, double slack_deg,
                         std::span<const SpacePoint> places, const ItemLoop& loop = inOrder);
 
-// A group in a grid that has several, one after another: the first of its features there. Its projection is fitted anew
-// where it is wanted: most runs never ask for it again, and some have a million groups.
+// A group in a grid that has several, one after another: the first of its features there. Its projection is fitted
+// again when needed: most runs never need it, and some have a million groups.
 struct MergedGroup {
   std::size_t group;
   double size_max;  // as in WorkingPlane

@@ -5,12 +5,12 @@
 
 namespace coastmesh {
 
-// Reads, projects, cleans, meshes, checks and finishes. Nothing but `seconds` depends on the number of threads. Throws
+// Reads, projects, cleans, meshes, checks and finishes. Only `seconds` depends on the number of threads. Throws
 // InputError, Cancelled, BadMesh.
 MeshJobResult runMeshJob(const MeshJob& job, const JobControl& control = {});
 
-// The same on the threads at hand, for jobs that are done side by side: to be called within `withThreads`. Jobs that
-// read files are not to be done so, as libraries that read some formats cannot.
+// The same on the available threads, for jobs that run in parallel: to be called within `withThreads`. Jobs that read
+// files must not run in parallel, since libraries for some formats do not allow it.
 MeshJobResult runMeshJobHere(const MeshJob& job, const JobControl& control = {});
 
 }  // namespace coastmesh

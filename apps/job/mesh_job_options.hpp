@@ -15,17 +15,17 @@ namespace coastmesh {
 // What to mesh, and how.
 struct MeshJob {
   InputOptions input;
-  MeshOptions mesh;   // `refine.max_vertices` holds for the whole; what it says of sizes is set from `sizes`
-  SizeOptions sizes;  // where nothing but `most_m` is asked for, no edge is longer than that
+  MeshOptions mesh;   // `refine.max_vertices` applies to the whole; its sizes are set from `sizes`
+  SizeOptions sizes;  // if only `most_m` is given, no edge is longer
   ParallelOptions parallel;
   FinishOptions finish;
   GroupExchange exchange;
-  std::vector<std::string> notes;  // what was chosen for the user, for people
-  bool keep_edits = false;         // where what was changed lies, besides how often
+  std::vector<std::string> notes;  // choices made for the user, for messages
+  bool keep_edits = false;         // record where changes were made, not only how many
 };
 
-// How a job talks to whoever started it. Either function may be empty; `progress` is called from one thread at a time,
-// with the phases "read", "refine" and "finish" and the share of the phase that is done.
+// Communication of a job with its caller. Either function may be empty; `progress` is called from one thread at a time,
+// with the phases "read", "refine" and "finish" and the completed share of the phase.
 struct JobControl {
   std::function<bool()> cancelled;
   std::function<void(std::string_view, double)> progress;

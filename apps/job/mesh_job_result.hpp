@@ -28,19 +28,19 @@ struct Refusal {
   std::string source;
   std::vector<std::int64_t> fids;
   std::string reason;
-  std::optional<Point> place;  // in the input's CRS, where one is known
-  bool over_budget = false;    // its sizes ask for clearly more than `max_vertices`
+  std::optional<Point> place;  // in the input's CRS, if known
+  bool over_budget = false;    // its sizes require many more vertices than `max_vertices`
 };
 
-// A triangle short of the bounds that no input angle explains.
+// A triangle that misses the bounds and that no input angle explains.
 struct BoundViolationPlace {
   Point place;  // in the input's CRS
   double min_angle_deg = 0.0;
   double max_angle_deg = 0.0;
 };
-inline constexpr std::size_t kBoundViolationPlaces = 1000;  // those past it are counted, not listed
+inline constexpr std::size_t kBoundViolationPlaces = 1000;  // further ones are counted, not listed
 
-// All triangles that fall short of the bounds on angles and, where `--size-max` is a bound, on lengths.
+// All triangles that miss the bounds on angles and, if `--size-max` is a bound, on lengths.
 struct Shortfall {
   std::uint64_t count = 0;
   std::vector<BoundViolationPlace> places;  // the first kBoundViolationPlaces of them
@@ -48,8 +48,8 @@ struct Shortfall {
   void add(Shortfall&& other);
 };
 
-// Seconds by the clock; all but read, finish, write and total are summed over groups, several of which may be meshed at
-// once.
+// Wall-clock seconds; all except read, finish, write and total are summed over groups, several of which may be meshed
+// at once.
 struct PhaseSeconds {
   double read = 0.0;
   double clean = 0.0;
@@ -65,16 +65,16 @@ struct PhaseSeconds {
   double total = 0.0;
 };
 
-// What a run kept for another to go on from, and went on from itself.
+// What a run saved for another to resume from, and resumed from itself.
 struct CheckpointUse {
-  std::uint64_t groups_taken = 0;     // groups of features that an earlier run had done
-  std::uint64_t regions_gone_on = 0;  // of which an earlier run had done some rounds
+  std::uint64_t groups_taken = 0;     // groups of features completed by an earlier run
+  std::uint64_t regions_gone_on = 0;  // groups for which an earlier run had done some rounds
   std::uint64_t rounds_kept = 0;
-  std::uint64_t bytes_kept = 0;  // written in all
+  std::uint64_t bytes_kept = 0;  // bytes written in all
 };
 
 struct MeshJobResult {
-  Grid grid;  // without a triangle where every feature was refused
+  Grid grid;  // without triangles if every feature was refused
   ReadReport read;
   Crs crs;
   std::array<std::uint64_t, kEditKinds> edits{};
@@ -82,19 +82,19 @@ struct MeshJobResult {
   std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
   std::string first_projection;                      // of the first region, with its parameters
   std::string first_projection_reason;
-  std::map<SurfaceKind, std::uint64_t> surfaces;  // how many regions are measured on which
+  std::map<SurfaceKind, std::uint64_t> surfaces;  // number of regions measured on each
   double least_scale = std::numeric_limits<double>::infinity(), greatest_scale = 0.0;  // plane over true length
   std::uint64_t regions = 0;        // groups of features that were meshed
-  std::uint64_t pieces = 0;         // that they were cut into
+  std::uint64_t pieces = 0;         // number of pieces
   WorkLog log;                      // groups that were cut, one after another, then the others
-  double estimated_vertices = 0.0;  // from the sizes asked for, of what was refused too; 0 where there are none
+  double estimated_vertices = 0.0;  // from the requested sizes, including refused groups; 0 if there are none
   RefineStats refine;               // `unresolved` is empty: see below
   Shortfall short_of;               // of the mesh as it is written
   std::uint64_t short_before_repairs = 0;
   std::uint64_t turned = 0;          // triangles that are not counter-clockwise on the ground: see `turnedTriangles`
   std::vector<Point> turned_places;  // the first kBoundViolationPlaces of them, in the input's CRS
   std::vector<Refusal> refusals;
-  std::string last_unwanted;  // why a group was passed over that lies outside of what was asked for
+  std::string last_unwanted;  // why a group outside the requested area was skipped
   MeshQuality quality;
   std::optional<double> input_area_m2;  // of what was meshed; none for a .poly
   double mesh_area_m2 = 0.0;
@@ -102,9 +102,9 @@ struct MeshJobResult {
   PhaseSeconds seconds;
   FinishReport finish;        // depths, boundaries and repairs
   StepOutcome step;           // of the finished grid
-  PartitionReport partition;  // for a solver, where one is asked for
+  PartitionReport partition;  // for a solver, if requested
   CheckpointUse checkpoint;
-  std::vector<RasterUse> rasters_read;       // by each rank, where there are several
+  std::vector<RasterUse> rasters_read;       // by each rank, if there are several
   std::vector<std::string> output_warnings;  // what files cannot hold of the mesh
 
   bool complete() const {
@@ -113,7 +113,7 @@ struct MeshJobResult {
   }
 };
 
-// A mesh failed its own check: a bug of coastmesh.
+// A mesh failed its own check: a bug in coastmesh.
 struct BadMesh : std::logic_error {
   using std::logic_error::logic_error;
 };

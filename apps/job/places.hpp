@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// Places and features as messages name them.
+// Places and features in the format of messages.
 std::string pointText(const Point& point);        // "(-87.5, 41.25)"
 std::string featureText(const Feature& feature);  // "'lakes.gpkg', feature 12"
 

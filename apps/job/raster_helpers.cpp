@@ -127,7 +127,7 @@ std::vector<RasterUse> RasterHelpers::use() const {
   return use_;
 }
 
-// Those that nobody has yet are shared out in a row, so that most of what lies round a part is its reader's too.
+// Parts without an owner are assigned in order, so that most of a part's surroundings have the same reader.
 std::vector<int> RasterHelpers::ownersOf(std::span<const RasterPart> parts) {
   const std::lock_guard lock(mutex_);
   std::map<std::pair<std::string, std::size_t>, std::uint64_t> open;
@@ -136,7 +136,7 @@ std::vector<int> RasterHelpers::ownersOf(std::span<const RasterPart> parts) {
   double all = 0.0, before = 0.0;
   for (const auto& each : open) all += static_cast<double>(each.second);
   for (const auto& [key, pixels] : open) {
-    // By where its middle lies among all.
+    // By the position of its centre among all.
     const double middle = (before + 0.5 * static_cast<double>(pixels)) / std::max(all, 1.0);
     before += static_cast<double>(pixels);
     owners_[key] =

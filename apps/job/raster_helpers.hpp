@@ -17,11 +17,11 @@
 
 namespace coastmesh {
 
-// Rasters that are read by this process and its helpers: each part of one by one of them alone, for as long as this
-// lives.
+// Rasters that are read by this process and its helpers: each part by only one of them, during the lifetime of
+// this.
 class RasterHelpers {
  public:
-  // `helpers` may be null: then this process reads all of it.
+  // `helpers` may be null: then this process reads everything.
   RasterHelpers(const Helpers* helpers, const RunControl& control);
   RasterHelpers(const RasterHelpers&) = delete;
   RasterHelpers& operator=(const RasterHelpers&) = delete;
@@ -46,7 +46,7 @@ class RasterHelpers {
   std::vector<RasterUse> use_;                                 // of each reader
 };
 
-// What a helper answers when it is asked to read.
+// A helper's answer to a request to read.
 Reply answerRasterTask(std::string_view request);
 
 }  // namespace coastmesh

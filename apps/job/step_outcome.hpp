@@ -9,15 +9,15 @@
 
 namespace coastmesh {
 
-// What a finished grid is for a model's time step, and whether --time-step and --size-min hold in it.
+// A finished grid's time step, and whether --time-step and --size-min are met in it.
 struct StepOutcome {
-  // An edge shorter than this share of --size-min misses it: edges come out between 0.7 and 1.4 of the size wanted.
+  // An edge shorter than this share of --size-min misses it: edges are between 0.7 and 1.4 of the size.
   static constexpr double kShareOfLeast = 0.5;
 
   StepReport step;
-  std::vector<ShortStep> below_step;   // triangles in which --time-step does not hold, the worst first
+  std::vector<ShortStep> below_step;   // triangles that miss --time-step, the worst first
   std::vector<ShortEdge> below_least;  // edges shorter than --size-min, the shortest first
-  bool least_missed = false;           // one of them by far, and not because --coast keep keeps what the data have
+  bool least_missed = false;           // one of them is far too short, and not because --coast keep preserves the data
 
   std::vector<std::string> warnings;
 
@@ -26,7 +26,7 @@ struct StepOutcome {
 
 StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop);
 
-// A line for people: the shortest edge and the time step, with their places.
+// A line for users: the shortest edge and the time step, with their places.
 std::string stepText(const StepReport& step, bool plane);
 
 // Sections of reports.

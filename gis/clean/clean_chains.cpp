@@ -36,7 +36,7 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
     const auto index = static_cast<std::uint32_t>(member);
-    // On land an island is a polygon of its own; of what the frame cuts off nobody knows the size.
+    // On land an island is a separate polygon; the size of polygons cut by the frame is unknown.
     const bool land = feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
     // Where a region has lines, they are its border, cleaned before.
     const bool by_lines = feature.use == FeatureUse::Region && !feature.lines.empty();
@@ -169,7 +169,7 @@ std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& s
       kept.push_back(v);
     }
   }
-  // And where the ring closes.
+  // Also where the ring closes.
   std::size_t first = 0, last = kept.size();
   while (last - first > 2) {
     if (kept[first] == kept[last - 1]) {
@@ -274,7 +274,7 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   }
   result.seam = seam;
   const Scales scales = scalesOf(input, coastline, projection);
-  // By the least scale, so that nowhere more is snapped than asked.
+  // By the smallest scale, so that nowhere more is snapped than requested.
   const double snap = input.empty() || options.snap_m <= 0 ? 0 : options.snap_m * scales.least;
   result.snap = snap > scales.grain ? snap : 0;
   if (const std::optional<Point> beyond = projection.infinity()) {

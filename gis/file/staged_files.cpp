@@ -48,8 +48,8 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
     text.replace(at, from.size(), to);
 }
 
-// A file may come to stand at `path`. A link is refused: to put a file in its place would cut it, and to write where it
-// leads would change a file that nobody named, perhaps on a disk where nothing can be written aside.
+// Checks that a file may be created at `path`. A link is rejected: replacing it would break it, and writing through it
+// would change a file that nobody named, perhaps on a disk without room for staging.
 void requireReplaceable(const fs::path& path, bool overwrite) {
   std::error_code error;
   switch (fs::symlink_status(path, error).type()) {
@@ -78,8 +78,8 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   return files;
 }
 
-// Lets the system begin to put a file on the disk, where it can: several that are begun together are there sooner.
-// Whether that works is for `flushToDisk` to find out.
+// Starts writing a file to disk, if the system can: several started together finish sooner. Errors are left to
+// `flushToDisk`.
 void beginToFlush([[maybe_unused]] const fs::path& path) {
 #ifdef SYNC_FILE_RANGE_WRITE
   const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -89,7 +89,7 @@ void beginToFlush([[maybe_unused]] const fs::path& path) {
 #endif
 }
 
-// Waits until a file, or what a folder lists, is on the disk: some systems say only then that it is full.
+// Waits until a file, or the entries of a folder, are on disk: some systems report a full disk only then.
 void flushToDisk(const fs::path& path, const fs::path& target) {
   const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (handle < 0) failToWrite(target, std::strerror(errno));
@@ -98,15 +98,15 @@ void flushToDisk(const fs::path& path, const fs::path& target) {
   if (failure != 0 && failure != EINVAL) failToWrite(target, std::strerror(failure));
 }
 
-// Renames that can be taken back.
+// Renames that can be undone.
 class Moves {
  public:
-  // Takes what is at `target`, if anything is, to `backup`.
+  // Moves the file at `target`, if any, to `backup`.
   void remove(const fs::path& target, const fs::path& backup) {
     if (isThere(target)) rename(target, backup, target);
   }
 
-  // Puts `from` in the place of what is at `target`, which is never without a file where the disk knows hard links.
+  // Replaces the file at `target` by `from`, without a moment between if the file system has hard links.
   void replace(const fs::path& from, const fs::path& target, const fs::path& backup) {
     if (isThere(target)) {
       requireReplaceable(target, true);
@@ -136,7 +136,7 @@ class Moves {
 
  private:
   void rename(const fs::path& from, const fs::path& to, const fs::path& target) {
-    done_.emplace_back(from, to);  // first: what was renamed without a note of it could not be taken back
+    done_.emplace_back(from, to);  // first: a rename without a record could not be undone
     std::error_code error;
     fs::rename(from, to, error);
     if (!error) return;
@@ -245,7 +245,7 @@ void StagedFiles::move(Moves& moves) const {
   }
   for (const fs::path& file : staged) {
     const fs::path target = folder / file.filename();
-    // Another output of the run, a .msh beside this .2dm say, may have brought the same .prj.
+    // Another output of the run, such as a .msh beside this .2dm, may have written the same .prj.
     if (!moves.placed(target)) moves.replace(file, target, backups / file.filename());
   }
 }

@@ -15,8 +15,8 @@ class Joiner {
       : start_(std::move(start)), sizes_(sizes), guides_(std::move(guides)), options_(options) {}
 
   JoinedShores run() {
-    // Which water is cut off hangs on the order of opening land and water. Straits are as wide as they can be where all
-    // of the land goes first: what is joined then stays so.
+    // Which water is cut off depends on the order of opening land and water. Straits are widest if all of the land is
+    // opened first: what is connected then stays so.
     opened_ = openShores(start_, sizes_, guides_, options_, 1.0);
     std::vector<JoinedWater> joins = findJoins();
     opened_ = balanceShores(std::move(opened_), start_, sizes_, guides_, options_);
@@ -39,7 +39,7 @@ class Joiner {
       joined_.push_back(std::move(water));
     }
     if (lines.empty()) return false;
-    // On from where land that goes first had gone: what went will not come back.
+    // Continues from the state after the first opening of land, which cannot come back.
     start_ = {std::move(opened_.before), std::move(opened_.gained_before), std::move(opened_.edits)};
     start_.edits.resize(opened_.edits_before);
     const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {

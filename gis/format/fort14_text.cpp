@@ -20,7 +20,7 @@ struct Segment {
   const Boundary* weir = nullptr;
 };
 
-// A weir's number without its heights would make a file that ADCIRC misreads: the role's own stands there then.
+// ADCIRC would misread a weir's number without heights: the role's own number is written instead.
 int adcircType(const Boundary& boundary) {
   const Ibtype* const known = findIbtype(boundary.ibtype);
   const bool complete = known != nullptr && !isBareWeir(boundary);

@@ -28,7 +28,7 @@ void stopIfAsked(const RunControl& control) {
   if (control.cancelled && control.cancelled()) throw Cancelled();
 }
 
-// The four pixels round a place: from `column`, `row` on, with the place at `x`, `y` between their centres.
+// The four pixels around a place: starting at `column`, `row`, with the place at `x`, `y` between their centres.
 struct Corner {
   std::int64_t column = 0;
   std::int64_t row = 0;
@@ -36,7 +36,7 @@ struct Corner {
   double y = 0.0;
 };
 
-// Within half a pixel of the raster's edge the outermost pixels count alone.
+// Within half a pixel of the raster's edge only the outermost pixels are used.
 std::optional<Corner> cornerAt(const RasterBand& raster, const Point& pixel) {
   constexpr double kRounding = 1e-6;  // of a pixel
   const auto width = static_cast<double>(raster.columns()), height = static_cast<double>(raster.rows());
@@ -53,7 +53,7 @@ std::optional<Corner> cornerAt(const RasterBand& raster, const Point& pixel) {
   return corner;
 }
 
-// Of the four pixels in rows; NaN for those that have no value, or are not there.
+// Values of the four pixels in rows; NaN for those without a value, or outside the raster.
 RasterSample blend(const std::array<double, 4>& values, const Corner& corner) {
   double sum = 0.0, weights = 0.0;
   for (const int j : {0, 1}) {
@@ -76,7 +76,7 @@ struct Visit {
   Corner corner;
 };
 
-// Each pixel by whoever reads the part of the raster that it lies in.
+// Each pixel is read by the reader of its part of the raster.
 std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, const std::vector<Visit>& visits,
                                                     const PixelReaders& readers) {
   const RasterGeometry& geometry = raster.geometry();

@@ -16,7 +16,7 @@ static_assert(kPartStep % kTile == 0, "a tile lies in one part");
 
 using Frames = std::span<const std::shared_ptr<const RasterFrame>>;
 
-// Below so many pixels others need as long to be told as it takes to read them.
+// Below this number of pixels sending tasks to others takes as long as reading.
 constexpr std::uint64_t kWorthReaders = 1 << 20;
 
 // Tiles of one part of a raster, by their numbers in the frame.
@@ -74,7 +74,7 @@ class FrameReading {
   }
 
  private:
-  // Of each part: who reads it, what that one may read of it and of what lies round it, and what others have to give.
+  // For each part: its reader, what that may read of it and its surroundings, and what others have to send.
   struct Strip {
     int owner = 0;
     std::size_t cell = 0;
@@ -124,7 +124,7 @@ class FrameReading {
     return task;
   }
 
-  // What a chunk looks at of its part's patches: all of them would be sent once for each chunk.
+  // The part's patches that a chunk uses: otherwise all of them would be sent with each chunk.
   std::vector<PixelPatch> patchesFor(const Chunk& chunk, const std::vector<PixelPatch>& patches) const {
     const RasterFrame& frame = *frames_[chunk.part->frame];
     std::vector<PixelPatch> some;
@@ -172,7 +172,7 @@ class FrameReading {
     const RasterGeometry& raster = frames_[part.frame]->raster;
     const PixelCuts& cuts = cuts_[part.frame];
     const PixelRect all{0, 0, raster.columns, raster.rows};
-    // What depends on how it is cut is read whole by whoever needs it.
+    // Results that depend on how it is cut are read as a whole by each user.
     const PixelRect seen = cuts.cell(part.cell).grownBy(raster.is_exact ? part.margin : 0);
     for (int turn = raster.wraps ? -1 : 0; turn <= (raster.wraps ? 1 : 0); ++turn) {
       const PixelRect inside = seen.shifted(turn * raster.columns).in(all);

@@ -29,11 +29,11 @@ constexpr const char* kStrategy =
     "r{job=t,bal=0.02,map=t,poli=S,sep=(" COASTMESH_BISECTION "|" COASTMESH_BISECTION ")}f{move=500,pass=-1,bal=0.03}";
 #undef COASTMESH_BISECTION
 
-// What it finds hangs on chance: the best of a few attempts is better by some percent. Near seeds give the same.
+// Its result depends on chance: the best of a few attempts is better by some percent. Nearby seeds give the same.
 constexpr std::array<SCOTCH_Num, 8> kSeeds{1, 12345, 987654321, 31337, 777777777, 424242, 10000019, 271828183};
 
 void require(int failed) {
-  if (failed != 0) throw std::bad_alloc();  // the arguments are sound: only memory may lack
+  if (failed != 0) throw std::bad_alloc();  // the arguments are valid: it can only fail for lack of memory
 }
 
 // Scotch's objects, each with the call that ends it.
@@ -53,8 +53,8 @@ using ScotchGraph = Owned<SCOTCH_Graph, SCOTCH_graphInit, SCOTCH_graphExit>;
 using ScotchStrategy = Owned<SCOTCH_Strat, SCOTCH_stratInit, SCOTCH_stratExit>;
 using ScotchContext = Owned<SCOTCH_Context, SCOTCH_contextInit, SCOTCH_contextExit>;
 
-// One thread and random numbers of its own: the result hangs on nothing but the graph and the seed. Several attempts
-// may be made at the same time; they only read what they share.
+// Single-threaded, with its own random numbers: the result depends only on the graph and the seed. Several attempts may
+// run at the same time; they only read shared data.
 std::vector<std::uint32_t> attemptPartition(const SCOTCH_Graph* whole, std::size_t size, std::uint32_t parts,
                                             SCOTCH_Strat* strategy, SCOTCH_Num seed) {
   ScotchContext context;
@@ -77,7 +77,7 @@ std::vector<std::uint64_t> sizesOf(const std::vector<std::uint32_t>& part_of, st
   return sizes;
 }
 
-// With few vertices a part Scotch may leave some empty, which no solver takes: each gets a vertex of the largest.
+// With few vertices per part Scotch may leave some empty, which no solver accepts: each gets a vertex of the largest.
 void fillEmptyParts(std::vector<std::uint32_t>& part_of, std::uint32_t parts) {
   std::vector<std::uint64_t> sizes = sizesOf(part_of, parts);
   for (std::uint32_t empty = 0; empty < parts; ++empty) {
@@ -137,7 +137,7 @@ std::vector<std::uint32_t> partitionGraph(const MeshGraph& graph, std::uint32_t 
     fillEmptyParts(found[i].part_of, parts);
     found[i].figures = figuresOf(graph, found[i].part_of, parts);
   });
-  // The least cut of those that are balanced; where none is, the best balanced.
+  // The smallest cut of those that are balanced; if none is, the best balanced.
   const auto rank = [](const Found& one) {
     const double excess = std::max(one.figures.balance, kMostImbalance);
     return std::pair(excess, one.figures.edge_cut);
