@@ -1,0 +1,42 @@
+# Writes into OUT a test of ctest for each suite of the GoogleTest program PROGRAM, with PROPERTIES. A suite of many
+# tests becomes several, so that all cores share it.
+set(most_tests 25)
+
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed RESULT_VARIABLE result TIMEOUT 60)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} --gtest_list_tests ends with ${result}")
+endif()
+string(REGEX REPLACE "[][;]" "_" listed "${listed}") # what parameters print, behind a #, is not to part the list
+string(REPLACE "\n" ";" lines "${listed}")
+
+# Suites begin their lines and end in a point, their tests are set in.
+set(suites)
+foreach(line IN LISTS lines)
+  if(line MATCHES "^([^ ]+)\\.( .*)?$")
+    set(suite ${CMAKE_MATCH_1})
+    list(APPEND suites ${suite})
+    set(count_${suite} 0)
+  elseif(line MATCHES "^  [^ ]")
+    math(EXPR count_${suite} "${count_${suite}} + 1")
+  endif()
+endforeach()
+if(NOT suites)
+  message(FATAL_ERROR "${PROGRAM} lists no tests")
+endif()
+
+file(WRITE ${OUT} "")
+foreach(suite IN LISTS suites)
+  math(EXPR shards "(${count_${suite}} + ${most_tests} - 1) / ${most_tests}")
+  foreach(shard RANGE 1 ${shards})
+    set(name ${suite})
+    set(properties TIMEOUT 1800 ${PROPERTIES})
+    if(shards GREATER 1)
+      string(APPEND name "/${shard}_of_${shards}")
+      math(EXPR index "${shard} - 1")
+      list(APPEND properties ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards}\\;GTEST_SHARD_INDEX=${index}")
+    endif()
+    file(APPEND ${OUT} "add_test([=[${name}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n")
+    list(JOIN properties "]=] [=[" values)
+    file(APPEND ${OUT} "set_tests_properties([=[${name}]=] PROPERTIES [=[${values}]=])\n")
+  endforeach()
+endforeach()
