@@ -11,10 +11,6 @@ namespace coastmesh {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr std::size_t kPlacesListed = 1000;
-
 std::string amount(const char* format, double number) {
   char text[60];
   std::snprintf(text, sizeof text, format, number);
@@ -37,17 +33,6 @@ std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes
   for (std::size_t cause = 0; cause < kShortCauses; ++cause)
     if (counts[cause] > 0) text += (text.empty() ? "" : "; ") + std::to_string(counts[cause]) + " " + texts[cause];
   return text;
-}
-
-template <typename Short>
-Json placesJson(const std::vector<Short>& found, const char* key, double Short::*value) {
-  Json places = Json::array();
-  for (std::size_t i = 0; i < std::min(kPlacesListed, found.size()); ++i)
-    places.push_back({{"x", found[i].place.x},
-                      {"y", found[i].place.y},
-                      {key, found[i].*value},
-                      {"cause", toString(found[i].cause)}});
-  return places;
 }
 
 std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOptions& sizes) {
@@ -89,33 +74,6 @@ std::string stepText(const StepReport& step, bool plane) {
   if (!step.has_depths) return text + "; without depths there is no time step";
   if (!std::isfinite(step.step_s)) return text + "; nothing is under water, so there is no time step";
   return text + amount("; time step by CFL %.3g s at ", step.step_s) + pointText(step.step_place);
-}
-
-nlohmann::ordered_json stepJson(const StepReport& step) {
-  const bool any = step.has_depths && std::isfinite(step.step_s);
-  const auto placeJson = [](const Point& place) { return Json{{"x", place.x}, {"y", place.y}}; };
-  return {{"shortest_edge_m", step.shortest_edge_m},
-          {"shortest_edge", placeJson(step.shortest_edge)},
-          {"with_depths", step.has_depths},
-          {"time_step_s", any ? Json(step.step_s) : Json(nullptr)},
-          {"time_step", any ? placeJson(step.step_place) : Json(nullptr)}};
-}
-
-nlohmann::ordered_json outcomeJson(const StepOutcome& outcome, const SizeOptions& sizes) {
-  Json section = stepJson(outcome.step);
-  section["asked"] = nullptr;
-  section["size_min"] = nullptr;
-  if (sizes.time_step_s > 0.0)
-    section["asked"] = {{"time_step_s", sizes.time_step_s},
-                        {"courant", sizes.courant},
-                        {"missed", outcome.below_step.size()},
-                        {"places", placesJson(outcome.below_step, "time_step_s", &ShortStep::step_s)}};
-  if (sizes.least_m > 0.0 && sizes.any())
-    section["size_min"] = {{"size_min_m", sizes.least_m},
-                           {"shorter", outcome.below_least.size()},
-                           {"missed", outcome.least_missed},
-                           {"places", placesJson(outcome.below_least, "length_m", &ShortEdge::length_m)}};
-  return section;
 }
 
 }  // namespace coastmesh

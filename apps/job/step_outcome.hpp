@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -28,9 +27,5 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
 
 // A line for users: the shortest edge and the time step, with their places.
 std::string stepText(const StepReport& step, bool plane);
-
-// Sections of reports.
-nlohmann::ordered_json stepJson(const StepReport& step);
-nlohmann::ordered_json outcomeJson(const StepOutcome& outcome, const SizeOptions& sizes);
 
 }  // namespace coastmesh

@@ -1,16 +1,15 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "apps/job/step_outcome.hpp"
 #include "apps/report/file_info.hpp"
+#include "apps/report/report_sections.hpp"
+#include "apps/report/step_sections.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kHistogramWidth = 50;
 
@@ -70,7 +69,7 @@ std::string toJson(const MeshInfo& info) {
             {"max_angle_deg", info.quality.max_angle_deg},
             {"shortest_edge_m", info.step.shortest_edge_m},
             {"longest_edge_m", info.longest_edge_m},
-            {"step", stepJson(info.step)},
+            {"step", stepSection(info.step)},
             {"angle_histogram", info.quality.angle_histogram}};
   if (info.has_z) json["z"] = {info.lowest_z, info.highest_z};
   return dump(json);

@@ -7,6 +7,7 @@
 
 #include "apps/report/partition_report.hpp"
 #include "apps/report/report_sections.hpp"
+#include "apps/report/step_sections.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "parallel/deal.hpp"
 
@@ -232,7 +233,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"mesh", meshSection(result)},
                     {"depth", Json::parse(depthSection(job.finish, result.finish))},
                     {"boundaries", Json::parse(boundarySection(job.finish, result.finish, result.grid))},
-                    {"step", outcomeJson(result.step, job.sizes)},
+                    {"step", outcomeSection(result.step, job.sizes)},
                     {"lines", lineSection(result.grid)},
                     {"repairs", Json::parse(repairSection(result.finish))},
                     {"partition", partitionSection(result.partition)},
