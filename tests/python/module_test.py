@@ -191,7 +191,7 @@ class OptionsTest(unittest.TestCase):
         for options, said in (({"size_min": 9, "size_max": 8}, "size_min is more than size_max"),
                               ({"wave_elements": 50}, "give a raster with bathymetry"),
                               ({"coast": "follow"}, "coast='follow' needs sizes"),
-                              ({"domain": "outside"}, "domain='outside': water"),
+                              ({"domain": "outside"}, "domain='outside': the water needs a limit"),
                               ({"crs": "nowhere"}, "crs: ")):
             with self.assertRaises(coastmesh.Error) as caught, warnings.catch_warnings():
                 warnings.simplefilter("ignore")
