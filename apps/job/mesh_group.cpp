@@ -63,16 +63,42 @@ std::pair<double, double> scaleRange(const Domain& domain) {
   return {least, greatest};
 }
 
-// At its peak, of the whole program, with what GIS layers take besides: measured.
-constexpr double kBytesPerVertex = 600.0;
-// What a run took at least of it: refinement that grows beyond this much of the memory is stopped.
-constexpr double kLeastBytesPerVertex = 520.0;
 // Estimates are right to half as much; what asks for more than this many times the budget is not begun.
 constexpr double kClearlyMore = 2.0;
 constexpr double kMostReported = 1e18;
 
-double mostVertices(const GroupRoom& room) {
-  return std::min(kClearlyMore * static_cast<double>(room.vertices), room.memory / kBytesPerVertex);
+// A group, and what it is meshed with.
+struct GroupTask {
+  const MeshJob& job;
+  const JobInput& input;
+  const SizeInputs& sizes;
+  std::size_t group;
+  const GroupRoom& room;
+  const RunControl& control;
+
+  const Feature& firstFeature() const { return input.coastline().features[input.members(group).front()]; }
+};
+
+// Memory of the whole program at its peak, GIS layers included, and what of it a run takes at least: refinement that
+// grows beyond this much of the memory is stopped.
+struct BytesPerVertex {
+  double peak, least;
+};
+
+// Measured from three million vertices on, where lattices make most of them: 143 to 178 with a longest edge alone, 234
+// with graded sizes, 263 on the whole globe; and without lattices.
+BytesPerVertex bytesPerVertex(const MeshJob& job, SurfaceKind surface) {
+  constexpr BytesPerVertex kOfLattices{320.0, 280.0}, kRefined{600.0, 520.0};
+  const bool is_bounded = std::isfinite(job.sizes.most_m) && surface == SurfaceKind::Plane;
+  return job.mesh.refine.algorithm == Algorithm::Relocate && (job.sizes.any() || is_bounded) ? kOfLattices : kRefined;
+}
+
+double verticesInMemory(const GroupTask& task, SurfaceKind surface) {
+  return task.room.memory / bytesPerVertex(task.job, surface).peak;
+}
+
+double mostVertices(const GroupTask& task, SurfaceKind surface) {
+  return std::min(kClearlyMore * static_cast<double>(task.room.vertices), verticesInMemory(task, surface));
 }
 
 std::string amount(const char* format, double number) {
@@ -81,8 +107,9 @@ std::string amount(const char* format, double number) {
   return text;
 }
 
-std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool over_budget, bool shared) {
+std::string demandText(const TooManyVertices& error, const GroupTask& task, const GroupResult& result) {
   const VertexDemand& demand = error.demand;
+  const std::uint64_t allowed = task.room.vertices;
   std::string text = "these sizes ";
   if (demand.map_too_large) {
     text += "vary so much that storing them takes more memory than the mesh may, most of all near ";
@@ -93,23 +120,24 @@ std::string demandText(const TooManyVertices& error, const GroupRoom& room, bool
   text += pointText(demand.place);
   if (std::isfinite(demand.size_m)) text += ", where " + demand.option + amount(" asks for %.3g m", demand.size_m);
   text += "; ";
-  if (over_budget) {
-    text += "--max-vertices allows " + std::to_string(room.vertices);
-    if (shared) text += " here, this feature's share by points";
+  if (result.over_budget) {
+    text += "--max-vertices allows " + std::to_string(allowed);
+    if (allowed < task.job.mesh.refine.max_vertices) text += " here, this feature's share by points";
   } else {
-    text += "there is memory for about " + amount("%.2g", room.memory / kBytesPerVertex);
+    text += "there is memory for about " + amount("%.2g", verticesInMemory(task, result.surface));
   }
   text += ": request larger sizes, or give a larger --size-min";
-  return over_budget ? text + " or --max-vertices" : text;
+  return result.over_budget ? text + " or --max-vertices" : text;
 }
 
-MeshOptions optionsFor(const MeshJob& job, const Domain& domain, const GroupRoom& room) {
+MeshOptions optionsFor(const GroupTask& task, const Domain& domain, SurfaceKind surface) {
+  const auto& [job, input, sizes, group, room, control] = task;
   MeshOptions options = job.mesh;
   options.list_violations = false;
   options.refine.surface = domain.projection.surface();
   options.refine.max_vertices = room.vertices;
   options.refine.most_in_memory =
-      static_cast<std::uint64_t>(std::min(kMostReported, room.memory / kLeastBytesPerVertex));
+      static_cast<std::uint64_t>(std::min(kMostReported, room.memory / bytesPerVertex(job, surface).least));
   // A place that is no number has no resolution; what triangulates says which it is.
   if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
   if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
@@ -121,12 +149,14 @@ MeshOptions optionsFor(const MeshJob& job, const Domain& domain, const GroupRoom
 
 // Where `--size-max` is only a bound there is no map of sizes, but no mesh has fewer vertices than equilateral
 // triangles of that size.
-void requireMemory(const MeshJob& job, const Domain& domain, const GroupRoom& room, std::optional<double> area_m2) {
+void requireMemory(const GroupTask& task, const Domain& domain, const GroupResult& result) {
+  const MeshJob& job = task.job;
+  const std::optional<double>& area_m2 = result.input_area_m2;
   if (job.sizes.any() || !area_m2 || !std::isfinite(job.sizes.most_m)) return;
   // In a plane lengths are in its units, whatever area a CRS would give its coordinates.
   const double area = domain.projection.isIdentity() ? geodesicArea(domain, Crs{}) : *area_m2;
   const double least = 2.0 / std::sqrt(3.0) * area / job.sizes.most_m / job.sizes.most_m;
-  if (std::min(least, static_cast<double>(room.vertices)) * kBytesPerVertex <= room.memory) return;
+  if (std::min(least, static_cast<double>(task.room.vertices)) <= verticesInMemory(task, result.surface)) return;
   throw TooManyVertices({least, domain.projection.inverse(centreOf(domain.pslg)), job.sizes.most_m, "--size-max"});
 }
 
@@ -261,18 +291,6 @@ Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, c
   return followed;
 }
 
-// A group, and what it is meshed with.
-struct GroupTask {
-  const MeshJob& job;
-  const JobInput& input;
-  const SizeInputs& sizes;
-  std::size_t group;
-  const GroupRoom& room;
-  const RunControl& control;
-
-  const Feature& firstFeature() const { return input.coastline().features[input.members(group).front()]; }
-};
-
 Domain cleanStage(const GroupTask& task, GroupResult& result) {
   const Stopwatch stopwatch;
   Recorder recorder;
@@ -301,7 +319,8 @@ std::unique_ptr<SizeFunction> globeSizes(const GroupTask& task, const Domain& do
                                          VertexDemand& demand) {
   const SizeOptions& wanted = task.job.sizes;
   if (!isUniform(wanted)) {
-    DomainSizes sized = makeSizeFunction(wanted, task.sizes, withRing(domain, wanted), mostVertices(task.room), loop);
+    const double most = mostVertices(task, task.input.surfaceOf(domain.projection));
+    DomainSizes sized = makeSizeFunction(wanted, task.sizes, withRing(domain, wanted), most, loop);
     demand = std::move(sized.demand);
     return std::move(sized.function);
   }
@@ -315,6 +334,7 @@ std::unique_ptr<SizeFunction> globeSizes(const GroupTask& task, const Domain& do
 std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, GroupResult& result) {
   const auto& [job, input, sizes, group, room, control] = task;
   if (!job.sizes.any()) return nullptr;
+  const double most = mostVertices(task, result.surface);
   Recorder recorder;
   const Stopwatch sizing;
   const ItemLoop loop = recorder.loop("size", control);
@@ -322,7 +342,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     VertexDemand demand;
     std::unique_ptr<SizeFunction> made = globeSizes(task, domain, loop, demand);
     result.estimated_vertices = demand.vertices;
-    if (demand.vertices > mostVertices(room)) throw TooManyVertices(demand);
+    if (demand.vertices > most) throw TooManyVertices(demand);
     result.size_s = sizing.seconds();
     result.log.append(recorder.finish());
     return made;
@@ -332,7 +352,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     result.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(wanted) +
                            "; give --size-shore or any other size to choose them yourself");
   const auto makeSizes = [&](const Domain& of, SizeAccuracy accuracy) {
-    return makeSizeFunction(wanted, sizes, of, mostVertices(room), loop, accuracy);
+    return makeSizeFunction(wanted, sizes, of, most, loop, accuracy);
   };
   const bool follows = job.sizes.coast == CoastDetail::Follow;
   DomainSizes sized;
@@ -357,11 +377,10 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
   }
   VertexDemand& demand = sized.demand;
-  demand.vertices +=
-      verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * mostVertices(room) - demand.vertices),
-                         domain.projection.surface());
+  demand.vertices += verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * most - demand.vertices),
+                                        domain.projection.surface());
   result.estimated_vertices = demand.vertices;
-  if (demand.vertices > mostVertices(room)) throw TooManyVertices(demand);
+  if (demand.vertices > most) throw TooManyVertices(demand);
   result.size_s = sizing.seconds();
   result.log.append(recorder.finish());
   return std::move(sized.function);
@@ -453,8 +472,8 @@ void startGlobe(const GroupTask& task, const Domain& domain, const SizeFunction*
 
 void fillGroup(const GroupTask& task, GroupResult& result) {
   Domain domain = cleanStage(task, result);
-  requireMemory(task.job, domain, task.room, result.input_area_m2);
-  MeshOptions options = optionsFor(task.job, domain, task.room);
+  requireMemory(task, domain, result);
+  MeshOptions options = optionsFor(task, domain, result.surface);
   const std::unique_ptr<SizeFunction> size = sizeStage(task, domain, result);
   options.refine.size = size.get();
   if (domain.closed()) startGlobe(task, domain, size.get(), options);
@@ -484,12 +503,10 @@ void refuse(const BadPslg& error, const GroupTask& task, GroupResult& result) {
 }
 
 void refuse(const TooManyVertices& error, const GroupTask& task, GroupResult& result) {
-  const GroupRoom& room = task.room;
   result.estimated_vertices = std::min(error.demand.vertices, kMostReported);
-  result.over_budget = kClearlyMore * static_cast<double>(room.vertices) <= room.memory / kBytesPerVertex;
+  result.over_budget = kClearlyMore * static_cast<double>(task.room.vertices) <= verticesInMemory(task, result.surface);
   result.refusal_place = error.demand.place;
-  const bool shared = room.vertices < task.job.mesh.refine.max_vertices;
-  result.refusal = featureText(task.firstFeature()) + ": " + demandText(error, room, result.over_budget, shared);
+  result.refusal = featureText(task.firstFeature()) + ": " + demandText(error, task, result);
 }
 
 }  // namespace

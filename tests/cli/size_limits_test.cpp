@@ -83,6 +83,18 @@ TEST_F(SizeLimits, BeyondTheMemoryNothingIsTaken) {
   }
 }
 
+// Lattices take less memory a vertex than refinement, and only one algorithm has them.
+TEST_F(SizeLimits, LatticesFitWhereRefinementDoesNot) {
+  const auto room = [&](const std::string& algorithm) {
+    const ProgramRun run = mesh({"--size-max", "1e-3", "--algorithm", algorithm});
+    const std::string before = "there is memory for about ";
+    const std::size_t at = run.errors.find(before);
+    EXPECT_NE(at, std::string::npos) << run.errors;
+    return at == std::string::npos ? 0.0 : std::stod(run.errors.substr(at + before.size()));
+  };
+  EXPECT_NEAR(room("relocate") / room("offcenter"), 600.0 / 320.0, 0.3);
+}
+
 // A creek of 200 km, a decimetre wide: finding its widths takes more than the mesh may.
 TEST_F(SizeLimits, ChannelsAreWalkedNoFurtherThanTheyMayAskFor) {
   LonLatRing creek;
