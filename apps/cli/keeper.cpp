@@ -108,8 +108,10 @@ void awaitReaderOfErrors() {
   const int status = statusOf(child);
   if (sweeper > 0) statusOf(sweeper);
   if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
-  std::fprintf(stderr, "coastmesh: error: rank %d was ended by signal %d (%s): there is no mesh\n", lost.rank,
-               WTERMSIG(status), strsignal(WTERMSIG(status)));
+  std::fprintf(
+      stderr,
+      "coastmesh: error: rank %d was ended by signal %d (%s), which ends the run: outputs are complete or absent\n",
+      lost.rank, WTERMSIG(status), strsignal(WTERMSIG(status)));
   awaitReaderOfErrors();
   lost.tell(kExitInterrupted);
   _exit(kExitInterrupted);

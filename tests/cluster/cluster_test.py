@@ -60,6 +60,47 @@ def workers(folder):
     return found
 
 
+def phases(started):
+    """The phases that a run with `--progress json` comes to."""
+    for line in started.stdout:
+        if line.startswith("{"):
+            yield json.loads(line)["phase"]
+
+
+def has_pending(process, number):
+    """Whether a signal waits for a process that is stopped."""
+    try:
+        status = Path(f"/proc/{process}/status").read_text()
+    except FileNotFoundError:
+        return False
+    masks = [int(line.split()[1], 16) for line in status.splitlines() if line.startswith(("SigPnd:", "ShdPnd:"))]
+    return any(mask >> (number - 1) & 1 for mask in masks)
+
+
+def kill(found, rank):
+    """Kills a rank, of which rank 0 learns while it is stopped: however fast it is, it does nothing more until its own
+    end is asked for."""
+    os.kill(found[0], signal.SIGSTOP)
+    os.kill(found[rank], signal.SIGKILL)
+    if rank == 0:
+        return
+    deadline = time.monotonic() + 60
+    while not has_pending(found[0], signal.SIGTERM) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    os.kill(found[0], signal.SIGCONT)
+
+
+def kill_in(started, folder, rank, phase):
+    """Kills a rank as soon as rank 0 has come to a phase."""
+    found = {}
+    for at in phases(started):
+        found = found or workers(folder)
+        if at == phase:
+            kill(found, rank)
+            return
+    raise AssertionError(f"the run ended before it came to {phase}")
+
+
 class Folder(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -277,12 +318,6 @@ class Killed(Folder):
         self.addCleanup(started.stderr.close)
         return started
 
-    def wait_for(self, started, phase):
-        for line in started.stdout:
-            if line.startswith("{") and json.loads(line)["phase"] == phase:
-                return
-        self.fail(f"the run ended before it came to {phase}")
-
     def expect_nothing_left(self, started, code):
         errors = started.stderr.read()
         started.wait(timeout=60)
@@ -298,8 +333,7 @@ class Killed(Folder):
 
     def kill(self, rank, phase):
         started = self.begin()
-        self.wait_for(started, phase)
-        os.kill(workers(self.folder)[rank], signal.SIGKILL)
+        kill_in(started, self.folder, rank, phase)
         errors = self.expect_nothing_left(started, INTERRUPTED)
         self.assertIn(f"coastmesh: error: rank {rank} was ended by signal 9 (Killed)", errors)
 
@@ -317,7 +351,7 @@ class Killed(Folder):
 
     def test_an_interrupt_of_mpirun(self):
         started = self.begin()
-        self.wait_for(started, "refine")
+        self.assertIn("refine", phases(started))
         started.send_signal(signal.SIGTERM)
         # MPICH's mpirun kills what is left, and has a code of its own.
         started.wait(timeout=60)
@@ -330,16 +364,15 @@ class GoesOn(Folder):
     COMMAND = ("mesh", LAKE, "--size-max", "400", "--threads", "1", "--progress", "json")
     KEEPING = (*COMMAND, "--checkpoint", "kept", "--report", "kept.json", "-o", "out.nc")
 
-    def begin(self, due, rank, *outputs):
-        """Kills that rank of three as soon as `due(started)` comes back; `outputs` are written besides."""
+    def begin(self, end):
+        """Begins a run of three ranks, and lets `end(started)` kill one of them."""
         done = run([ALONE, *self.COMMAND, "-o", "whole.nc"], self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        started = subprocess.Popen(on_ranks(3, PROGRAM, *self.KEEPING, *outputs), cwd=self.folder, env=ENVIRONMENT,
+        started = subprocess.Popen(on_ranks(3, PROGRAM, *self.KEEPING), cwd=self.folder, env=ENVIRONMENT,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(started.stdout.close)
         self.addCleanup(started.stderr.close)
-        due(started)
-        os.kill(workers(self.folder)[rank], signal.SIGKILL)
+        end(started)
         errors = started.communicate(timeout=60)[1]
         self.assertEqual(started.returncode, INTERRUPTED, errors)
         deadline = time.monotonic() + 10
@@ -356,41 +389,38 @@ class GoesOn(Folder):
         self.assertEqual(sorted(os.listdir(self.folder)), ["kept.json", "out.nc", "whole.nc"])
         return json.loads(Path(self.path("kept.json")).read_text())["checkpoint"]
 
-    def until_kept(self, reached):
-        """Waits for a mesh whose stage and rounds are as wanted: they stand behind eight bytes."""
-        def due(started):
+    def kill_when_kept(self, rank, reached):
+        """Kills a rank once a mesh is kept whose stage and rounds are as wanted: they stand behind eight bytes."""
+        def end(started):
+            found = {}
             while started.poll() is None:
                 try:
                     with open(self.path("kept/rounds-0"), "rb") as file:
                         head = file.read(17)
                 except FileNotFoundError:
                     head = b""
+                found = found or (workers(self.folder) if head else {})
                 if len(head) == 17 and reached(head[8], int.from_bytes(head[13:17], "little")):
+                    kill(found, rank)
                     return
                 time.sleep(0.001)
             self.fail("the run ended before")
-        return due
+        return end
 
     def test_killed_in_refine(self):
-        self.begin(self.until_kept(lambda stage, rounds: True), 2)
+        self.begin(self.kill_when_kept(2, lambda stage, rounds: True))
         use = self.expect_rest(on_ranks(2, PROGRAM, *self.KEEPING))
         self.assertEqual((use["regions_gone_on"], use["groups_taken"]), (1, 0))
         self.assertGreater(use["rounds_kept"], 0)
 
     def test_killed_in_stitch(self):
         # There is no third round but the last.
-        self.begin(self.until_kept(lambda stage, rounds: (stage, rounds) == (1, 3)), 0)
+        self.begin(self.kill_when_kept(0, lambda stage, rounds: (stage, rounds) == (1, 3)))
         use = self.expect_rest(on_ranks(3, PROGRAM, *self.KEEPING))
         self.assertEqual((use["regions_gone_on"], use["groups_taken"], use["rounds_kept"]), (1, 0, 0))
 
     def test_killed_in_write(self):
-        def due(started):
-            for line in started.stdout:
-                if line.startswith("{") and json.loads(line)["phase"] == "write":
-                    return
-            self.fail("the run ended before")
-        # One that takes long enough to be killed in.
-        self.begin(due, 1, "-o", "new.gpkg")
+        self.begin(lambda started: kill_in(started, self.folder, 1, "write"))
         use = self.expect_rest([ALONE, *self.KEEPING])
         self.assertEqual((use["regions_gone_on"], use["groups_taken"], use["rounds_kept"]), (0, 1, 0))
 
