@@ -15,6 +15,8 @@
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
 #include "core/metric.hpp"
+#include "gis/format/grid_io.hpp"
+#include "gis/grid/one_turn.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/check_target.hpp"
 
@@ -120,6 +122,26 @@ VectorLayer layerOf(const std::vector<DefectRow>& defects) {
   return layer;
 }
 
+// A file of a format for models is checked as they would read it. Other files have longitudes that jump at 180, which
+// are put into one turn when they are converted: for the check they are too. The grid is as before in the end.
+std::vector<DefectRow> targetRows(Grid& grid, const std::vector<Target>& targets, const CheckUsage& usage,
+                                  const Interrupt& interrupt) {
+  std::vector<DefectRow> rows;
+  if (targets.empty()) return rows;
+  const GridFormat* const format = gridFormatOf(usage.mesh.path);
+  std::optional<TurnedNodes> turned;
+  if (format != nullptr && format->places != NodePlaces::OneTurn) turned.emplace(grid);
+  for (const Target target : targets) {
+    interrupt.check();
+    for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check)) {
+      DefectRow& row = rows.emplace_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
+      if (turned) row.place = turned->putBack(row.place);
+    }
+  }
+  if (turned) turned->putBack(grid);
+  return rows;
+}
+
 int runCheck(const CheckUsage& usage, Run& run) {
   Interrupt& interrupt = run.interrupt;
   RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
@@ -129,7 +151,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
     layer = &outputs.addFile(usage.output);
   }
   const std::vector<Target> targets = targetsNamed(usage.targets);
-  const Grid grid = readMeshFile(usage.mesh, run);
+  Grid grid = readMeshFile(usage.mesh, run);
   interrupt.check();
   GridCheckOptions options = usage.check;
   if (!usage.input.files.empty()) options.delaunay = true;
@@ -140,11 +162,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
       input.files.empty() ? checkGrid(grid, options) : checkGridAgainst(grid, JobInput(input), options);
   std::vector<DefectRow> rows;
   for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
-  for (const Target target : targets) {
-    interrupt.check();
-    for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check))
-      rows.push_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
-  }
+  for (DefectRow& row : targetRows(grid, targets, usage, interrupt)) rows.push_back(std::move(row));
   if (!targets.empty())
     for (const ApartWater& water : apartWaters(grid)) rows.push_back(rowOf(water, grid));
   if (targets.empty() && usage.target_check.time_step_s > 0.0)

@@ -26,6 +26,19 @@ struct InputVertex {
 };
 using InputVertices = std::unordered_map<Point, InputVertex, PointHash>;
 
+// Adds places a turn to the east and to the west, if the grid's longitudes are not within those of the input: a file
+// for a model counts them on past 180.
+void addTurns(const Grid& grid, InputVertices& vertices) {
+  if (!grid.crs.geographic || grid.nodes.empty() || vertices.empty()) return;
+  const auto longitude = [](const auto& known) { return known.first.x; };
+  const auto [west, east] = std::ranges::minmax_element(vertices, {}, longitude);
+  const auto [least, greatest] = std::ranges::minmax(grid.nodes, {}, &Point::x);
+  if (least.x >= west->first.x && greatest.x <= east->first.x) return;
+  const std::vector<std::pair<Point, InputVertex>> known(vertices.begin(), vertices.end());
+  for (const auto& [place, vertex] : known)
+    for (const double turn : {360.0, -360.0}) vertices.emplace(Point{place.x + turn, place.y}, vertex);
+}
+
 // By how many degrees the angles opposite an inner edge exceed 180 together.
 double delaunayExcess(const TriMesh& mesh, EdgeRef e) {
   const auto angleAtApex = [&mesh](EdgeRef edge) {
@@ -134,6 +147,7 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
     }
     for (VertexId v = 0; v < domains[g]->input_points.size(); ++v) vertices[domains[g]->input_points[v]] = {g, v};
   }
+  addTurns(grid, vertices);
 
   GridCheck result;
   std::vector<GridDefect>& defects = result.defects;

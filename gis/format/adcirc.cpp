@@ -35,7 +35,8 @@ FormatRecord adcircFormat() {
            true,
            true,
            {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs},
-           true},
+           true,
+           NodePlaces::OneTurn},
           {writeAdcirc, readAdcirc, withPrjBeside}};
 }
 

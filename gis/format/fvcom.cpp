@@ -181,7 +181,8 @@ FormatRecord fvcomFormat() {
            true,
            true,
            {},
-           true},
+           true,
+           NodePlaces::OneTurn},
           {writeFvcom, readFvcom, files}};
 }
 

@@ -10,6 +10,7 @@ namespace coastmesh {
 // The type of coordinates in a format's files.
 enum class NodePlaces {
   AsTheyAre,   // those of the grid, bit for bit
+  OneTurn,     // the same, but longitudes do not jump from 180 to -180, if the grid has an end (`inOneTurn`)
   Geographic,  // longitudes and latitudes in degrees, bit for bit if the grid has these
   Sphere,      // angles in radians or coordinates on a sphere, subject to rounding, if the grid is geographic
 };

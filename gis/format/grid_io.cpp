@@ -45,17 +45,6 @@ const GridFormat* formatByEnding(const std::string& path) {
   return found;
 }
 
-// Programs give different formats the same ending (.msh, .nc): the one that the file holds.
-const GridFormat* formatByContent(const std::string& path) {
-  const std::string ending = inSmallLetters(std::filesystem::path(path).extension().string());
-  for (const GridFormat& format : gridFormats()) {
-    const auto isOf = [&](std::string_view known) { return !ending.empty() && known.ends_with(ending); };
-    const auto holds = functionsOf(format).holds;
-    if (holds != nullptr && std::ranges::any_of(format.endings, isOf) && holds(path)) return &format;
-  }
-  return formatByEnding(path);
-}
-
 std::string endingList(bool GridFormat::*able) {
   std::string list;
   for (const GridFormat& format : gridFormats()) {
@@ -132,11 +121,22 @@ OutputFiles filesOf(const GridFormat& format, const std::string& path) {
   return functions.files ? functions.files(path) : OutputFiles{{path}, {}, {}};
 }
 
+// Programs give different formats the same ending (.msh, .nc): the one that the file holds.
+const GridFormat* gridFormatOf(const std::string& path) {
+  const std::string ending = inSmallLetters(std::filesystem::path(path).extension().string());
+  for (const GridFormat& format : gridFormats()) {
+    const auto isOf = [&](std::string_view known) { return !ending.empty() && known.ends_with(ending); };
+    const auto holds = functionsOf(format).holds;
+    if (holds != nullptr && std::ranges::any_of(format.endings, isOf) && holds(path)) return &format;
+  }
+  return formatByEnding(path);
+}
+
 Grid readGrid(const std::string& path, const Crs& unsaid) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError("there is no file '" + path + "'");
   if (std::filesystem::is_directory(path, error)) throw InputError("'" + path + "' is a folder, no mesh");
-  const GridFormat* const format = formatByContent(path);
+  const GridFormat* const format = gridFormatOf(path);
   if (format == nullptr || !format->readable)
     throw InputError("cannot read '" + path + "' as a mesh; known endings are " + endingList(&GridFormat::readable));
   Grid grid = functionsOf(*format).read(path, unsaid);

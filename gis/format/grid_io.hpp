@@ -43,6 +43,9 @@ class StagedOutput {
   std::vector<std::string> inputs_;
 };
 
+// The format of a file that is there, by its content where several share an ending; null if none is known.
+const GridFormat* gridFormatOf(const std::string& path);
+
 // Reads a mesh in any readable format of `gridFormats`. Nodes, triangles and their winding are as in the
 // file, including unused nodes; `boundaries` is empty if the file has none. Lines are those along edges
 // inside the mesh; `notes` name lines of the file that are not. If the file has no CRS it is `unsaid`. Throws

@@ -7,6 +7,7 @@
 #include "gis/format/fort14_text.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/geographic_nodes.hpp"
+#include "gis/grid/one_turn.hpp"
 
 namespace coastmesh {
 namespace {
@@ -20,7 +21,10 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
   gr3.close();
   if (grid.crs.isPlane()) return;
   TextWriter ll(withEnding(path, ".ll"));
-  writeFort14(ll, grid, geographicNodes(grid, loop), Fort14Kind::Schism, loop);
+  std::vector<Point> places = geographicNodes(grid, loop);
+  // Those of a projected grid have not been seen before.
+  if (auto turned = inOneTurn(places, grid.triangles, loop)) places = *std::move(turned);
+  writeFort14(ll, grid, places, Fort14Kind::Schism, loop);
   ll.close();
   writePrjBeside(path, grid.crs);
 }
@@ -48,7 +52,8 @@ FormatRecord schismFormat() {
            true,
            true,
            {GridPart::Title},
-           true},
+           true,
+           NodePlaces::OneTurn},
           {writeSchism, readSchism, files}};
 }
 

@@ -239,7 +239,9 @@ FormatRecord sms2dmFormat() {
            "SMS 2dm for QGIS and TUFLOW, z positive up",
            true,
            true,
-           {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers}},
+           {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers},
+           false,
+           NodePlaces::OneTurn},
           {write2dm, read2dm, withPrjBeside}};
 }
 

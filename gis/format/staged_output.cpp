@@ -2,13 +2,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/grid/grid_edit.hpp"
+#include "gis/grid/one_turn.hpp"
 
 namespace coastmesh {
 namespace {
@@ -69,7 +72,20 @@ bool StagedOutput::keepsPrj(const Grid& grid) const {
 void StagedOutput::write(const Grid& grid, const ItemLoop& loop) {
   if (grid.triangles.empty()) failToWrite(files_.path(), "the mesh has no triangles");
   requireConsistent(grid, loop);
-  files_.make([&](const std::string& path) { functionsOf(*format_).write(grid, path, loop); });
+  const auto make = [&](const Grid& made) {
+    files_.make([&](const std::string& path) { functionsOf(*format_).write(made, path, loop); });
+  };
+  // A copy costs less memory than meshing did, and only meshes across the end of the longitudes need one.
+  std::optional<std::vector<Point>> turned;
+  if (format_->places == NodePlaces::OneTurn && grid.crs.geographic)
+    turned = inOneTurn(grid.nodes, grid.triangles, loop);
+  if (turned) {
+    Grid copy = grid;
+    copy.nodes = *std::move(turned);
+    make(copy);
+  } else {
+    make(grid);
+  }
   if (keepsPrj(grid)) files_.keep(filesOf(*format_, files_.path()).prj);
 }
 

@@ -232,7 +232,8 @@ FormatRecord telemacFormat() {
            true,
            true,
            {GridPart::Title, GridPart::Rivers},
-           true},
+           true,
+           NodePlaces::OneTurn},
           {writeTelemac, readTelemac, files}};
 }
 

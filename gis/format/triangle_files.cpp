@@ -193,7 +193,9 @@ FormatRecord triangleFormat() {
            "Triangle's .node, .ele and .poly",
            true,
            true,
-           {GridPart::Features, GridPart::Lines, GridPart::Rivers}},
+           {GridPart::Features, GridPart::Lines, GridPart::Rivers},
+           false,
+           NodePlaces::OneTurn},
           {writeTriangle, readTriangle, files}};
 }
 

@@ -388,12 +388,20 @@ void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop
 FormatRecord gmshFormat() {
   constexpr GridParts kParts41{GridPart::Features, GridPart::Regions, GridPart::Lines,     GridPart::LineNames,
                                GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs, GridPart::Partition};
-  return {{"gmsh", {".msh"}, "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS", true, true, kParts41},
+  return {{"gmsh",
+           {".msh"},
+           "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS",
+           true,
+           true,
+           kParts41,
+           false,
+           NodePlaces::OneTurn},
           {writeGmsh, readGmsh, withPrjBeside}};
 }
 
 FormatRecord gmsh22Format() {
-  return {{"gmsh22", {"_22.msh"}, "Gmsh 2.2", true, true, kParts22}, {writeGmsh22, readGmsh, withPrjBeside}};
+  return {{"gmsh22", {"_22.msh"}, "Gmsh 2.2", true, true, kParts22, false, NodePlaces::OneTurn},
+          {writeGmsh22, readGmsh, withPrjBeside}};
 }
 
 }  // namespace coastmesh

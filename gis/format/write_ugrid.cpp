@@ -371,7 +371,9 @@ FormatRecord ugridFormat() {
        true,
        true,
        {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces, GridPart::Partition,
-        GridPart::Lines, GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes, GridPart::BareWeirs}},
+        GridPart::Lines, GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes, GridPart::BareWeirs},
+       false,
+       NodePlaces::OneTurn},
       {writeUgrid, readUgrid, nullptr}};
 }
 

@@ -235,7 +235,7 @@ FormatRecord vtuGlobeFormat() {
 }
 
 FormatRecord vtuFormat() {
-  return {{"vtu", {".vtu"}, "VTK unstructured grid for ParaView", true, true, kParts},
+  return {{"vtu", {".vtu"}, "VTK unstructured grid for ParaView", true, true, kParts, false, NodePlaces::OneTurn},
           {writeVtu, readVtu, withPrjBeside}};
 }
 

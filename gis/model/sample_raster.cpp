@@ -172,8 +172,18 @@ std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster) {
   const bool as_is = grid.crs.isPlane() || raster.crs().isPlane() || sameCrs(grid.crs, raster.crs());
   std::optional<CrsMap> map;
   if (!as_is) map.emplace(toOgr(grid.crs), toOgr(raster.crs()));
-  std::ranges::transform(grid.nodes, pixels.begin(),
-                         [&](const Point& node) { return raster.pixelOf(map ? map->forward(node) : node); });
+  // A raster without a CRS does not know that its columns are longitudes.
+  const bool tries_turns = grid.crs.geographic && raster.crs().isPlane();
+  const auto isInside = [&raster](const Point& pixel) {
+    return pixel.x >= 0.0 && pixel.x <= static_cast<double>(raster.columns());
+  };
+  std::ranges::transform(grid.nodes, pixels.begin(), [&](const Point& node) {
+    const Point pixel = raster.pixelOf(map ? map->forward(node) : node);
+    if (!tries_turns || isInside(pixel)) return pixel;
+    for (const double turn : {-360.0, 360.0})
+      if (const Point turned = raster.pixelOf({node.x + turn, node.y}); isInside(turned)) return turned;
+    return pixel;
+  });
   return pixels;
 }
 

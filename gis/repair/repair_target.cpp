@@ -7,6 +7,7 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/grid/one_turn.hpp"
 #include "gis/repair/repair_boundaries.hpp"
 #include "gis/repair/repair_depths.hpp"
 #include "gis/repair/repair_pinches.hpp"
@@ -177,10 +178,8 @@ void relax(RepairState& state) {
   }
 }
 
-}  // namespace
-
-RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
-                              RepairMemory* memory) {
+RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
+                             RepairMemory* memory) {
   RepairState state{grid, targets, options};
   std::vector<FoundDefect> defects = findDefects(grid, targets, options);
   if (defects.empty()) return {};
@@ -201,6 +200,19 @@ RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const
   measureChanged(grid, state.changed);
   requireConsistent(grid);
   return std::move(state.report);
+}
+
+}  // namespace
+
+RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
+                              RepairMemory* memory) {
+  // As files for models have them: where longitudes jump, shapes in degrees are not those that a model sees.
+  const TurnedNodes turned(grid);
+  RepairReport report = repairInOneTurn(grid, targets, options, memory);
+  turned.putBack(grid);
+  for (Repair& repair : report.repairs) repair.place = turned.putBack(repair.place);
+  for (auto& [target, defect] : report.left) defect.place = turned.putBack(defect.place);
+  return report;
 }
 
 }  // namespace coastmesh

@@ -17,9 +17,10 @@ namespace coastmesh {
 // node or a flow link is not as a model wants it, and boundaries put together anew. Depths of new and moved nodes lie
 // between those of the nodes there were. Where triangles leave too short a time step, edges are made longer or
 // collapsed. Of edits that mend, that which leaves the larger angles is taken; where angles are smaller than the mesh
-// keeps afterwards, nodes around give way. Angles and areas of what was changed are measured again. Throws InputError
-// for a grid with weirs that has defects. `memory` is of the last call with these options, and of the grid that this
-// left, the nodes of which may have other depths by now; it becomes that of this call.
+// keeps afterwards, nodes around give way. Angles and areas of what was changed are measured again. Where longitudes
+// jump they are put into one turn, and back in the end. Throws InputError for a grid with weirs that has defects.
+// `memory` is of the last call with these options, and of the grid that this left, the nodes of which may have other
+// depths by now; it becomes that of this call.
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options = {},
                               RepairMemory* memory = nullptr);
 

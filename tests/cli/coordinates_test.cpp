@@ -75,7 +75,8 @@ class Coordinates : public ProgramTest {
       EXPECT_EQ(runProgram({"check", mesh}).code, code);
       EXPECT_EQ(textOf(mesh), textOf(file("m.nc")));
       const Json info = infoOf(mesh);
-      EXPECT_EQ(info["area_m2"], told["area_m2"]);
+      const double area = told["area_m2"];  // of longitudes that may have fewer digits, past 180
+      EXPECT_NEAR(info["area_m2"].get<double>(), area, 1e-12 * area);
       EXPECT_EQ(info["boundaries"], told["boundaries"]);
     }
     EXPECT_EQ(runProgram({"check", file("m.nc")}).code, code);

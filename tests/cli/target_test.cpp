@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -91,6 +92,54 @@ TEST_F(Target, SwanGetsNoLargeAngleInTheDegreesOfItsFile) {
   EXPECT_GT(grid.triangles.size(), 2000u);
   EXPECT_EQ(refusedBySwan(grid), 0u);
   EXPECT_EQ(runProgram({"check", file("swan.14"), "--target", "swan"}).code, 0);
+}
+
+// A box across the antimeridian with an island: where longitudes jump, SWAN would see triangles round the globe.
+TEST_F(Target, LongitudesGoOnPastTheAntimeridian) {
+  const std::string input =
+      write("land.geojson", geoJsonPolygons({{{{179.4, -17.1}, {179.7, -17.1}, {179.7, -16.8}, {179.4, -16.8}}}}));
+  const ProgramRun run = runProgram({"mesh", input, "--domain", "outside", "--bbox=179,-17.5,-179,-16.5", "--size",
+                                     "6000", "--target", "swan", "-o", file("f.14"), "-o", file("f.gpkg"), "-o",
+                                     file("f.geojson"), "--report", file("report.json")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_TRUE(Json::parse(readText(file("report.json"))).at("repairs").at("done").empty());
+  const Fort14 grid = readFort14(file("f.14"));
+  EXPECT_GT(grid.triangles.size(), 500u);
+  EXPECT_EQ(refusedBySwan(grid), 0u);
+  const auto [west, east] = std::ranges::minmax(grid.nodes, {}, [](const auto& node) { return node[0]; });
+  EXPECT_EQ(west[0], 179.0);
+  EXPECT_EQ(east[0], 181.0);
+  for (const auto& [place, size] : sizesIn(file("f_nodes.geojson"))) EXPECT_LE(std::abs(place.first), 180.0);
+  // A layer is checked as it would be converted, a file as SWAN reads it.
+  for (const char* mesh : {"f.14", "f.gpkg"})
+    EXPECT_EQ(runProgram({"check", file(mesh), "--target", "swan"}).code, 0) << mesh;
+  ASSERT_EQ(runProgram({"convert", file("f.gpkg"), "-o", file("again.14")}).code, 0);
+  EXPECT_EQ(readText(file("again.14")), readText(file("f.14")));
+  // Corners of the input are found a turn away; with sizes, edges of the box are not those of the input.
+  for (const char* mesh : {"f.14", "f.gpkg"}) {
+    const ProgramRun check =
+        runProgram({"check", file(mesh), "--input", input, "--domain", "outside", "--bbox=179,-17.5,-179,-16.5"});
+    EXPECT_THAT(check.output, ::testing::Not(::testing::HasSubstr("input vertex missing"))) << mesh;
+  }
+  // Depths at 181 lie in a raster from -180 on.
+  const auto raster = [this](const char* name, const char* corner, const char* depth) {
+    return write(name, std::string("ncols 2\nnrows 2\nxllcorner ") + corner + "\nyllcorner -18\ncellsize 1\n" + depth +
+                           " " + depth + "\n" + depth + " " + depth + "\n");
+  };
+  ASSERT_EQ(runProgram({"convert", file("f.14"), "--bathymetry", raster("west.asc", "178", "-10"), "--bathymetry",
+                        raster("east.asc", "-180", "-20"), "-o", file("deep.14")})
+                .code,
+            0);
+  std::istringstream deep(readText(file("deep.14")));
+  std::string line;
+  std::getline(deep, line);
+  std::getline(deep, line);
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    double number = 0, x = 0, y = 0, depth = 0;
+    deep >> number >> x >> y >> depth;
+    if (std::abs(x - 180.0) < 1e-9) continue;  // in both rasters
+    EXPECT_NEAR(depth, x < 180.0 ? 10.0 : 20.0, 1e-9) << x;
+  }
 }
 
 // How many triangles have an angle below that, coordinates being those of a plane.

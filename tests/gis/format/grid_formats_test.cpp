@@ -270,7 +270,9 @@ TEST_P(RoundTrip, WritesAgainWhatItReads) {
 std::vector<GridFormat> formatsThatReadAndWrite() {
   std::vector<GridFormat> formats;
   for (const GridFormat& format : gridFormats())
-    if (format.readable && format.writable && format.places == NodePlaces::AsTheyAre) formats.push_back(format);
+    if (format.readable && format.writable &&
+        (format.places == NodePlaces::AsTheyAre || format.places == NodePlaces::OneTurn))
+      formats.push_back(format);
   return formats;
 }
 
@@ -281,6 +283,42 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                            return std::string("to_") + std::string(std::get<0>(instance.param).name) + "_" +
                                   std::get<1>(instance.param).name;
                          });
+
+// Models would see a triangle round the globe where longitudes jump; layers stay within ±180.
+TEST(GridFormats, OfModelsGoOnPastTheAntimeridian) {
+  const Grid past = sampleGrid(wgs84(), {179.95, -16.6}, 0.01);
+  Grid grid = past;
+  for (Point& p : grid.nodes)
+    if (p.x > 180.0) p.x -= 360.0;
+  for (const GridFormat& format : gridFormats()) {
+    if (!format.writable || !format.readable || format.places == NodePlaces::Sphere) continue;
+    const TemporaryFolder folder;
+    const std::string path = folder / ("lakes" + endingOf(format));
+    StagedOutput output(path, format, false);
+    output.write(grid);
+    output.commit();
+    const bool goes_on = format.name != "gpkg" && format.name != "geojson" && format.name != "shp" &&
+                         format.name != "fgb" && format.name != "fesom" && format.name != "vtu3d";
+    EXPECT_EQ(readGrid(path).nodes, goes_on ? past.nodes : grid.nodes) << format.name;
+  }
+}
+
+// SCHISM reads hgrid.ll in degrees, whatever the mesh is in.
+TEST(GridFormats, LongitudesOfAProjectedGridGoOnToo) {
+  const TemporaryFolder folder;
+  StagedOutput output(folder / "hgrid.gr3", gridFormatFor("hgrid.gr3"), false);
+  const Grid grid = sampleGrid(parseCrs("EPSG:3832"), {3.335e6, -1.9e6}, 1000.0);  // ±180 lies at 3,339,584 m
+  output.write(grid);
+  output.commit();
+  const Grid degrees = readGrid(folder / "hgrid.ll");
+  ASSERT_EQ(degrees.nodes.size(), grid.nodes.size());
+  const auto [west, east] = std::ranges::minmax(degrees.nodes, {}, &Point::x);
+  EXPECT_GT(west.x, 179.9);
+  EXPECT_LT(west.x, 180.0);
+  EXPECT_GT(east.x, 180.0);
+  EXPECT_LT(east.x, 180.2);
+  EXPECT_EQ(readGrid(folder / "hgrid.gr3").nodes, grid.nodes);
+}
 
 TEST(GridFormats, AreChosenByEndingOrName) {
   EXPECT_EQ(gridFormatFor("a/b.GPKG").name, "gpkg");

@@ -426,6 +426,31 @@ TEST(RepairTarget, NodesAcrossTheAntimeridian) {
   EXPECT_GT(made, 10u);
 }
 
+// A model is given longitudes that go on: nothing there is to be repaired because they jump. What is, is as elsewhere.
+TEST(RepairTarget, TheAntimeridianIsNoDefect) {
+  const auto repaired = [](double middle, double dent) {
+    Random random(1);
+    Grid grid = valuedGrid(random, [](int, int) { return true; });
+    grid.crs = wgs84();
+    for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+      Point& p = grid.nodes[i];
+      if (i == 5 * (kSide + 1) + 6) p = {p.x + 0.6 * dent, p.y + dent};
+      p = {std::remainder(middle + (p.x - kBorderX) * 1e-5, 360.0), p.y * 1e-5};
+    }
+    const std::vector<Point> before = grid.nodes;
+    const RepairReport report = repairForTargets(grid, std::array{Target::Swan});
+    if (dent == 0.0) EXPECT_EQ(grid.nodes, before);
+    EXPECT_TRUE(report.left.empty());
+    for (const Repair& repair : report.repairs)
+      EXPECT_LT(std::abs(std::remainder(repair.place.x - middle, 360.0)), 0.1);
+    for (const Repair& repair : report.repairs) EXPECT_LE(std::abs(repair.place.x), 180.0);
+    return report.repairs.size();
+  };
+  EXPECT_EQ(repaired(180.0, 0.0), 0u);
+  EXPECT_EQ(repaired(180.0, 850.0), repaired(100.0, 850.0));
+  EXPECT_GT(repaired(180.0, 850.0), 0u);
+}
+
 // A line through a node that is doubled goes on with the triangles that it runs along.
 TEST(RepairTarget, LinesThroughADoubledNode) {
   const TriMesh mesh = lattice(

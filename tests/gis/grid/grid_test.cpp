@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/quality.hpp"
 #include "gis/clean/geodesic_area.hpp"
+#include "gis/grid/one_turn.hpp"
 #include "gis/model/make_grid.hpp"
 #include "tests/gis/grid_samples.hpp"
 
@@ -186,6 +189,113 @@ TEST(MakeGrid, PartsAreConcatenatedAndUnusedPointsDropped) {
   ASSERT_EQ(grid.boundaries.size(), 2u);
   EXPECT_THAT(grid.boundaries[0].nodes, ElementsAre(0, 1, 3, 2));
   EXPECT_THAT(grid.boundaries[1].nodes, ElementsAre(4, 5, 7, 6));
+}
+
+// Squares of a quarter of a degree from `west` eastwards, longitudes within 360 degrees from `least` on.
+Grid across(
+    double west, double least, const std::function<bool(int, int)>& wanted = [](int, int) { return true; }) {
+  const TriMesh mesh = lattice(22, 4, wanted, [&](int i, int j) {
+    const double lon = west + 0.25 * i + 0.015625 * j;
+    return Point{lon - 360.0 * std::floor((lon - least) / 360.0), -19.0 + 0.25 * j};
+  });
+  Grid grid;
+  grid.crs = wgs84();
+  grid.nodes = mesh.points;
+  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  return grid;
+}
+
+// The greatest difference of longitudes in a triangle.
+double widestIn(std::span<const Point> nodes, const Grid& grid) {
+  double widest = 0.0;
+  for (const auto& [a, b, c] : grid.triangles) {
+    const auto [west, east] = std::minmax({nodes[a].x, nodes[b].x, nodes[c].x});
+    widest = std::max(widest, east - west);
+  }
+  return widest;
+}
+
+// Longitudes go on eastwards from the western edge, which stays where it is, in data from -180, from 0 and others.
+TEST(InOneTurn, GoesOnFromTheWesternEdge) {
+  const auto inTwo = [](int i, int) { return i < 18 || i > 19; };  // the second part lies east of the jump as a whole
+  for (const auto& [west, least] : {std::pair{176.0, -180.0}, {356.0, 0.0}, {-190.0, -187.0}, {-2.0, -0.125}}) {
+    for (const bool apart : {false, true}) {
+      SCOPED_TRACE(west);
+      const Grid grid = apart ? across(west, least, inTwo) : across(west, least);
+      ASSERT_GT(widestIn(grid.nodes, grid), 300.0);
+      const auto turned = inOneTurn(grid.nodes, grid.triangles);
+      ASSERT_TRUE(turned);
+      ASSERT_EQ(turned->size(), grid.nodes.size());
+      const double start = grid.nodes[0].x;
+      EXPECT_LT(widestIn(*turned, grid), 0.5);
+      for (std::size_t i = 0; i < turned->size(); ++i) {
+        const Point &is = (*turned)[i], &was = grid.nodes[i];
+        EXPECT_GE(is.x, start);
+        EXPECT_LE(is.x, start + 5.6);
+        EXPECT_EQ(is.y, was.y);
+        EXPECT_EQ(std::remainder(is.x - was.x, 360.0), 0.0);
+        EXPECT_TRUE(was.x < start || is == was);
+      }
+    }
+  }
+}
+
+TEST(InOneTurn, LeavesWhatNeedNotOrCannotChange) {
+  for (const double west : {-179.0, 5.0, 178.0}) {  // the last goes on past 180 already
+    const Grid grid = across(west, west - 1.0);
+    EXPECT_FALSE(inOneTurn(grid.nodes, grid.triangles));
+  }
+  // Round a pole: as a ring, with the pole as a node, and with a triangle that holds it.
+  std::vector<Point> ring;
+  for (int k = 0; k < 12; ++k) ring.push_back({-180.0 + 30.0 * k, 70.0});
+  std::vector<std::array<std::uint32_t, 3>> belt, fan;
+  std::vector<Point> nodes = ring;
+  for (const Point& p : ring) nodes.push_back({p.x, 75.0});
+  for (std::uint32_t k = 0; k < 12; ++k) {
+    const std::uint32_t next = (k + 1) % 12;
+    belt.push_back({k, next, 12 + k});
+    belt.push_back({next, 12 + next, 12 + k});
+    fan.push_back({k, next, 12});
+  }
+  EXPECT_FALSE(inOneTurn(nodes, belt));
+  belt.erase(belt.begin() + 8, belt.begin() + 10);
+  const auto turned = inOneTurn(nodes, belt);  // with a gap it is a regional mesh again, from -30 on
+  ASSERT_TRUE(turned);
+  for (const Point& p : *turned) EXPECT_GE(p.x, -30.0);
+  ring.push_back({0.0, 90.0});
+  EXPECT_FALSE(inOneTurn(ring, fan));
+  const std::vector<Point> cap{{-120.0, 80.0}, {0.0, 80.0}, {120.0, 80.0}};
+  EXPECT_FALSE(inOneTurn(cap, std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}}));
+}
+
+// A mesh so wide that its east would lie where no reader expects a longitude begins a turn earlier.
+TEST(InOneTurn, StaysWhereLongitudesAreExpected) {
+  std::vector<Point> nodes;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::uint32_t k = 0; k < 30; ++k) {
+    for (const double lat : {0.0, 5.0}) nodes.push_back({std::fmod(350.0 + 10.0 * k, 360.0), lat});
+    if (k == 0) continue;
+    triangles.push_back({2 * k - 2, 2 * k, 2 * k + 1});
+    triangles.push_back({2 * k - 2, 2 * k + 1, 2 * k - 1});
+  }
+  const auto turned = inOneTurn(nodes, triangles);
+  ASSERT_TRUE(turned);
+  EXPECT_EQ(turned->front().x, -10.0);
+  EXPECT_EQ(turned->back().x, 280.0);
+}
+
+// Longitudes with more digits than they have past 180.
+TEST(TurnedNodes, ComeBackBitForBit) {
+  Grid grid = across(60.0, 0.0);
+  for (Point& p : grid.nodes) p.x = std::remainder(60.0 + 40.1 * (p.x - 60.0), 360.0);
+  const std::vector<Point> before = grid.nodes;
+  ASSERT_GT(widestIn(before, grid), 180.0);
+  const TurnedNodes turned(grid);
+  ASSERT_TRUE(turned.any());
+  EXPECT_LT(widestIn(grid.nodes, grid), 20.0);
+  EXPECT_EQ(turned.putBack({184.0, 1.0}), (Point{-176.0, 1.0}));  // of a new node
+  turned.putBack(grid);
+  EXPECT_EQ(grid.nodes, before);
 }
 
 TEST(ToTriMesh, LinksTheTrianglesInThePlane) {
