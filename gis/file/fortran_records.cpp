@@ -71,7 +71,7 @@ void FortranReader::fail(const std::string& what) const { throw InputError("'" +
 std::size_t FortranReader::nextSize() const {
   if (bytes_.size() - at_ < 8) fail("it ends too early, at byte " + std::to_string(bytes_.size()));
   const std::size_t size = bitsAt<std::uint32_t>(std::string_view(bytes_).substr(at_, 4), 0);
-  if (size > bytes_.size() - at_ - 8) fail("it is no big-endian Fortran file, or ends too early");
+  if (size > bytes_.size() - at_ - 8) fail("it is not a big-endian Fortran file, or ends too early");
   return size;
 }
 

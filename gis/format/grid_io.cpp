@@ -80,7 +80,7 @@ void keepLinesInside(Grid& grid) {
   cutLinesOffEdges(grid);
   const std::size_t lost = before - edgesOfLines(grid);
   if (lost > 0)
-    grid.notes.push_back(std::to_string(lost) + " edges of lines are none between two triangles and are left out");
+    grid.notes.push_back(std::to_string(lost) + " edges of lines do not lie between two triangles and are left out");
 }
 
 }  // namespace

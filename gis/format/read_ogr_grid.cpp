@@ -110,7 +110,7 @@ std::vector<std::vector<Point>> partsOf(const OGRFeature& feature, const LayerRe
   std::vector<std::vector<Point>> parts;
   const auto add = [&](const OGRGeometry& part) {
     const OGRwkbGeometryType type = wkbFlatten(part.getGeometryType());
-    if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is no polygon; only triangles can be read");
+    if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is not a polygon; only triangles can be read");
     const OGRPolygon& polygon = *part.toPolygon();
     const OGRLinearRing& ring = *polygon.getExteriorRing();
     const int points = ring.getNumPoints();
@@ -159,7 +159,7 @@ std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErr
   while (const OGRFeature* feature = reader.next()) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbPoint || geometry->IsEmpty())
-      reader.fail("it is no point");
+      reader.fail("it is not a point");
     const OGRPoint& point = *geometry->toPoint();
     ids.push_back(feature->GetFieldAsInteger64(id_field));
     grid.nodes.push_back({point.getX(), point.getY()});
@@ -310,13 +310,13 @@ void readTriangles(LayerReader& reader, const std::string& path, const std::vect
 std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader, const NodesByPlace& index,
                                       const LineNodes& lines) {
   const OGRGeometry* geometry = feature.GetGeometryRef();
-  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is no line");
+  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is not a line");
   const OGRLineString& line = *geometry->toLineString();
   std::vector<Point> places;
   for (int i = 0; i < line.getNumPoints(); ++i) {
     places.push_back(placeOf(line, i));
     if (index.firstAt(places.back()) == kNone)
-      reader.fail("point " + std::to_string(i + 1) + " of the line is no corner of a triangle");
+      reader.fail("point " + std::to_string(i + 1) + " of the line is not a corner of a triangle");
   }
   return lines.of(places);
 }
