@@ -152,6 +152,16 @@ TEST_F(ReadCoastline, RefusesPartsOfGeojsonThatAreNoGeometry) {
   }
 }
 
+// GDAL opens no file that is a bare geometry with something else than numbers in it.
+TEST_F(ReadCoastline, NamesThePlaceInABareGeometry) {
+  const std::string bare = R"({"type":"Polygon","coordinates":[[[0,0],[9,0],["x",9],[0,0]]]})";
+  expectRefused(
+      {write("bare.geojson", bare)},
+      {"bare.geojson, feature 0: outer ring, vertex 3, is not a place ([\"x\", 9])", "repair or remove this feature"});
+  expectRefused({write("cut.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[9,0])")},
+                {"cut.geojson: not a vector file that GDAL can read"});
+}
+
 TEST_F(ReadCoastline, RefusesTextsThatAreNoWkt) {
   const std::string square = "\"POLYGON((0 0,1 0,1 1,0 0))\"";
   for (const std::string odd : {"POLYGN((5 5,6 5,6 6,5 5))", "POLYGON((5 5,6 x,6 6,5 5))", "none"}) {
