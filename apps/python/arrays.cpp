@@ -22,7 +22,8 @@ void requirePlain(const py::object& object, const std::string& name) {
     throw InputError(name + ": has masked elements; take their rows out, or fill them");
   const py::array given = py::array::ensure(object);
   if (!given) PyErr_Clear();
-  if (given && given.dtype().kind() == 'c') throw InputError(name + ": is not an array of real numbers but of complex ones");
+  if (given && given.dtype().kind() == 'c')
+    throw InputError(name + ": is not an array of real numbers but of complex ones");
 }
 
 template <typename T>

@@ -6,6 +6,7 @@
 
 #include "gis/error.hpp"
 #include "gis/file/whole_file.hpp"
+#include "gis/for_count.hpp"
 
 namespace coastmesh {
 namespace {
@@ -87,8 +88,8 @@ std::string_view FortranReader::record() {
 std::string_view FortranReader::record(std::size_t bytes) {
   const std::size_t size = nextSize();
   if (size != bytes)
-    fail("the record at byte " + std::to_string(at_) + " has " + std::to_string(size) + " bytes where " +
-         std::to_string(bytes) + " are expected");
+    fail("the record at byte " + std::to_string(at_) + " has " + std::to_string(size) +
+         forCount(size, " byte", " bytes") + " where " + std::to_string(bytes) + " are expected");
   return record();
 }
 

@@ -18,6 +18,7 @@
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_layers.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
@@ -115,7 +116,8 @@ std::vector<std::vector<Point>> partsOf(const OGRFeature& feature, const LayerRe
     const OGRLinearRing& ring = *polygon.getExteriorRing();
     const int points = ring.getNumPoints();
     if (polygon.getNumInteriorRings() != 0 || points < 4 || placeOf(ring, 0) != placeOf(ring, points - 1))
-      reader.fail("a polygon of " + std::to_string(points - 1) + " corners; only triangles can be read");
+      reader.fail("a polygon of " + std::to_string(points - 1) + forCount(points - 1, " corner", " corners") +
+                  "; only triangles can be read");
     std::vector<Point>& made = parts.emplace_back();
     for (int i = 0; i + 1 < points; ++i) made.push_back(placeOf(ring, i));
     for (const Point& p : made)

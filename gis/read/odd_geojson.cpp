@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/read/file_bytes.hpp"
 
 namespace coastmesh {
@@ -273,8 +274,8 @@ class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
       oddity_ += odd->level() == type->level
                      ? placeInArrays(type->name, odd->path) + ", is not a place (" + odd->text + ")"
                      : odd->text + " lies in " + std::to_string(odd->level() - 1) +
-                           " arrays of the coordinates of its " + geometry.type + ", not in " +
-                           std::to_string(type->level - 1);
+                           forCount(odd->level() - 1, " array", " arrays") + " of the coordinates of its " +
+                           geometry.type + ", not in " + std::to_string(type->level - 1);
     }
   }
 

@@ -24,8 +24,8 @@ std::vector<Point> takeChain(const OGRSimpleCurve& curve, GeometryParts& parts, 
   for (std::size_t i = 0; i < n; ++i) {
     const Point p{curve.getX(static_cast<int>(i)), curve.getY(static_cast<int>(i))};
     if (!isInRange(p)) {
-      throw InputError(where() + ", vertex " + std::to_string(i + 1) + " of " + std::to_string(n) + ", is not a place (" +
-                       inWords(p.x) + ", " + inWords(p.y) + "): repair or remove this feature");
+      throw InputError(where() + ", vertex " + std::to_string(i + 1) + " of " + std::to_string(n) +
+                       ", is not a place (" + inWords(p.x) + ", " + inWords(p.y) + "): repair or remove this feature");
     }
     chain[i] = p;
   }

@@ -34,7 +34,8 @@ TEST(OddGeojson, NamesFeatureAndPlace) {
   const std::pair<const char*, const char*> cases[] = {
       {R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,0]],[[1,1],[2],[2,2],[1,1]]]})",
        "hole 1, vertex 2, is not a place ([2])"},
-      {R"({"coordinates":[[[0,0],[4,null],[4,4]]],"type":"polygon"})", "outer ring, vertex 2, is not a place ([4, null])"},
+      {R"({"coordinates":[[[0,0],[4,null],[4,4]]],"type":"polygon"})",
+       "outer ring, vertex 2, is not a place ([4, null])"},
       {R"({"type":"MultiPolygon","coordinates":[[[[0,0],[4,0],[4,4]]],[[[1,1],[2,1]],[[2,2],[3,3],["x",1.5e0]]]]})",
        R"(polygon 2, hole 1, vertex 3, is not a place (["x", 1.5e0]))"},
       {R"({"type":"LineString","coordinates":[[0,0],[],[1,1]]})", "vertex 2, is not a place ([])"},
@@ -45,7 +46,7 @@ TEST(OddGeojson, NamesFeatureAndPlace) {
       {R"({"type":"Polygon","coordinates":[[[0,[1,0]],[1,1]]]})",
        "[1, 0] lies in 3 arrays of the coordinates of its Polygon, not in 2"},
       {R"({"type":"Polygon","coordinates":[[0,0],[4,0],[4,4]]})",
-       "[0, 0] lies in 1 arrays of the coordinates of its Polygon, not in 2"},
+       "[0, 0] lies in 1 array of the coordinates of its Polygon, not in 2"},
       {R"({"type":"MultiPolygon","coordinates":[[[[0,0],[4,0],[4,4]]],[[1,1],[2,1],[2,2]]]})",
        "[1, 1] lies in 2 arrays of the coordinates of its MultiPolygon, not in 3"},
       {R"({"type":"GeometryCollection","geometries":[{"type":"Point","coordinates":[1,2]},{"type":"GeometryCollection",
