@@ -15,6 +15,7 @@
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
 #include "core/metric.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/apart_waters.hpp"
@@ -63,7 +64,8 @@ DefectRow rowOf(const ApartWater& water, const Grid& grid) {
   const auto& [a, b, c] = grid.triangles[water.triangle];
   const Point centre = centroid(grid.nodes[a], grid.nodes[b], grid.nodes[c]);
   DefectRow row{"water apart", {}, centre, water.triangle, -1, static_cast<double>(water.triangles), {}};
-  row.detail = std::to_string(water.triangles) + " triangles without a connection to an open boundary";
+  row.detail = std::to_string(water.triangles) + forCount(water.triangles, " triangle", " triangles") +
+               " without a connection to an open boundary";
   return row;
 }
 
@@ -88,8 +90,9 @@ bool isDefect(const DefectRow& row) { return !row.advice; }
 
 void printDefects(const CheckUsage& usage, const Grid& grid, const BoundCounts& bounds,
                   const std::vector<DefectRow>& defects) {
-  std::printf("%s: %zu nodes, %zu triangles, %td defects\n", usage.mesh.path.c_str(), grid.nodes.size(),
-              grid.triangles.size(), std::ranges::count_if(defects, isDefect));
+  const auto found = std::ranges::count_if(defects, isDefect);
+  std::printf("%s: %zu nodes, %zu %s, %td %s\n", usage.mesh.path.c_str(), grid.nodes.size(), grid.triangles.size(),
+              forCount(grid.triangles.size(), "triangle", "triangles"), found, forCount(found, "defect", "defects"));
   if (bounds.excused() > 0) std::printf("%s\n", boundText(bounds).c_str());
   for (std::size_t begin = 0, end = 0; begin < defects.size(); begin = end) {
     const DefectRow& first = defects[begin];

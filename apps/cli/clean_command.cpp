@@ -17,6 +17,7 @@
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/poly_io.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "parallel/workers.hpp"
@@ -169,7 +170,8 @@ void printReport(const CleanUsage& usage, const CleanedInput& cleaned) {
     points += domain.pslg.points.size();
     segments += domain.pslg.segments.size();
   }
-  std::printf("%zu points, %zu segments in %zu regions\n", points, segments, cleaned.domains.size());
+  std::printf("%zu points, %zu segments in %zu %s\n", points, segments, cleaned.domains.size(),
+              forCount(cleaned.domains.size(), "region", "regions"));
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) {
     if (cleaned.report.counts[kind] == 0) continue;
     std::printf("%s: %llu\n", std::string(toString(static_cast<EditKind>(kind))).c_str(),

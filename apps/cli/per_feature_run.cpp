@@ -21,6 +21,7 @@
 #include "apps/report/mesh_warnings.hpp"
 #include "apps/report/per_feature_report.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/geometry/box.hpp"
 #include "parallel/workers.hpp"
@@ -276,7 +277,9 @@ void warnOf(const std::vector<FeatureOutcome>& features, Run& run) {
     if (feature.state == FeatureState::Refused) warn("left out: " + feature.reason);
     for (const std::string& text : feature.warnings) warn(feature.name + ": " + text);
   }
-  if (left > 0) run.warn(std::to_string(left) + " more warnings of features are not shown");
+  if (left > 0)
+    run.warn(std::to_string(left) + forCount(left, " more warning of a feature is", " more warnings of features are") +
+             " not shown");
 }
 
 int exitCodeOf(const FeatureSums& sums) {

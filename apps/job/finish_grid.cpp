@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/job/places.hpp"
+#include "gis/for_count.hpp"
 
 namespace coastmesh {
 
@@ -68,8 +69,8 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
                                      report.depth.greatest_m)
                      : std::snprintf(line, sizeof line, "no depths");
     std::snprintf(line + length, sizeof line - static_cast<std::size_t>(length),
-                  "; %zu nodes filled, %zu unknown, %zu above the water\n", report.depth.filled, report.depth.unknown,
-                  report.depth.above_water);
+                  "; %zu %s filled, %zu unknown, %zu above the water\n", report.depth.filled,
+                  forCount(report.depth.filled, "node", "nodes"), report.depth.unknown, report.depth.above_water);
     text += line;
   }
   constexpr std::size_t kRepairsShown = 20;

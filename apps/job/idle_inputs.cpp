@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string_view>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/geometry/box.hpp"
@@ -48,9 +51,52 @@ bool liesNear(const SizedFeatures& features, const Grid& grid) {
   });
 }
 
+// What the mesh has of features of that use: names of lines, or of regions.
+std::set<std::string> namesIn(const Grid& grid, FeatureUse use) {
+  std::set<std::string> names;
+  if (use == FeatureUse::Region) {
+    for (const GridFeature& feature : grid.features) names.insert(feature.region);
+  } else {
+    const LineKind kind = use == FeatureUse::Weir ? LineKind::Weir : LineKind::Constraint;
+    for (const GridLine& line : grid.lines)
+      if (line.kind == kind) names.insert(line.name);
+  }
+  return names;
+}
+
+// Whether the feature was read from that file, or from its layer where the name says one: "file|layername=layer".
+bool isFrom(const Feature& feature, const std::string& named) {
+  if (feature.source == named || feature.source.starts_with(named + "|")) return true;
+  const std::size_t bar = named.rfind('|');
+  if (bar == std::string::npos) return false;
+  const std::string file = named.substr(0, bar);
+  constexpr std::string_view kLayer = "layername=";
+  const std::string layer = named.substr(bar + 1);
+  return feature.source == file ||
+         feature.source == file + "|" + (layer.starts_with(kLayer) ? layer.substr(kLayer.size()) : layer);
+}
+
+// The files of that use that left nothing in the mesh; features beyond the frame are no longer there. Of constraints
+// that are points, cleaning says which lie in no water.
+std::vector<std::string> idleFiles(const Coastline& coastline, FeatureUse use, const std::vector<std::string>& files,
+                                   const Grid& grid) {
+  if (files.empty()) return {};
+  const std::set<std::string> names = namesIn(grid, use);
+  std::vector<std::string> idle;
+  for (const std::string& file : files) {
+    const auto isUsed = [&](const Feature& feature) {
+      if (feature.use != use || !isFrom(feature, file)) return false;
+      return !feature.points.empty() || names.contains(lineNameOf(feature));
+    };
+    if (file != "-" && file != "/dev/stdin" && std::ranges::none_of(coastline.features, isUsed)) idle.push_back(file);
+  }
+  return idle;
+}
+
 }  // namespace
 
-std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Grid& grid) {
+std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,
+                                              const Grid& grid) {
   std::vector<std::string> all;
   if (grid.triangles.empty()) return all;
   for (const RasterGeometry& raster : sizes.rasters)
@@ -60,11 +106,14 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
     if (!liesNear(sizes.features[file], grid))
       all.push_back("--size-features " + job.sizes.features[file] +
                     ": none of them lies in the mesh, or near it; is its CRS right?");
-  const bool has_weirs = std::ranges::any_of(grid.lines, [](const GridLine& l) { return l.kind == LineKind::Weir; });
-  if (!job.input.weirs.empty() && !has_weirs)
-    all.push_back("--weirs " + job.input.weirs.front() +
-                  (job.input.weirs.size() > 1 ? " and " + std::to_string(job.input.weirs.size() - 1) + " more" : "") +
-                  ": no line of it lies in the water");
+  const auto addIdle = [&](const std::string& option, const std::vector<std::string>& files, FeatureUse use,
+                           const std::string& text) {
+    for (const std::string& file : idleFiles(coastline, use, files, grid))
+      all.push_back(option + " " + file + ": " + text + "; is its CRS right?");
+  };
+  addIdle("--constraints", job.input.constraints, FeatureUse::Constraint, "nothing of it lies in the water");
+  addIdle("--weirs", job.input.weirs, FeatureUse::Weir, "no line of it lies in the water");
+  addIdle("--regions", job.input.regions, FeatureUse::Region, "no polygon of it holds any of the mesh");
   return all;
 }
 

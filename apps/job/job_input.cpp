@@ -9,6 +9,7 @@
 #include "gis/coast/group_features.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/poly_io.hpp"
 
 namespace coastmesh {
@@ -150,7 +151,8 @@ void JobInput::bendEdges() {
   std::size_t count = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g)
     count += coastmesh::bendEdges(coastline_, groups_[g], projectionOf(g), options_.edges, options_.edge_tolerance_m);
-  report_.notes.push_back(std::to_string(count) + " points were added to edges that would otherwise leave their " +
+  report_.notes.push_back(std::to_string(count) + forCount(count, " point was", " points were") +
+                          " added to edges that would otherwise leave their " +
                           (options_.edges == EdgeLine::LonLat ? "straight lines" : "geodesics") +
                           " by more than --edge-tolerance");
 }

@@ -21,6 +21,7 @@
 #include "apps/job/stopwatch.hpp"
 #include "core/quality.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/for_count.hpp"
 #include "gis/grid/frame_box.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
@@ -186,7 +187,10 @@ class OrderedMerge {
     std::ranges::sort(small_groups_.items, std::greater());
     if (!small_groups_.items.empty()) result_.log.stages.push_back(std::move(small_groups_));
     if (untold_ > 0)
-      result_.read.warnings.push_back(std::to_string(untold_) + " more warnings of other features are not shown");
+      result_.read.warnings.push_back(
+          std::to_string(untold_) +
+          forCount(untold_, " more warning of another feature is", " more warnings of other features are") +
+          " not shown");
     result_.log.addAlone("stitch", merging_s_);
     result_.seconds.stitch += merging_s_;
   }
@@ -291,7 +295,7 @@ void noteFallenShort(const FrameMoves& moves, double min_angle_deg, MeshJobResul
   }
   std::ostringstream text;
   text << std::setprecision(4) << moves.fell_short.size()
-       << (moves.fell_short.size() == 1 ? " triangle at the frame is" : " triangles at the frame are") << " short of "
+       << forCount(moves.fell_short.size(), " triangle at the frame is", " triangles at the frame are") << " short of "
        << min_angle_deg << " degrees in the file, the worst with " << worst << " at " << placeInWords(where)
        << ": their nodes were moved onto the box";
   result.read.notes.push_back(text.str());
@@ -390,7 +394,8 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   }
   // A shard, or one feature of many, may well lie beside them.
   if (exchange.shards <= 1 && !job.input.ready)
-    std::ranges::move(warningsOfIdleInputs(job, sizes, result.grid), std::back_inserter(result.read.warnings));
+    std::ranges::move(warningsOfIdleInputs(job, sizes, input.coastline(), result.grid),
+                      std::back_inserter(result.read.warnings));
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop);
   result.rasters_read = rasters.use();

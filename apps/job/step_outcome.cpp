@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "apps/job/places.hpp"
+#include "gis/for_count.hpp"
 
 namespace coastmesh {
 
@@ -42,13 +43,13 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
   if (!below_step.empty()) {
     const ShortStep& worst = below_step.front();
     all.push_back("--time-step " + amount("%g", sizes.time_step_s) + " at --courant " + amount("%g", sizes.courant) +
-                  " does not hold in " + std::to_string(below_step.size()) + " triangles, the worst at " +
-                  pointText(worst.place) + amount(" with %.3g s: ", worst.step_s * sizes.courant) +
-                  causesText(below_step, sizes));
+                  " does not hold in " + std::to_string(below_step.size()) +
+                  forCount(below_step.size(), " triangle, at ", " triangles, the worst at ") + pointText(worst.place) +
+                  amount(" with %.3g s: ", worst.step_s * sizes.courant) + causesText(below_step, sizes));
   }
   if (!below_least.empty()) {
-    all.push_back("edges shorter than --size-min " + amount("%g", sizes.least_m) + ": " +
-                  std::to_string(below_least.size()) + ", the shortest of " +
+    all.push_back("edges shorter than " + amount("%g", StepOutcome::kUsualShare) + " times --size-min " +
+                  amount("%g", sizes.least_m) + ": " + std::to_string(below_least.size()) + ", the shortest of " +
                   amount("%.4g m at ", below_least.front().length_m) + pointText(below_least.front().place) + ": " +
                   causesText(below_least, sizes));
   }
@@ -61,7 +62,8 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
   StepOutcome outcome;
   outcome.step = measureStep(grid, loop);
   if (sizes.time_step_s > 0.0) outcome.below_step = stepsBelow(grid, sizes.time_step_s, sizes.courant);
-  if (sizes.least_m > 0.0 && sizes.any()) outcome.below_least = edgesBelow(grid, sizes.least_m);
+  if (sizes.least_m > 0.0 && sizes.any())
+    outcome.below_least = edgesBelow(grid, StepOutcome::kUsualShare * sizes.least_m);
   outcome.least_missed = sizes.coast == CoastDetail::Follow && !outcome.below_least.empty() &&
                          outcome.below_least.front().length_m < StepOutcome::kShareOfLeast * sizes.least_m;
   outcome.warnings = warningsOf(outcome, sizes);

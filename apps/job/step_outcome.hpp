@@ -10,12 +10,13 @@ namespace coastmesh {
 
 // A finished grid's time step, and whether --time-step and --size-min are met in it.
 struct StepOutcome {
-  // An edge shorter than this share of --size-min misses it: edges are between 0.7 and 1.4 of the size.
-  static constexpr double kShareOfLeast = 0.5;
+  // Edges are mostly between 0.7 and 1.4 times the size, so that --size-min is undercut only by shorter ones; those
+  // shorter than `kShareOfLeast` of it miss it.
+  static constexpr double kUsualShare = 0.7, kShareOfLeast = 0.5;
 
   StepReport step;
   std::vector<ShortStep> below_step;   // triangles that miss --time-step, the worst first
-  std::vector<ShortEdge> below_least;  // edges shorter than --size-min, the shortest first
+  std::vector<ShortEdge> below_least;  // edges that undercut --size-min, the shortest first
   bool least_missed = false;           // one of them is far too short, and not because --coast keep preserves the data
 
   std::vector<std::string> warnings;

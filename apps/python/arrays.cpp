@@ -22,7 +22,8 @@ void requirePlain(const py::object& object, const std::string& name) {
     throw InputError(name + ": has masked elements; take their rows out, or fill them");
   const py::array given = py::array::ensure(object);
   if (!given) PyErr_Clear();
-  if (given && given.dtype().kind() == 'c') throw InputError(name + ": is no array of numbers but of complex ones");
+  if (given && given.dtype().kind() == 'c')
+    throw InputError(name + ": is not an array of real numbers but of complex ones");
 }
 
 template <typename T>
@@ -31,7 +32,7 @@ Rows<T> pairs(const py::object& object, const std::string& name) {
   const Rows<T> rows = Rows<T>::ensure(object);
   if (!rows) {
     PyErr_Clear();
-    throw InputError(name + ": is no array of numbers");
+    throw InputError(name + ": is not an array of numbers");
   }
   if (rows.size() > 0 && (rows.ndim() != 2 || rows.shape(1) != 2)) {
     std::string shape;
@@ -54,7 +55,7 @@ void requireWhole(const py::object& object) {
   const py::array given = py::array::ensure(object);
   if (!given) {
     PyErr_Clear();
-    throw InputError("segments: is no array of indices");
+    throw InputError("segments: is not an array of indices");
   }
   if (given.size() > 0 && given.dtype().kind() != 'i' && given.dtype().kind() != 'u') {
     throw InputError("segments: has elements of type " + py::str(given.dtype()).cast<std::string>() +

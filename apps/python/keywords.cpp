@@ -75,18 +75,18 @@ const char* wantedOf(OptionKind kind) {
     case OptionKind::Flag:
       return "is neither True nor False";
     case OptionKind::Number:
-      return "is no number";
+      return "is not a number";
     case OptionKind::Integer:
-      return "is no integer";
+      return "is not an integer";
     case OptionKind::Numbers:
-      return "is no list of numbers";
+      return "is not a list of numbers";
     case OptionKind::File:
-      return "is no path of a file";
+      return "is not the path of a file";
     case OptionKind::Text:
     case OptionKind::Choice:
       break;
   }
-  return "is no text";
+  return "is not a text";
 }
 
 void setOne(OptionTable& table, const OptionTable::Entry& entry, const std::string& keyword, const py::object& given) {
@@ -107,7 +107,7 @@ void setFromKeywords(OptionTable& table, const py::dict& keywords, std::vector<s
     if (given.is_none()) continue;
     const auto keyword = name.cast<std::string>();
     const std::optional<KeywordOption> option = optionOf(keyword, table);
-    if (!option) throw OptionError(keyword + " is no option");
+    if (!option) throw OptionError(keyword + " is not an option");
     const OptionTable::Entry& entry = *option->entry;
     if (option->former)
       warnings.push_back(keyword + " is called " + keywordOf(entry.name) +

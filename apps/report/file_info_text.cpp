@@ -6,6 +6,7 @@
 #include "apps/report/file_info.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/step_sections.hpp"
+#include "gis/for_count.hpp"
 
 namespace coastmesh {
 
@@ -106,7 +107,8 @@ std::string toJson(const PolyInfo& info) {
 
 std::string toText(const MeshInfo& info) {
   std::string text;
-  addLine(text, "mesh            %llu nodes, %llu triangles", big(info.nodes), big(info.triangles));
+  addLine(text, "mesh            %llu nodes, %llu %s", big(info.nodes), big(info.triangles),
+          forCount(info.triangles, "triangle", "triangles"));
   addLine(text, "pieces          %llu", big(info.pieces));
   if (info.features > 0) addLine(text, "features        %llu", big(info.features));
   for (const auto& [role, count] : info.boundaries) addLine(text, "boundaries      %llu %s", big(count), role.c_str());
@@ -126,8 +128,10 @@ std::string toText(const MeshInfo& info) {
 
 std::string toText(const CoastlineInfo& info) {
   std::string text;
-  addLine(text, "features        %llu in %llu groups that touch", big(info.features), big(info.groups));
-  addLine(text, "rings           %llu, %llu of them holes", big(info.rings), big(info.holes));
+  addLine(text, "features        %llu in %llu %s", big(info.features), big(info.groups),
+          forCount(info.groups, "group that touches", "groups that touch"));
+  addLine(text, "rings           %llu, %llu of them %s", big(info.rings), big(info.holes),
+          forCount(info.holes, "a hole", "holes"));
   if (info.lines > 0) addLine(text, "open lines      %llu", big(info.lines));
   addLine(text, "points          %llu", big(info.points));
   if (info.skipped_empty > 0) addLine(text, "empty features  %llu", big(info.skipped_empty));
@@ -143,8 +147,9 @@ std::string toText(const CoastlineInfo& info) {
 
 std::string toText(const PolyInfo& info) {
   std::string text;
-  addLine(text, "plane graph     %llu points, %llu segments, %llu holes", big(info.points), big(info.segments),
-          big(info.holes));
+  addLine(text, "plane graph     %llu %s, %llu %s, %llu %s", big(info.points), forCount(info.points, "point", "points"),
+          big(info.segments), forCount(info.segments, "segment", "segments"), big(info.holes),
+          forCount(info.holes, "hole", "holes"));
   addExtent(text, info.extent);
   addLine(text, "segments        %.6g to %.6g long", info.shortest_edge, info.longest_edge);
   return text;

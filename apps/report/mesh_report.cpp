@@ -8,6 +8,7 @@
 #include "apps/report/partition_report.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/step_sections.hpp"
+#include "gis/for_count.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "parallel/deal.hpp"
 
@@ -268,8 +269,10 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
   char figures[200];
   std::snprintf(figures, sizeof figures, "smallest angle %.2f, largest %.2f degrees; %.2f s, %.0f MiB",
                 quality.min_angle_deg, quality.max_angle_deg, result.seconds.total, peakMemoryMib());
-  std::string text = grouped(quality.vertices) + " vertices, " + grouped(quality.triangles) + " triangles, " +
-                     grouped(result.refine.steiner_points) + " Steiner points\n" + figures + "\n";
+  std::string text = grouped(quality.vertices) + " vertices, " + grouped(quality.triangles) +
+                     forCount(quality.triangles, " triangle, ", " triangles, ") +
+                     grouped(result.refine.steiner_points) +
+                     forCount(result.refine.steiner_points, " Steiner point\n", " Steiner points\n") + figures + "\n";
   for (const auto& [kind, count] : result.surfaces)
     if (kind != SurfaceKind::Plane)
       text += "measured on the " + std::string(kSurfaceNames[static_cast<std::size_t>(kind)]) +
@@ -284,7 +287,8 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     char bound[80];
     std::snprintf(bound, sizeof bound, asked.max_angle_deg < 180.0 ? "%g to %g degrees" : "at least %g degrees",
                   asked.min_angle_deg, asked.max_angle_deg);
-    text += grouped(result.short_of.count) + " triangles miss a requirement (" + bound + ")\n";
+    text += grouped(result.short_of.count) + forCount(result.short_of.count, " triangle misses", " triangles miss") +
+            " a requirement (" + bound + ")\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";
   const auto isOpenRing = [](const Boundary& boundary) {
@@ -292,7 +296,8 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
   };
   if (const auto rings = std::ranges::count_if(result.grid.boundaries, isOpenRing); rings > 0)
     text += grouped(static_cast<std::uint64_t>(rings)) +
-            " open boundaries are rings, which fort.14 and hgrid.gr3 hold as two that share their ends\n";
+            (rings == 1 ? " open boundary is a ring, which" : " open boundaries are rings, each of which") +
+            " fort.14 and hgrid.gr3 hold as two that share their ends\n";
   text += cleaningText(result.edits);
   text += finishSummary(job.finish, result.finish);
   text += partitionText(result.partition);

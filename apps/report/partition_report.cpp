@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "gis/for_count.hpp"
+
 namespace coastmesh {
 
 namespace {
@@ -19,9 +21,10 @@ std::string figuresText(const std::optional<PartitionFigures>& figures, std::uin
   if (!figures) return {};
   char balance[40];
   std::snprintf(balance, sizeof balance, "balance %.4f", figures->balance);
-  return grouped(parts) + " parts of " + grouped(figures->least) + " to " + grouped(figures->most) + ' ' + what + ", " +
-         balance + "; " + grouped(figures->edge_cut) + " edges cut; " + grouped(figures->connected_parts) +
-         " parts hang together\n";
+  return grouped(parts) + forCount(parts, " part of ", " parts of ") + grouped(figures->least) + " to " +
+         grouped(figures->most) + ' ' + what + ", " + balance + "; " + grouped(figures->edge_cut) +
+         forCount(figures->edge_cut, " edge cut; ", " edges cut; ") + grouped(figures->connected_parts) +
+         forCount(figures->connected_parts, " part hangs", " parts hang") + " together\n";
 }
 
 }  // namespace

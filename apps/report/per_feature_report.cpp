@@ -4,6 +4,7 @@
 
 #include "apps/report/mesh_report.hpp"
 #include "apps/report/report_sections.hpp"
+#include "gis/for_count.hpp"
 
 namespace coastmesh {
 
@@ -81,10 +82,13 @@ std::string perFeatureReport(const std::vector<std::string>& files, const ReadRe
 
 std::string perFeatureSummary(const std::vector<FeatureOutcome>& features, double seconds) {
   const FeatureSums sums = sumsOf(features);
-  std::string text = grouped(sums.meshed()) + " of " + grouped(features.size()) + " features meshed";
-  if (sums.skipped > 0) text += ", " + grouped(sums.skipped) + " were there already";
+  std::string text = grouped(sums.meshed()) + " of " + grouped(features.size()) +
+                     forCount(features.size(), " feature", " features") + " meshed";
+  if (sums.skipped > 0)
+    text += ", " + grouped(sums.skipped) + forCount(sums.skipped, " was", " were") + " there already";
   if (sums.refused > 0) text += ", " + grouped(sums.refused) + " left out";
-  if (sums.short_of > 0) text += "; " + grouped(sums.short_of) + " are short of what was asked";
+  if (sums.short_of > 0)
+    text += "; " + grouped(sums.short_of) + forCount(sums.short_of, " is", " are") + " short of what was asked";
   text += "\n";
   if (sums.meshed() == 0) return text;
   char line[200];

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "gis/for_count.hpp"
+
 namespace coastmesh {
 
 namespace {
@@ -54,9 +56,9 @@ std::string grouped(std::uint64_t number) {
 }
 
 std::string boundText(const BoundCounts& bounds) {
-  return grouped(bounds.below) + " triangles break the bounds on angles: " + grouped(bounds.corner) +
-         " in input angles too small for them, " + grouped(bounds.near) + " near to such an angle, " +
-         grouped(bounds.unresolved()) + " unresolved";
+  return grouped(bounds.below) + forCount(bounds.below, " triangle breaks", " triangles break") +
+         " the bounds on angles: " + grouped(bounds.corner) + " in input angles too small for them, " +
+         grouped(bounds.near) + " near to such an angle, " + grouped(bounds.unresolved()) + " unresolved";
 }
 
 std::string textOf(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }

@@ -105,7 +105,7 @@ void takeConfig(const std::string& file, OptionTable& table, const std::set<std:
     const std::string where = file + ": '" + entry.name + "'";
     const auto [option, present] = find(entry.name, table);
     if (option == nullptr)
-      throw OptionError(where + " is no option of 'coastmesh " + table.name() + "'; --help lists them");
+      throw OptionError(where + " is not an option of 'coastmesh " + table.name() + "'; --help lists them");
     if (!seen.insert(option).second)
       throw OptionError(where + " is given twice, perhaps by another name or in another section");
     if (!present.empty())

@@ -17,7 +17,7 @@ std::string storeBand(const std::vector<double>& numbers, std::vector<DepthBand>
   if (numbers.empty()) return "is not FROM,TO,SIZE";
   const DepthBand band{numbers[0], numbers[1], numbers[2]};
   if (!(band.from_m < band.to_m)) return "ends before it begins";
-  if (!(band.size_m > 0.0) || std::isinf(band.size_m)) return "has a size that is no length above 0";
+  if (!(band.size_m > 0.0) || std::isinf(band.size_m)) return "has a size that is not a length above 0";
   bands.push_back(band);
   return {};
 }

@@ -122,9 +122,10 @@ class SizeTreeBuilder {
     return !tree_.complete_;
   }
 
-  // What cells ask for whose lengths lie in these ranges: surely, and probably.
+  // What cells ask for whose lengths lie in these ranges: surely, probably, and on average.
   struct Demand {
     double least = 0.0, likely = 0.0;
+    double central = 0.0;     // as the lengths at the centres of cells ask for, where they are known
     double most_here = -1.0;  // of `likely`, in one cell
     SizeBox most_in;
     double size = 0.0;
@@ -132,6 +133,7 @@ class SizeTreeBuilder {
     void add(const Demand& other) {
       least += other.least;
       likely += other.likely;
+      central += other.central;
       if (!(other.most_here > most_here)) return;
       most_here = other.most_here;
       most_in = other.most_in;
@@ -150,7 +152,10 @@ class SizeTreeBuilder {
     const double high = std::min(range.high, range.low + options_.gradation * std::sqrt(2.0) * sideOf(box));
     const double low = range.low > 0.0 ? range.low : high;
     const double likely = kVerticesPerArea * area / low / high;
-    return {kVerticesPerArea * area / range.high / range.high, likely, likely, box, low};
+    const double least = kVerticesPerArea * area / range.high / range.high;
+    const double centre = range.at_centre;
+    const double central = std::isfinite(centre) && centre > 0.0 ? kVerticesPerArea * area / centre / centre : least;
+    return {least, likely, central, likely, box, low};
   }
 
   // Whether what is likely is far too much and has hardly become less over some levels: what small places seem to ask
@@ -162,6 +167,15 @@ class SizeTreeBuilder {
     if (likely_.size() <= kLevelsAlike || !(likely > kFarTooMuch * options_.most_vertices)) return false;
     return std::all_of(likely_.end() - kLevelsAlike - 1, likely_.end() - 1,
                        [&](double before) { return likely >= kAlike * before; });
+  }
+
+  // Whether the lengths at the centres of cells have asked for more than is allowed over some levels. A single level
+  // may mislead, where a straight shore runs through the centres; at the next one it is far from them.
+  bool isTooMuchOnAverage(double central) {
+    constexpr int kLevelsAlike = 3;
+    constexpr double kError = 1.1;  // of many cells together
+    levels_beyond_ = central > kError * options_.most_vertices ? levels_beyond_ + 1 : 0;
+    return levels_beyond_ >= kLevelsAlike;
   }
 
   // Gives up: what is asked for is more than what is allowed.
@@ -180,7 +194,7 @@ class SizeTreeBuilder {
             const SizeBox box = boxOf(leaf_cells_[l]);
             const double share = source_.share(box);
             if (!(share > 0.0)) continue;
-            Demand here{0.0, 0.0, 0.0, box, kInfinity};
+            Demand here{0.0, 0.0, 0.0, 0.0, box, kInfinity};
             forEachTriangle(leaf_vertices_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
               const double x = sizes_.size[a], y = sizes_.size[b], z = sizes_.size[c];
               const auto atMiddle = [](double p, double q) { return 4.0 / (p + q) / (p + q); };
@@ -243,6 +257,11 @@ class SizeTreeBuilder {
       // A few cells more cost nothing and make the estimate better.
       constexpr std::uint32_t kFewCells = 20'000;
       too_much |= isSurelyTooMuch(pending.likely) || pending.least > options_.most_vertices;
+      // Bounds alone tell what is a little too much only when the tree is nearly complete.
+      if (isTooMuchOnAverage(pending.central) && end >= kFewCells) {
+        pending.least = std::max(pending.least, pending.central);
+        return abandon(pending);
+      }
       if (too_much && end >= kFewCells) return abandon(pending);
       unsure.clear();
       unsure_ranges.clear();
@@ -650,6 +669,7 @@ class SizeTreeBuilder {
   std::vector<LeafVertices> leaf_vertices_;
   std::vector<char> is_wanted_;  // leaves
   std::vector<double> likely_;   // demand as estimated at each level of cells
+  int levels_beyond_ = 0;        // successive ones whose centres ask for too much
 };
 
 SizeTree::SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,

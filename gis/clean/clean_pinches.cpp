@@ -10,6 +10,7 @@
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "gis/coast/segment_tags.hpp"
+#include "gis/for_count.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/geometry/chain_index.hpp"
 
@@ -121,7 +122,8 @@ class PinchOpener {
       }
     }
     if (left > 0) {
-      report_.notes.push_back(std::to_string(left) + " places where rings touch could not be opened for want of room");
+      report_.notes.push_back(std::to_string(left) + forCount(left, " place", " places") +
+                              " where rings touch could not be opened for want of room");
     }
     std::erase_if(segments_, [](const Segment& s) { return s.a == kNone; });
     std::ranges::sort(segments_, [](const Segment& s, const Segment& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });

@@ -6,6 +6,7 @@
 
 #include "gis/error.hpp"
 #include "gis/file/whole_file.hpp"
+#include "gis/for_count.hpp"
 
 namespace coastmesh {
 namespace {
@@ -71,7 +72,7 @@ void FortranReader::fail(const std::string& what) const { throw InputError("'" +
 std::size_t FortranReader::nextSize() const {
   if (bytes_.size() - at_ < 8) fail("it ends too early, at byte " + std::to_string(bytes_.size()));
   const std::size_t size = bitsAt<std::uint32_t>(std::string_view(bytes_).substr(at_, 4), 0);
-  if (size > bytes_.size() - at_ - 8) fail("it is no big-endian Fortran file, or ends too early");
+  if (size > bytes_.size() - at_ - 8) fail("it is not a big-endian Fortran file, or ends too early");
   return size;
 }
 
@@ -87,8 +88,8 @@ std::string_view FortranReader::record() {
 std::string_view FortranReader::record(std::size_t bytes) {
   const std::size_t size = nextSize();
   if (size != bytes)
-    fail("the record at byte " + std::to_string(at_) + " has " + std::to_string(size) + " bytes where " +
-         std::to_string(bytes) + " are expected");
+    fail("the record at byte " + std::to_string(at_) + " has " + std::to_string(size) +
+         forCount(size, " byte", " bytes") + " where " + std::to_string(bytes) + " are expected");
   return record();
 }
 

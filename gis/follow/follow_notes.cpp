@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <functional>
 
+#include "gis/for_count.hpp"
+
 namespace coastmesh {
 
 namespace {
@@ -42,7 +44,8 @@ std::string noteOn(const FollowNotes& notes, const FollowOptions& options, const
   for (const CutOffWater& cut_off : waters) area += cut_off.water.area;
   std::string note = areaText(area, notes.area, projection) + " of the water " +
                      (options.keep == KeepWater::All ? "is meshed apart" : "is left out") + ", " +
-                     std::to_string(waters.size()) + " waters without a connection to the " +
+                     std::to_string(waters.size()) + forCount(waters.size(), " water", " waters") +
+                     " without a connection to the " +
                      (options.keep == KeepWater::Largest || none_kept_open ? "largest" : "others");
   std::size_t named = 0;
   for (const auto& [water, way] : waters) {
@@ -63,7 +66,7 @@ std::string noteOn(const std::vector<JoinedWater>& joined, double area, const Pr
   std::string note =
       "straits that are the only connection between waters were widened to an element instead of closed, for the "
       "largest of " +
-      std::to_string(joined.size()) + " waters: ";
+      std::to_string(joined.size()) + forCount(joined.size(), " water: ", " waters: ");
   for (std::size_t i = 0; i < std::min(kNamedStraits, joined.size()); ++i) {
     const WaterWay& way = joined[i].way;
     if (i > 0) note += "; ";

@@ -5,6 +5,7 @@
 
 #include "gis/error.hpp"
 #include "gis/file/text_reader.hpp"
+#include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/ibtype.hpp"
 
@@ -155,7 +156,8 @@ void readElements(TextReader& file, std::uint64_t count, const NodeNumbers& numb
     file.needLine();
     in_order = in_order && file.integer() == static_cast<std::int64_t>(t) + 1;
     if (const std::int64_t corners = file.integer(); corners != 3)
-      file.fail("an element of " + std::to_string(corners) + " nodes; only meshes of triangles can be read");
+      file.fail("an element of " + std::to_string(corners) + forCount(corners, " node", " nodes") +
+                "; only meshes of triangles can be read");
     auto& triangle = grid.triangles.emplace_back();
     for (std::uint32_t& corner : triangle) corner = numbers.read(file);
   }

@@ -8,6 +8,7 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_layers.hpp"
 #include "gis/grid/grid_edit.hpp"
@@ -69,7 +70,9 @@ void keepLinesInside(Grid& grid) {
   cutLinesOffEdges(grid);
   const std::size_t lost = before - edgesOfLines(grid);
   if (lost > 0)
-    grid.notes.push_back(std::to_string(lost) + " edges of lines are none between two triangles and are left out");
+    grid.notes.push_back(std::to_string(lost) +
+                         forCount(lost, " edge of a line does not lie between two triangles and is left out",
+                                  " edges of lines do not lie between two triangles and are left out"));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_layers.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
@@ -110,12 +111,13 @@ std::vector<std::vector<Point>> partsOf(const OGRFeature& feature, const LayerRe
   std::vector<std::vector<Point>> parts;
   const auto add = [&](const OGRGeometry& part) {
     const OGRwkbGeometryType type = wkbFlatten(part.getGeometryType());
-    if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is no polygon; only triangles can be read");
+    if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is not a polygon; only triangles can be read");
     const OGRPolygon& polygon = *part.toPolygon();
     const OGRLinearRing& ring = *polygon.getExteriorRing();
     const int points = ring.getNumPoints();
     if (polygon.getNumInteriorRings() != 0 || points < 4 || placeOf(ring, 0) != placeOf(ring, points - 1))
-      reader.fail("a polygon of " + std::to_string(points - 1) + " corners; only triangles can be read");
+      reader.fail("a polygon of " + std::to_string(points - 1) + forCount(points - 1, " corner", " corners") +
+                  "; only triangles can be read");
     std::vector<Point>& made = parts.emplace_back();
     for (int i = 0; i + 1 < points; ++i) made.push_back(placeOf(ring, i));
     for (const Point& p : made)
@@ -159,7 +161,7 @@ std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErr
   while (const OGRFeature* feature = reader.next()) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbPoint || geometry->IsEmpty())
-      reader.fail("it is no point");
+      reader.fail("it is not a point");
     const OGRPoint& point = *geometry->toPoint();
     ids.push_back(feature->GetFieldAsInteger64(id_field));
     grid.nodes.push_back({point.getX(), point.getY()});
@@ -310,13 +312,13 @@ void readTriangles(LayerReader& reader, const std::string& path, const std::vect
 std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader, const NodesByPlace& index,
                                       const LineNodes& lines) {
   const OGRGeometry* geometry = feature.GetGeometryRef();
-  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is no line");
+  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is not a line");
   const OGRLineString& line = *geometry->toLineString();
   std::vector<Point> places;
   for (int i = 0; i < line.getNumPoints(); ++i) {
     places.push_back(placeOf(line, i));
     if (index.firstAt(places.back()) == kNone)
-      reader.fail("point " + std::to_string(i + 1) + " of the line is no corner of a triangle");
+      reader.fail("point " + std::to_string(i + 1) + " of the line is not a corner of a triangle");
   }
   return lines.of(places);
 }

@@ -153,7 +153,7 @@ class VtuFile {
       if (at == end) return values;
       double value = 0.0;
       const auto [next, error] = std::from_chars(at, end, value);
-      if (error != std::errc()) fail("an array holds what is no number");
+      if (error != std::errc()) fail("an array holds a value that is not a number");
       values.push_back(value);
       at = next;
     }
@@ -259,7 +259,7 @@ std::vector<std::string> readTexts(const VtuFile& file, const char* name) {
   std::vector<std::string> texts;
   std::string text;
   for (const double byte : file.array("FieldData", name).value_or(std::vector<double>())) {
-    if (!(byte >= 0.0 && byte < 256.0)) file.fail("its texts hold what is no byte");
+    if (!(byte >= 0.0 && byte < 256.0)) file.fail("its texts hold a value that is not a byte");
     if (byte != 0.0) {
       text.push_back(static_cast<char>(static_cast<unsigned char>(byte)));
     } else {

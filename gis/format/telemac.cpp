@@ -7,6 +7,7 @@
 #include "gis/file/fortran_records.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/loop_role.hpp"
@@ -36,7 +37,9 @@ Ranks readGeometry(FortranReader& file, Grid& grid) {
   if (parameters[6] > 1) file.fail("it has " + std::to_string(parameters[6]) + " planes; only 2D meshes can be read");
   if (parameters[9] == 1) file.integers(6);  // the date
   const std::vector<std::int32_t> sizes = file.integers(4);
-  if (sizes[2] != 3) file.fail("elements of " + std::to_string(sizes[2]) + " nodes; only triangles can be read");
+  if (sizes[2] != 3)
+    file.fail("elements of " + std::to_string(sizes[2]) + forCount(sizes[2], " node", " nodes") +
+              "; only triangles can be read");
   if (sizes[0] < 0 || sizes[1] < 0) file.fail("a count of it is negative");
   const auto elements = static_cast<std::size_t>(sizes[0]), nodes = static_cast<std::size_t>(sizes[1]);
   const std::vector<std::int32_t> corners = file.integers(3 * elements);
@@ -94,8 +97,8 @@ std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& r
     roles[static_cast<std::size_t>(node - 1)] = discharge ? BoundaryRole::River : BoundaryRole::Open;
   }
   if (lines != on_boundary)
-    grid.notes.push_back("the .cli has " + std::to_string(lines) + " lines, but IPOBO " + std::to_string(on_boundary) +
-                         " nodes on the boundary");
+    grid.notes.push_back("the .cli has " + std::to_string(lines) + forCount(lines, " line", " lines") + ", but IPOBO " +
+                         std::to_string(on_boundary) + " nodes on the boundary");
   return roles;
 }
 

@@ -4,6 +4,7 @@
 
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/geographic_nodes.hpp"
@@ -97,7 +98,9 @@ std::vector<std::int64_t> readNodes(const std::string& path, Grid& grid) {
     tags.push_back(file.integer());
   }
   // FESOM2 goes by the order of the lines.
-  if (misnumbered > 0) grid.notes.push_back(std::to_string(misnumbered) + " nodes have another number than their line");
+  if (misnumbered > 0)
+    grid.notes.push_back(std::to_string(misnumbered) + forCount(misnumbered, " node has another number than its line",
+                                                                " nodes have another number than their line"));
   return tags;
 }
 

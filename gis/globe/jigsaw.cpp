@@ -82,7 +82,7 @@ void readKind(TextReader& file, Contents& contents) {
   file.count();  // the version
   const std::string_view kind = file.hasWord() ? file.word() : "EUCLIDEAN-MESH";
   contents.ellipsoid = kind == "ELLIPSOID-MESH";
-  if (!contents.ellipsoid && kind != "EUCLIDEAN-MESH") file.fail("\"" + std::string(kind) + "\" is no mesh");
+  if (!contents.ellipsoid && kind != "EUCLIDEAN-MESH") file.fail("\"" + std::string(kind) + "\" is not a mesh");
 }
 
 void readPoints(TextReader& file, Contents& contents) {

@@ -440,7 +440,7 @@ void requireConsistent(const Grid& grid, const ItemLoop& loop) {
   for (const auto& [edge, count] : edgesOfLines(grid)) {
     if (count != 2)
       fail("nodes " + std::to_string(edge[0] + 1) + " and " + std::to_string(edge[1] + 1) +
-           " follow one another in a line, but are no edge inside the mesh");
+           " follow one another in a line, but are not an edge inside the mesh");
   }
 }
 

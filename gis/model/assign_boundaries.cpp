@@ -296,8 +296,8 @@ BoundaryKind kindOfText(const std::string& text, const std::string& what) {
     return {role, isRolesOwn(number) ? -1 : number};
   }
   throw InputError(what + ": \"" + text +
-                   "\" is no type of boundary; give land, open or river, or a number of ADCIRC's (" + givableIbtypes() +
-                   "; -1 for open)");
+                   "\" is not a type of boundary; give land, open or river, or a number of ADCIRC's (" +
+                   givableIbtypes() + "; -1 for open)");
 }
 
 namespace {

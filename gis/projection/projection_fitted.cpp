@@ -85,7 +85,7 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
 [[noreturn]] void refuse(const Feature& feature, const Point& input, const Crs& crs) {
   const bool swapped = crs.geographic && std::abs(input.x) <= 90 && std::abs(input.y) <= 180;
   throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the point " +
-                   std::to_string(input.x) + ", " + std::to_string(input.y) + " is no place on Earth in " +
+                   std::to_string(input.x) + ", " + std::to_string(input.y) + " is not a place on Earth in " +
                    nameOf(crs) +
                    (swapped ? ": are latitude and longitude swapped? The longitude comes first; QGIS changes them "
                               "with Swap X and Y Coordinates"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/read/file_bytes.hpp"
 
 namespace coastmesh {
@@ -243,7 +244,7 @@ class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
 
   void refuseNoObject(const std::string& text) {
     if (oddity_.empty() && (isMember(Kind::Feature, "geometry") || isMember(Kind::Geometries, ""))) {
-      oddity_ = "its geometry is none (" + text + ")";
+      oddity_ = "its geometry is not an object (" + text + ")";
     }
   }
 
@@ -265,16 +266,16 @@ class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
     const auto type =
         std::ranges::find_if(kTypes, [&](const GeometryType& t) { return isSame(t.name, geometry.type); });
     if (type == kTypes.end()) {
-      oddity_ = member + "of the type '" + oneLine(geometry.type, 40) + "', is no geometry of GeoJSON";
+      oddity_ = member + "of the type '" + oneLine(geometry.type, 40) + "', is not a geometry of GeoJSON";
     } else if (!geometry.has_coordinates) {
       oddity_ = member + "a " + geometry.type + ", has no coordinates";
     } else if (const Innermost* odd = geometry.coordinates.firstOdd(type->level)) {
       oddity_ = member;
       oddity_ += odd->level() == type->level
-                     ? placeInArrays(type->name, odd->path) + ", is no place (" + odd->text + ")"
+                     ? placeInArrays(type->name, odd->path) + ", is not a place (" + odd->text + ")"
                      : odd->text + " lies in " + std::to_string(odd->level() - 1) +
-                           " arrays of the coordinates of its " + geometry.type + ", not in " +
-                           std::to_string(type->level - 1);
+                           forCount(odd->level() - 1, " array", " arrays") + " of the coordinates of its " +
+                           geometry.type + ", not in " + std::to_string(type->level - 1);
     }
   }
 

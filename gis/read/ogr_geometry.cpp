@@ -24,8 +24,8 @@ std::vector<Point> takeChain(const OGRSimpleCurve& curve, GeometryParts& parts, 
   for (std::size_t i = 0; i < n; ++i) {
     const Point p{curve.getX(static_cast<int>(i)), curve.getY(static_cast<int>(i))};
     if (!isInRange(p)) {
-      throw InputError(where() + ", vertex " + std::to_string(i + 1) + " of " + std::to_string(n) + ", is no place (" +
-                       inWords(p.x) + ", " + inWords(p.y) + "): repair or remove this feature");
+      throw InputError(where() + ", vertex " + std::to_string(i + 1) + " of " + std::to_string(n) +
+                       ", is not a place (" + inWords(p.x) + ", " + inWords(p.y) + "): repair or remove this feature");
     }
     chain[i] = p;
   }
@@ -36,7 +36,7 @@ std::vector<Point> takeChain(const OGRSimpleCurve& curve, GeometryParts& parts, 
 void takePoint(const OGRPoint& point, const std::string& what, GeometryParts& parts) {
   const Point p{point.getX(), point.getY()};
   if (!isInRange(p)) {
-    throw InputError(what + " is a point that is no place (" + inWords(p.x) + ", " + inWords(p.y) +
+    throw InputError(what + " is a point that is not a place (" + inWords(p.x) + ", " + inWords(p.y) +
                      "): repair or remove this feature");
   }
   parts.points.push_back(p);

@@ -10,9 +10,11 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "gis/error.hpp"
+#include "gis/read/odd_geojson.hpp"
 
 namespace coastmesh {
 
@@ -127,6 +129,9 @@ std::string pathForOgr(const std::string& path) {
                      (path.starts_with("/vsi") || path.find("://") != std::string::npos ? why : ""));
   }
   if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(name + ": the file is empty");
+  // GDAL opens no file that is one odd geometry, and does not say where it is odd.
+  if (const std::optional<std::string> odd = why.empty() ? std::nullopt : oddGeojson(path))
+    throw InputError(name + ", " + *odd + ": repair or remove this feature");
   throw InputError(name + ": not a vector file that GDAL can read" + why);
 }
 

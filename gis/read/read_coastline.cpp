@@ -77,7 +77,7 @@ void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport&
   if (!layer.crs) {
     if (crs.geographic && !looksGeographic(layer.bounds)) {
       throw InputError(layer.source +
-                       ": does not say its CRS, and its coordinates are no longitudes and latitudes as those of " +
+                       ": does not say its CRS, and its coordinates are not longitudes and latitudes as those of " +
                        first.source + " are: give the file a CRS");
     }
     if (first.crs) {

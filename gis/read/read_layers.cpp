@@ -45,7 +45,7 @@ void refuseOddWkt(OGRFeature& feature, const std::string& what) {
     constexpr std::size_t kShown = 60;
     const std::string text = oneLine(feature.GetFieldAsString(i), kShown);
     if (text.find_first_not_of(' ') != text.npos) {
-      throw InputError(what + ": its " + name + " is no geometry (" + text + "): repair or remove this feature");
+      throw InputError(what + ": its " + name + " is not a geometry (" + text + "): repair or remove this feature");
     }
   }
 }
@@ -233,7 +233,8 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   if (errors.failed()) throw InputError(source.name + ": cannot be read to its end (" + errors.text() + ")");
   if (!errors.text().empty()) report.warnings.push_back(source.name + ": " + errors.text());
   if (!errors.leftOut().empty()) {
-    report.warnings.push_back(source.name + ": something is left out that is no geometry (" + errors.leftOut() + ")");
+    report.warnings.push_back(source.name + ": something is left out that is not a geometry (" + errors.leftOut() +
+                              ")");
   }
   const auto isEmpty = [](const LayerReader& reader) { return reader.count() == 0; };
   if (!filter.where.empty() && std::ranges::all_of(readers, isEmpty))

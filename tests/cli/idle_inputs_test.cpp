@@ -1,4 +1,4 @@
-// Files that were given for sizes or weirs and have nothing where the mesh lies are warned of.
+// Files that were given for sizes, constraints, weirs or regions and have nothing where the mesh lies are warned of.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,6 +46,49 @@ TEST_F(IdleInputs, AreWarnedOfByName) {
   EXPECT_THAT(
       warningsWith("--weirs", feature("dry.geojson", R"({"type":"LineString","coordinates":[[20,50],[21,50]]})")),
       HasSubstr("dry.geojson: no line of it lies in the water"));
+}
+
+TEST_F(IdleInputs, OfLinesAndRegionsOutsideTheWaterAreWarnedOf) {
+  const auto line = [&](const std::string& name, const std::string& places) {
+    return feature(name, R"({"type":"LineString","coordinates":)" + places + "}");
+  };
+  const std::string wet = line("wet.geojson", "[[-87.8,47.7],[-87.6,47.7]]");
+  const std::string dry = line("dry.geojson", "[[20,50],[21,50]]");
+  EXPECT_EQ(warningsWith("--constraints", wet), "");
+  EXPECT_THAT(warningsWith("--constraints", dry),
+              HasSubstr("--constraints " + dry + ": nothing of it lies in the water; is its CRS right?"));
+  EXPECT_EQ(warningsWith("--regions", inputFile("lines/regions.geojson")), "");
+  const std::string region =
+      feature("far.geojson", R"({"type":"Polygon","coordinates":[[[20,50],[21,50],[21,51],[20,50]]]})");
+  EXPECT_THAT(warningsWith("--regions", region),
+              HasSubstr("--regions " + region + ": no polygon of it holds any of the mesh; is its CRS right?"));
+  // On the island of the lake.
+  EXPECT_THAT(warningsWith("--constraints", line("island.geojson", "[[-87.5,47.5],[-87.51,47.51]]")),
+              HasSubstr("island.geojson: nothing of it lies in the water"));
+}
+
+// What lies beyond the box is dropped when it is read.
+TEST_F(IdleInputs, BeyondTheBoxAreWarnedOf) {
+  const std::string points = feature("p.geojson", R"({"type":"Point","coordinates":[20,50]})");
+  const std::string lines = feature("l.geojson", R"({"type":"LineString","coordinates":[[20,50],[21,50]]})");
+  const ProgramRun run = runProgram({"mesh", inputFile("lines/lake.geojson"), "--bbox=-87.9,47.2,-87.6,47.8", "--size",
+                                     "5000", "--constraints", points, "--constraints", lines, "-o", file("lake.nc")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("p.geojson: nothing of it lies in the water"));
+  EXPECT_THAT(run.errors, HasSubstr("l.geojson: nothing of it lies in the water"));
+}
+
+TEST_F(IdleInputs, OfSeveralFilesTheIdleOnesAreNamed) {
+  const auto named = [&](const std::string& name, const std::string& places) {
+    return write(name + ".geojson", R"({"type":"Feature","properties":{"name":")" + name +
+                                        R"("},"geometry":{"type":"LineString","coordinates":)" + places + "}}");
+  };
+  const ProgramRun run = runProgram({"mesh", inputFile("lines/lake.geojson"), "--size", "5000", "--weirs",
+                                     named("wet", "[[-87.8,47.7],[-87.6,47.7]]"), "--weirs",
+                                     named("dry", "[[20,50],[21,50]]"), "-o", file("lake.nc")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("dry.geojson: no line of it lies in the water"));
+  EXPECT_THAT(run.errors, ::testing::Not(HasSubstr("wet.geojson")));
 }
 
 }  // namespace

@@ -67,6 +67,19 @@ TEST_F(SizeLimits, BeyondTheBudgetNothingIsMade) {
   }
 }
 
+// Little more than what the budget allows is known before all of a map is made.
+TEST_F(SizeLimits, ALittleBeyondWhatIsBegunTakesNoWholeMap) {
+  // About 650,000 vertices; up to 520,000 would be begun.
+  const ProgramRun run = mesh({"--size-shore", "0.1", "--size-max", "2000", "--max-vertices", "260000"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.errors.find("--max-vertices allows 260000"), std::string::npos) << run.errors;
+  EXPECT_FALSE(isMeshThere());
+  EXPECT_NEAR(report()["refine"]["estimated_vertices"].get<double>() / 650e3, 1.0, 0.25);
+  if (kMemoryIsTheProgramsOwn) {
+    EXPECT_LT(report()["peak_memory_mib"].get<double>(), 120.0);  // four times as much with the map
+  }
+}
+
 TEST_F(SizeLimits, BeyondTheMemoryNothingIsTaken) {
   for (const std::vector<std::string>& options :
        std::vector<std::vector<std::string>>{{"--size", "1e-3"},

@@ -134,7 +134,7 @@ class Mesh:
         """Draws the mesh as .png or .svg, `size` pixels on its longer side, or as a page for a browser, .html, as large
         as its window; `color` as in `coastmesh plot --color`."""
         if isinstance(size, (bool, np.bool_)) or not isinstance(size, (int, np.integer)) or abs(size) >= 2**63:
-            raise OptionError(f"size: {size!r} is no number of pixels")
+            raise OptionError(f"size: {size!r} is not a number of pixels")
         with _own_errors():
             self._made._plot(os.fsencode(path), color, int(size), edges, overwrite)
 

@@ -20,7 +20,7 @@ def find_program():
     if found:
         return found
     if chosen:
-        raise ProgramError(f"'{chosen}' is no program: correct it in the settings of Processing, under coastmesh")
+        raise ProgramError(f"'{chosen}' is not a program: correct it in the settings of Processing, under coastmesh")
     raise ProgramError(
         "the program coastmesh is not on the PATH: install it, or name it in the settings of Processing, under coastmesh"
     )

@@ -205,7 +205,7 @@ TEST_F(ConfigFile, MistakesAreNamed) {
   };
   EXPECT_THAT(messageOf("nothing.toml"), ::testing::HasSubstr("nothing.toml"));
   EXPECT_THAT(messageOf(write("f.toml", "felt = false\ncoarsen = true\n")), ::testing::HasSubstr("given twice"));
-  EXPECT_THAT(messageOf(write("a.toml", "sise-max = 3\n")), ::testing::HasSubstr("'sise-max' is no option"));
+  EXPECT_THAT(messageOf(write("a.toml", "sise-max = 3\n")), ::testing::HasSubstr("'sise-max' is not an option"));
   EXPECT_THAT(messageOf(write("b.json", "{\"size-max\": }")), ::testing::HasSubstr("not JSON"));
   EXPECT_THAT(messageOf(write("c.toml", "coarsen = 3\n")), ::testing::HasSubstr("true or false"));
   EXPECT_THAT(messageOf(write("d.toml", "size-max = [1, 2]\n")), ::testing::HasSubstr("one value"));
@@ -219,7 +219,7 @@ TEST_F(ConfigFile, MistakesAreNamed) {
   EXPECT_THAT(messageOf(write("l.toml", "bbox = [1, 2, 3]\n")), ::testing::HasSubstr("4 numbers"));
   EXPECT_THAT(messageOf(write("m.toml", "bbox = \"\"\n")), ::testing::HasSubstr("empty"));
   EXPECT_THAT(messageOf(write("n.json", "{\"size-max\": 1e999}")), ::testing::HasSubstr("too large"));
-  EXPECT_THAT(messageOf(write("p.toml", "config = \"q.toml\"\n")), ::testing::HasSubstr("'config' is no option"));
+  EXPECT_THAT(messageOf(write("p.toml", "config = \"q.toml\"\n")), ::testing::HasSubstr("'config' is not an option"));
   const std::string negative = write("q.toml", "size-max = -3\n");
   EXPECT_EQ(messageOf(negative), negative + ": 'size-max': '-3' is not a number in the range 0 or more");
   EXPECT_THAT(messageOf(write("r.toml", "quiet = [true]\n")), ::testing::HasSubstr("true or false"));

@@ -29,8 +29,11 @@ class FunctionSource final : public SizeSource {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const double at = f_(boxes[i].centre), reach = slope_ * std::sqrt(2.0) * boxes[i].half;
       ranges[i] = {std::max(least_, at - reach), at + reach};
+      if (tells_centres) ranges[i].at_centre = at;
     }
   }
+
+  bool tells_centres = false;
 
  private:
   double least_, slope_;
@@ -103,6 +106,29 @@ TEST(SizeTree, StopsWhereMoreIsAskedForThanAllowed) {
   const SizeTree flat({-1.0, 0.0}, {1.0, 1.0}, FunctionSource(1e-3, 0.0, [](const Point&) { return 1e-3; }), options);
   EXPECT_FALSE(flat.isComplete());
   EXPECT_NEAR(flat.demand().vertices, 2.0 / std::sqrt(3.0) * 2.02 * 2.02 / 1e-6, 1.0);
+}
+
+// Lengths at the centres of cells tell it long before their bounds do. Beside a line along an axis all centres are as
+// far away, so that they may tell too much on a level, or too little: what fits is never given up for that.
+TEST(SizeTree, StopsEarlyWhereALittleMoreIsAskedForThanAllowed) {
+  constexpr double kLeast = 5e-5, kSlope = 0.15;
+  const auto madeFor = [](double tilt, double most) {
+    const double norm = std::hypot(1.0, tilt);
+    FunctionSource source(kLeast, kSlope,
+                          [=](const Point& p) { return kLeast + kSlope * std::abs(p.y - 0.01 - tilt * p.x) / norm; });
+    source.tells_centres = true;
+    const double needed = 2.0 / std::sqrt(3.0) * 2.02 * norm * 2.0 / (kSlope * kLeast);
+    return SizeTree({-1.0, -1.0}, {1.0, 1.0}, source, {.gradation = 0.3, .most_vertices = most * needed});
+  };
+  for (const double tilt : {0.0, 0.3, 0.71}) {
+    const SizeTree whole = madeFor(tilt, 1.05);
+    EXPECT_TRUE(whole.isComplete()) << tilt;
+    if (tilt == 0.0) continue;
+    const SizeTree stopped = madeFor(tilt, 1.0 / 1.2);
+    EXPECT_FALSE(stopped.isComplete()) << tilt;
+    EXPECT_LT(3 * stopped.cells(), whole.cells()) << tilt;
+    EXPECT_NEAR(stopped.demand().vertices / whole.demand().vertices, 1.0, 0.3) << tilt;
+  }
 }
 
 TEST(SizeTree, SaysWhereItIsTooSmall) {

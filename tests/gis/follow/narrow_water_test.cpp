@@ -111,7 +111,7 @@ TEST(FollowSizes, AStraitALittleNarrowerThanAnElementThatAloneJoinsWatersIsWiden
       ASSERT_EQ(
           std::sscanf(report.notes[0].c_str(),
                       "straits that are the only connection between waters were widened to an element "
-                      "instead of closed, for the largest of 1 waters: (%lf, %lf), %lf wide, about %lf long, to %lf",
+                      "instead of closed, for the largest of 1 water: (%lf, %lf), %lf wide, about %lf long, to %lf",
                       &x, &y, &wide, &length, &behind),
           5)
           << report.notes[0];

@@ -130,7 +130,7 @@ TEST(ReadVtu, WhatCannotBeReadIsSaid) {
       {with("3 5 8", "3 5 9"), "cell 3 has not three nodes"},
       {with("3 5 8", "-3 5 8"), "cell 1 has not three nodes"},
       {with("0 1 2 0 1", "0 1 4 0 1"), "cell 1 names a node that is not there"},
-      {with("0 1 2 0 1", "0 1 two"), "an array holds what is no number"},
+      {with("0 1 2 0 1", "0 1 two"), "an array holds a value that is not a number"},
       {with("1 1 -3", "1 inf -3"), "node 3 has no finite coordinates"},
       {with("format=\"ascii\">5 3 5", "format=\"raw\">5 3 5"), "an array of format \"raw\""},
       {with("\"UInt8\" Name=\"types\" format=\"ascii\">5 3 5", "\"Bit\" Name=\"types\" format=\"binary\">AwAAAAUDBQ=="),
@@ -141,7 +141,7 @@ TEST(ReadVtu, WhatCannotBeReadIsSaid) {
       {with("<Piece",
             "<FieldData><DataArray type=\"Float64\" Name=\"region_names\" format=\"ascii\">1e9 "
             "0</DataArray></FieldData><Piece"),
-       "its texts hold what is no byte"},
+       "its texts hold a value that is not a byte"},
       {with("</UnstructuredGrid>", "</UnstructuredGrid><AppendedData encoding=\"raw\">"),
        "its appended data does not start"},
   };

@@ -285,7 +285,7 @@ TEST(ReadLines, OffTheEdgesAreCut) {
   ASSERT_EQ(grid.lines.size(), 1u);
   EXPECT_EQ(grid.lines[0].nodes, (std::vector<std::uint32_t>{0, 2}));
   ASSERT_EQ(grid.notes.size(), 1u);
-  EXPECT_THAT(grid.notes[0], HasSubstr("1 edges of lines"));
+  EXPECT_THAT(grid.notes[0], HasSubstr("1 edge of a line does not lie between two triangles and is left out"));
 }
 
 }  // namespace

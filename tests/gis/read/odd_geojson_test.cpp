@@ -33,30 +33,31 @@ std::string among(const std::string& geometry, const std::string& id = "") {
 TEST(OddGeojson, NamesFeatureAndPlace) {
   const std::pair<const char*, const char*> cases[] = {
       {R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,0]],[[1,1],[2],[2,2],[1,1]]]})",
-       "hole 1, vertex 2, is no place ([2])"},
-      {R"({"coordinates":[[[0,0],[4,null],[4,4]]],"type":"polygon"})", "outer ring, vertex 2, is no place ([4, null])"},
+       "hole 1, vertex 2, is not a place ([2])"},
+      {R"({"coordinates":[[[0,0],[4,null],[4,4]]],"type":"polygon"})",
+       "outer ring, vertex 2, is not a place ([4, null])"},
       {R"({"type":"MultiPolygon","coordinates":[[[[0,0],[4,0],[4,4]]],[[[1,1],[2,1]],[[2,2],[3,3],["x",1.5e0]]]]})",
-       R"(polygon 2, hole 1, vertex 3, is no place (["x", 1.5e0]))"},
-      {R"({"type":"LineString","coordinates":[[0,0],[],[1,1]]})", "vertex 2, is no place ([])"},
+       R"(polygon 2, hole 1, vertex 3, is not a place (["x", 1.5e0]))"},
+      {R"({"type":"LineString","coordinates":[[0,0],[],[1,1]]})", "vertex 2, is not a place ([])"},
       {R"({"type":"MultiLineString","coordinates":[[[0,0],[1,1]],[[0,true]]]})",
-       "line 2, vertex 1, is no place ([0, true])"},
-      {R"({"type":"MultiPoint","coordinates":[[0,0],[{"x":[1]},2]]})", "point 2, is no place ([{…}, 2])"},
-      {R"({"type":"Point","coordinates":[3]})", "its point, is no place ([3])"},
+       "line 2, vertex 1, is not a place ([0, true])"},
+      {R"({"type":"MultiPoint","coordinates":[[0,0],[{"x":[1]},2]]})", "point 2, is not a place ([{…}, 2])"},
+      {R"({"type":"Point","coordinates":[3]})", "its point, is not a place ([3])"},
       {R"({"type":"Polygon","coordinates":[[[0,[1,0]],[1,1]]]})",
        "[1, 0] lies in 3 arrays of the coordinates of its Polygon, not in 2"},
       {R"({"type":"Polygon","coordinates":[[0,0],[4,0],[4,4]]})",
-       "[0, 0] lies in 1 arrays of the coordinates of its Polygon, not in 2"},
+       "[0, 0] lies in 1 array of the coordinates of its Polygon, not in 2"},
       {R"({"type":"MultiPolygon","coordinates":[[[[0,0],[4,0],[4,4]]],[[1,1],[2,1],[2,2]]]})",
        "[1, 1] lies in 2 arrays of the coordinates of its MultiPolygon, not in 3"},
       {R"({"type":"GeometryCollection","geometries":[{"type":"Point","coordinates":[1,2]},{"type":"GeometryCollection",
            "geometries":[{"type":"LineString","coordinates":[[0]]}]}]})",
-       "geometry 2 of its collection, geometry 1 of its collection, vertex 1, is no place ([0])"},
+       "geometry 2 of its collection, geometry 1 of its collection, vertex 1, is not a place ([0])"},
       {R"({"type":"GeometryCollection"})", "a GeometryCollection, has no geometries"},
       {R"({"type":"Polygon","coordinates":null})", "a Polygon, has no coordinates"},
-      {R"({"type":"Polygn","coordinates":[]})", "of the type 'Polygn', is no geometry of GeoJSON"},
-      {R"({"coordinates":[[[0,0],[1,1]]]})", "of the type '', is no geometry of GeoJSON"},
-      {R"([1,[2]])", "its geometry is none ([…])"},
-      {R"("POINT 1 2")", R"(its geometry is none ("POINT 1 2"))"},
+      {R"({"type":"Polygn","coordinates":[]})", "of the type 'Polygn', is not a geometry of GeoJSON"},
+      {R"({"coordinates":[[[0,0],[1,1]]]})", "of the type '', is not a geometry of GeoJSON"},
+      {R"([1,[2]])", "its geometry is not an object ([…])"},
+      {R"("POINT 1 2")", R"(its geometry is not an object ("POINT 1 2"))"},
   };
   for (const auto& [geometry, what] : cases) {
     EXPECT_EQ(oddOf(among(geometry)), std::string("feature 1: ") + what) << geometry;
@@ -66,9 +67,9 @@ TEST(OddGeojson, NamesFeatureAndPlace) {
 
 TEST(OddGeojson, TakesAFileOfOneFeatureOrGeometry) {
   EXPECT_EQ(oddOf(R"({"type":"Feature","geometry":{"type":"Point","coordinates":[3]},"id":12})"),
-            "feature 12: its point, is no place ([3])");
+            "feature 12: its point, is not a place ([3])");
   EXPECT_EQ(oddOf(R"({"type":"Polygon","coordinates":[[[0,0],[1,"2"],[1,1]]]})"),
-            R"(feature 0: outer ring, vertex 2, is no place ([1, "2"]))");
+            R"(feature 0: outer ring, vertex 2, is not a place ([1, "2"]))");
 }
 
 TEST(OddGeojson, FindsNothingWhereAllIsWell) {
@@ -77,7 +78,7 @@ TEST(OddGeojson, FindsNothingWhereAllIsWell) {
         R"({"type":"Polygon","coordinates":[[]]})", R"({"type":"MultiPolygon","coordinates":[[[]]]})",
         R"({"type":"GeometryCollection","geometries":[]})",
         R"({"type":"MULTIPOINT","coordinates":[[1,2,3],[-1e5,2.5,3,4]]})"}) {
-    EXPECT_EQ(oddOf(among(geometry)), "feature 2: of the type 'None', is no geometry of GeoJSON") << geometry;
+    EXPECT_EQ(oddOf(among(geometry)), "feature 2: of the type 'None', is not a geometry of GeoJSON") << geometry;
   }
   EXPECT_EQ(oddOf(R"({"type":"FeatureCollection","features":[]})"), "nothing");
 }
