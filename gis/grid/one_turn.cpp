@@ -104,6 +104,8 @@ std::optional<double> middleOfGap(const std::vector<Arc>& arcs) {
 
 std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::span<const Corners> triangles,
                                             const ItemLoop& loop) {
+  const auto [least, greatest] = std::ranges::minmax(nodes, {}, &Point::x);
+  if (!(greatest.x - least.x > kTurn / 2)) return std::nullopt;  // which saves a look at the triangles of most meshes
   const auto any = overStretches(loop, triangles.size(), [&](std::size_t first, std::size_t last) {
     return std::ranges::any_of(triangles.subspan(first, last - first),
                                [nodes](const Corners& corners) { return jumps(nodes, corners); });

@@ -128,8 +128,8 @@ TEST_F(MeshRun, TrianglesThatBreakTheBoundsAreCountedByWhatExcusesThem) {
     const int below = mesh["below_bound"], corner = mesh["excused"]["corner"], near = mesh["excused"]["near"];
     EXPECT_EQ(mesh["unresolved"], below - corner - near);
     EXPECT_EQ(mesh["below_bound_explained"], corner + near);
-    const std::string text = std::to_string(below) +
-                             " triangles break the bounds on angles: " + std::to_string(corner) +
+    const std::string text = std::to_string(below) + (below == 1 ? " triangle breaks" : " triangles break") +
+                             " the bounds on angles: " + std::to_string(corner) +
                              " in input angles too small for them, " + std::to_string(near) +
                              " near to such an angle, " + std::to_string(below - corner - near) + " unresolved\n";
     EXPECT_NE(run.output.find(text), std::string::npos) << run.output;

@@ -204,7 +204,8 @@ TEST_F(PerFeature, StoppedAndGoneOnWithItIsTheWhole) {
   writeInput(0.02);
   const ProgramRun rest = mesh(input, options);
   EXPECT_EQ(rest.code, 0) << rest.errors;
-  EXPECT_THAT(rest.output, HasSubstr(std::to_string(whole.size()) + " were there already"));
+  EXPECT_THAT(rest.output,
+              HasSubstr(std::to_string(whole.size()) + (whole.size() == 1 ? " was" : " were") + " there already"));
   ASSERT_EQ(made(".2dm").size(), kFeatures);
   std::size_t compared = 0;
   for (const std::string& name : whole) {
