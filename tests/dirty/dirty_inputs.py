@@ -194,13 +194,13 @@ def cases():
     yield Case("no_json", None, text="{\"type\": \"FeatureCollection\", \"feat", exit=3, fixed=True)
     yield Case("no_features", [], exit=3, fixed=True)
     yield Case("not_a_map", None, text="hello\n", exit=3, fixed=True)
-    yield Case("infinite", None, exit=3, fixed=True, says="no place",
+    yield Case("infinite", None, exit=3, fixed=True, says="not a place",
                text='{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[0,0],[1e999,0],[1,1],[0,0]]]}}')
     degrees = "urn:ogc:def:crs:OGC:1.3:CRS84"
-    yield Case("latitude_95", [polygon([(0, 80), (10, 80), (5, 95)])], crs=degrees, exit=3, says="no place on Earth",
+    yield Case("latitude_95", [polygon([(0, 80), (10, 80), (5, 95)])], crs=degrees, exit=3, says="not a place on Earth",
                fixed=True)
     yield Case("metres_called_degrees", [polygon(box(500000, 5000000, 501000, 5001000))], crs=degrees, exit=3,
-               says="no place on Earth", fixed=True)
+               says="not a place on Earth", fixed=True)
     yield Case("degrees_called_metres", [polygon([(5, 50), (6, 50), (6, 51), (5, 51)])], crs=UTM, exit=None,
                says="if they are degrees", fixed=True)
     yield Case("at_the_antimeridian", [polygon([(179, 10), (180, 10), (180, 11), (179, 11)]),

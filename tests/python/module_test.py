@@ -96,7 +96,7 @@ class ArraysTest(unittest.TestCase):
         refused(coastmesh.InputError, "names point -1", SQUARE, [[0, -1]])
         refused(coastmesh.InputError, "whole numbers", SQUARE, [[0.5, 1]])
         refused(coastmesh.InputError, r"shape \(4, 3\)", np.zeros((4, 3)), BOUNDARY)
-        refused(coastmesh.InputError, "no array of numbers", [["a", "b"]] * 4, BOUNDARY)
+        refused(coastmesh.InputError, "not an array of numbers", [["a", "b"]] * 4, BOUNDARY)
         refused(coastmesh.InputError, "three or more", [], [])
         refused(coastmesh.InputError, "segments", SQUARE, "segments")
         refused(coastmesh.InputError, "holes", SQUARE, BOUNDARY, [[1, 2, 3]])
