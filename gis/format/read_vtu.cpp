@@ -72,7 +72,7 @@ class VtuFile {
     }
     const OgrErrors errors;
     root_.reset(CPLParseXMLString(head.c_str()));
-    if (!root_) fail("it is no XML (" + errors.text() + ")");
+    if (!root_) fail("it is not XML (" + errors.text() + ")");
     const CPLXMLNode* const file_node = CPLGetXMLNode(root_.get(), "=VTKFile");
     if (file_node == nullptr) fail("it has no VTKFile");
     if (std::string_view(CPLGetXMLValue(file_node, "compressor", "")) != "")

@@ -112,7 +112,7 @@ TEST(ReadVtu, LinesHaveTwoNodesAndClosedOnesThree) {
 
 TEST(ReadVtu, WhatCannotBeReadIsSaid) {
   const std::vector<std::pair<std::string, std::string>> refused{
-      {"<a", "it is no XML"},
+      {"<a", "it is not XML"},
       {"<a/>", "it has no VTKFile"},
       {with("byte_order=\"LittleEndian\"", "compressor=\"vtkZLibDataCompressor\""), "save it without compression"},
       {with("LittleEndian", "BigEndian"), "save it as little-endian"},
