@@ -7,8 +7,8 @@ namespace coastmesh {
 // anew costs as much as some hundred triangles copied.
 void giveBackFreeMemory();
 
-// Lets the library keep what was freed until `giveBackFreeMemory` is asked for, from the start on: left to itself it
-// finds out one large block after another which of them to keep. For programs alone: it holds for the whole process.
+// Lets the library keep what was freed, large blocks too, for who allocates next, until `giveBackFreeMemory` is asked
+// for. For programs alone: it holds for the whole process.
 void keepFreedMemory();
 
 }  // namespace coastmesh

@@ -296,7 +296,7 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
   };
   if (const auto rings = std::ranges::count_if(result.grid.boundaries, isOpenRing); rings > 0)
     text += grouped(static_cast<std::uint64_t>(rings)) +
-            (rings == 1 ? " open boundary is a ring, which" : " open boundaries are rings, each of which") +
+            forCount(rings, " open boundary is a ring, which", " open boundaries are rings, each of which") +
             " fort.14 and hgrid.gr3 hold as two that share their ends\n";
   text += cleaningText(result.edits);
   text += finishSummary(job.finish, result.finish);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace coastmesh {
@@ -104,6 +103,7 @@ std::optional<double> middleOfGap(const std::vector<Arc>& arcs) {
 
 std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::span<const Corners> triangles,
                                             const ItemLoop& loop) {
+  if (nodes.empty()) return std::nullopt;
   const auto [least, greatest] = std::ranges::minmax(nodes, {}, &Point::x);
   if (!(greatest.x - least.x > kTurn / 2)) return std::nullopt;  // which saves a look at the triangles of most meshes
   const auto any = overStretches(loop, triangles.size(), [&](std::size_t first, std::size_t last) {

@@ -241,6 +241,7 @@ TEST(InOneTurn, GoesOnFromTheWesternEdge) {
 }
 
 TEST(InOneTurn, LeavesWhatNeedNotOrCannotChange) {
+  EXPECT_FALSE(inOneTurn({}, {}));
   for (const double west : {-179.0, 5.0, 178.0}) {  // the last goes on past 180 already
     const Grid grid = across(west, west - 1.0);
     EXPECT_FALSE(inOneTurn(grid.nodes, grid.triangles));
