@@ -25,7 +25,8 @@ RegionId onlyRegion(const Pslg& pslg) {
 
 }  // namespace
 
-void labelRegions(TriMesh& mesh, const Pslg& pslg) {
+void labelRegions(TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop) {
+  reserveOn(loop, mesh.regions, mesh.triangles.size());
   mesh.regions.assign(mesh.triangles.size(), onlyRegion(pslg));
   if (mesh.regions.empty() || mesh.regions.front() != kUnlabelled) return;
   std::vector<TriId> stack;

@@ -72,7 +72,7 @@ class BasicByteWriter {
     partsOf(whole);
   }
   {
-    std::apply([this](const auto&... parts) { (pass(parts), ...); }, partsOf(whole));
+    std::apply([this](const auto&... parts) { (this->pass(parts), ...); }, partsOf(whole));
   }
   // Eight flags per byte.
   template <typename Flags>
@@ -151,7 +151,7 @@ class BasicByteReader {
     partsOf(whole);
   }
   {
-    std::apply([this](auto&... parts) { (pass(parts), ...); }, partsOf(whole));
+    std::apply([this](auto&... parts) { (this->pass(parts), ...); }, partsOf(whole));
   }
   template <typename Flags>
   void passFlags(Flags& flags) {

@@ -284,13 +284,8 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   const ItemLoop label = recorder.loop("label", control);
   if (options.cap.empty() && options.list_violations)
     region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
-  // Each of the two is work of one thread.
-  label(2, [&](std::size_t i) {
-    if (i == 0)
-      giveBackFreeMemory();
-    else if (options.cap.empty())
-      labelRegions(region.mesh, pslg);
-  });
+  giveBackFreeMemory();
+  if (options.cap.empty()) labelRegions(region.mesh, pslg, label);
   if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, label);
   region.log.append(recorder.finish());
   region.seconds.stitch = watch.lap();

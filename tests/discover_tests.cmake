@@ -1,16 +1,9 @@
 # coastmesh_discover_tests(TARGET [PROPERTIES NAME VALUE…]): makes tests of ctest of what a GoogleTest program holds.
 #
-# Each test is a process of its own; with sanitizers each suite is, as starting a process takes longer there than most
-# tests do. The output of a suite that fails names the test. That no test needs another before it, builds without
-# sanitizers show.
-include(GoogleTest)
-
+# Each suite is a process of its own: starting one loads GDAL, which takes longer than most tests do. The output of a suite
+# that fails names the test.
 function(coastmesh_discover_tests target)
   cmake_parse_arguments(discover "" "" PROPERTIES ${ARGN})
-  if(NOT COASTMESH_SANITIZE)
-    gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES ${discover_PROPERTIES})
-    return()
-  endif()
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   set(script ${PROJECT_SOURCE_DIR}/tests/list_suites.cmake)
   set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${script})
@@ -18,7 +11,7 @@ function(coastmesh_discover_tests target)
     COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${target}> -DOUT=${suites} "-DPROPERTIES=${discover_PROPERTIES}"
       -P ${script}
     BYPRODUCTS ${suites} VERBATIM)
-  # A program that was not built fails, as with gtest_discover_tests.
+  # A program that was not built fails.
   set(included ${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake)
   file(WRITE ${included}
     "if(EXISTS [=[${suites}]=])\n  include([=[${suites}]=])\nelse()\n  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\nendif()\n")

@@ -35,20 +35,27 @@ Box boxOf(const SizedFeatures::Part& part) {
   return box;
 }
 
-// Sizes grow from features outside of the mesh into it, so that what lies a little beside it may well be meant.
-bool liesNear(const SizedFeatures& features, const Grid& grid) {
+Box boxOf(const ShoreLine& line) {
+  Box box;
+  for (const Point& p : line.points) box.add(p);
+  return box;
+}
+
+// What lies a little beside the mesh may well be meant: sizes grow from features outside of it into it, and closed
+// straits are not in it.
+Box surroundingsOf(const Grid& grid) {
   Box mesh;
   for (const Point& node : grid.nodes) mesh.add(node);
-  mesh = mesh.grownBy(0.5 * std::max(mesh.xmax - mesh.xmin, mesh.ymax - mesh.ymin));
-  return std::ranges::any_of(features.parts, [&](const SizedFeatures::Part& part) {
-    const Box box = boxOf(part);
-    if (box.ymax < mesh.ymin || box.ymin > mesh.ymax) return false;
-    for (const double turn : {0.0, -360.0, 360.0}) {
-      if (box.xmax + turn >= mesh.xmin && box.xmin + turn <= mesh.xmax) return true;
-      if (!grid.crs.geographic) break;
-    }
-    return false;
-  });
+  return mesh.grownBy(0.5 * std::max(mesh.xmax - mesh.xmin, mesh.ymax - mesh.ymin));
+}
+
+bool meets(const Box& box, const Box& mesh, const Crs& crs) {
+  if (box.ymax < mesh.ymin || box.ymin > mesh.ymax) return false;
+  for (const double turn : {0.0, -360.0, 360.0}) {
+    if (box.xmax + turn >= mesh.xmin && box.xmin + turn <= mesh.xmax) return true;
+    if (!crs.geographic) break;
+  }
+  return false;
 }
 
 // What the mesh has of features of that use: names of lines, or of regions.
@@ -102,10 +109,20 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
   for (const RasterGeometry& raster : sizes.rasters)
     if (!coversAny(raster, grid))
       all.push_back("--size-raster " + raster.path + ": no node of the mesh lies in it; is its CRS right?");
+  const Box around = surroundingsOf(grid);
+  const auto isNear = [&](const auto& part) { return meets(boxOf(part), around, grid.crs); };
   for (std::size_t file = 0; file < sizes.features.size(); ++file)
-    if (!liesNear(sizes.features[file], grid))
+    if (std::ranges::none_of(sizes.features[file].parts, isNear))
       all.push_back("--size-features " + job.sizes.features[file] +
                     ": none of them lies in the mesh, or near it; is its CRS right?");
+  const auto addGuides = [&](const std::string& option, const std::vector<std::string>& files,
+                             const std::vector<ShoreLine>& lines) {
+    for (std::size_t file = 0; file < files.size(); ++file)
+      if (std::ranges::none_of(lines, [&](const ShoreLine& line) { return line.file == file && isNear(line); }))
+        all.push_back(option + " " + files[file] + ": no line of it lies in the mesh, or near it; is its CRS right?");
+  };
+  addGuides("--passages", job.sizes.passages, sizes.passages);
+  addGuides("--barriers", job.sizes.barriers, sizes.barriers);
   const auto addIdle = [&](const std::string& option, const std::vector<std::string>& files, FeatureUse use,
                            const std::string& text) {
     for (const std::string& file : idleFiles(coastline, use, files, grid))

@@ -10,8 +10,8 @@
 
 namespace coastmesh {
 
-// A warning for each file that was given for sizes, constraints, weirs or regions and has nothing where the mesh lies:
-// mostly it is in another CRS than it says, or of another place.
+// A warning for each file that was given for sizes, passages, barriers, constraints, weirs or regions and has nothing
+// where the mesh lies: mostly it is in another CRS than it says, or of another place.
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,
                                               const Grid& grid);
 

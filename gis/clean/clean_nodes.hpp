@@ -26,8 +26,8 @@ struct NodedEdges {
 // Inserts vertices where edges cross, and leads edges through the vertices that lie on them (within the snap distance),
 // until edges meet only in common end points, exactly. New vertices are appended to `chains.vertices`. New vertices and
 // edges pass through whatever is within the snap distance of them, as long as this terminates (if three vertices are
-// little more than that apart, an edge between two may stay a seventh closer to the third); after that the grain of
-// `chains.resolution` is used. Throws InputError if that does not terminate.
+// little more than that apart, an edge between two may stay closer to the third: by a seventh, seldom up to a half);
+// after that the grain of `chains.resolution` is used. Throws InputError if that does not terminate.
 NodedEdges nodeChains(CleanChains& chains, const Coastline& coastline, const Projection& projection,
                       CleanReport& report, const ItemLoop& loop = inOrder);
 

@@ -15,6 +15,7 @@ struct ShoreLine {
   std::vector<Point> points;
   std::string name;       // empty: none was given
   double elements = 1.0;  // across a passage
+  std::size_t file = 0;   // that it was read from: an index of those given
 };
 
 struct ShoreGuides {

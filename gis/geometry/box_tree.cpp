@@ -1,5 +1,6 @@
 #include "gis/geometry/box_tree.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <numeric>
 
@@ -9,10 +10,18 @@ namespace coastmesh {
 
 namespace {
 
+Point centreOf(const Box& box) { return {box.xmin / 2 + box.xmax / 2, box.ymin / 2 + box.ymax / 2}; }
+
+// Empty boxes, which have no centre, follow the box before them.
 std::vector<std::uint32_t> orderByCentre(const std::vector<Box>& boxes) {
+  const auto first = std::ranges::find_if_not(boxes, &Box::empty);
+  Point last = first != boxes.end() ? centreOf(*first) : Point{};
   std::vector<Point> centres;
   centres.reserve(boxes.size());
-  for (const Box& box : boxes) centres.push_back({box.xmin / 2 + box.xmax / 2, box.ymin / 2 + box.ymax / 2});
+  for (const Box& box : boxes) {
+    if (!box.empty()) last = centreOf(box);
+    centres.push_back(last);
+  }
   return hilbertOrder(centres);
 }
 

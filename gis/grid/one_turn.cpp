@@ -14,15 +14,6 @@ constexpr double kMostEast = 540.0;  // beyond that readers take a longitude for
 
 bool isPole(const Point& place) { return std::abs(place.y) == 90.0; }
 
-// Whether two corners that have longitudes are apart by more than half a turn.
-bool jumps(std::span<const Point> nodes, const Corners& corners) {
-  for (unsigned i = 0; i < 3; ++i) {
-    const Point &p = nodes[corners[i]], &q = nodes[corners[next3(i)]];
-    if (std::abs(q.x - p.x) > kTurn / 2 && !isPole(p) && !isPole(q)) return true;
-  }
-  return false;
-}
-
 // Longitudes that triangles cover: west within ±180, east from there on.
 struct Arc {
   double west, east;
@@ -101,6 +92,14 @@ std::optional<double> middleOfGap(const std::vector<Arc>& arcs) {
 
 }  // namespace
 
+bool longitudesJump(std::span<const Point> nodes, const Corners& corners) {
+  for (unsigned i = 0; i < 3; ++i) {
+    const Point &p = nodes[corners[i]], &q = nodes[corners[next3(i)]];
+    if (std::abs(q.x - p.x) > kTurn / 2 && !isPole(p) && !isPole(q)) return true;
+  }
+  return false;
+}
+
 std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::span<const Corners> triangles,
                                             const ItemLoop& loop) {
   if (nodes.empty()) return std::nullopt;
@@ -108,7 +107,7 @@ std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::s
   if (!(greatest.x - least.x > kTurn / 2)) return std::nullopt;  // which saves a look at the triangles of most meshes
   const auto any = overStretches(loop, triangles.size(), [&](std::size_t first, std::size_t last) {
     return std::ranges::any_of(triangles.subspan(first, last - first),
-                               [nodes](const Corners& corners) { return jumps(nodes, corners); });
+                               [nodes](const Corners& corners) { return longitudesJump(nodes, corners); });
   });
   if (std::ranges::none_of(any, [](bool jumped) { return jumped; })) return std::nullopt;
   const std::optional<std::vector<Arc>> arcs = arcsOf(nodes, triangles, loop);

@@ -12,6 +12,9 @@
 
 namespace coastmesh {
 
+// Whether two corners of a triangle are more than half a turn apart; a pole has no longitude.
+bool longitudesJump(std::span<const Point> nodes, const std::array<std::uint32_t, 3>& corners);
+
 // For models that take a difference of longitudes as it is: nodes in longitudes and latitudes, their longitudes in one
 // turn, so that no triangle reaches from one end of them to the other. The turn begins at the western edge of the mesh,
 // past the widest gap between its triangles, and its westernmost node keeps its longitude: 176 to 181.5 for a mesh from

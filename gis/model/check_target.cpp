@@ -16,6 +16,7 @@
 #include "gis/grid/local_plane.hpp"
 #include "gis/grid/loop_role.hpp"
 #include "gis/grid/on_sphere.hpp"
+#include "gis/grid/one_turn.hpp"
 #include "gis/model/flow_links.hpp"
 #include "gis/model/target_limits.hpp"
 #include "gis/model/time_step.hpp"
@@ -24,11 +25,11 @@ namespace coastmesh {
 namespace {
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
-    "wrong count",  "broken edge",    "clockwise",           "unused node",     "repeated node",
-    "hanging node", "pinched node",   "orphan cell",         "unknown depth",   "dry opening",
-    "no boundary",  "stray boundary", "boundary twice",      "boundary turned", "looped boundary",
-    "wrong shore",  "two open edges", "open and solid edge", "one neighbour",   "lone wall",
-    "valence",      "large angle",    "not orthogonal",      "small flow link", "courant"};
+    "wrong count",    "broken edge",     "clockwise",       "unused node", "repeated node",  "hanging node",
+    "pinched node",   "orphan cell",     "unknown depth",   "dry opening", "no boundary",    "stray boundary",
+    "boundary twice", "boundary turned", "looped boundary", "wrong shore", "two open edges", "open and solid edge",
+    "one neighbour",  "lone wall",       "valence",         "large angle", "not orthogonal", "small flow link",
+    "courant",        "round the globe"};
 
 // The Courant number is that of long waves. SWAN computes none, FESOM2 and MPAS-Ocean step them apart.
 bool isOfLongWaves(Target target) {
@@ -38,6 +39,11 @@ bool isOfLongWaves(Target target) {
 // The others have no openings, or take dry ones.
 bool mindsDryOpenings(Target target) {
   return target == Target::Adcirc || target == Target::Schism || target == Target::Fvcom || target == Target::Telemac;
+}
+
+// The others take longitudes modulo a turn, or places on the sphere.
+bool mindsJumps(Target target) {
+  return target == Target::Adcirc || target == Target::Telemac || target == Target::Swan;
 }
 
 bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
@@ -83,6 +89,7 @@ class TargetCheck {
     mesh_ = linkTriangles(grid_.nodes, grid_.triangles, conflicts_);
     for (const EdgeConflict& conflict : conflicts_) add(TargetDefectKind::BrokenEdge, middle(conflict.a, conflict.b));
     checkTriangles();
+    if (mindsJumps(target_) && grid_.crs.geographic) checkJumps();
     checkNodes();
     checkHangingNodes();
     if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
@@ -127,6 +134,14 @@ class TargetCheck {
       if (const double largest = angleBeyond(grid_, target_, grid_.triangles[t]); largest > 0.0)
         add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
     }
+  }
+
+  // Round a pole or the globe some triangle has to jump.
+  void checkJumps() {
+    if (!inOneTurn(grid_.nodes, grid_.triangles)) return;
+    for (std::size_t t = 0; t < grid_.triangles.size(); ++t)
+      if (longitudesJump(grid_.nodes, grid_.triangles[t]))
+        add(TargetDefectKind::RoundTheGlobe, middle(t), static_cast<std::int64_t>(t));
   }
 
   void checkNodes() {

@@ -37,8 +37,9 @@ enum class TargetDefectKind {
   NotOrthogonal,   // an edge far from perpendicular to the line between the neighbours' centres
   SmallFlowLink,   // an edge with the neighbours' centres too close to one another
   Courant,         // a triangle whose Courant number is out of range for the time step
+  RoundTheGlobe,   // a triangle whose longitudes jump at ±180, for a model that takes differences of them as they are
 };
-inline constexpr std::size_t kTargetDefectKinds = 25;
+inline constexpr std::size_t kTargetDefectKinds = 26;
 std::string_view toString(TargetDefectKind kind);
 
 struct TargetDefect {

@@ -106,6 +106,7 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::RepeatedNode:
     case TargetDefectKind::HangingNode:
     case TargetDefectKind::UnknownDepth:
+    case TargetDefectKind::RoundTheGlobe:  // longitudes are in one turn here
       return;
   }
 }

@@ -13,7 +13,6 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Seen from the circle's centre the two touching places lie further apart than this.
 const double kCosApart = std::cos(toRadians(110.0));
 constexpr int kMostSteps = 40;

@@ -308,7 +308,12 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
   for (const std::string& path : options.features)
     inputs.features.push_back(readSizedFeatures(path, crs, options.gradation));
   const auto readLines = [&](const std::vector<std::string>& paths, std::vector<ShoreLine>& lines) {
-    for (const std::string& path : paths) std::ranges::move(readGuideLines(path, crs), std::back_inserter(lines));
+    for (std::size_t file = 0; file < paths.size(); ++file) {
+      for (ShoreLine& line : readGuideLines(paths[file], crs)) {
+        line.file = file;
+        lines.push_back(std::move(line));
+      }
+    }
   };
   readLines(options.passages, inputs.passages);
   for (ShoreLine& line : inputs.passages) line.elements = options.passage_elements;

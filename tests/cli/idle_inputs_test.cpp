@@ -1,4 +1,5 @@
-// Files that were given for sizes, constraints, weirs or regions and have nothing where the mesh lies are warned of.
+// Files that were given for sizes, passages, barriers, constraints, weirs or regions and have nothing where the mesh
+// lies are warned of.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@ namespace coastmesh::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class IdleInputs : public ProgramTest {
  protected:
@@ -65,6 +67,19 @@ TEST_F(IdleInputs, OfLinesAndRegionsOutsideTheWaterAreWarnedOf) {
   // On the island of the lake.
   EXPECT_THAT(warningsWith("--constraints", line("island.geojson", "[[-87.5,47.5],[-87.51,47.51]]")),
               HasSubstr("island.geojson: nothing of it lies in the water"));
+}
+
+TEST_F(IdleInputs, OfPassagesAndBarriersElsewhereAreWarnedOf) {
+  const std::string near =
+      feature("near.geojson", R"({"type":"LineString","coordinates":[[-87.8,47.7],[-87.6,47.7]]})");
+  const std::string far = feature("far.geojson", R"({"type":"LineString","coordinates":[[20,50],[21,50]]})");
+  for (const std::string option : {"--passages", "--barriers"}) {
+    const ProgramRun run = runProgram({"mesh", inputFile("lines/lake.geojson"), "--size", "5000", "--coast", "follow",
+                                       option, near, option, far, "-o", file("lake.nc"), "--overwrite"});
+    EXPECT_LE(run.code, 1) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr(option + " " + far + ": no line of it lies in the mesh, or near it"));
+    EXPECT_THAT(run.errors, Not(HasSubstr("near.geojson: no line")));
+  }
 }
 
 // What lies beyond the box is dropped when it is read.

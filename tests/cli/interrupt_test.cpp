@@ -47,7 +47,7 @@ TEST_F(Interrupted, ExistingOutputsStayAsTheyWere) {
 
 // What a library does wrong, or we: the files that stood there are as they were, and one line says what happened.
 TEST_F(Interrupted, ByACrash) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef COASTMESH_SANITIZED
   const std::vector<int> crashes = {SIGABRT};  // the others are the sanitizer's
 #else
   const std::vector<int> crashes = {SIGABRT, SIGSEGV, SIGBUS};

@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The address sanitizer takes memory of its own, much of it.
-#ifdef __SANITIZE_ADDRESS__
+// Sanitizers take memory of their own, much of it.
+#ifdef COASTMESH_SANITIZED
 constexpr bool kMemoryIsTheProgramsOwn = false;
 #else
 constexpr bool kMemoryIsTheProgramsOwn = true;

@@ -20,7 +20,7 @@ std::atomic<std::size_t> g_largest = 0;  // bytes of the largest piece of memory
 
 }  // namespace
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef COASTMESH_SANITIZED
 // The sanitizer has its own operators, and says what is asked of them. GCC comes without the header for that.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void*, std::size_t),
                                                          void (*freed)(const volatile void*));

@@ -23,7 +23,7 @@ Feature lineFeature(std::int64_t fid, std::vector<Point> line) {
 }
 
 Coastline coastlineOf(std::vector<Feature> features, Crs crs) {
-  return {std::move(features), std::move(crs), std::nullopt};
+  return {std::move(features), std::move(crs), std::nullopt, {}};
 }
 
 std::vector<std::size_t> allMembers(const Coastline& coastline) {

@@ -51,6 +51,24 @@ TEST_P(BoxTreeTest, HoldsPointsAndEqualBoxes) {
   tree.visit({1.5, 1, 2, 1}, [&](std::uint32_t) { FAIL(); });
 }
 
+// Empty boxes have no centre: they must not disturb the order of the others.
+TEST(BoxTreeOrder, EmptyBoxesLeaveTheOthersInOrder) {
+  std::mt19937_64 random(2);
+  const std::vector<Box> boxes = randomBoxes(random, 3000, 10, 1);
+  std::vector<Box> with_empty{Box()};
+  for (const Box& box : boxes) {
+    with_empty.push_back(box);
+    with_empty.push_back(Box());
+  }
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert), gappy(with_empty, BoxTree::Order::Hilbert);
+  for (const Box& query : randomBoxes(random, 50, 12, 4)) {
+    std::vector<std::uint32_t> found, expected;
+    tree.visit(query, [&](std::uint32_t item) { expected.push_back(item); });
+    gappy.visit(query, [&](std::uint32_t item) { found.push_back((item - 1) / 2); });
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST_P(BoxTreeTest, AnEmptyTreeFindsNothing) {
   const BoxTree tree({}, GetParam());
   EXPECT_EQ(tree.size(), 0u);

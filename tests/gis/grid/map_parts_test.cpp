@@ -102,7 +102,6 @@ TEST(MapCutter, EdgesOverThePole) {
   grid.nodes = {{0, 80}, {180, 80}, {90, 70}, {-90, 70}};
   grid.triangles = {{0, 2, 1}, {0, 1, 3}};
   const MapCutter cutter(grid);
-  using Ring = MapCutter::Ring;
   // Between 0 and 180 degrees east, and between 180 and 0 degrees west.
   for (std::size_t t = 0; t < 2; ++t) {
     const auto parts = cutter.partsOf(grid.triangles[t]);

@@ -363,6 +363,37 @@ TEST(CheckTarget, LargeAngle) {
   expectMended(grid, {Target::Swan});
 }
 
+// Models differ in whether they take differences of longitudes as they are.
+TEST(CheckTarget, RoundTheGlobe) {
+  Grid past = soundGrid();
+  past.crs = wgs84();
+  for (Point& p : past.nodes) p = {179.98 + p.x * 1e-5, p.y * 1e-5};
+  Grid jumping = past;
+  for (Point& p : jumping.nodes)
+    if (p.x > 180.0) p.x -= 360.0;
+  const auto count = std::ranges::count_if(jumping.triangles, [&](const auto& corners) {
+    const auto [west, east] =
+        std::minmax({jumping.nodes[corners[0]].x, jumping.nodes[corners[1]].x, jumping.nodes[corners[2]].x});
+    return east - west > 180.0;
+  });
+  ASSERT_GT(count, 0);
+  for (const Target target : kAll) {
+    const bool minds = target == Target::Adcirc || target == Target::Telemac || target == Target::Swan;
+    EXPECT_EQ(std::ranges::count(checkTarget(jumping, target), TargetDefectKind::RoundTheGlobe, &TargetDefect::kind),
+              minds ? count : 0);
+    EXPECT_EQ(kindsIn(past, target), Kinds{});
+  }
+}
+
+// Round a pole longitudes have to jump somewhere.
+TEST(CheckTarget, RoundThePole) {
+  Grid grid;
+  grid.crs = wgs84();
+  grid.nodes = {{0.0, 80.0}, {120.0, 80.0}, {-120.0, 80.0}, {0.0, 90.0}};
+  grid.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  EXPECT_FALSE(kindsIn(grid, Target::Adcirc).contains(TargetDefectKind::RoundTheGlobe));
+}
+
 // At 75 degrees north, where a degree of longitude is a quarter of one
 // of latitude.
 TEST(CheckTarget, SwanMeasuresAnglesOfDegreesAsIfTheyWereAPlane) {

@@ -100,8 +100,8 @@ TEST(BareGeojson, LeavesTheRestToOgr) {
       R"({"geometry":{"type":"Point","coordinates":[1,2]},"type":"Feature"})",
       R"({"type":"Topology","objects":{},"arcs":[]})",
       R"({"type":"Polygon","crs":{"type":"name"},"coordinates":[[[0,0],[1,0],[1,1],[0,0]]]})",
-      R"({"type":"GeometryCollection","geometries":[{"type":"GeometryCollection","geometries":[)"
-      R"({"type":"GeometryCollection","geometries":[]}]}]})",
+      (R"({"type":"GeometryCollection","geometries":[{"type":"GeometryCollection","geometries":[)"
+       R"({"type":"GeometryCollection","geometries":[]}]}]})"),
       R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]])",  // cut off
       R"({"type":"Polygon","coordinates":[[0,0],[1,0],[1,1],[0,0]]})",  // a level too few
       R"({"type":"Polygon","coordinates":[[[[0,0],[1,0],[0,0]]]]})",    // a level too many
