@@ -181,16 +181,15 @@ class Carver {
 };
 
 // The new numbers of the triangles that are kept, along Hilbert's curve by their last corner; kNone for the others.
-std::vector<TriId> numberAlongCurve(std::span<const Point> points, const Surface& surface,
-                                    std::span<const Triangle> triangles, const std::vector<RegionId>& region,
-                                    TriId& count) {
-  std::vector<std::uint32_t> place(points.size());
-  for (std::uint32_t i = 0; const VertexId v : hilbertOrder(points, surface)) place[v] = i++;
+std::vector<TriId> numberAlongCurve(const DelaunayBuilder& builder, const std::vector<RegionId>& region, TriId& count) {
+  const std::span<const Triangle> triangles = builder.triangles();
+  std::vector<std::uint32_t> place(builder.alongCurve().size());
+  for (std::uint32_t i = 0; const VertexId v : builder.alongCurve()) place[v] = i++;
   const auto last = [&](TriId t) {
     const auto& v = triangles[t].v;
     return std::max({place[v[0]], place[v[1]], place[v[2]]});
   };
-  std::vector<TriId> first(points.size() + 1, 0);
+  std::vector<TriId> first(place.size() + 1, 0);
   for (TriId t = 0; t < triangles.size(); ++t)
     if (region[t] != kOutside) ++first[last(t) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
@@ -222,7 +221,7 @@ TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface) {
 
   const std::vector<RegionId> region = Carver(pslg, builder).run();
   TriId count = 0;
-  const std::vector<TriId> numbers = numberAlongCurve(pslg.points, surface, builder.triangles(), region, count);
+  const std::vector<TriId> numbers = numberAlongCurve(builder, region, count);
   if (count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
 
   TriMesh mesh;

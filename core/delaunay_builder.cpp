@@ -37,8 +37,11 @@ std::vector<VertexId> insertionOrder(const std::vector<VertexId>& along) {
 }  // namespace
 
 DelaunayBuilder::DelaunayBuilder(std::span<const Point> points, const Surface& surface)
-    : points_(points), ghost_(static_cast<VertexId>(points.size())), triangle_of_(points.size() + 1, kNone) {
-  std::vector<VertexId> order = insertionOrder(hilbertOrder(points, surface));
+    : points_(points),
+      along_curve_(hilbertOrder(points, surface)),
+      ghost_(static_cast<VertexId>(points.size())),
+      triangle_of_(points.size() + 1, kNone) {
+  std::vector<VertexId> order = insertionOrder(along_curve_);
   if (!startWith(order)) return;
   for (std::size_t i = 3; i < order.size(); ++i) insertPoint(order[i]);
 }

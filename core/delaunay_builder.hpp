@@ -31,6 +31,7 @@ class DelaunayBuilder {
   explicit DelaunayBuilder(std::span<const Point> points, const Surface& surface = {});
 
   bool hasTriangles() const { return !mesh_.triangles.empty(); }
+  std::span<const VertexId> alongCurve() const { return along_curve_; }  // the points in Hilbert's order
 
   // Makes the edge from a to b, if it does not exist, and marks it as part of a segment. Throws Clash.
   void insertSegment(VertexId a, VertexId b, SegmentId seg);
@@ -57,6 +58,7 @@ class DelaunayBuilder {
   void restoreDelaunay();
 
   std::span<const Point> points_;
+  std::vector<VertexId> along_curve_;
   VertexId ghost_;
   LinkedTriangles mesh_;
   std::vector<TriId> triangle_of_;  // one triangle around each vertex
