@@ -109,7 +109,8 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
   for (const RasterGeometry& raster : sizes.rasters)
     if (!coversAny(raster, grid))
       all.push_back("--size-raster " + raster.path + ": no node of the mesh lies in it; is its CRS right?");
-  const Box around = surroundingsOf(grid);
+  const bool any = !sizes.features.empty() || !job.sizes.passages.empty() || !job.sizes.barriers.empty();
+  const Box around = any ? surroundingsOf(grid) : Box{};  // a look at every node
   const auto isNear = [&](const auto& part) { return meets(boxOf(part), around, grid.crs); };
   for (std::size_t file = 0; file < sizes.features.size(); ++file)
     if (std::ranges::none_of(sizes.features[file].parts, isNear))
