@@ -87,4 +87,19 @@ std::vector<Item> joined(std::vector<std::vector<Item>>&& lists) {
   return all;
 }
 
+// Sorts items of which no two are equal: ranges of them first, then merges those in pairs.
+template <typename Item>
+void sortOn(const ItemLoop& loop, std::vector<Item>& items) {
+  constexpr std::size_t kRanges = 64, kWorthRanges = 1 << 15;
+  const std::size_t ranges = items.size() < kWorthRanges ? 1 : kRanges;
+  const auto at = [&](std::size_t range) {
+    return items.begin() + static_cast<std::ptrdiff_t>(items.size() * range / ranges);
+  };
+  loop(ranges, [&](std::size_t r) { std::sort(at(r), at(r + 1)); });
+  for (std::size_t merged = 1; merged < ranges; merged *= 2)
+    loop(ranges / (2 * merged), [&](std::size_t r) {
+      std::inplace_merge(at(2 * merged * r), at(2 * merged * r + merged), at(2 * merged * (r + 1)));
+    });
+}
+
 }  // namespace coastmesh

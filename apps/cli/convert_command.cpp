@@ -32,7 +32,11 @@ int runConvert(const ConvertUsage& usage, Run& run) {
   Grid grid = readMeshFile(usage.mesh, run);
   findMissingBoundaries(grid);
   const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
-  const FinishReport report = finishGrid(grid, usage.finish, control);
+  FinishReport report;
+  withThreads({}, [&] {
+    Recorder recorder;
+    report = finishGrid(grid, usage.finish, control, recorder.loop("finish", control));
+  });
   for (const std::string& warning : report.warnings()) run.warn(warning);
   if (const std::string warning = outputs.depthWarning(grid); !warning.empty()) run.warn(warning);
   for (const std::string& warning : outputs.lossWarnings(grid, LossesOf::Grid)) run.warn(warning);

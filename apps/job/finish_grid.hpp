@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/model/assign_boundaries.hpp"
@@ -31,7 +32,8 @@ struct FinishReport {
 };
 
 // Throws OptionError, InputError, Cancelled.
-FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control = {});
+FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control = {},
+                        const ItemLoop& loop = inOrder);
 
 // For users: a line for each thing done; empty if nothing was requested.
 std::string finishSummary(const FinishOptions& options, const FinishReport& report);

@@ -382,15 +382,14 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     const Stopwatch finishing;
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
-    result.finish = finishGrid(result.grid, finish, inner);
+    result.finish = finishGrid(result.grid, finish, inner, recorder.loop("finish", RunControl{control.cancelled, {}}));
     if (!result.finish.repairs.repairs.empty()) {
       result.short_before_repairs = result.short_of.count;
       measureAgain(job, input, merge.merged(), true, result);
       result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
     }
     result.seconds.finish = finishing.seconds();
-    result.log.addAlone("finish", result.seconds.finish);
-    recorder.finish();
+    result.log.append(recorder.finish("finish"));
   }
   // A shard, or one feature of many, may well lie beside them.
   if (exchange.shards <= 1 && !job.input.ready)

@@ -20,9 +20,10 @@ constexpr double kMostPixels = 0.5;
 // The raster's values, as it has them, for nodes that have none yet.
 class ValueSearch {
  public:
-  ValueSearch(const Grid& grid, const DepthOptions& options, DepthReport& report)
+  ValueSearch(const Grid& grid, const DepthOptions& options, const ItemLoop& loop, DepthReport& report)
       : grid_(grid),
         options_(options),
+        loop_(loop),
         report_(report),
         values_(grid.nodes.size(), kUnknown),
         partial_(grid.nodes.size(), kUnknown),
@@ -37,13 +38,13 @@ class ValueSearch {
                                  nameOf(grid_.crs));
     std::vector<std::uint32_t> open = unknownNodes();
     if (open.empty()) return;
-    const std::vector<Point> pixels = pixelsOf(grid_, raster);
+    const std::vector<Point> pixels = pixelsOf(grid_, raster, loop_);
     if (options_.method == DepthMethod::Average) {
       const auto samples = sampleAverage(raster, grid_, pixels, open, kLeastPixels, control);
       report_.averaged += put(file, open, samples, kMostPixels);
       open = unknownNodes();
     }
-    put(file, open, sampleBilinear(raster, pixels, open, options_.readers, control), 1.0);
+    put(file, open, sampleBilinear(raster, pixels, open, options_.readers, loop_, control), 1.0);
   }
 
   std::vector<double> finish() {
@@ -83,6 +84,7 @@ class ValueSearch {
 
   const Grid& grid_;
   const DepthOptions& options_;
+  const ItemLoop& loop_;
   DepthReport& report_;
   std::vector<double> values_, partial_;
   std::vector<std::size_t> partial_file_;
@@ -126,10 +128,10 @@ void measure(const Grid& grid, DepthReport& report) {
 
 }  // namespace
 
-DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control) {
+DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control, const ItemLoop& loop) {
   DepthReport report;
   if (options.files.empty()) return report;
-  ValueSearch search(grid, options, report);
+  ValueSearch search(grid, options, loop, report);
   for (std::size_t file = 0; file < options.files.size(); ++file) search.take(file, control);
   grid.z = search.finish();
   for (double& z : grid.z) z = (options.positive_down ? 0.0 - z : z) - options.water_level_m;
@@ -139,8 +141,8 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   } else if (std::string warning = gapWarning(grid, options); !warning.empty()) {
     report.warnings.push_back(std::move(warning));
   }
-  if (options.fill == DepthFill::Neighbours) report.filled = fillFromNeighbours(grid);
-  if (options.fill == DepthFill::Nearest) report.filled = fillFromNearest(grid);
+  if (options.fill == DepthFill::Neighbours) report.filled = fillFromNeighbours(grid, loop);
+  if (options.fill == DepthFill::Nearest) report.filled = fillFromNearest(grid, loop);
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));
   for (double& z : grid.z) {
     if (!(z > 0.0 - options.min_depth_m)) continue;

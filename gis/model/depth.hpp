@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/grid/grid.hpp"
 
@@ -52,6 +53,7 @@ struct DepthReport {
 
 // Sets the grid's z from rasters in any CRS, read block by block, with constant memory. A raster without a CRS is
 // assumed to be in the grid's. Throws InputError, Cancelled.
-DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control = {});
+DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control = {},
+                      const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

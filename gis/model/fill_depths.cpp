@@ -1,20 +1,33 @@
 #include "gis/model/fill_depths.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <queue>
-#include <span>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "gis/geometry/neighbours.hpp"
-#include "gis/grid/mesh_edges.hpp"
 
 namespace coastmesh {
 namespace {
 
-// Ascending.
-Neighbours neighboursIn(const Grid& grid) {
-  const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles);
+// Ascending; only of edges at nodes without a value.
+Neighbours neighboursOfUnknown(const Grid& grid, const ItemLoop& loop) {
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  const auto isUnknown = [&](std::uint32_t node) { return std::isnan(grid.z[node]); };
+  std::vector<Edge> edges = joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<Edge> some;
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& [a, b, c] = grid.triangles[t];
+      for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}})
+        if (isUnknown(from) || isUnknown(to)) some.emplace_back(std::minmax(from, to));
+    }
+    return some;
+  }));
+  std::ranges::sort(edges);
+  edges.erase(std::ranges::unique(edges).begin(), edges.end());
   return {grid.nodes.size(), [&](const auto& visit) {
             for (const auto& [a, b] : edges) visit(a, b);
           }};
@@ -29,8 +42,8 @@ double distance(const Grid& grid, std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
-std::size_t fillFromNeighbours(Grid& grid) {
-  const Neighbours neighbours = neighboursIn(grid);
+std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop) {
+  const Neighbours neighbours = neighboursOfUnknown(grid, loop);
   std::vector<std::uint32_t> ring;
   const auto isUnknown = [&](std::uint32_t node) { return std::isnan(grid.z[node]); };
   const auto addUnknownNeighbours = [&](std::uint32_t node, std::vector<bool>& waiting) {
@@ -66,8 +79,8 @@ std::size_t fillFromNeighbours(Grid& grid) {
   return filled;
 }
 
-std::size_t fillFromNearest(Grid& grid) {
-  const Neighbours neighbours = neighboursIn(grid);
+std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop) {
+  const Neighbours neighbours = neighboursOfUnknown(grid, loop);
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, node, where its value comes from
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<bool> done(grid.nodes.size(), false);

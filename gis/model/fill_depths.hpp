@@ -2,15 +2,16 @@
 
 #include <cstddef>
 
+#include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
 
 namespace coastmesh {
 
 // Sets unknown z to the mean of the known neighbours', starting from the known nodes, ring by ring. Returns the number
 // of nodes filled; connected parts of the mesh without a known node are unchanged.
-std::size_t fillFromNeighbours(Grid& grid);
+std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop = inOrder);
 
 // Sets them to the z of the nearest known node along the mesh's edges.
-std::size_t fillFromNearest(Grid& grid);
+std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

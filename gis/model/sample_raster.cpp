@@ -70,15 +70,50 @@ RasterSample blend(const std::array<double, 4>& values, const Corner& corner) {
   return {sum / weights, weights > kAll ? 1.0 : weights};
 }
 
+// A place in the raster, by its number.
 struct Visit {
   Tile tile;
   std::size_t index = 0;
-  Corner corner;
+
+  friend auto operator<=>(const Visit&, const Visit&) = default;
+};
+
+// The places that have pixels around them, tile by tile.
+class Visits {
+ public:
+  Visits(const RasterBand& raster, std::span<const Point> pixels, std::span<const std::uint32_t> which,
+         const ItemLoop& loop)
+      : raster_(raster), pixels_(pixels), which_(which) {
+    in_order_ = joined(overStretches(loop, which.size(), [&](std::size_t first, std::size_t last) {
+      std::vector<Visit> some;
+      for (std::size_t i = first; i < last; ++i)
+        if (const auto corner = cornerAt(raster, pixels[which[i]]))
+          some.push_back({tileAt(raster, std::max<std::int64_t>(0, corner->column), corner->row), i});
+      return some;
+    }));
+    sortOn(loop, in_order_);
+  }
+
+  std::size_t size() const { return in_order_.size(); }
+  const Visit& operator[](std::size_t k) const { return in_order_[k]; }
+  Corner corner(std::size_t k) const { return *cornerAt(raster_, pixels_[which_[in_order_[k].index]]); }
+  // The first visit after `k` to another tile.
+  std::size_t endOfTile(std::size_t k) const {
+    std::size_t end = k;
+    while (end < in_order_.size() && in_order_[end].tile == in_order_[k].tile) ++end;
+    return end;
+  }
+
+ private:
+  const RasterBand& raster_;
+  std::span<const Point> pixels_;
+  std::span<const std::uint32_t> which_;
+  std::vector<Visit> in_order_;
 };
 
 // Each pixel is read by the reader of its part of the raster.
-std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, const std::vector<Visit>& visits,
-                                                    const PixelReaders& readers) {
+std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, const Visits& visits,
+                                                    const PixelReaders& readers, const ItemLoop& loop) {
   const RasterGeometry& geometry = raster.geometry();
   const PixelCuts cuts = partsOf(geometry);
   // One pixel of a visit, or up to four that lie side by side: which of the four is the first.
@@ -89,7 +124,7 @@ std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, co
   };
   std::vector<Piece> pieces;
   for (std::size_t v = 0; v < visits.size(); ++v) {
-    const Corner& corner = visits[v].corner;
+    const Corner corner = visits.corner(v);
     const auto column = static_cast<int>(corner.column), row = static_cast<int>(corner.row);
     const auto add = [&](const PixelRect& rect, unsigned first) {
       const PixelRect inside = rect.in({0, 0, geometry.columns, geometry.rows});
@@ -121,7 +156,7 @@ std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, co
     tasks.back().windows.push_back(piece.at);
     parts.back().pixels += static_cast<std::uint64_t>(piece.at.width * piece.at.height);
   }
-  const std::vector<PixelAnswer> answers = readers.read(tasks, readers.ownersOf(parts), inOrder);
+  const std::vector<PixelAnswer> answers = readers.read(tasks, readers.ownersOf(parts), loop);
   std::vector<std::array<double, 4>> corners(visits.size());
   for (auto& corner : corners) corner.fill(std::numeric_limits<double>::quiet_NaN());
   std::size_t p = 0;
@@ -136,39 +171,58 @@ std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, co
   return corners;
 }
 
-std::vector<std::array<double, 4>> cornersHere(const RasterBand& raster, const std::vector<Visit>& visits,
-                                               const RunControl& control) {
-  std::vector<std::array<double, 4>> corners(visits.size());
-  for (std::size_t begin = 0, end = 0; begin < visits.size(); begin = end) {
-    stopIfAsked(control);
-    std::int64_t left = visits[begin].corner.column, right = left, top = visits[begin].corner.row, bottom = top;
-    for (end = begin; end < visits.size() && visits[end].tile == visits[begin].tile; ++end) {
-      const Corner& corner = visits[end].corner;
-      left = std::min(left, corner.column);
-      right = std::max(right, corner.column);
-      top = std::min(top, corner.row);
-      bottom = std::max(bottom, corner.row);
-    }
-    RasterWindow window{left, top, right + 2 - left, bottom + 2 - top};
-    if (!raster.wraps()) window.columns = std::min(window.columns, raster.columns() - left);
-    window.rows = std::min(window.rows, raster.rows() - top);
-    const std::vector<double> values = raster.read(window);
-    for (std::size_t k = begin; k < end; ++k) {
-      for (const int i : {0, 1, 2, 3}) {
-        const std::int64_t column = visits[k].corner.column + i % 2 - left, row = visits[k].corner.row + i / 2 - top;
-        corners[k][static_cast<std::size_t>(i)] = column < window.columns && row < window.rows
-                                                      ? values[static_cast<std::size_t>(row * window.columns + column)]
-                                                      : std::numeric_limits<double>::quiet_NaN();
-      }
-    }
+// Of one tile's visits, `first` up to `last`.
+void sampleTile(const RasterBand& raster, const Visits& visits, std::size_t first, std::size_t last,
+                std::vector<RasterSample>& samples) {
+  std::int64_t left = std::numeric_limits<std::int64_t>::max(), right = -left, top = left, bottom = -left;
+  for (std::size_t k = first; k < last; ++k) {
+    const Corner corner = visits.corner(k);
+    left = std::min(left, corner.column);
+    right = std::max(right, corner.column);
+    top = std::min(top, corner.row);
+    bottom = std::max(bottom, corner.row);
   }
-  return corners;
+  RasterWindow window{left, top, right + 2 - left, bottom + 2 - top};
+  if (!raster.wraps()) window.columns = std::min(window.columns, raster.columns() - left);
+  window.rows = std::min(window.rows, raster.rows() - top);
+  const std::vector<double> values = raster.read(window);
+  for (std::size_t k = first; k < last; ++k) {
+    const Corner corner = visits.corner(k);
+    std::array<double, 4> four;
+    for (const int i : {0, 1, 2, 3}) {
+      const std::int64_t column = corner.column + i % 2 - left, row = corner.row + i / 2 - top;
+      four[static_cast<std::size_t>(i)] = column < window.columns && row < window.rows
+                                              ? values[static_cast<std::size_t>(row * window.columns + column)]
+                                              : std::numeric_limits<double>::quiet_NaN();
+    }
+    samples[visits[k].index] = blend(four, corner);
+  }
+}
+
+// Shares of the tiles are read at once, each by a raster of its own: GDAL's are for one thread.
+void sampleHere(const RasterBand& raster, const Visits& visits, const ItemLoop& loop, const RunControl& control,
+                std::vector<RasterSample>& samples) {
+  constexpr std::size_t kMostShares = 16, kWorthAShare = 1 << 15;
+  std::vector<std::size_t> ends;
+  const std::size_t length = std::max(kWorthAShare, visits.size() / kMostShares + 1);
+  for (std::size_t begin = 0, end = 0; begin < visits.size(); begin = end) {
+    end = visits.endOfTile(std::min(begin + length, visits.size()) - 1);
+    ends.push_back(end);
+  }
+  loop(ends.size(), [&](std::size_t s) {
+    std::optional<RasterBand> own;
+    if (ends.size() > 1) own.emplace(raster.path());
+    for (std::size_t first = s == 0 ? 0 : ends[s - 1], last = 0; first < ends[s]; first = last) {
+      stopIfAsked(control);
+      last = visits.endOfTile(first);
+      sampleTile(own ? *own : raster, visits, first, last, samples);
+    }
+  });
 }
 
 }  // namespace
 
-std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster) {
-  std::vector<Point> pixels(grid.nodes.size());
+std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster, const ItemLoop& loop) {
   const bool as_is = grid.crs.isPlane() || raster.crs().isPlane() || sameCrs(grid.crs, raster.crs());
   std::optional<CrsMap> map;
   if (!as_is) map.emplace(toOgr(grid.crs), toOgr(raster.crs()));
@@ -177,30 +231,31 @@ std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster) {
   const auto isInside = [&raster](const Point& pixel) {
     return pixel.x >= 0.0 && pixel.x <= static_cast<double>(raster.columns());
   };
-  std::ranges::transform(grid.nodes, pixels.begin(), [&](const Point& node) {
+  const auto pixelOf = [&](const Point& node) {
     const Point pixel = raster.pixelOf(map ? map->forward(node) : node);
     if (!tries_turns || isInside(pixel)) return pixel;
     for (const double turn : {-360.0, 360.0})
       if (const Point turned = raster.pixelOf({node.x + turn, node.y}); isInside(turned)) return turned;
     return pixel;
-  });
+  };
+  std::vector<Point> pixels;
+  reserveOn(loop, pixels, grid.nodes.size());
+  pixels.resize(grid.nodes.size());
+  forEachByStretches(loop, pixels.size(), [&](std::size_t i) { pixels[i] = pixelOf(grid.nodes[i]); });
   return pixels;
 }
 
 std::vector<RasterSample> sampleBilinear(const RasterBand& raster, std::span<const Point> pixels,
                                          std::span<const std::uint32_t> which, const PixelReaders* readers,
-                                         const RunControl& control) {
-  std::vector<Visit> visits;
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    if (const auto corner = cornerAt(raster, pixels[which[i]]))
-      visits.push_back({tileAt(raster, std::max<std::int64_t>(0, corner->column), corner->row), i, *corner});
-  }
-  std::ranges::sort(visits, {}, [](const Visit& visit) { return std::tuple(visit.tile, visit.index); });
-  const bool shared = readers != nullptr && raster.geometry().is_exact;
-  const std::vector<std::array<double, 4>> corners =
-      shared ? cornersByReaders(raster, visits, *readers) : cornersHere(raster, visits, control);
+                                         const ItemLoop& loop, const RunControl& control) {
+  const Visits visits(raster, pixels, which, loop);
   std::vector<RasterSample> samples(which.size());
-  for (std::size_t k = 0; k < visits.size(); ++k) samples[visits[k].index] = blend(corners[k], visits[k].corner);
+  if (readers == nullptr || !raster.geometry().is_exact) {
+    sampleHere(raster, visits, loop, control, samples);
+    return samples;
+  }
+  const std::vector<std::array<double, 4>> corners = cornersByReaders(raster, visits, *readers, loop);
+  for (std::size_t k = 0; k < visits.size(); ++k) samples[visits[k].index] = blend(corners[k], visits.corner(k));
   return samples;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/raster/raster_band.hpp"
@@ -19,13 +20,13 @@ struct RasterSample {
 
 // Places of the grid in the raster's pixels. A grid in a plane, and a raster without a CRS, are assumed to share their
 // CRS. Not finite if a place is outside the raster's CRS.
-std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster);
+std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster, const ItemLoop& loop);
 
-// Bilinear values at `pixels[i]` for each i of `which`, in its order. Tiles of the raster are read one after another,
-// each once; by `readers` if not null. Throws InputError, Cancelled.
+// Bilinear values at `pixels[i]` for each i of `which`, in its order. Each tile of the raster is read once, several at
+// the same time; by `readers` if not null. Throws InputError, Cancelled.
 std::vector<RasterSample> sampleBilinear(const RasterBand& raster, std::span<const Point> pixels,
                                          std::span<const std::uint32_t> which, const PixelReaders* readers,
-                                         const RunControl& control);
+                                         const ItemLoop& loop, const RunControl& control);
 
 // The mean over the pixels with centres in the triangles around a node, for each node of `which`; `pixels` has one
 // entry for each node of the grid. Nodes whose triangles contain fewer than `least_pixels` get a share of 0.

@@ -9,6 +9,7 @@
 #include "gis/error.hpp"
 #include "gis/projection/projection.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/item_loops.hpp"
 #include "tests/support/rasters.hpp"
 
 namespace coastmesh {
@@ -58,6 +59,25 @@ TEST_F(Depth, BilinearIsExactOnAPlane) {
     EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 1e-9);
   EXPECT_THAT(report.nodes_of_file, ElementsAre(grid.nodes.size()));
   EXPECT_EQ(report.filled + report.unknown + report.partial, 0u);
+}
+
+// Enough nodes for several readers of the raster; a part of it has no value, where depths are those of other nodes.
+TEST_F(Depth, SameInAnyOrder) {
+  const auto withGap = [](double x, double y) { return x > 11.0 && y > 51.0 ? kNoValue : slope(x, y); };
+  const std::string file = raster("dem.tif", "EPSG:4326", {400, 400, 9.0, 53.0, 0.01}, withGap);
+  const Grid without = squares("EPSG:4326", {9.5, 49.5}, 0.007, 300, 300);
+  for (const DepthFill fill : {DepthFill::Neighbours, DepthFill::Nearest}) {
+    DepthOptions options{{file}};
+    options.fill = fill;
+    Grid grid = without, other = without;
+    const DepthReport report = setDepths(grid, options);
+    EXPECT_EQ(setDepths(other, options, {}, testing::backwards).nodes_of_file, report.nodes_of_file);
+    EXPECT_GT(report.filled, 1000u);
+    EXPECT_EQ(report.unknown, 0u);
+    EXPECT_EQ(other.z, grid.z);
+    for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+      if (const Point& p = grid.nodes[i]; p.x < 10.99 || p.y < 50.99) EXPECT_NEAR(grid.z[i], slope(p.x, p.y), 1e-9);
+  }
 }
 
 TEST_F(Depth, SignAndWaterLevel) {
