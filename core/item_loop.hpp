@@ -87,7 +87,7 @@ std::vector<Item> joined(std::vector<std::vector<Item>>&& lists) {
   return all;
 }
 
-// Sorts items of which no two are equal: ranges of them first, then merges those in pairs.
+// Sorts items of which equal ones are the same: ranges of them first, then merges those in pairs.
 template <typename Item>
 void sortOn(const ItemLoop& loop, std::vector<Item>& items) {
   constexpr std::size_t kRanges = 64, kWorthRanges = 1 << 15;

@@ -25,6 +25,7 @@
 #include "gis/format/poly_io.hpp"
 #include "gis/geometry/chain_index.hpp"
 #include "gis/model/make_grid.hpp"
+#include "gis/projection/smooth_table.hpp"
 #include "gis/size/globe_start.hpp"
 #include "gis/size/guide_lines.hpp"
 #include "gis/size/node_sizes.hpp"
@@ -450,9 +451,10 @@ void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* 
                GroundPlaces ground, const ItemLoop& loop, GroupResult& result) {
   std::vector<double> size_m;
   if (size != nullptr) {
-    const auto measure = [&](VertexId v) {
-      return ground.empty() ? domain.projection.measureAt(region.mesh.points[v]) : ground.measure[v];
-    };
+    const std::vector<Point>& points = region.mesh.points;
+    const SmoothTable table =
+        measureTable(domain.projection, ground.empty() ? std::span(points) : std::span<const Point>(), loop);
+    const auto measure = [&](VertexId v) { return ground.empty() ? table.at(points[v]).x : ground.measure[v]; };
     size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, measure, domain.projection.surface(), loop);
   }
   result.grid =

@@ -61,9 +61,9 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
 StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop) {
   StepOutcome outcome;
   outcome.step = measureStep(grid, loop);
-  if (sizes.time_step_s > 0.0) outcome.below_step = stepsBelow(grid, sizes.time_step_s, sizes.courant);
+  if (sizes.time_step_s > 0.0) outcome.below_step = stepsBelow(grid, sizes.time_step_s, sizes.courant, loop);
   if (sizes.least_m > 0.0 && sizes.any())
-    outcome.below_least = edgesBelow(grid, StepOutcome::kUsualShare * sizes.least_m);
+    outcome.below_least = edgesBelow(grid, StepOutcome::kUsualShare * sizes.least_m, loop);
   outcome.least_missed = sizes.coast == CoastDetail::Follow && !outcome.below_least.empty() &&
                          outcome.below_least.front().length_m < StepOutcome::kShareOfLeast * sizes.least_m;
   outcome.warnings = warningsOf(outcome, sizes);

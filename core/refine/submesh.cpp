@@ -1,6 +1,7 @@
 #include "core/refine/submesh.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "core/links.hpp"
@@ -122,12 +123,14 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
 
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges,
                     const ItemLoop& loop) {
-  std::vector<TriId> triangles, slot;
-  std::vector<VertexId> number;
-  reserveOn(loop, slot, parent.triangles.size());
-  slot.assign(parent.triangles.size(), kNone);
-  reserveOn(loop, number, parent.points.size());
-  number.assign(parent.points.size(), kNone);
+  const auto noneFor = [&](std::size_t count) {
+    auto none = std::make_unique_for_overwrite<std::uint32_t[]>(count);
+    forStretches(loop, count,
+                 [&](std::size_t first, std::size_t last) { std::fill(none.get() + first, none.get() + last, kNone); });
+    return none;
+  };
+  std::vector<TriId> triangles;
+  const auto slot = noneFor(parent.triangles.size()), number = noneFor(parent.points.size());
   const auto take = [&](TriId t) {
     if (slot[t] != kNone) return;
     slot[t] = static_cast<TriId>(triangles.size());

@@ -74,12 +74,10 @@ Vector toEarthCentred(const LonLat& place, double a, double e2) {
   return {n * std::cos(lat) * std::cos(lon), n * std::cos(lat) * std::sin(lon), n * (1.0 - e2) * std::sin(lat)};
 }
 
-std::vector<Vector> toEarthCentred(const Geodetic& geodetic, const ItemLoop& loop) {
+std::unique_ptr<Vector[]> toEarthCentred(const Geodetic& geodetic, const ItemLoop& loop) {
   const double e2 = geodetic.f * (2.0 - geodetic.f);
-  std::vector<Vector> places;
-  reserveOn(loop, places, geodetic.points.size());
-  places.resize(geodetic.points.size());
-  forEachByStretches(loop, places.size(),
+  auto places = std::make_unique_for_overwrite<Vector[]>(geodetic.points.size());
+  forEachByStretches(loop, geodetic.points.size(),
                      [&](std::size_t i) { places[i] = toEarthCentred(geodetic.at(i), geodetic.a, e2); });
   return places;
 }
@@ -169,7 +167,7 @@ std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const 
   }
   const Geodetic geodetic = toGeodetic(nodes, crs);
   const double e2 = geodetic.f * (2.0 - geodetic.f);
-  const std::vector<Vector> places = toEarthCentred(geodetic, loop);
+  const std::unique_ptr<const Vector[]> places = toEarthCentred(geodetic, loop);
   const GeographicLib::Geodesic geodesic(geodetic.a, geodetic.f);
   forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
     const Vector &u = places[triangles[t][0]], &v = places[triangles[t][1]], &w = places[triangles[t][2]];
@@ -210,14 +208,14 @@ EdgeMeter::EdgeMeter(std::span<const Point> nodes, const Crs& crs, const ItemLoo
 }
 
 double EdgeMeter::between(std::uint32_t a, std::uint32_t b) const {
-  if (places_.empty()) return std::hypot(nodes_[b].x - nodes_[a].x, nodes_[b].y - nodes_[a].y);
+  if (places_ == nullptr) return std::hypot(nodes_[b].x - nodes_[a].x, nodes_[b].y - nodes_[a].y);
   const Vector along = places_[b] - places_[a];
   // The arc over the chord, on a sphere about as large.
   return diameter_ * std::asin(std::min(1.0, std::sqrt(dot(along, along)) / diameter_));
 }
 
 double EdgeMeter::shortestOf(const std::array<std::uint32_t, 3>& corners) const {
-  if (places_.empty()) return std::ranges::min(of(corners));
+  if (places_ == nullptr) return std::ranges::min(of(corners));
   const auto squaredChord = [&](std::size_t a, std::size_t b) {
     const Vector along = places_[corners[b]] - places_[corners[a]];
     return dot(along, along);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,8 +47,8 @@ class EdgeMeter {
 
  private:
   std::span<const Point> nodes_;
-  double diameter_ = 0.0;                      // of the ellipsoid
-  std::vector<std::array<double, 3>> places_;  // of the nodes, centred on the Earth; empty in a plane
+  double diameter_ = 0.0;                                  // of the ellipsoid
+  std::unique_ptr<const std::array<double, 3>[]> places_;  // of the nodes, centred on the Earth; null in a plane
 };
 
 // The edges of all triangles, measured in this way.

@@ -12,6 +12,7 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/loop_role.hpp"
+#include "gis/projection/smooth_table.hpp"
 
 namespace coastmesh {
 namespace {
@@ -71,13 +72,15 @@ void appendNodes(const MeshedDomain& part, bool geographic, const NodeIndices& i
   const bool shifts = geographic && !domain.projection.isIdentity();
   const LongitudeRange range = shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
   nodes.resize(indices.end);
+  const SmoothTable inverse =
+      inverseTable(domain.projection, part.ground != nullptr ? std::span<const Point>() : std::span(mesh.points), loop);
   forEachByStretches(loop, mesh.points.size(), [&](std::size_t v) {
     if (index_of[v] == kNone) return;
     Point& node = nodes[index_of[v]];
     if (v < mesh.input_vertices) {
       node = domain.input_points[v];
     } else {
-      node = part.ground != nullptr ? part.ground->input[v] : domain.projection.inverse(mesh.points[v]);
+      node = part.ground != nullptr ? part.ground->input[v] : inverse.at(mesh.points[v]);
       if (shifts) node.x = range.bring(node.x);
     }
   });

@@ -31,11 +31,17 @@ double stepOf(double shortest_m, double depth_m) {
 // Which edges and nodes cannot move apart, since the shore or a line holds them.
 class HeldEdges {
  public:
-  explicit HeldEdges(const Grid& grid) : on_shore_(grid.nodes.size(), false) {
-    for (const auto& [a, b, c] : grid.triangles)
-      for (const auto& [from, to] : {NodePair{a, b}, NodePair{b, c}, NodePair{c, a}})
-        edges_.push_back({std::min(from, to), std::max(from, to)});
-    std::ranges::sort(edges_);
+  HeldEdges(const Grid& grid, const ItemLoop& loop) : on_shore_(grid.nodes.size(), false) {
+    edges_ = joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+      std::vector<NodePair> some;
+      for (std::size_t t = first; t < last; ++t) {
+        const auto& [a, b, c] = grid.triangles[t];
+        for (const auto& [from, to] : {NodePair{a, b}, NodePair{b, c}, NodePair{c, a}})
+          some.push_back({std::min(from, to), std::max(from, to)});
+      }
+      return some;
+    }));
+    sortOn(loop, edges_);
     std::vector<NodePair> boundary;  // of one triangle alone
     for (std::size_t i = 0, end = 0; i < edges_.size(); i = end) {
       for (end = i; end < edges_.size() && edges_[end] == edges_[i];) ++end;
@@ -74,10 +80,12 @@ ShortCause causeIn(const Grid& grid, const HeldEdges& held, const std::array<dou
 
 }  // namespace
 
-std::vector<double> timeSteps(const Grid& grid) {
-  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
-  std::vector<double> steps(lengths.size());
-  for (std::uint32_t t = 0; t < steps.size(); ++t) steps[t] = stepOf(std::ranges::min(lengths[t]), deepestOf(grid, t));
+std::vector<double> timeSteps(const Grid& grid, const ItemLoop& loop) {
+  const EdgeMeter meter(grid.nodes, grid.crs, loop);
+  std::vector<double> steps(grid.triangles.size());
+  forEachByStretches(loop, steps.size(), [&](std::size_t t) {
+    steps[t] = stepOf(meter.shortestOf(grid.triangles[t]), deepestOf(grid, static_cast<std::uint32_t>(t)));
+  });
   return steps;
 }
 
@@ -135,35 +143,46 @@ std::string_view toString(ShortCause cause) {
   return kNames[static_cast<std::size_t>(cause)];
 }
 
-std::vector<ShortStep> stepsBelow(const Grid& grid, double time_step_s, double courant) {
-  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
-  const HeldEdges held(grid);
-  std::vector<ShortStep> found;
-  for (std::uint32_t t = 0; t < lengths.size(); ++t) {
-    const double depth = deepestOf(grid, t), step = stepOf(std::ranges::min(lengths[t]), depth);
-    if (!(time_step_s > courant * step)) continue;
-    const double needed = time_step_s / courant * longWaveSpeed(depth);
-    found.push_back({t, middleOf(grid, t), step, needed, causeIn(grid, held, lengths[t], t, needed)});
-  }
+std::vector<ShortStep> stepsBelow(const Grid& grid, double time_step_s, double courant, const ItemLoop& loop) {
+  const EdgeMeter meter(grid.nodes, grid.crs, loop);
+  std::vector<ShortStep> found =
+      joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<ShortStep> some;
+        for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+          const double depth = deepestOf(grid, t), step = stepOf(meter.shortestOf(grid.triangles[t]), depth);
+          if (time_step_s > courant * step)
+            some.push_back({t, middleOf(grid, t), step, time_step_s / courant * longWaveSpeed(depth)});
+        }
+        return some;
+      }));
+  if (found.empty()) return found;
+  const HeldEdges held(grid, loop);
+  for (ShortStep& each : found)
+    each.cause = causeIn(grid, held, meter.of(grid.triangles[each.triangle]), each.triangle, each.needed_m);
   std::ranges::stable_sort(found, {}, &ShortStep::step_s);
   return found;
 }
 
-std::vector<ShortEdge> edgesBelow(const Grid& grid, double least_m) {
-  const std::vector<std::array<double, 3>> lengths = edgeLengths(grid.nodes, grid.triangles, grid.crs);
-  std::vector<std::pair<NodePair, double>> edges;
-  for (std::uint32_t t = 0; t < lengths.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = grid.triangles[t][i], b = grid.triangles[t][(i + 1) % 3];
-      if (lengths[t][i] < least_m) edges.push_back({{std::min(a, b), std::max(a, b)}, lengths[t][i]});
+std::vector<ShortEdge> edgesBelow(const Grid& grid, double least_m, const ItemLoop& loop) {
+  const EdgeMeter meter(grid.nodes, grid.crs, loop);
+  auto edges = joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<std::pair<NodePair, double>> some;
+    for (std::size_t t = first; t < last; ++t) {
+      if (!(meter.shortestOf(grid.triangles[t]) < least_m)) continue;
+      const std::array<double, 3> lengths = meter.of(grid.triangles[t]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = grid.triangles[t][i], b = grid.triangles[t][(i + 1) % 3];
+        if (lengths[i] < least_m) some.push_back({{std::min(a, b), std::max(a, b)}, lengths[i]});
+      }
     }
-  }
+    return some;
+  }));
   std::ranges::sort(edges);
   const auto repeated = std::ranges::unique(edges, {}, &std::pair<NodePair, double>::first);
   edges.erase(repeated.begin(), repeated.end());
   std::vector<ShortEdge> found;
   if (edges.empty()) return found;
-  const HeldEdges held(grid);
+  const HeldEdges held(grid, loop);
   for (const auto& [nodes, length] : edges)
     found.push_back({placeBetween(grid.crs, grid.nodes[nodes[0]], grid.nodes[nodes[1]], 0.5), length,
                      held.causeOf(nodes[0], nodes[1])});

@@ -15,7 +15,7 @@ namespace coastmesh {
 // triangle's depth gives a shorter one. The Courant number of a triangle is the model's time step over this.
 
 // Seconds, for each triangle: infinite if no corner is under water, NaN if no depth is known.
-std::vector<double> timeSteps(const Grid& grid);
+std::vector<double> timeSteps(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // The shortest edge, and the triangle with the shortest time step.
 struct StepReport {
@@ -47,7 +47,7 @@ struct ShortStep {
 };
 
 // Triangles whose Courant number at `time_step_s` is above `courant`, the worst first.
-std::vector<ShortStep> stepsBelow(const Grid& grid, double time_step_s, double courant);
+std::vector<ShortStep> stepsBelow(const Grid& grid, double time_step_s, double courant, const ItemLoop& loop = inOrder);
 
 struct ShortEdge {
   Point place;  // its middle
@@ -56,6 +56,6 @@ struct ShortEdge {
 };
 
 // Edges shorter than `least_m`, the shortest first.
-std::vector<ShortEdge> edgesBelow(const Grid& grid, double least_m);
+std::vector<ShortEdge> edgesBelow(const Grid& grid, double least_m, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

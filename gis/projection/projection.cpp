@@ -41,6 +41,7 @@ GroundPlaces Projection::groundPlaces(std::span<const Point> plane, const ItemLo
   });
   return places;
 }
+double Projection::smoothOver() const { return impl_->smoothOver(); }
 std::optional<Point> Projection::infinity() const { return impl_->infinity(); }
 bool Projection::isIdentity() const { return impl_->isIdentity(); }
 bool Projection::mayTear() const { return impl_->mayTear(); }

@@ -58,6 +58,9 @@ class Projection {
   double measureAt(const Point& plane) const;
   // Points of the plane on the ground; empty if the plane itself is the surface.
   GroundPlaces groundPlaces(std::span<const Point> plane, const ItemLoop& loop = inOrder) const;
+  // Side of a square of the plane, in its units, over which a polynomial of degree five in either coordinate is as good
+  // as the map for most places; 0 if unknown.
+  double smoothOver() const;
   // The place, in the input's CRS, at infinity of the plane, for maps that show all others.
   std::optional<Point> infinity() const;
   bool isIdentity() const;                 // of `plane()`

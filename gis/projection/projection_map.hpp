@@ -27,6 +27,7 @@ struct ProjectionMap {
   virtual GroundPlace groundAt(const Point& plane) const {
     return {inverse(plane), {plane.x, plane.y, 0.0}, scaleAt(plane)};
   }
+  virtual double smoothOver() const { return 0.0; }
   virtual bool isIdentity() const { return false; }
   virtual bool mayTear() const { return false; }
   std::string description, reason;

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "core/point.hpp"
+#include "gis/geometry/box.hpp"
+#include "gis/projection/projection.hpp"
+
+namespace coastmesh {
+
+// A smooth map of the plane for many points: polynomials of degree five in either coordinate, over squares, in place of
+// a projection that takes ten times as long. Usable from several threads.
+class SmoothTable {
+ public:
+  // Squares with sides of about `side` cover the box; without any if `side` is 0. A square where values at some points
+  // between those that polynomials are made from differ by more than 1e-12 of how much the map changes over it is not
+  // tabulated.
+  SmoothTable(std::function<Point(const Point&)> map, const Box& box, double side, const ItemLoop& loop);
+
+  // Where nothing is tabulated the map itself.
+  Point at(const Point& x) const;
+  std::size_t squares() const { return squares_.size(); }  // tabulated or not
+  std::size_t tabulated() const;
+
+ private:
+  static constexpr std::size_t kTerms = 6;
+  struct Square {
+    bool is_tabulated = false;
+    std::array<std::array<Point, kTerms>, kTerms> factors;  // [j][i] of x^i y^j, both from -1 to 1
+  };
+
+  Square squareAt(std::size_t column, std::size_t row) const;
+  Point middleOf(std::size_t column, std::size_t row) const;
+  static Point valueOf(const Square& square, double x, double y);
+
+  std::function<Point(const Point&)> map_;
+  Box box_;
+  double half_x_ = 0.0, half_y_ = 0.0;  // half the sides of a square
+  std::size_t columns_ = 0, rows_ = 0;
+  std::vector<Square> squares_;
+};
+
+// `Projection::inverse` and, as x, `Projection::measureAt` for these points, tabulated where they are many and the
+// projection is smooth.
+SmoothTable inverseTable(const Projection& projection, std::span<const Point> points, const ItemLoop& loop);
+SmoothTable measureTable(const Projection& projection, std::span<const Point> points, const ItemLoop& loop);
+
+}  // namespace coastmesh
