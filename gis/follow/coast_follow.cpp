@@ -180,7 +180,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   if (!guides.passages.empty() || !guides.barriers.empty()) {
     WaterAreas by_the_user;
     widenPassages(start.triangles, sizes, guides.passages, edit, by_the_user, noted.widened, noted.dry);
-    closeBarriers(start.triangles, sizes, guides, edit);
+    closeBarriers(start.triangles, sizes, guides, edit, noted.open_barriers);
   }
   JoinedShores joined = openJoined(std::move(start), sizes, guides, options);
   OpenedShores& opened = joined.opened;

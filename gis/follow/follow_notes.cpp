@@ -86,9 +86,10 @@ std::string noteOn(const std::vector<ClosedStrait>& straits, const Projection& p
   return note + "; keep them open with --passages";
 }
 
-std::string nameOf(const ShoreGuides& guides, std::size_t line) {
-  const std::string& name = guides.passages[line].name;
-  return name.empty() ? "passage " + std::to_string(line + 1) : "passage '" + name + "'";
+// "passage 'Solent'", "barrier 2".
+std::string nameOf(const std::string& kind, const std::vector<ShoreLine>& lines, std::size_t line) {
+  const std::string& name = lines[line].name;
+  return kind + " " + (name.empty() ? std::to_string(line + 1) : "'" + name + "'");
 }
 
 }  // namespace
@@ -97,12 +98,18 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
                    const Projection& projection, CleanReport& report) {
   std::vector<std::string>& texts = report.notes;
   for (const WidenedPassage& passage : notes.widened) {
-    texts.push_back(nameOf(guides, passage.line) + " was widened to " + lengthText(passage.width_m, projection) +
-                    " along " + lengthText(passage.length_m, projection) + ", up to " +
-                    placeText(passage.place, projection));
+    texts.push_back(nameOf("passage", guides.passages, passage.line) + " was widened to " +
+                    lengthText(passage.width_m, projection) + " along " + lengthText(passage.length_m, projection) +
+                    ", up to " + placeText(passage.place, projection));
   }
   for (const std::size_t line : notes.dry)
-    texts.push_back(nameOf(guides, line) + " meets no water here: it has no effect");
+    texts.push_back(nameOf("passage", guides.passages, line) + " meets no water here: it has no effect");
+  for (const auto& [line, end] : notes.open_barriers) {
+    const std::string name = nameOf("barrier", guides.barriers, line);
+    texts.push_back(end ? name + " ends in the water, at " + placeText(*end, projection) +
+                              ", an element or more from the shore: the water goes round it"
+                        : name + " meets no water here: it has no effect");
+  }
   std::ranges::stable_sort(notes.joined, std::ranges::greater{}, &JoinedWater::area);
   if (!notes.joined.empty()) texts.push_back(noteOn(notes.joined, notes.area, projection));
   std::ranges::stable_sort(notes.straits, std::ranges::greater{}, &ClosedStrait::length_m);

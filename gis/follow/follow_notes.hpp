@@ -22,6 +22,7 @@ struct FollowNotes {
   std::vector<ClosedStrait> straits;
   std::vector<WidenedPassage> widened;
   std::vector<std::size_t> dry;  // passages that meet no water
+  std::vector<OpenBarrier> open_barriers;
 };
 
 // Adds sentences on the largest changes to the report, with their places in the input's CRS: a warning if more of the

@@ -118,6 +118,26 @@ class Helpers {
  public:
   explicit Helpers(ShoreTriangles& triangles) : triangles_(triangles) {}
 
+  // Whether no segment comes so near. Looks at the triangles round x that do.
+  bool isFree(const Point& x, double least) {
+    const TriMesh& mesh = triangles_.mesh;
+    const TriId found = locateIn(triangles_, x, last_);
+    if (found == kNone) return false;
+    near_.assign(1, last_ = found);
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      for (unsigned k = 0; k < 3; ++k) {
+        const EdgeRef e = edgeRef(near_[i], k);
+        if (mesh.twin(e) == kNone ||
+            squaredDistanceToSegment(x, mesh.point(mesh.origin(e)), mesh.point(mesh.target(e))) > least * least)
+          continue;
+        if (mesh.segment(e) != kNone) return false;
+        const TriId beside = triOf(mesh.twin(e));
+        if (std::ranges::find(near_, beside) == near_.end()) near_.push_back(beside);
+      }
+    }
+    return true;
+  }
+
   void add(const Point& x, double size) {
     const double least = kTooNear * size;
     if (isFree(x, least)) wanted_.emplace_back(x, least);
@@ -159,26 +179,6 @@ class Helpers {
   }
 
  private:
-  // Whether no segment comes so near. Looks at the triangles round x that do.
-  bool isFree(const Point& x, double least) {
-    const TriMesh& mesh = triangles_.mesh;
-    const TriId found = locateIn(triangles_, x, last_);
-    if (found == kNone) return false;
-    near_.assign(1, last_ = found);
-    for (std::size_t i = 0; i < near_.size(); ++i) {
-      for (unsigned k = 0; k < 3; ++k) {
-        const EdgeRef e = edgeRef(near_[i], k);
-        if (mesh.twin(e) == kNone ||
-            squaredDistanceToSegment(x, mesh.point(mesh.origin(e)), mesh.point(mesh.target(e))) > least * least)
-          continue;
-        if (mesh.segment(e) != kNone) return false;
-        const TriId beside = triOf(mesh.twin(e));
-        if (std::ranges::find(near_, beside) == near_.end()) near_.push_back(beside);
-      }
-    }
-    return true;
-  }
-
   ShoreTriangles& triangles_;
   TriId last_ = 0;
   std::vector<TriId> near_;
@@ -301,14 +301,43 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
   settleShores(triangles, sizes.wanted);
 }
 
-void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides,
-                   const ShoreEdit& edit) {
+namespace {
+
+// The ends of barriers with so much water around them that it goes round.
+void findOpenEnds(const std::vector<ShoreLine>& barriers, const std::vector<std::vector<Sample>>& sampled,
+                  Helpers& helpers, std::vector<OpenBarrier>& open) {
+  const auto isAtAnother = [&](std::size_t own, const Sample& end) {
+    for (std::size_t line = 0; line < barriers.size(); ++line)
+      for (std::size_t i = 0; line != own && i + 1 < barriers[line].points.size(); ++i)
+        if (squaredDistanceToSegment(end.at, barriers[line].points[i], barriers[line].points[i + 1]) <=
+            end.size * end.size)
+          return true;
+    return false;
+  };
+  for (std::size_t line = 0; line < barriers.size(); ++line) {
+    if (sampled[line].empty() || barriers[line].points.front() == barriers[line].points.back()) continue;
+    for (const Sample* end : {&sampled[line].front(), &sampled[line].back()}) {
+      if (end->water == kUnlabelled || !helpers.isFree(end->at, end->size) || isAtAnother(line, *end)) continue;
+      open.push_back({line, end->at});
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
+                   std::vector<OpenBarrier>& open) {
   if (guides.barriers.empty()) return;
   Helpers helpers(triangles);
-  for (const ShoreLine& line : guides.barriers) helpers.addAround(samplesOf(line, sizes.wanted), kBarrier);
+  std::vector<std::vector<Sample>> sampled;
+  for (const ShoreLine& line : guides.barriers) sampled.push_back(samplesOf(line, sizes.wanted));
+  locate(sampled, guides.barriers, triangles);
+  findOpenEnds(guides.barriers, sampled, helpers, open);
+  for (const std::vector<Sample>& samples : sampled) helpers.addAround(samples, kBarrier);
   helpers.finish(sizes.wanted);
-  for (const ShoreLine& line : guides.barriers) {
-    const LineZone zone({line});
+  for (std::size_t line = 0; line < guides.barriers.size(); ++line) {
+    const LineZone zone({guides.barriers[line]});
     bool any = false;
     for (TriId t = 0; t < triangles.mesh.triangles.size(); ++t) {
       const RegionId water = triangles.mesh.regions[t];
@@ -320,6 +349,9 @@ void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const Sho
       if (!any) edit(EditKind::Barrier, a, water);
       any = true;
     }
+    // Where it lies in what another has closed before it, it has met water.
+    const auto isWet = [](const Sample& sample) { return sample.water != kUnlabelled; };
+    if (!any && std::ranges::none_of(sampled[line], isWet)) open.push_back({line, std::nullopt});
   }
   settleShores(triangles, sizes.wanted);
 }

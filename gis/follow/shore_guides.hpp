@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,8 +59,15 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
                    const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
                    std::vector<std::size_t>& dry);
 
-// Closes the water that barriers run through, half an element wide. The triangles are settled.
-void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides,
-                   const ShoreEdit& edit);
+// A barrier that meets no water, or that water goes round: no shore and no other barrier within an element of its end.
+struct OpenBarrier {
+  std::size_t line = 0;      // of the guides' barriers
+  std::optional<Point> end;  // none: it meets no water
+};
+
+// Closes the water that barriers run through, half an element wide. The triangles are settled. `open` is given the
+// barriers that may not close what they are to close.
+void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
+                   std::vector<OpenBarrier>& open);
 
 }  // namespace coastmesh

@@ -100,5 +100,23 @@ TEST(FollowSizes, ABarrierClosesTheWaterItCrosses) {
       1u);
 }
 
+TEST(FollowSizes, ABarrierThatClosesNothingIsSaidTo) {
+  const auto notesOf = [](std::vector<ShoreLine> barriers) {
+    CleanReport report;
+    followSizes(twoLakes(5.0), ConstantSize(2.0), {}, oneFeature(), report, ShoreGuides{{}, std::move(barriers)});
+    std::erase_if(report.notes, [](const std::string& note) { return !note.starts_with("barrier "); });
+    return report.notes;
+  };
+  // Across the channel, to the land beside it; then also with an end that touches another.
+  EXPECT_TRUE(notesOf({{{{25, 4}, {25, 16}}, ""}}).empty());
+  EXPECT_TRUE(notesOf({{{{10, -2}, {10, 10}}, ""}, {{{10.5, 10}, {10.5, 22}}, ""}}).empty());
+  const auto short_of = notesOf({{{{10, -2}, {10, 10}}, "mole"}});
+  ASSERT_EQ(short_of.size(), 1u);
+  EXPECT_EQ(short_of[0].find("barrier 'mole' ends in the water, at (10, 10), an element or more"), 0u) << short_of[0];
+  const auto dry = notesOf({{{{25, 4}, {25, 16}}, ""}, {{{25, 30}, {25, 40}}, ""}});
+  ASSERT_EQ(dry.size(), 1u);
+  EXPECT_EQ(dry[0].find("barrier 2 meets no water here"), 0u) << dry[0];
+}
+
 }  // namespace
 }  // namespace coastmesh
