@@ -287,7 +287,9 @@ TEST_F(GisCoastExamples, ShoreSizes) {
   std::size_t edits = 0;
   ShoreGuides guides;
   guides.barriers.push_back({{{10, -1}, {10, 2}}, "", 1.0});
-  closeBarriers(triangles, sizes, guides, [&](EditKind, const Point&, RegionId) { ++edits; });
+  std::vector<OpenBarrier> open;
+  closeBarriers(
+      triangles, sizes, guides, [&](EditKind, const Point&, RegionId) { ++edits; }, open);
   //! [gis/follow/shore_sizes.hpp]
   EXPECT_GT(edits, 0u);
 }
