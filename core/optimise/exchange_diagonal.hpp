@@ -5,6 +5,7 @@
 
 #include "core/edit_mesh.hpp"
 #include "core/metric.hpp"
+#include "core/optimise/triangle_cost.hpp"
 #include "core/refine/vertex_ops.hpp"
 
 namespace coastmesh {
@@ -26,7 +27,7 @@ class DiagonalExchange {
  private:
   void number();
   std::uint32_t numberOf(VertexId v);
-  double wantedIn(const Corners& t) const { return (wanted_[t[0]] + wanted_[t[1]] + wanted_[t[2]]) / 3.0; }
+  double wantedIn(const Corners& t) const { return meanOf(wanted_[t[0]], wanted_[t[1]], wanted_[t[2]]); }
   double costBefore() const;
   double costAfter() const;
   void relax();

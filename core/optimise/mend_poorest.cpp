@@ -18,10 +18,10 @@ constexpr double kPoorWeight = 5.0, kLeastGain = 0.02;
 constexpr unsigned kRings = 2;
 constexpr int kTurns = 3, kTurnsForGoals = 5;
 // A vertex is not taken out where more triangles meet than these, or its edges are shorter in the mean than this share
-// of the length wanted; none comes into a triangle with a smaller share of the area wanted. Of what else was tried one
-// in a thousand was taken.
-constexpr std::size_t kMostTriangles = 6;
-constexpr double kLeastRemoved = 0.8, kLeastDivided = 0.8;
+// of the length wanted; none comes to an edge of a triangle, or into its middle, with a smaller share of the area wanted,
+// nor onto a subsegment that is no longer than wanted. Of what else was tried one in a hundred was taken, or fewer.
+constexpr std::size_t kMostTriangles = 5;
+constexpr double kLeastRemoved = 0.8, kLeastDivided = 0.8, kLeastDividedInMiddle = 1.1;
 // What costs so much more than it should after the first of them is given up.
 constexpr int kFirstTurns = 1;
 constexpr double kHopeless = 0.25;
@@ -85,7 +85,7 @@ double Optimiser::costOfAll() const {
     if (doubled <= 0.0 ||
         (!isClear(doubled, squares) && isBad(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), bound_)))
       return std::numeric_limits<double>::infinity();
-    sum += costOf(doubled, squares, (wanted_[v[0]] + wanted_[v[1]] + wanted_[v[2]]) / 3.0) - kLeastTriangleCost +
+    sum += costOf(doubled, squares, meanOf(wanted_[v[0]], wanted_[v[1]], wanted_[v[2]])) - kLeastTriangleCost +
            kPoorWeight * std::max(0.0, kPoorShape - 2.0 * kRootOfThree * doubled / squares);
   }
   return sum;
@@ -126,13 +126,18 @@ void Optimiser::noteAdded(VertexId v) {
 bool Optimiser::isWorthTrying(const Trial& trial) {
   constexpr TriId kFirst = 0;
   const Corners& v = mesh_.triangle(kFirst).v;
+  const double wanted = meanOf(wanted_[v[0]], wanted_[v[1]], wanted_[v[2]]);
   if (trial.change == Change::Insert) {
-    const double wanted = (wanted_[v[0]] + wanted_[v[1]] + wanted_[v[2]]) / 3.0;
+    const double least = trial.corner == kCentre ? kLeastDividedInMiddle : kLeastDivided;
     const Frame frame(bound_.surface, mesh_.point(v[0]));
     const Point a = frame.to(mesh_.point(v[0])), b = frame.to(mesh_.point(v[1])), c = frame.to(mesh_.point(v[2]));
-    return cross(b - a, c - a) > kLeastDivided * 0.5 * kRootOfThree * wanted * wanted;
+    return cross(b - a, c - a) > least * 0.5 * kRootOfThree * wanted * wanted;
   }
-  if (trial.change == Change::Split) return mesh_.segment(edgeRef(kFirst, trial.corner)) < pslg_.segments.size();
+  if (trial.change == Change::Split) {
+    const EdgeRef e = edgeRef(kFirst, trial.corner);
+    return mesh_.segment(e) < pslg_.segments.size() &&
+           squaredLengthOf(mesh_.origin(e), mesh_.target(e)) > wanted * wanted;
+  }
   if (trial.change != Change::Remove) return true;
   const VertexId u = v[trial.corner];
   if (mesh_.kind(u) != VertexKind::Free) return mesh_.kind(u) != VertexKind::Input;

@@ -197,9 +197,10 @@ Optimiser::StarCost Optimiser::costRound(const Point& place, double wanted, doub
     if (!isClear(doubled, squares) &&
         (orient2d(corner(i), corner(i + 1), in_plane) <= 0 || isBad(corner(i), corner(i + 1), in_plane, bound_)))
       return kTooMuch;
-    sum += costOf(doubled, squares, (wanted + size + next) / 3.0);
+    const TriangleCost own = costWithParts(doubled, squares, meanOf(wanted, size, next));
+    sum += own.cost;
     if (sum > limit) return kTooMuch;
-    worst = std::max(worst, squares / doubled);
+    worst = std::max(worst, own.flatness);
     a = b;
     size = next;
   }
@@ -217,14 +218,15 @@ Optimiser::StarCost Optimiser::costHere(VertexId v, Point& centre) const {
   bool breaks = false;
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const Point& b = seen(i + 1);
-    const double next = wantedOf(i + 1), wanted = (own_size + size + next) / 3.0;
+    const double next = wantedOf(i + 1), wanted = meanOf(own_size, size, next);
     const double doubled = cross(b - a, here - a), squares = squaresOf(a, b, here);
     breaks = breaks || (!isClear(doubled, squares) && isBad(corner(i), corner(i + 1), mesh_.point(v), bound_));
-    sum += doubled > 0.0 ? costOf(doubled, squares, wanted) : kTooMuch;
-    worst = std::max(worst, doubled > 0.0 ? squares / doubled : kTooMuch);
-    const double own = doubled / (wanted * wanted);
-    mean = mean + own * (a - here + (b - here));
-    weight += own;
+    TriangleCost own = costWithParts(doubled, squares, wanted);
+    if (!(doubled > 0.0)) own = {kTooMuch, kTooMuch, doubled / (0.5 * kRootOfThree * wanted * wanted)};
+    sum += own.cost;
+    worst = std::max(worst, own.flatness);
+    mean = mean + own.area_share * (a - here + (b - here));
+    weight += own.area_share;
     a = b;
     size = next;
   }
