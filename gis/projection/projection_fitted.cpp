@@ -31,8 +31,7 @@ class Fitted final : public ProjectionMap {
   Point inverse(const Point& plane) const override { return asInput(map_->inverse(plane)); }
   double scaleAt(const Point& plane) const override { return map_->scaleAt(plane); }
   Surface surface() const override { return surface_; }
-  // Chebyshev interpolation over squares of 1/200 of the Earth's radius: below 1e-15 of a turn up to 60 degrees of
-  // latitude, some 1e-13 at 75.
+  // A two-hundredth of the Earth's radius: short, as seen from the poles, where longitudes are not smooth.
   double smoothOver() const override { return 32000.0; }
   GroundPlace groundAt(const Point& plane) const override {
     const auto [place, space, scale] = map_->onGround(plane);

@@ -11,7 +11,7 @@ namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kTerms = 6;
+constexpr std::size_t kTerms = SmoothTable::kTerms;
 // Of how much the map changes over a square, and of the values themselves: what rounding makes of them.
 constexpr double kTolerance = 1e-12, kRounding = 4e-15;
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -15,12 +14,15 @@
 namespace coastmesh {
 
 // A smooth map of the plane for many points: polynomials of degree five in either coordinate, over squares, in place of
-// a projection that takes ten times as long. Usable from several threads.
+// a projection that takes 0.3 µs a point. Usable from several threads.
 class SmoothTable {
  public:
-  // Squares with sides of about `side` cover the box; without any if `side` is 0. A square where values at some points
-  // between those that polynomials are made from differ by more than 1e-12 of how much the map changes over it is not
-  // tabulated.
+  // Factors in either coordinate.
+  static constexpr std::size_t kTerms = 6;
+
+  // Squares with sides of about `side` cover the box; without any if `side` is 0. A square is not tabulated where
+  // values at some points between those that its polynomials are made from differ by more than 1e-12 of how much the
+  // map changes over it, and rounding.
   SmoothTable(std::function<Point(const Point&)> map, const Box& box, double side, const ItemLoop& loop);
 
   // Where nothing is tabulated the map itself.
@@ -29,7 +31,6 @@ class SmoothTable {
   std::size_t tabulated() const;
 
  private:
-  static constexpr std::size_t kTerms = 6;
   struct Square {
     bool is_tabulated = false;
     std::array<std::array<Point, kTerms>, kTerms> factors;  // [j][i] of x^i y^j, both from -1 to 1

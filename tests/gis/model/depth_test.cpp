@@ -61,11 +61,12 @@ TEST_F(Depth, BilinearIsExactOnAPlane) {
   EXPECT_EQ(report.filled + report.unknown + report.partial, 0u);
 }
 
-// Enough nodes for several readers of the raster; a part of it has no value, where depths are those of other nodes.
+// Three tiles of the raster, two of them with enough nodes for a reader of their own; a part of it has no value, where
+// depths are those of other nodes.
 TEST_F(Depth, SameInAnyOrder) {
   const auto withGap = [](double x, double y) { return x > 11.0 && y > 51.0 ? kNoValue : slope(x, y); };
-  const std::string file = raster("dem.tif", "EPSG:4326", {400, 400, 9.0, 53.0, 0.01}, withGap);
-  const Grid without = squares("EPSG:4326", {9.5, 49.5}, 0.007, 300, 300);
+  const std::string file = raster("dem.tif", "EPSG:4326", {1600, 1600, 9.0, 53.0, 0.0025}, withGap);
+  const Grid without = squares("EPSG:4326", {9.2, 49.2}, 0.012, 300, 300);
   for (const DepthFill fill : {DepthFill::Neighbours, DepthFill::Nearest}) {
     DepthOptions options{{file}};
     options.fill = fill;
