@@ -35,8 +35,8 @@ Named find(std::string name, const OptionTable& table) {
 
 // Whether the switch is on: "no-coarsen = true" turns coarsening off.
 bool isOn(const ConfigEntry& entry, const std::string& where) {
-  const std::string& value = entry.values[0][0];
-  if (entry.list || (value != "true" && value != "false")) throw OptionError(where + " is a switch: say true or false");
+  const std::string value = entry.list ? std::string() : entry.values[0][0];  // a list may be empty
+  if (value != "true" && value != "false") throw OptionError(where + " is a switch: say true or false");
   const bool negated = entry.name.starts_with("no-") || entry.name.starts_with("no_");
   return (value == "true") != negated;
 }

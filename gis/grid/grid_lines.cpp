@@ -109,14 +109,15 @@ std::vector<GridLine> linesAlong(const std::vector<NodePair>& edges, LineKind ki
   if (edges.empty()) return {};
   std::vector<std::uint32_t> nodes{edges.front()[0]};
   for (const auto& [from, to] : edges) {
-    if (from != nodes.back()) return chainLines(edges, kind, name);
+    const bool turns_back = nodes.size() > 1 && nodes[nodes.size() - 2] == to;
+    if (from != nodes.back() || turns_back) return chainLines(edges, kind, name);
     nodes.push_back(to);
   }
   return {lineOfNodes(kind, name, std::move(nodes))};
 }
 
 GridLine lineOfNodes(LineKind kind, std::string name, std::vector<std::uint32_t> nodes) {
-  const bool closed = nodes.size() > 2 && nodes.front() == nodes.back();
+  const bool closed = nodes.size() > 3 && nodes.front() == nodes.back();
   if (closed) nodes.pop_back();
   return {kind, std::move(name), closed, std::move(nodes)};
 }

@@ -21,10 +21,10 @@ std::vector<NodePair> edgesOf(const GridLine& line);
 // more than two edges meet, lines end. `edges` may repeat and go either way.
 std::vector<GridLine> chainLines(std::vector<NodePair> edges, LineKind kind, const std::string& name);
 
-// Edges that follow one another as one line, others as `chainLines` has them.
+// Edges that follow one another as one line; others, and those that turn back, as `chainLines` has them.
 std::vector<GridLine> linesAlong(const std::vector<NodePair>& edges, LineKind kind, const std::string& name);
 
-// Nodes along edges as a line; one whose last node is its first is closed.
+// Nodes along edges as a line; one whose last node is its first is closed, if that makes three edges.
 GridLine lineOfNodes(LineKind kind, std::string name, std::vector<std::uint32_t> nodes);
 
 }  // namespace coastmesh

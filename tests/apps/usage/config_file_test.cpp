@@ -208,6 +208,8 @@ TEST_F(ConfigFile, MistakesAreNamed) {
   EXPECT_THAT(messageOf(write("a.toml", "sise-max = 3\n")), ::testing::HasSubstr("'sise-max' is not an option"));
   EXPECT_THAT(messageOf(write("b.json", "{\"size-max\": }")), ::testing::HasSubstr("not JSON"));
   EXPECT_THAT(messageOf(write("c.toml", "coarsen = 3\n")), ::testing::HasSubstr("true or false"));
+  EXPECT_THAT(messageOf(write("g.json", R"({"coarsen": []})")), ::testing::HasSubstr("true or false"));
+  EXPECT_THAT(messageOf(write("h.json", R"({"coarsen": [true]})")), ::testing::HasSubstr("true or false"));
   EXPECT_THAT(messageOf(write("d.toml", "size-max = [1, 2]\n")), ::testing::HasSubstr("one value"));
   EXPECT_THAT(messageOf(write("e.toml", "output = [\"a\"\n")), ::testing::HasSubstr("not TOML"));
   EXPECT_THAT(messageOf(write("f.toml", "[mush]\nsize-max = 3\n")), ::testing::HasSubstr("'mush'"));

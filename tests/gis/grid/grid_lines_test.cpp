@@ -9,6 +9,7 @@
 
 #include "gis/error.hpp"
 #include "gis/format/grid_losses.hpp"
+#include "gis/grid/grid_edit.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {
@@ -274,6 +275,27 @@ TEST(ReadLines, OfOtherPrograms) {
   ASSERT_EQ(gmsh.lines.size(), 1u);
   EXPECT_EQ(gmsh.lines[0].name, "gauge");
   ASSERT_EQ(gmsh.boundaries.size(), 1u) << "what lies on the mesh's boundary is one, whatever it is called";
+}
+
+// An edge listed once each way, as for the two sides of a wall, is not a loop of two nodes.
+TEST(ReadLines, ThereAndBackAreNoLoop) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "wall.msh") << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+                                        "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+                                        "$Elements\n4\n1 1 2 8 2 1 3\n2 1 2 8 2 3 1\n3 2 2 3 1 1 2 3\n"
+                                        "4 2 2 3 1 1 3 4\n$EndElements\n";
+  const Grid gmsh = readGrid(folder / "wall.msh");
+  requireConsistent(gmsh);
+  ASSERT_EQ(gmsh.lines.size(), 1u);
+  EXPECT_FALSE(gmsh.lines[0].closed);
+  EXPECT_EQ(gmsh.lines[0].nodes, (std::vector<std::uint32_t>{0, 2}));
+
+  std::ofstream(folder / "wall.2dm") << "MESH2D\nND 1 0 0 1\nND 2 1 0 1\nND 3 1 1 1\nND 4 0 1 1\n"
+                                        "E3T 1 1 2 3 1\nE3T 2 1 3 4 1\nNS 1 3 -1 16\n";
+  const Grid sms = readGrid(folder / "wall.2dm");
+  requireConsistent(sms);
+  ASSERT_EQ(sms.lines.size(), 1u);
+  EXPECT_FALSE(sms.lines[0].closed);
 }
 
 // A line that leaves the edges between triangles is cut there, and the grid says so.
