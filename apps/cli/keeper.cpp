@@ -102,12 +102,19 @@ void awaitReaderOfErrors() {
   usleep(kPassedOn);
 }
 
+// The library of messages may crash a rank that reads from one that was killed just now. The launcher ends the run once
+// it sees the first rank end: let that be the killed one, whose end is the cause.
+void awaitReportOfOthers() { sleep(1); }
+
 [[noreturn]] void keep(pid_t child, pid_t sweeper, const Keeper::Lost& lost) {
   nameAs("coastmesh-keep");
   signal(SIGPIPE, SIG_IGN);
   const int status = statusOf(child);
   if (sweeper > 0) statusOf(sweeper);
-  if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
+  if (WIFEXITED(status)) {
+    if (WEXITSTATUS(status) == kExitBug) awaitReportOfOthers();
+    _exit(WEXITSTATUS(status));
+  }
   std::fprintf(
       stderr,
       "coastmesh: error: rank %d was ended by signal %d (%s), which ends the run: outputs are complete or absent\n",

@@ -343,6 +343,19 @@ class Killed(Folder):
     def test_another_rank_in_refine(self):
         self.kill(2, "refine")
 
+    # The library of messages may abort a rank that reads from the one killed: that one is the cause.
+    def test_a_crash_of_another_rank_that_follows(self):
+        started = self.begin()
+        found = {}
+        for at in phases(started):
+            found = found or workers(self.folder)
+            if at == "refine":
+                break
+        os.kill(found[1], signal.SIGABRT)
+        os.kill(found[0], signal.SIGKILL)
+        errors = self.expect_nothing_left(started, INTERRUPTED)
+        self.assertIn("coastmesh: error: rank 0 was ended by signal 9 (Killed)", errors)
+
     def test_rank_0_in_write(self):
         self.kill(0, "write")
 
