@@ -19,8 +19,8 @@ constexpr unsigned kRings = 2;
 constexpr int kTurns = 3, kTurnsForGoals = 5;
 // A vertex is not taken out where more triangles meet than these, or its edges are shorter in the mean than this share
 // of the length wanted; none comes to an edge of a triangle, or into its middle, with a smaller share of the area
-// wanted, nor onto a subsegment that is no longer than wanted. Of what else was tried about one
-// in a hundred was taken.
+// wanted, nor onto a subsegment that is no longer than wanted. Of what else was tried about one in
+// a hundred was taken.
 constexpr std::size_t kMostTriangles = 5;
 constexpr double kLeastRemoved = 0.8, kLeastDivided = 0.8, kLeastDividedInMiddle = 1.1;
 // What costs so much more than it should after the first of them is given up.

@@ -90,15 +90,18 @@ def kill(found, rank):
     os.kill(found[0], signal.SIGCONT)
 
 
-def kill_in(started, folder, rank, phase):
-    """Kills a rank as soon as rank 0 has come to a phase."""
+def workers_in(started, folder, phase):
+    """The working processes, as soon as rank 0 has come to a phase: rank -> process."""
     found = {}
     for at in phases(started):
         found = found or workers(folder)
         if at == phase:
-            kill(found, rank)
-            return
+            return found
     raise AssertionError(f"the run ended before it came to {phase}")
+
+
+def kill_in(started, folder, rank, phase):
+    kill(workers_in(started, folder, phase), rank)
 
 
 class Folder(unittest.TestCase):
@@ -343,14 +346,10 @@ class Killed(Folder):
     def test_another_rank_in_refine(self):
         self.kill(2, "refine")
 
-    # The library of messages may abort a rank that reads from the one killed: that one is the cause.
-    def test_a_crash_of_another_rank_that_follows(self):
+    # The library of messages may abort a rank that reads from one just killed, before that one's end is known.
+    def test_the_cause_of_a_crash_of_another_rank(self):
         started = self.begin()
-        found = {}
-        for at in phases(started):
-            found = found or workers(self.folder)
-            if at == "refine":
-                break
+        found = workers_in(started, self.folder, "refine")
         os.kill(found[1], signal.SIGABRT)
         os.kill(found[0], signal.SIGKILL)
         errors = self.expect_nothing_left(started, INTERRUPTED)
