@@ -18,7 +18,7 @@ struct Helpers;
 struct RegionCheckpoint;
 
 struct MeshOptions {
-  RefineOptions refine;
+  RefineOptions refine{};
   bool coarsen = true;
   bool smooth = false;       // optimise longer; without requested lengths, optimise at all
   bool one_piece = false;    // never cut a region, however large
@@ -32,12 +32,12 @@ struct MeshOptions {
   const RegionCheckpoint* checkpoint = nullptr;
   // For a mesh of a whole sphere (`refine.surface`): if not empty, the region is the inside of this ring, no input may
   // lie outside, and the mesh is closed at the end.
-  SphereCap cap;
-  RegionId cap_region = 0;   // region of the triangles of the cap
-  std::vector<Point> seeds;  // initial vertices, clear of the input and within the ring
+  SphereCap cap{};
+  RegionId cap_region = 0;     // region of the triangles of the cap
+  std::vector<Point> seeds{};  // initial vertices, clear of the input and within the ring
   // Instead of seeds, if there is no input: a closed mesh with the requested lengths, which is the result if it meets
   // the bounds on angles. The ring's corners are its first vertices, the apex is the last.
-  TriMesh lattice;
+  TriMesh lattice{};
 };
 
 // Wall-clock seconds of each stage, one after another; several threads may share in a stage.

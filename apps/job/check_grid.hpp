@@ -21,7 +21,7 @@ struct GridDefect {
 struct GridCheckOptions {
   double min_angle_deg = 0.0;    // degrees; 0: no bound
   double max_angle_deg = 180.0;  // degrees; 180: no bound
-  SurfaceChoice surface;         // without an input; else the input's counts
+  SurfaceChoice surface{};       // without an input; else the input's counts
   bool delaunay = false;
   bool pinches = false;
 };

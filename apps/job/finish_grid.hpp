@@ -14,10 +14,10 @@ namespace coastmesh {
 
 // What is done to a mesh before it is written: depths, boundaries, repairs for models.
 struct FinishOptions {
-  DepthOptions depth;
-  BoundaryOptions boundaries;
-  std::vector<std::string> targets;  // names of models that the grid is repaired for
-  RepairOptions repair;
+  DepthOptions depth{};
+  BoundaryOptions boundaries{};
+  std::vector<std::string> targets{};  // names of models that the grid is repaired for
+  RepairOptions repair{};
 
   bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
 };

@@ -24,25 +24,25 @@ struct SurfaceChoice {
 
 // The input, and how it becomes domains of the plane.
 struct InputOptions {
-  std::vector<std::string> files;          // vector files, or one .poly
-  std::shared_ptr<const Pslg> pslg;        // instead of files: a ready plane graph, not to be cleaned
-  std::shared_ptr<const Coastline> ready;  // instead of files: features read by `readInput`
-  ReadFilter filter;                       // what of the files is read
-  FrameOptions frame;                      // the limits of the domain besides the shores
-  std::string clip;                        // a file of polygons that limit it, instead of `frame.box`; empty: none
-  std::vector<std::string> constraints;    // files of lines and points that become edges and vertices
-  std::vector<std::string> weirs;          // files of lines
-  std::vector<std::string> regions;        // files of polygons
-  std::string crs = "auto";                // the working plane: "auto", "plane" or anything that PROJ knows
-  SurfaceChoice surface;                   // the surface on which lengths and angles are measured
-  EdgeLine edges = EdgeLine::Plane;        // what an edge between two points represents
-  double edge_tolerance_m = 100.0;         // maximum distance from that, metres, above 0
-  double snap_m = 0.001;                   // metres, 0 or more
-  bool snap_in_plane = false;              // `snap_m` applies to a plane input too, which is not snapped otherwise
-  double simplify_m = 0.0;                 // metres, 0 or more
-  bool dissolve = false;                   // features that share an edge become one
-  Pinches pinches = Pinches::Keep;         // what to do where shores touch
-  double min_island_area_m2 = 0.0;         // square metres, 0 or more
+  std::vector<std::string> files{};          // vector files, or one .poly
+  std::shared_ptr<const Pslg> pslg{};        // instead of files: a ready plane graph, not to be cleaned
+  std::shared_ptr<const Coastline> ready{};  // instead of files: features read by `readInput`
+  ReadFilter filter{};                       // what of the files is read
+  FrameOptions frame{};                      // the limits of the domain besides the shores
+  std::string clip{};                        // a file of polygons that limit it, instead of `frame.box`; empty: none
+  std::vector<std::string> constraints{};    // files of lines and points that become edges and vertices
+  std::vector<std::string> weirs{};          // files of lines
+  std::vector<std::string> regions{};        // files of polygons
+  std::string crs = "auto";                  // the working plane: "auto", "plane" or anything that PROJ knows
+  SurfaceChoice surface{};                   // the surface on which lengths and angles are measured
+  EdgeLine edges = EdgeLine::Plane;          // what an edge between two points represents
+  double edge_tolerance_m = 100.0;           // maximum distance from that, metres, above 0
+  double snap_m = 0.001;                     // metres, 0 or more
+  bool snap_in_plane = false;                // `snap_m` applies to a plane input too, which is not snapped otherwise
+  double simplify_m = 0.0;                   // metres, 0 or more
+  bool dissolve = false;                     // features that share an edge become one
+  Pinches pinches = Pinches::Keep;           // what to do where shores touch
+  double min_island_area_m2 = 0.0;           // square metres, 0 or more
 };
 
 // Reads all the files of `options`, which must not be a .poly. Throws OptionError, InputError.

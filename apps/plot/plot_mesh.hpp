@@ -21,8 +21,8 @@ PlotColor plotColorNamed(const std::string& name);
 struct PlotOptions {
   static constexpr std::uint64_t kLeastSize = 16, kMostSize = 20000;
 
-  std::uint64_t size_px = 1600;               // longer side of the map, kLeastSize to kMostSize
-  std::optional<std::array<double, 4>> bbox;  // west, south, east, north in the grid's CRS
+  std::uint64_t size_px = 1600;                 // longer side of the map, kLeastSize to kMostSize
+  std::optional<std::array<double, 4>> bbox{};  // west, south, east, north in the grid's CRS
   PlotColor color = PlotColor::None;
   bool edges = true;
   bool degrees = false;        // dots on nodes inside the mesh that have not six neighbours

@@ -94,16 +94,19 @@ void collect(const Json& object, const std::string& file, const std::string& sec
   }
 }
 
-std::vector<ConfigEntry> readJson(const std::string& file, const std::string& text) {
+ConfigEntries readJson(const std::string& file, const std::string& text) {
   const Json json = parseJson(file, text);
   Json top = Json::object();
-  std::vector<ConfigEntry> entries;
+  ConfigEntries read;
   for (const auto& [name, value] : json.items())
     if (!value.is_object()) top[name] = value;
-  collect(top, file, {}, entries);
-  for (const auto& [name, value] : json.items())
-    if (value.is_object()) collect(value, file, name, entries);
-  return entries;
+  collect(top, file, {}, read.entries);
+  for (const auto& [name, value] : json.items()) {
+    if (!value.is_object()) continue;
+    read.sections.push_back(name);
+    collect(value, file, name, read.entries);
+  }
+  return read;
 }
 
 // TOML ------------------------------------------------------------------------------------------------------------
@@ -180,7 +183,7 @@ ConfigEntry entryOf(const toml::node& value, const std::string& file, const std:
   return entry;
 }
 
-std::vector<ConfigEntry> readToml(const std::string& file, const std::string& text) {
+ConfigEntries readToml(const std::string& file, const std::string& text) {
   constexpr std::size_t kMostDots = 10'000;
   const BareParts bare = barePartsOf(text);
   if (bare.dots > kMostDots) refuseDepth(file);
@@ -198,6 +201,7 @@ std::vector<ConfigEntry> readToml(const std::string& file, const std::string& te
                       " is not TOML: " + std::string(error.description()));
   }
   // By their places in the file, which the library's table forgets.
+  ConfigEntries read;
   std::vector<std::tuple<toml::source_position, ConfigEntry>> found;
   for (const auto& [name, value] : table) {
     const std::string section(name.str());
@@ -205,18 +209,18 @@ std::vector<ConfigEntry> readToml(const std::string& file, const std::string& te
       found.emplace_back(value.source().begin, entryOf(value, file, {}, section));
       continue;
     }
+    read.sections.push_back(section);
     for (const auto& [inner, inner_value] : *value.as_table())
       found.emplace_back(inner_value.source().begin, entryOf(inner_value, file, section, std::string(inner.str())));
   }
   std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return std::get<0>(a) < std::get<0>(b); });
-  std::vector<ConfigEntry> entries;
-  for (auto& [place, entry] : found) entries.push_back(std::move(entry));
-  return entries;
+  for (auto& [place, entry] : found) read.entries.push_back(std::move(entry));
+  return read;
 }
 
 }  // namespace
 
-std::vector<ConfigEntry> readConfigEntries(const std::string& file) {
+ConfigEntries readConfigEntries(const std::string& file) {
   std::error_code error;
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file, error))

@@ -97,11 +97,16 @@ void takeConfig(const std::string& file, OptionTable& table, const std::set<std:
   std::set<const Entry*> given, seen;
   for (const Entry* entry : table.entries())
     if (!table.given(entry->name).empty()) given.insert(entry);
-  for (const ConfigEntry& entry : readConfigEntries(file)) {
-    if (!entry.section.empty() && entry.section != table.name()) {
-      if (commands.contains(entry.section)) continue;
-      throw OptionError(file + ": there is no command '" + entry.section + "' to have a section of its own");
-    }
+  const ConfigEntries read = readConfigEntries(file);
+  for (const std::string& section : read.sections) {
+    if (section == table.name() || commands.contains(section)) continue;
+    throw OptionError(file + ": " +
+                      (find(section, table).entry != nullptr
+                           ? "'" + section + "' is an option and takes no section"
+                           : "there is no command '" + section + "' to have a section of its own"));
+  }
+  for (const ConfigEntry& entry : read.entries) {
+    if (!entry.section.empty() && entry.section != table.name()) continue;
     const std::string where = file + ": '" + entry.name + "'";
     const auto [option, present] = find(entry.name, table);
     if (option == nullptr)

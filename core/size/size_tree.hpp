@@ -46,7 +46,7 @@ struct SizeDemand {
 };
 
 struct SizeTreeOptions {
-  Surface surface;         // represented by the plane: lengths, distances and areas are measured on it
+  Surface surface{};       // represented by the plane: lengths, distances and areas are measured on it
   double gradation = 0.3;  // above 0: lengths at two places differ by at most this times their distance
   // Cells are split down to this many times the smallest length in them, if it changes within them; and further, to
   // `finest`, if values between their corners are not known from these to `tolerance`: to twice that in a cell half as

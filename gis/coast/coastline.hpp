@@ -55,7 +55,7 @@ struct Coastline {
   std::optional<Point> water_at;  // a point in the water: only what can be reached from it is meshed
   bool framed_by_box = false;     // its Frame was given as a box
   // The whole globe is meshed: this feature, without a shape, contains what no other does.
-  std::optional<std::size_t> rest;
+  std::optional<std::size_t> rest{};
 };
 
 }  // namespace coastmesh

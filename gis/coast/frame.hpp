@@ -24,8 +24,8 @@ struct FrameOptions {
   DomainSide side = DomainSide::Auto;
   // West, south, east, north, in the input's CRS; if that is in degrees, an east below the west is beyond the
   // antimeridian.
-  std::optional<Box> box;
-  std::optional<Point> water_at;  // in the input's CRS
+  std::optional<Box> box{};
+  std::optional<Point> water_at{};  // in the input's CRS
 };
 
 // Results of framing.

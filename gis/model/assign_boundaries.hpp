@@ -14,11 +14,11 @@ struct BoundaryOptions {
   // Vector files whose polygons and lines define boundary types: an edge whose midpoint is in a polygon, or that runs
   // along a line (entirely within a fifth of its length), gets the type in the feature's column. If there are several,
   // the last applies. Polygons open no islands; lines do.
-  std::vector<std::string> files;
-  std::string column;  // the column of types; empty: the first named type, role, boundary, ibtype or kind
+  std::vector<std::string> files{};
+  std::string column{};  // the column of types; empty: the first named type, role, boundary, ibtype or kind
   // The same for files whose features may lack the column: the input itself. A file that `coastmesh clean` wrote with
   // boundary types defines these, for any column.
-  std::vector<std::string> inputs;
+  std::vector<std::string> inputs{};
   double open_deeper_m = std::numeric_limits<double>::infinity();  // metres: edges of outer loops are open if both
                                                                    // ends are deeper, unless a file says otherwise
   double least_length_m = 0.0;  // metres: a boundary shorter than this is merged into the longer one beside it

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "gis/model/fill_depths.hpp"
+#include "gis/model/sample_average.hpp"
 #include "gis/model/sample_raster.hpp"
 
 namespace coastmesh {
@@ -40,7 +41,7 @@ class ValueSearch {
     if (open.empty()) return;
     const std::vector<Point> pixels = pixelsOf(grid_, raster, loop_);
     if (options_.method == DepthMethod::Average) {
-      const auto samples = sampleAverage(raster, grid_, pixels, open, kLeastPixels, control);
+      const auto samples = sampleAverage(raster, grid_, pixels, open, kLeastPixels, loop_, control);
       report_.averaged += put(file, open, samples, kMostPixels);
       open = unknownNodes();
     }

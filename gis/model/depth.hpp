@@ -29,7 +29,7 @@ enum class DepthFill {
 inline constexpr std::array kDepthFillNames{"neighbours", "nearest", "none"};
 
 struct DepthOptions {
-  std::vector<std::string> files;  // rasters that GDAL reads, the first with a value is used; none: no depths
+  std::vector<std::string> files{};  // rasters that GDAL reads, the first with a value is used; none: no depths
   DepthMethod method = DepthMethod::Bilinear;
   bool positive_down = false;  // the rasters hold depths; otherwise elevations, positive up
   double water_level_m = 0.0;  // metres: height of the still water above the rasters' zero

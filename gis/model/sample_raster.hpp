@@ -28,10 +28,4 @@ std::vector<RasterSample> sampleBilinear(const RasterBand& raster, std::span<con
                                          std::span<const std::uint32_t> which, const PixelReaders* readers,
                                          const ItemLoop& loop, const RunControl& control);
 
-// The mean over the pixels with centres in the triangles around a node, for each node of `which`; `pixels` has one
-// entry for each node of the grid. Nodes whose triangles contain fewer than `least_pixels` get a share of 0.
-std::vector<RasterSample> sampleAverage(const RasterBand& raster, const Grid& grid, std::span<const Point> pixels,
-                                        std::span<const std::uint32_t> which, double least_pixels,
-                                        const RunControl& control);
-
 }  // namespace coastmesh

@@ -26,23 +26,23 @@ enum class CoastDetail { Keep, Follow };
 struct SizeOptions {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 
-  double size_m = kNone;                // everywhere
-  double least_m = 0.0;                 // minimum size
-  double most_m = kNone;                // maximum size
-  double gradation = 0.3;               // above 0: sizes at two places differ by at most this times their distance
-  double shore_m = kNone;               // at the shore
-  double shore_rate = 0.15;             // how fast that grows with the distance
-  double channel_elements = 0.0;        // across the water; 0: not used
-  std::vector<std::string> features;    // vector files with an attribute `size`
-  std::vector<std::string> rasters;     // of sizes, in metres; the first that covers a place is used
-  std::vector<std::string> bathymetry;  // the first that covers a place is used
-  DepthRules depth;
+  double size_m = kNone;                  // everywhere
+  double least_m = 0.0;                   // minimum size
+  double most_m = kNone;                  // maximum size
+  double gradation = 0.3;                 // above 0: sizes at two places differ by at most this times their distance
+  double shore_m = kNone;                 // at the shore
+  double shore_rate = 0.15;               // how fast that grows with the distance
+  double channel_elements = 0.0;          // across the water; 0: not used
+  std::vector<std::string> features{};    // vector files with an attribute `size`
+  std::vector<std::string> rasters{};     // of sizes, in metres; the first that covers a place is used
+  std::vector<std::string> bathymetry{};  // the first that covers a place is used
+  DepthRules depth{};
   double time_step_s = 0.0;  // 0: not used
   double courant = 1.0;      // above 0
 
-  CoastDetail coast = CoastDetail::Keep;        // Follow: the shore is generalised to the elements beside it
-  FollowOptions follow;                         // how
-  std::vector<std::string> passages, barriers;  // vector files with lines: see `ShoreGuides`
+  CoastDetail coast = CoastDetail::Keep;            // Follow: the shore is generalised to the elements beside it
+  FollowOptions follow{};                           // how
+  std::vector<std::string> passages{}, barriers{};  // vector files with lines: see `ShoreGuides`
   double passage_elements = 1.0;
   bool keep_water_given = false;  // otherwise a model's grid keeps what is connected to an open boundary
 

@@ -155,7 +155,9 @@ TEST(ClosedMesh, TwoPointsAMetreApartNeedNotManyMore) {
     expectClosed(region.mesh);
     EXPECT_TRUE(region.stats.unresolved.empty()) << angle;
     EXPECT_GE(measure(region.mesh, 1.0).least_angle, angle);
-    if (angle == 30.0) EXPECT_LE(region.mesh.points.size(), 302u);
+    if (angle == 30.0) {
+      EXPECT_LE(region.mesh.points.size(), 302u);
+    }
     RecordProperty("vertices", static_cast<int>(region.mesh.points.size()));
   }
 }

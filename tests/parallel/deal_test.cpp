@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -43,7 +47,9 @@ class ThreadHelpers {
       const std::lock_guard lock(mutex_);
       threads_.emplace_back([this, context = contexts_[region], request = std::move(request), take = std::move(take)] {
         Reply reply{outcome, "no disk"};
+        if (before_answer) before_answer();
         if (outcome == Reply::Outcome::Done) reply.bytes = answerPiece(request, *context, {});
+        if (kept_share < 1.0) reply.bytes.resize(static_cast<std::size_t>(kept_share * double(reply.bytes.size())));
         ++answered;
         ++rooms_;
         take(std::move(reply));
@@ -56,6 +62,8 @@ class ThreadHelpers {
 
   Helpers helpers;
   Reply::Outcome outcome = Reply::Outcome::Done;
+  double kept_share = 1.0;  // of the bytes of each reply
+  std::function<void()> before_answer;
   std::atomic<int> answered = 0;
 
  private:
@@ -106,12 +114,12 @@ std::vector<Case> cases() {
   return all;
 }
 
-MeshedRegion meshed(const Case& c, int threads, const Helpers* helpers) {
+MeshedRegion meshed(const Case& c, int threads, const Helpers* helpers, const RunControl& control = {}) {
   MeshedRegion region;
   withThreads({.threads = threads}, [&] {
     MeshOptions options = c.options;
     options.helpers = helpers;
-    region = meshRegion(c.pslg, options);
+    region = meshRegion(c.pslg, options, control);
   });
   return region;
 }
@@ -138,6 +146,80 @@ TEST(Deal, AHelperThatFailsIsAnError) {
   others.outcome = Reply::Outcome::NoMemory;
   EXPECT_THROW(meshed(c, 2, &others.helpers), HelperOutOfMemory);
   EXPECT_GT(others.answered, 0);
+}
+
+TEST(Deal, ACutReplyIsAnError) {
+  const Case c = cases().front();
+  for (const double share : {0.0, 0.3, 0.999}) {
+    ThreadHelpers others(2);
+    others.kept_share = share;
+    EXPECT_THROW(meshed(c, 2, &others.helpers), std::runtime_error) << share;
+  }
+}
+
+TEST(Deal, IsCancelledWhileHelpersWork) {
+  const Case c = cases().front();
+  ThreadHelpers others(2);
+  std::atomic<bool> stop = false;
+  others.before_answer = [&] {
+    stop = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  };
+  EXPECT_THROW(meshed(c, 2, &others.helpers, {[&] { return stop.load(); }, {}}), Cancelled);
+}
+
+// Owned items ---------------------------------------------------------------------------------------------------------
+
+// Helpers that answer with their rank and the request.
+Helpers echoes(std::vector<std::thread>& threads, Reply::Outcome outcome = Reply::Outcome::Done) {
+  Helpers helpers;
+  helpers.ask = [&threads, outcome](int rank, std::string&& request, std::function<void(Reply &&)> take) {
+    threads.emplace_back([=, request = std::move(request), take = std::move(take)] {
+      take({outcome, std::to_string(rank) + request});
+    });
+  };
+  return helpers;
+}
+
+TEST(DealToOwners, EveryItemIsDoneByItsOwner) {
+  std::vector<std::thread> threads;
+  const Helpers helpers = echoes(threads);
+  const std::vector<int> owners{0, 2, 1, 0, 2};
+  std::vector<std::string> done(owners.size());
+  dealToOwners(helpers, owners, {}, inOrder,
+               {{},
+                [](std::size_t i) { return "/" + std::to_string(i); },
+                [&](std::size_t i) { done[i] = "here"; },
+                [&](std::size_t i, Reply&& reply) { done[i] = reply.bytes; }});
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(done, (std::vector<std::string>{"here", "2/1", "1/2", "here", "2/4"}));
+}
+
+TEST(DealToOwners, AReplyThatIsNotTakenIsAnError) {
+  std::vector<std::thread> threads;
+  const Helpers helpers = echoes(threads, Reply::Outcome::BadInput);
+  const std::vector<int> owners{1, 1};
+  const auto deal = [&] {
+    dealToOwners(helpers, owners, {}, inOrder,
+                 {{},
+                  [](std::size_t) { return std::string(); },
+                  [](std::size_t) {},
+                  [](std::size_t, Reply&& reply) { throw std::runtime_error(reply.bytes); }});
+  };
+  EXPECT_THROW(deal(), std::runtime_error);
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(DealToOwners, IsCancelledWhileItWaits) {
+  std::vector<std::function<void(Reply &&)>> kept;  // never called
+  Helpers helpers;
+  helpers.ask = [&](int, std::string&&, std::function<void(Reply &&)> take) { kept.push_back(std::move(take)); };
+  const std::vector<int> owners{1};
+  const auto deal = [&] {
+    dealToOwners(helpers, owners, {[] { return true; }, {}}, inOrder,
+                 {{}, [](std::size_t) { return std::string(); }, [](std::size_t) {}, [](std::size_t, Reply&&) {}});
+  };
+  EXPECT_THROW(deal(), Cancelled);
 }
 
 }  // namespace

@@ -213,6 +213,8 @@ TEST_F(ConfigFile, MistakesAreNamed) {
   EXPECT_THAT(messageOf(write("d.toml", "size-max = [1, 2]\n")), ::testing::HasSubstr("one value"));
   EXPECT_THAT(messageOf(write("e.toml", "output = [\"a\"\n")), ::testing::HasSubstr("not TOML"));
   EXPECT_THAT(messageOf(write("f.toml", "[mush]\nsize-max = 3\n")), ::testing::HasSubstr("'mush'"));
+  EXPECT_THAT(messageOf(write("s.toml", "[mush]\n")), ::testing::HasSubstr("'mush'"));
+  EXPECT_THAT(messageOf(write("s.json", R"({"size-max": {}})")), ::testing::HasSubstr("'size-max' is an option"));
   EXPECT_THAT(messageOf(write("g.toml", "[[mesh]]\nsize-max = 3\n")), ::testing::HasSubstr("one [mesh]"));
   EXPECT_THAT(messageOf(write("h.toml", "size-max = 3\nsize-max = 4\n")), ::testing::HasSubstr("not TOML"));
   EXPECT_THAT(messageOf(write("i.json", R"({"size-max": 3, "size-max": 4})")), ::testing::HasSubstr("twice"));

@@ -107,7 +107,9 @@ TEST(SphereLattice, LeavesOutWhatLiesTooNearToSegmentsAndPoints) {
     double nearest = surface.chord(x, pslg.points[2]);
     for (double share = 0.0; share <= 1.0; share += 1e-4) nearest = std::min(nearest, distanceTo(x, share));
     const bool is_clear = std::ranges::any_of(clear, [&](const Point& c) { return c == x; });
-    if (is_clear) EXPECT_GT(nearest, 0.96 * clearance);
+    if (is_clear) {
+      EXPECT_GT(nearest, 0.96 * clearance);
+    }
     if (!is_clear && nearest > 1.01 * clearance) ++further;
   }
   EXPECT_EQ(further, 5u);  // the ring's own corners

@@ -17,7 +17,9 @@ namespace {
 std::size_t putOn(const Point& a, const Point& b, const Point& p, double tolerance) {
   std::vector<Point> edge{a, b}, other{p, {p.x + 50, p.y + 70}};
   insertTouchingPoints({{&edge, false}, {&other, false}}, tolerance);
-  if (edge.size() == 3) EXPECT_EQ(edge[1], p);
+  if (edge.size() == 3) {
+    EXPECT_EQ(edge[1], p);
+  }
   return edge.size() - 2;
 }
 

@@ -559,7 +559,9 @@ TEST(AllFormats, GiveTheGlobeBack) {
       std::size_t edges = 0;  // models may cut the coast in two
       for (const Boundary& boundary : got.boundaries) {
         edges += edgesOf(boundary).size();
-        if (boundary.closed) EXPECT_EQ(boundary.role, grid.boundaries.at(0).role);
+        if (boundary.closed) {
+          EXPECT_EQ(boundary.role, grid.boundaries.at(0).role);
+        }
       }
       EXPECT_EQ(edges, closed ? 0 : edgesOf(grid.boundaries.at(0)).size());
     }

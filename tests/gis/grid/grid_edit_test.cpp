@@ -439,7 +439,9 @@ TEST(RepairTarget, TheAntimeridianIsNoDefect) {
     }
     const std::vector<Point> before = grid.nodes;
     const RepairReport report = repairForTargets(grid, std::array{Target::Swan});
-    if (dent == 0.0) EXPECT_EQ(grid.nodes, before);
+    if (dent == 0.0) {
+      EXPECT_EQ(grid.nodes, before);
+    }
     EXPECT_TRUE(report.left.empty());
     for (const Repair& repair : report.repairs)
       EXPECT_LT(std::abs(std::remainder(repair.place.x - middle, 360.0)), 0.1);

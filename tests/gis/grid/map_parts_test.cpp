@@ -66,7 +66,9 @@ int expectCovered(const Grid& grid, double west) {
         const Point &p = ring[i], &q = ring[(i + 1) % ring.size()];
         EXPECT_GE(p.x, west);
         EXPECT_LE(p.x, west + 360.0);
-        if (std::abs(p.y) != 90.0 || p.y != q.y) EXPECT_LT(std::abs(p.x - q.x), 180.0);
+        if (std::abs(p.y) != 90.0 || p.y != q.y) {
+          EXPECT_LT(std::abs(p.x - q.x), 180.0);
+        }
       }
     }
   }

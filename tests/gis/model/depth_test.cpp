@@ -77,7 +77,9 @@ TEST_F(Depth, SameInAnyOrder) {
     EXPECT_EQ(report.unknown, 0u);
     EXPECT_EQ(other.z, grid.z);
     for (std::size_t i = 0; i < grid.nodes.size(); ++i)
-      if (const Point& p = grid.nodes[i]; p.x < 10.99 || p.y < 50.99) EXPECT_NEAR(grid.z[i], slope(p.x, p.y), 1e-9);
+      if (const Point& p = grid.nodes[i]; p.x < 10.99 || p.y < 50.99) {
+        EXPECT_NEAR(grid.z[i], slope(p.x, p.y), 1e-9);
+      }
   }
 }
 
@@ -118,6 +120,20 @@ TEST_F(Depth, AverageIsTheMeanOverTheTriangles) {
     }
   }
   for (std::size_t i = 0; i < grid.nodes.size(); ++i) EXPECT_NEAR(grid.z[i], sum[i] / area[i], 0.15) << i;
+}
+
+// Triangles by the thousand over several tiles, each of which is read by a share of its own; many lie over two.
+TEST_F(Depth, AverageIsTheSameInAnyOrder) {
+  const std::string file = raster("dem.tif", "", {1600, 1600, 0.0, 1600.0, 1.0}, slope);
+  Grid grid = squares("plane", {100.0, 100.0}, 7.0, 200, 200), other = grid;
+  const DepthOptions options{{file}, DepthMethod::Average};
+  const DepthReport report = setDepths(grid, options);
+  EXPECT_EQ(report.averaged, grid.nodes.size());
+  EXPECT_EQ(setDepths(other, options, {}, testing::backwards).averaged, report.averaged);
+  EXPECT_EQ(other.z, grid.z);
+  // Within a triangle's reach of the node.
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 7.0 * 5.0);
 }
 
 // Pixels are far smaller than triangles: a wild surface averages out, where a point of it does not.

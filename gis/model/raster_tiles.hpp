@@ -1,0 +1,36 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/item_loop.hpp"
+#include "core/run_control.hpp"
+#include "gis/raster/raster_band.hpp"
+
+namespace coastmesh {
+
+// A tile of a raster as its file stores it.
+struct RasterTile {
+  std::int64_t row = 0;
+  std::int64_t column = 0;
+
+  friend auto operator<=>(const RasterTile&, const RasterTile&) = default;
+};
+
+// The tile of a pixel.
+RasterTile tileAt(const RasterBand& raster, std::int64_t column, std::int64_t row);
+
+// Items in the order of their tiles: where those of each tile end. `tile_of(i)` is the tile of item i.
+std::vector<std::size_t> endsOfTiles(std::size_t count, const std::function<RasterTile(std::size_t i)>& tile_of);
+
+// Calls `use(raster, first, last)` for the items of each tile, `first` up to `last`. If there are more items than
+// `least_items`, tiles are read at the same time by rasters of their own, since GDAL's are for one thread. Throws what
+// `use` throws, InputError, and Cancelled.
+void forEachTile(const RasterBand& raster, const std::vector<std::size_t>& ends, std::size_t least_items,
+                 const ItemLoop& loop, const RunControl& control,
+                 const std::function<void(const RasterBand& raster, std::size_t first, std::size_t last)>& use);
+
+}  // namespace coastmesh
