@@ -72,7 +72,7 @@ int ranksOf(int argc, char** argv) {
 int runAmongRanks(int argc, char** argv, Interrupt& interrupt, int ranks) {
   std::string command;
   for (int i = 1; i < argc; ++i) command.append(argv[i]).push_back('\0');
-  const auto stopped = [&interrupt] { return interrupt.requested(); };
+  const auto stopped = [&interrupt] { return interrupt.signalled(); };
   Post post(joinRanks, ranks, std::hash<std::string>()(command));
   if (post.rank() != 0) return serveRankZero(post, helpIn(interrupt)) ? kExitDone : kExitInterrupted;
   Cluster cluster(post, stopped);

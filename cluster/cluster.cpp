@@ -68,14 +68,19 @@ Cluster::Cluster(Post& post, std::function<bool()> stopped)
 }
 
 Cluster::~Cluster() {
-  constexpr auto kLook = std::chrono::milliseconds(50);
+  // Far longer than any piece takes: a rank that has not answered by then is dead or frozen.
+  constexpr auto kLook = std::chrono::milliseconds(50), kPatience = std::chrono::milliseconds(60'000);
   post_.sendToOthers({Message::Kind::Stop, 0, 0, 0, {}});
+  bool all_gone = false;
   {
     // Answers that nobody waits for any more may still be on their way.
+    const auto end = std::chrono::steady_clock::now() + kPatience;
     std::unique_lock lock(mutex_);
-    while (gone_ + 1 < post_.ranks() && !stopped_()) changed_.wait_for(lock, kLook);
+    const auto areGone = [this] { return gone_ + 1 >= post_.ranks(); };
+    while (!areGone() && !stopped_() && std::chrono::steady_clock::now() < end) changed_.wait_for(lock, kLook);
+    all_gone = areGone();
   }
-  stopped_() ? post_.leave() : post_.finish();
+  stopped_() || !all_gone ? post_.leave() : post_.finish();
 }
 
 void Cluster::start(int threads) {

@@ -34,7 +34,7 @@ class Cluster {
   Helpers helpers_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  int gone_ = 0;            // ranks that are ready
+  int gone_ = 0;            // ranks that have left
   std::vector<int> rooms_;  // for each rank: requests that it has room for
   struct Awaited {
     std::function<void(Reply&&)> take;

@@ -16,6 +16,9 @@ namespace coastmesh {
 //           edge 2
 using EdgeRef = std::uint32_t;
 
+// So many vertices a mesh may have: there are twice as many triangles, and four EdgeRefs for each.
+inline constexpr std::uint64_t kMostVertices = kNone / 16;
+
 constexpr EdgeRef edgeRef(TriId t, unsigned i) { return 4 * t + i; }
 constexpr TriId triOf(EdgeRef e) { return e >> 2; }
 constexpr unsigned indexOf(EdgeRef e) { return e & 3u; }

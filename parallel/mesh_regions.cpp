@@ -73,8 +73,7 @@ double longestInPlane(const RefineOptions& options, const Point& low, const Poin
 // Where lengths rule, most vertices are known beforehand. Algorithms for comparison stay as they were published.
 std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
   if (options.algorithm != Algorithm::Relocate) return {};
-  // Twice as many triangles, and four names for the edges of each.
-  const std::uint64_t most = std::min({options.max_vertices, options.most_in_memory, std::uint64_t{kNone / 16}});
+  const std::uint64_t most = std::min({options.max_vertices, options.most_in_memory, kMostVertices});
   const std::uint64_t left = most - std::min<std::uint64_t>(most, mesh.points.size());
   LatticeWishes wishes{options.size_max, options.size, options.min_angle_deg, options.max_angle_deg, left};
   if (!options.surface.isCurved() || mesh.points.empty()) return layLattices(mesh, wishes, loop);

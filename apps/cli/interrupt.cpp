@@ -85,7 +85,7 @@ void Interrupt::close() {
 void Interrupt::reopen() {
   const std::lock_guard lock(mutex_);
   closed_ = false;
-  if (std::exchange(missed_, false)) pthread_kill(watcher_.native_handle(), SIGTERM);
+  if (missed_.exchange(false)) pthread_kill(watcher_.native_handle(), SIGTERM);
 }
 
 void Interrupt::watch() {

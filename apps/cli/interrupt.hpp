@@ -25,6 +25,8 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   bool requested() const { return requested_.load(std::memory_order_relaxed); }
+  // Also after the point of no return: whoever only waits for others then need not.
+  bool signalled() const { return requested() || missed_.load(std::memory_order_relaxed); }
   // Throws Cancelled where a signal came.
   void check() const;
 
@@ -50,7 +52,7 @@ class Interrupt {
   std::condition_variable ended_changed_;
   bool ended_ = false;
   bool closed_ = false;
-  bool missed_ = false;                                             // a signal came while closed
+  std::atomic<bool> missed_{false};                                 // a signal came while closed
   std::map<std::filesystem::path, std::filesystem::path> guarded_;  // as given, and from the root
   Notes notes_;
   std::thread watcher_;

@@ -183,7 +183,8 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   std::optional<CheckpointFolder> checkpoint;
   if (keeps) {
     CheckpointHeader header{COASTMESH_VERSION, given, job.exchange.shard, job.exchange.shards, {}, 0, 0};
-    for (const std::string& path : run.inputs) header.files.push_back(stampOf(path));
+    for (const std::string& input : run.inputs)
+      for (const std::string& path : filesReadBy(input)) header.files.push_back(stampOf(path));
     checkpoint.emplace(usage.checkpoint, std::move(header));
     job.exchange.has = [&checkpoint](std::size_t group) { return checkpoint->has(group); };
     job.exchange.take = [&checkpoint](std::size_t group) { return checkpoint->take(group); };

@@ -61,6 +61,16 @@ std::vector<std::string> filesNamed(const std::string& name) {
   return files;
 }
 
+// And those that these take their data from.
+std::vector<std::string> filesNamedAndBehind(const std::string& name) {
+  std::vector<std::string> all = filesNamed(name);
+  for (const std::string& behind : filesBehind(name)) {
+    const std::vector<std::string> files = filesNamed(behind);
+    all.insert(all.end(), files.begin(), files.end());
+  }
+  return all;
+}
+
 struct Owner {
   std::string option, path;
 };
@@ -69,12 +79,7 @@ class Inputs {
  public:
   explicit Inputs(const std::vector<OptionTable::NamedFile>& named) {
     for (const auto& [option, path] : named) {
-      std::vector<std::string> all = filesNamed(path);
-      for (const std::string& behind : filesBehind(path)) {
-        const std::vector<std::string> files = filesNamed(behind);
-        all.insert(all.end(), files.begin(), files.end());
-      }
-      for (const std::string& file : all) {
+      for (const std::string& file : filesNamedAndBehind(path)) {
         files_.try_emplace(identityOf(file), Owner{option, path});
         for (const std::string& companion : companionsOf(file))
           if (isThere(companion)) companions_.try_emplace(identityOf(companion), Owner{option, path});
@@ -133,6 +138,18 @@ class Claims {
 };
 
 }  // namespace
+
+std::vector<std::string> filesReadBy(const std::string& name) {
+  // A database's own notes, which come and go as it is read.
+  const auto isPassing = [](const std::string& file) { return file.ends_with("-wal") || file.ends_with("-journal"); };
+  std::vector<std::string> files;
+  for (const std::string& file : filesNamedAndBehind(name)) {
+    files.push_back(file);
+    for (const std::string& companion : companionsOf(file))
+      if (isThere(companion) && !isPassing(companion)) files.push_back(companion);
+  }
+  return files;
+}
 
 void requireOutputsApart(const OptionTable& table, const std::vector<OptionTable::NamedFile>& besides) {
   const std::vector<OptionTable::NamedOutput> outputs = table.outputs();

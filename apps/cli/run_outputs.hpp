@@ -22,6 +22,10 @@ void requireOutputsApart(const OptionTable& table, const std::vector<OptionTable
 void requireOutputsApart(const std::vector<OptionTable::NamedOutput>& outputs,
                          const std::vector<OptionTable::NamedFile>& read);
 
+// The files on the disk that reading what an option names may read: those in the name, those that they take their data
+// from (the tiles of a VRT), and those that belong to one of them (a shapefile's .dbf), as far as they are there.
+std::vector<std::string> filesReadBy(const std::string& name);
+
 // All outputs of a run: none comes into place before all are written, and then all do or none.
 class RunOutputs {
  public:

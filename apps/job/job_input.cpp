@@ -236,20 +236,36 @@ std::uint64_t JobInput::digest() const {
       mix(std::bit_cast<std::uint64_t>(p.y));
     }
   };
+  const auto mixText = [&mix](const std::string& text) {
+    mix(text.size());
+    for (const char c : text) mix(static_cast<unsigned char>(c));
+  };
+  mixText(coastline_.crs.wkt);
   for (const auto& group : groups_) {
     mix(group.size());
     for (const std::size_t member : group) {
       const Feature& feature = coastline_.features[member];
       mix(member);
       mix(static_cast<std::uint64_t>(feature.fid));
+      mix(static_cast<std::uint64_t>(feature.use));
       for (const Polygon& polygon : feature.polygons) {
         mixChain(polygon.outer);
         for (const Ring& hole : polygon.holes) mixChain(hole);
       }
       for (const auto& line : feature.lines) mixChain(line);
+      mixChain(feature.points);
+      for (const auto& [name, value] : feature.attributes) mixText(name), mixText(value);
     }
   }
-  if (poly_) mixChain(poly_->points);
+  if (!poly_) return digest;
+  mixChain(poly_->points);
+  mix(poly_->segments.size());
+  for (const Segment& s : poly_->segments) {
+    for (const std::uint64_t part : {std::uint64_t{s.a}, std::uint64_t{s.b}, static_cast<std::uint64_t>(s.left),
+                                     static_cast<std::uint64_t>(s.right), static_cast<std::uint64_t>(s.tag)})
+      mix(part);
+  }
+  mixChain(poly_->holes);
   return digest;
 }
 

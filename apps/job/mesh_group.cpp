@@ -94,12 +94,13 @@ BytesPerVertex bytesPerVertex(const MeshJob& job, SurfaceKind surface) {
   return job.mesh.refine.algorithm == Algorithm::Relocate && (job.sizes.any() || is_bounded) ? kOfLattices : kRefined;
 }
 
-double verticesInMemory(const GroupTask& task, SurfaceKind surface) {
-  return task.room.memory / bytesPerVertex(task.job, surface).peak;
+// As many as there is memory for, or as the numbers of a mesh's parts reach.
+double possibleVertices(const GroupTask& task, SurfaceKind surface) {
+  return std::min(task.room.memory / bytesPerVertex(task.job, surface).peak, static_cast<double>(kMostVertices));
 }
 
 double mostVertices(const GroupTask& task, SurfaceKind surface) {
-  return std::min(kClearlyMore * static_cast<double>(task.room.vertices), verticesInMemory(task, surface));
+  return std::min(kClearlyMore * static_cast<double>(task.room.vertices), possibleVertices(task, surface));
 }
 
 std::string amount(const char* format, double number) {
@@ -125,7 +126,9 @@ std::string demandText(const TooManyVertices& error, const GroupTask& task, cons
     text += "--max-vertices allows " + std::to_string(allowed);
     if (allowed < task.job.mesh.refine.max_vertices) text += " here, this feature's share by points";
   } else {
-    text += "there is memory for about " + amount("%.2g", verticesInMemory(task, result.surface));
+    const double possible = possibleVertices(task, result.surface);
+    text += possible < static_cast<double>(kMostVertices) ? "there is memory for about " : "a mesh may have ";
+    text += amount("%.2g", possible);
   }
   text += ": request larger sizes, or give a larger --size-min";
   return result.over_budget ? text + " or --max-vertices" : text;
@@ -137,8 +140,8 @@ MeshOptions optionsFor(const GroupTask& task, const Domain& domain, SurfaceKind 
   options.list_violations = false;
   options.refine.surface = domain.projection.surface();
   options.refine.max_vertices = room.vertices;
-  options.refine.most_in_memory =
-      static_cast<std::uint64_t>(std::min(kMostReported, room.memory / bytesPerVertex(job, surface).least));
+  options.refine.most_in_memory = static_cast<std::uint64_t>(
+      std::min(static_cast<double>(kMostVertices), room.memory / bytesPerVertex(job, surface).least));
   // A place that is no number has no resolution; what triangulates says which it is.
   if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
   if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
@@ -157,17 +160,21 @@ void requireMemory(const GroupTask& task, const Domain& domain, const GroupResul
   // In a plane lengths are in its units, whatever area a CRS would give its coordinates.
   const double area = domain.projection.isIdentity() ? geodesicArea(domain, Crs{}) : *area_m2;
   const double least = 2.0 / std::sqrt(3.0) * area / job.sizes.most_m / job.sizes.most_m;
-  if (std::min(least, static_cast<double>(task.room.vertices)) <= verticesInMemory(task, result.surface)) return;
+  if (std::min(least, static_cast<double>(task.room.vertices)) <= possibleVertices(task, result.surface)) return;
   throw TooManyVertices({least, domain.projection.inverse(centreOf(domain.pslg)), job.sizes.most_m, "--size-max"});
 }
 
-// Leaves the failing region where its finder can send it from.
+// Leaves the failing region where its finder can send it from; returns where, or why not.
 std::string dumpRegion(const Pslg& pslg, std::uint64_t digest) {
   std::ostringstream name;
   name << "coastmesh-bug-" << std::hex << digest << ".poly";
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / name.str();
-  writePoly(pslg, path.string());
-  return path.string();
+  try {
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / name.str();
+    writePoly(pslg, path.string());
+    return "the region was kept in '" + path.string() + "'";
+  } catch (const std::exception& error) {
+    return std::string("the region could not be kept: ") + error.what();
+  }
 }
 
 void requireSound(const MeshedRegion& region, const Domain& domain, std::span<const SpacePoint> places,
@@ -182,8 +189,7 @@ void requireSound(const MeshedRegion& region, const Domain& domain, std::span<co
   const MeshDefect& defect = defects.front();
   throw BadMesh("the mesh of " + featureText(first) + " has " + std::to_string(defects.size()) +
                 " defects, the first one " + std::string(toString(defect.kind)) + " at " +
-                pointText(domain.projection.inverse(defect.place)) + "; the region was kept in '" +
-                dumpRegion(domain.pslg, digestOf(mesh)) + "'");
+                pointText(domain.projection.inverse(defect.place)) + "; " + dumpRegion(domain.pslg, digestOf(mesh)));
 }
 
 // Triangles in a region belong to a part of their feature that says so. Borders of regions are edges of the mesh, so
@@ -506,7 +512,7 @@ void refuse(const BadPslg& error, const GroupTask& task, GroupResult& result) {
 
 void refuse(const TooManyVertices& error, const GroupTask& task, GroupResult& result) {
   result.estimated_vertices = std::min(error.demand.vertices, kMostReported);
-  result.over_budget = kClearlyMore * static_cast<double>(task.room.vertices) <= verticesInMemory(task, result.surface);
+  result.over_budget = kClearlyMore * static_cast<double>(task.room.vertices) <= possibleVertices(task, result.surface);
   result.refusal_place = error.demand.place;
   result.refusal = featureText(task.firstFeature()) + ": " + demandText(error, task, result);
 }

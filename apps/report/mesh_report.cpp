@@ -255,7 +255,7 @@ std::string cleaningText(const std::array<std::uint64_t, kEditKinds>& edits) {
   std::string text;
   for (const EditKind kind :
        {EditKind::Spike, EditKind::SelfCrossing, EditKind::FeaturesCross, EditKind::DegenerateRing,
-        EditKind::FeaturesOverlap, EditKind::MisplacedRing, EditKind::OutsideWater}) {
+        EditKind::FeaturesOverlap, EditKind::MisplacedRing, EditKind::RepeatedRing, EditKind::OutsideWater}) {
     const std::uint64_t count = edits[static_cast<std::size_t>(kind)];
     if (count > 0) text += (text.empty() ? "" : ", ") + std::string(toString(kind)) + " " + grouped(count);
   }

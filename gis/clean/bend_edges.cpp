@@ -62,13 +62,13 @@ class Bender {
     if (line_ == EdgeLine::LonLat) return lonLatLine(a, b, geographic_);
     const LonLat from = to_geographic_.forward(a), to = to_geographic_.forward(b);
     const GeographicLib::GeodesicLine way = geodesic_.InverseLine(from.lat, from.lon, to.lat, to.lon);
-    const Point low{std::min(a.x, b.x), 0.0}, high{std::max(a.x, b.x), 0.0};
-    return [=, this](double t) {
+    const auto [low, high] = std::minmax(from.lon, to.lon);
+    return [=, low = low, high = high, this](double t) {
       LonLat place;
       way.Position(t * way.Distance(), place.lat, place.lon);
       // In the turn of the ends.
-      if (place.lon < low.x - 180.0) place.lon += 360.0;
-      if (place.lon > high.x + 180.0) place.lon -= 360.0;
+      if (place.lon < low - 180.0) place.lon += 360.0;
+      if (place.lon > high + 180.0) place.lon -= 360.0;
       return to_geographic_.inverse(place);
     };
   }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include "gis/clean/clean_touches.hpp"
 #include "gis/clean/geodesic_area.hpp"
@@ -188,6 +190,67 @@ std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& s
   return {kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
+// A ring traced several times over is traced once. Returns whether it was.
+bool traceOnce(std::vector<VertexId>& walk) {
+  const auto again = std::find(walk.begin() + 1, walk.end(), walk.front());
+  const auto once = static_cast<std::size_t>(again - walk.begin());
+  if (again == walk.end() || once < 3 || walk.size() % once != 0) return false;
+  for (std::size_t i = once; i < walk.size(); ++i)
+    if (walk[i] != walk[i - once]) return false;
+  walk.resize(once);
+  return true;
+}
+
+// Whether two rings have the same vertices in the same order, from any of them on and either way round.
+bool isSameRing(const std::vector<VertexId>& a, const std::vector<VertexId>& b) {
+  if (a.size() != b.size()) return false;
+  const std::size_t n = a.size();
+  const auto start = static_cast<std::size_t>(std::ranges::find(b, a.front()) - b.begin());
+  if (start == n) return false;
+  bool forward = true, backward = true;
+  for (std::size_t i = 0; i < n && (forward || backward); ++i) {
+    forward = forward && a[i] == b[(start + i) % n];
+    backward = backward && a[i] == b[(start + n - i) % n];
+  }
+  return forward || backward;
+}
+
+// Rings that a feature has twice in the same role: by the even-odd rule they would be as if they were not there.
+// Calls `drop(ring)` for each.
+template <typename Drop>
+void dropRepeatedRings(std::vector<CleanChain>& chains, Drop&& drop) {
+  // Those that may be the same, in their order.
+  struct Key {
+    std::uint32_t feature;
+    CleanChain::Role role;
+    std::size_t size;
+    VertexId least;
+    std::size_t chain;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys;
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    if (chains[c].isRing())
+      keys.push_back(
+          {chains[c].feature, chains[c].role, chains[c].walk.size(), *std::ranges::min_element(chains[c].walk), c});
+  std::ranges::sort(keys);
+  std::vector<bool> repeated(chains.size(), false);
+  const auto isAlike = [](const Key& a, const Key& b) {
+    return std::tie(a.feature, a.role, a.size, a.least) == std::tie(b.feature, b.role, b.size, b.least);
+  };
+  for (std::size_t k = 1, first = 0; k < keys.size(); ++k) {
+    if (!isAlike(keys[first], keys[k])) {
+      first = k;
+    } else if (isSameRing(chains[keys[first].chain].walk, chains[keys[k].chain].walk)) {
+      repeated[keys[k].chain] = true;
+    }
+  }
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    if (repeated[c]) drop(chains[c]);
+  std::size_t c = 0;
+  std::erase_if(chains, [&](const CleanChain&) { return repeated[c++]; });
+}
+
 // Of a sample of the points: least and greatest scale, and the coordinates' own grain, in which a snap distance drowns.
 struct Scales {
   double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
@@ -315,6 +378,8 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
         if (reported) report.add(EditKind::Spike, result.vertices.input[v], feature.fid);
       });
     }
+    if (closed && made.walk.size() > 3 && traceOnce(made.walk) && reported)
+      report.add(EditKind::RepeatedRing, result.vertices.input[made.walk.front()], feature.fid);
     if (made.walk.size() < (closed ? 3u : chain.role == CleanChain::Role::Point ? 1u : 2u)) {
       if (reported) report.add(EditKind::DegenerateRing, chain.points.front(), feature.fid);
       continue;
@@ -322,6 +387,11 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
     std::vector<Point>().swap(chain.points);
     result.chains.push_back(std::move(made));
   }
+  dropRepeatedRings(result.chains, [&](const CleanChain& ring) {
+    const Feature& feature = coastline.features[ring.feature];
+    if (feature.use != FeatureUse::Frame)
+      report.add(EditKind::RepeatedRing, result.vertices.input[ring.walk.front()], feature.fid);
+  });
   result.vertices.is_new.assign(result.vertices.plane.size(), 0);
   result.resolution =
       resolutionOf(result.vertices.plane, result.vertices.input, coastline.crs, scales.greatest, result.snap);

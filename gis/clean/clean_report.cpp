@@ -46,6 +46,8 @@ std::string_view toString(EditKind kind) {
       return "widened passage";
     case EditKind::Barrier:
       return "barrier";
+    case EditKind::RepeatedRing:
+      return "repeated ring";
   }
   assert(false);
   return "";

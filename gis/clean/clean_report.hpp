@@ -33,8 +33,9 @@ enum class EditKind {
   MovedPoint,       // a point of the shore: moved by `followSizes`, by at most half the size there
   WidenedPassage,   // given by the user, or the only connection of waters: land beside it receded, by `followSizes`
   Barrier,          // water on a line given by the user: closed by `followSizes`
+  RepeatedRing,     // an island, or an outer ring, that its feature has twice: counted once
 };
-inline constexpr std::size_t kEditKinds = 20;
+inline constexpr std::size_t kEditKinds = 21;
 std::string_view toString(EditKind kind);  // "repeated point"
 
 // One change to the input.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 
 namespace coastmesh {
@@ -30,6 +31,13 @@ bool isNameAttribute(std::string_view attribute) {
 std::string placeInWords(const Point& place) {
   char text[64];
   std::snprintf(text, sizeof text, "%.10g, %.10g", place.x, place.y);
+  return text;
+}
+
+std::string roughPlaceInWords(const Point& place) {
+  const auto digits = [](double x) { return std::abs(x) < 1e4 ? 6 : 9; };
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*g, %.*g", digits(place.x), place.x, digits(place.y), place.y);
   return text;
 }
 

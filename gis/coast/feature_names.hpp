@@ -18,6 +18,9 @@ bool isNameAttribute(std::string_view attribute);
 // A place in the format of notes and errors: "-87.5, 41.25".
 std::string placeInWords(const Point& place);
 
+// The same with fewer digits, for a place that one has to look for anyway: some metres, or a unit of a plane's.
+std::string roughPlaceInWords(const Point& place);
+
 // The name of a region: its attribute "tag", "region" or "name", else the number of its feature.
 std::string regionNameOf(const Feature& feature);
 

@@ -187,9 +187,12 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   for (const auto& [kind, place, water] : opened.edits) edit(kind, place, water);
   noted.straits = allStraits(opened, sizes);
   noted.joined = std::move(joined.joined);
+  const std::vector<bool> is_main = areMain(opened.waters);
   for (std::size_t i = 0; i < opened.waters.size(); ++i) {
     noted.area += opened.waters[i].area;
-    if (!opened.waters[i].kept) noted.cut_off.push_back({std::move(opened.waters[i]), std::move(joined.ways[i])});
+    if (is_main[i]) continue;
+    (opened.waters[i].kept ? noted.apart : noted.cut_off)
+        .push_back({std::move(opened.waters[i]), std::move(joined.ways[i])});
   }
   noteFollowing(std::move(noted), guides, options, domain.projection, report);
 

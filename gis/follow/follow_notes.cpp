@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kNamedWaters = 3, kMostWaters = 20, kNamedStraits = 10;
 // Of all the water.
 constexpr double kLargeWater = 0.005;  // is named, though not one of the largest
-constexpr double kWarned = 0.02;       // left out: more than models forgive
+constexpr double kWarned = 0.02;       // left out or parted by closing: more than models forgive
 
 std::string formatted(const char* format, double a, double b = 0.0) {
   char text[80];
@@ -22,8 +23,7 @@ std::string formatted(const char* format, double a, double b = 0.0) {
 }
 
 std::string placeText(const Point& place, const Projection& projection) {
-  const Point input = projection.inverse(place);
-  return formatted("(%.6g, %.6g)", input.x, input.y);
+  return "(" + roughPlaceInWords(projection.inverse(place)) + ")";
 }
 
 std::string lengthText(double length_m, const Projection& projection) {
@@ -36,30 +36,48 @@ std::string areaText(double area_m2, double whole_m2, const Projection& projecti
          formatted("%.2g %%", 100.0 * area_m2 / whole_m2) + ")";
 }
 
-std::string noteOn(const FollowNotes& notes, const FollowOptions& options, const Projection& projection) {
-  const std::vector<CutOffWater>& waters = notes.cut_off;
-  const bool none_kept_open = options.keep == KeepWater::Modelled &&
-                              std::ranges::any_of(waters, [](const CutOffWater& w) { return w.water.at_open; });
+// The largest of them, what is between them and the others, and which options change that.
+std::string namesOf(const std::vector<ApartWater>& waters, double area, const Projection& projection) {
+  std::string names;
+  std::size_t named = 0;
+  for (const auto& [water, way] : waters) {
+    if (named == kMostWaters || (named >= kNamedWaters && water.area < kLargeWater * area)) break;
+    names += named++ == 0 ? "" : "; ";
+    names += areaText(water.area, area, projection) + " at " + placeText(water.inside.front(), projection);
+    if (water.at_open) names += ", which has an open boundary";
+    names += way.exists ? ", behind water " + lengthText(way.width_m, projection) + " wide at " +
+                              placeText(way.place, projection)
+                        : ", without a connection in the data";
+  }
+  if (std::ranges::any_of(waters, [](const ApartWater& apart) { return apart.way.exists; }))
+    names += "; --passages or a smaller --channel-min keep the connection open, a smaller --strait-min widens it";
+  return names;
+}
+
+double areaOf(const std::vector<ApartWater>& waters) {
   double area = 0.0;
-  for (const CutOffWater& cut_off : waters) area += cut_off.water.area;
-  std::string note = areaText(area, notes.area, projection) + " of the water " +
+  for (const ApartWater& apart : waters) area += apart.water.area;
+  return area;
+}
+
+std::string noteOn(const FollowNotes& notes, const FollowOptions& options, const Projection& projection) {
+  const std::vector<ApartWater>& waters = notes.cut_off;
+  const bool none_kept_open = options.keep == KeepWater::Modelled &&
+                              std::ranges::any_of(waters, [](const ApartWater& w) { return w.water.at_open; });
+  std::string note = areaText(areaOf(waters), notes.area, projection) + " of the water " +
                      (options.keep == KeepWater::All ? "is meshed apart" : "is left out") + ", " +
                      std::to_string(waters.size()) + forCount(waters.size(), " water", " waters") +
                      " without a connection to the " +
-                     (options.keep == KeepWater::Largest || none_kept_open ? "largest" : "others");
-  std::size_t named = 0;
-  for (const auto& [water, way] : waters) {
-    if (named == kMostWaters || (named >= kNamedWaters && water.area < kLargeWater * notes.area)) break;
-    note += named++ == 0 ? ": the largest " : "; ";
-    note += areaText(water.area, notes.area, projection) + " at " + placeText(water.inside.front(), projection);
-    if (water.at_open) note += ", which has an open boundary";
-    note += way.exists ? ", behind water " + lengthText(way.width_m, projection) + " wide at " +
-                             placeText(way.place, projection)
-                       : ", without a connection in the data";
-  }
-  note += "; --passages or a smaller --channel-min keep the connection open, a smaller --strait-min widens it";
-  if (options.keep != KeepWater::All) note += ", --keep-water all keeps them as they are";
+                     (options.keep == KeepWater::Largest || none_kept_open ? "largest" : "others") + ": the largest " +
+                     namesOf(waters, notes.area, projection);
+  if (options.keep != KeepWater::All) note += "; --keep-water all keeps them as they are";
   return note;
+}
+
+std::string noteOnApart(const FollowNotes& notes, const Projection& projection) {
+  return "the water is meshed in " + std::to_string(notes.apart.size() + 1) +
+         " parts without a connection: besides the largest " + namesOf(notes.apart, notes.area, projection) +
+         "; --keep-water largest leaves them out";
 }
 
 std::string noteOn(const std::vector<JoinedWater>& joined, double area, const Projection& projection) {
@@ -114,11 +132,16 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
   if (!notes.joined.empty()) texts.push_back(noteOn(notes.joined, notes.area, projection));
   std::ranges::stable_sort(notes.straits, std::ranges::greater{}, &ClosedStrait::length_m);
   if (!notes.straits.empty()) texts.push_back(noteOn(notes.straits, projection));
-  std::ranges::stable_sort(notes.cut_off, std::ranges::greater{}, [](const CutOffWater& w) { return w.water.area; });
+  const auto areaOfWater = [](const ApartWater& apart) { return apart.water.area; };
+  if (!notes.apart.empty()) {
+    std::ranges::stable_sort(notes.apart, std::ranges::greater{}, areaOfWater);
+    double closed = 0.0;
+    for (const ApartWater& apart : notes.apart) closed += apart.way.exists ? apart.water.area : 0.0;
+    (closed > kWarned * notes.area ? report.warnings : texts).push_back(noteOnApart(notes, projection));
+  }
   if (notes.cut_off.empty()) return;
-  double left_out = 0.0;
-  for (const CutOffWater& cut_off : notes.cut_off)
-    left_out += options.keep == KeepWater::All ? 0.0 : cut_off.water.area;
+  std::ranges::stable_sort(notes.cut_off, std::ranges::greater{}, areaOfWater);
+  const double left_out = options.keep == KeepWater::All ? 0.0 : areaOf(notes.cut_off);
   (left_out > kWarned * notes.area ? report.warnings : texts).push_back(noteOn(notes, options, projection));
 }
 

@@ -9,15 +9,16 @@
 
 namespace coastmesh {
 
-struct CutOffWater {
+struct ApartWater {
   WaterPart water;
   WaterWay way;  // to the others, in the data
 };
 
 // Notes for users on a shore that was made to follow sizes.
 struct FollowNotes {
-  double area = 0.0;  // square metres of water, including what is cut off
-  std::vector<CutOffWater> cut_off;
+  double area = 0.0;                // square metres of water, including what is cut off
+  std::vector<ApartWater> cut_off;  // not kept, but meshed nevertheless if all are
+  std::vector<ApartWater> apart;    // kept beside the largest
   std::vector<JoinedWater> joined;
   std::vector<ClosedStrait> straits;
   std::vector<WidenedPassage> widened;
@@ -26,7 +27,7 @@ struct FollowNotes {
 };
 
 // Adds sentences on the largest changes to the report, with their places in the input's CRS: a warning if more of the
-// water is left out than is acceptable for a model, otherwise notes.
+// water is left out, or parted from the largest, than is acceptable for a model, otherwise notes.
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
                    const Projection& projection, CleanReport& report);
 

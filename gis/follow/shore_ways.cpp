@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -32,14 +33,14 @@ class WayFinder {
         cost_(mesh().triangles.size(), kInfinity),
         from_(mesh().triangles.size(), kNone) {}
 
-  // Of waters that nothing joins yet. What was joined before has to stay so.
-  std::vector<WaterWay> run(const std::vector<bool>& is_joined) {
+  // From the waters that are sought to those that are joined. What was joined before has to stay so.
+  std::vector<WaterWay> run(const std::vector<bool>& is_joined, const std::vector<bool>& is_sought) {
     for (std::size_t i = 0; i < is_joined.size(); ++i)
       if (is_joined[i]) start(places_[i]);
-    spread(is_joined);
+    spread(is_sought);
     std::vector<WaterWay> ways(is_joined.size());
     for (std::size_t i = 0; i < is_joined.size(); ++i) {
-      if (is_joined[i] || places_[i].empty()) continue;
+      if (!is_sought[i] || places_[i].empty()) continue;
       const TriId end = *std::ranges::min_element(places_[i], {}, [&](TriId t) { return cost_[t]; });
       if (cost_[end] < kInfinity) ways[i] = wayFrom(end);
     }
@@ -98,22 +99,22 @@ class WayFinder {
   }
 
   // The cost of the way to each of these waters, of the one that it is most for.
-  double farthest(const std::vector<bool>& is_joined) const {
+  double farthest(const std::vector<bool>& is_sought) const {
     double most = 0.0;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       double least = kInfinity;
       for (const TriId t : places_[i]) least = std::min(least, cost_[t]);
-      if (!is_joined[i] && !places_[i].empty()) most = std::max(most, least);
+      if (is_sought[i] && !places_[i].empty()) most = std::max(most, least);
     }
     return most;
   }
 
   // On at the least cost, until all waters are reached: a way's length, where it is narrow the more the narrower it is.
-  void spread(const std::vector<bool>& is_joined) {
+  void spread(const std::vector<bool>& is_sought) {
     std::vector<char> is_place(mesh().triangles.size(), 0);
     for (const std::vector<TriId>& places : places_)
       for (const TriId t : places) is_place[t] = 1;
-    double most = farthest(is_joined);
+    double most = farthest(is_sought);
     while (!queue_.empty() && queue_.top().first <= most) {
       const auto [cost, t] = queue_.top();
       queue_.pop();
@@ -130,7 +131,7 @@ class WayFinder {
         cost_[next] = there;
         from_[next] = e;
         queue_.emplace(there, next);
-        if (is_place[next] != 0) most = farthest(is_joined);
+        if (is_place[next] != 0) most = farthest(is_sought);
       }
     }
   }
@@ -177,36 +178,79 @@ class WayFinder {
   std::priority_queue<std::pair<double, TriId>, std::vector<std::pair<double, TriId>>, std::greater<>> queue_;
 };
 
-std::vector<bool> areKept(const OpenedShores& opened) {
+std::vector<bool> areKept(const std::vector<WaterPart>& waters) {
   std::vector<bool> kept;
-  for (const WaterPart& water : opened.waters) kept.push_back(water.kept);
+  for (const WaterPart& water : waters) kept.push_back(water.kept);
   return kept;
 }
 
+std::vector<bool> butNot(std::vector<bool> these, const std::vector<bool>& others) {
+  for (std::size_t i = 0; i < these.size(); ++i)
+    if (others[i]) these[i] = false;
+  return these;
+}
+
+bool hasAny(const std::vector<bool>& these) { return std::ranges::find(these, true) != these.end(); }
+
 }  // namespace
 
+std::vector<bool> areMain(const std::vector<WaterPart>& waters) {
+  std::map<RegionId, std::size_t> largest;
+  for (std::size_t i = 0; i < waters.size(); ++i) {
+    if (!waters[i].kept) continue;
+    const auto [at, is_first] = largest.emplace(waters[i].region, i);
+    if (!is_first && waters[i].area > waters[at->second].area) at->second = i;
+  }
+  std::vector<bool> main(waters.size(), false);
+  for (const auto& [region, i] : largest) main[i] = true;
+  return main;
+}
+
 std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options) {
-  const std::vector<bool> kept = areKept(opened);
-  if (std::ranges::find(kept, false) == kept.end()) return std::vector<WaterWay>(kept.size());
-  return WayFinder(opened, sizes, options.channel_min, 0.0).run(kept);
+  const std::vector<bool> main = areMain(opened.waters), kept = areKept(opened.waters);
+  const std::vector<bool> apart = butNot(kept, main), cut_off = butNot(std::vector<bool>(kept.size(), true), kept);
+  std::vector<WaterWay> ways(kept.size());
+  if (!hasAny(apart) && !hasAny(cut_off)) return ways;
+  WayFinder finder(opened, sizes, options.channel_min, 0.0);
+  const auto find = [&](const std::vector<bool>& joined, const std::vector<bool>& sought) {
+    if (!hasAny(sought)) return;
+    std::vector<WaterWay> found = finder.run(joined, sought);
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      if (sought[i]) ways[i] = std::move(found[i]);
+  };
+  find(main, apart);
+  find(kept, cut_off);
+  return ways;
 }
 
 std::vector<JoinedWater> waysToJoin(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options) {
-  std::vector<bool> joined = areKept(opened);
+  const std::vector<bool> kept = areKept(opened.waters);
+  const std::vector<bool> every(kept.size(), true);
+  std::vector<bool> joined = areMain(opened.waters);
   std::vector<JoinedWater> found;
-  if (std::ranges::find(joined, false) == joined.end()) return found;
+  if (!hasAny(butNot(every, joined))) return found;
   WayFinder finder(opened, sizes, options.channel_min, options.strait_min);
-  for (int round = 0; round < kRounds; ++round) {
-    const std::size_t before = found.size();
-    std::vector<WaterWay> ways = finder.run(joined);
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      const double area = opened.waters[i].area;
-      if (ways[i].narrow.empty() || ways[i].widening_m2 > kMostWidened * area) continue;
-      found.push_back({std::move(ways[i]), area});
-      joined[i] = true;
+  // Those of `candidates` that are not joined yet.
+  const auto join = [&](const std::vector<bool>& candidates) {
+    for (int round = 0; round < kRounds; ++round) {
+      const std::vector<bool> sought = butNot(candidates, joined);
+      if (!hasAny(sought)) return;
+      const std::size_t before = found.size();
+      std::vector<WaterWay> ways = finder.run(joined, sought);
+      for (std::size_t i = 0; i < ways.size(); ++i) {
+        const double area = opened.waters[i].area;
+        if (ways[i].narrow.empty() || ways[i].widening_m2 > kMostWidened * area) continue;
+        found.push_back({std::move(ways[i]), area});
+        joined[i] = true;
+      }
+      if (found.size() == before) return;
     }
-    if (found.size() == before) break;
-  }
+  };
+  // First those that are kept to the largest: the others may be joined to any of them.
+  join(kept);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) joined[i] = true;
+  join(every);
   return found;
 }
 

@@ -155,11 +155,29 @@ void closeDataset(DatasetPtr dataset, const std::string& path, const OgrErrors& 
   if (errors.failed()) failToWrite(path, errors);
 }
 
+// A CRS without a code as drivers take it unchanged. Those of GeoPackage and FlatGeobuf look for the code of a UTM zone
+// by the projection alone, whatever its unit and datum shift, unless the CRS was read from the older WKT.
+OGRSpatialReference srsForLayer(const Crs& crs) {
+  OGRSpatialReference srs = toOgr(crs);
+  OGRSpatialReference guess = srs, known, older;
+  if (!crs.authority.empty() || guess.AutoIdentifyEPSG() != OGRERR_NONE) return srs;
+  const char* const code = guess.GetAuthorityCode(nullptr);
+  if (code == nullptr || known.importFromEPSG(std::atoi(code)) != OGRERR_NONE || known.IsSame(&srs)) return srs;
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT1_GDAL", nullptr};
+  const bool exported = srs.exportToWkt(&text, options) == OGRERR_NONE;
+  const bool imported = exported && older.importFromWkt(text) == OGRERR_NONE && older.IsSame(&srs);
+  CPLFree(text);
+  if (!imported) return srs;
+  older.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return older;
+}
+
 OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const OgrWriter& writer, const Grid& grid,
                       const GridLayer& layer, const std::string& name, const OgrErrors& errors) {
   std::optional<OGRSpatialReference> srs;
   if (!grid.crs.isPlane()) {
-    srs = toOgr(grid.crs);
+    srs = srsForLayer(grid.crs);
   } else if (writer.plane_wkt != nullptr) {
     srs.emplace(writer.plane_wkt);
   }

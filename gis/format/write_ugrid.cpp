@@ -193,7 +193,11 @@ void defineNodes(UgridFile& ugrid, const Grid& grid, int nodes) {
   defineCoordinate(ugrid, grid, nodes, true);
   defineCoordinate(ugrid, grid, nodes, false);
   if (!grid.z.empty()) {
-    const auto zOf = [&grid](std::size_t n) { return std::isnan(grid.z[n]) ? kFillZ : grid.z[n]; };
+    // An elevation that happens to be the fill value would be none when read: its neighbour is as good.
+    const auto zOf = [&grid](std::size_t n) {
+      if (std::isnan(grid.z[n])) return kFillZ;
+      return grid.z[n] == kFillZ ? std::nextafter(kFillZ, 0.0) : grid.z[n];
+    };
     const int z = ugrid.dataOfEach("node_z", nodes, "node", "elevation of the nodes", "m", grid.z.size(), zOf);
     ugrid.file().attribute(z, "standard_name", "altitude");
     ugrid.file().attribute(z, "positive", "up");

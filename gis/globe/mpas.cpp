@@ -38,7 +38,7 @@ std::vector<SphereVector> cellsOf(const Grid& grid) {
 std::vector<SphereVector> verticesOf(const Grid& grid, const std::vector<SphereVector>& cells, const std::string& path,
                                      const ItemLoop& loop) {
   std::vector<SphereVector> vertices(grid.triangles.size());
-  loop(vertices.size(), [&](std::size_t t) {
+  forEachByStretches(loop, vertices.size(), [&](std::size_t t) {
     const SphereVector &a = cells[grid.triangles[t][0]], &b = cells[grid.triangles[t][1]],
                        &c = cells[grid.triangles[t][2]];
     vertices[t] =

@@ -18,7 +18,10 @@ std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop) 
 void findMissingBoundaries(Grid& grid) {
   if (!grid.boundaries.empty()) return;
   std::vector<EdgeConflict> conflicts;
-  grid.boundaries = findBoundaries(toTriMesh(grid, Projection::plane(), conflicts));
+  for (std::vector<std::uint32_t>& nodes : boundaryLoops(linkTriangles(grid.nodes, grid.triangles, conflicts))) {
+    const BoundaryRole role = roleOfLoop(grid.nodes, nodes, grid.crs);
+    grid.boundaries.push_back({role, true, std::move(nodes)});
+  }
 }
 
 std::vector<NodePair> edgesOf(const Boundary& boundary) {

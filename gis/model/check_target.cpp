@@ -88,8 +88,8 @@ class TargetCheck {
           {TargetDefectKind::WrongCount, grid_.nodes.empty() ? Point{} : grid_.nodes.front(), -1, -1, 0.0, note});
     mesh_ = linkTriangles(grid_.nodes, grid_.triangles, conflicts_);
     for (const EdgeConflict& conflict : conflicts_) add(TargetDefectKind::BrokenEdge, middle(conflict.a, conflict.b));
-    checkTriangles();
     if (mindsJumps(target_) && grid_.crs.geographic) checkJumps();
+    checkTriangles();
     checkNodes();
     checkHangingNodes();
     if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
@@ -131,18 +131,24 @@ class TargetCheck {
       } else if (target_ == Target::Fesom && neighbours < kFesomFewestNeighbours) {
         add(TargetDefectKind::OneNeighbour, middle(t), static_cast<std::int64_t>(t));
       }
+      // Near a pole no angle in degrees says anything, nor does a change of the mesh help.
+      if (target_ == Target::Swan && goes_round_) continue;
       if (const double largest = angleBeyond(grid_, target_, grid_.triangles[t]); largest > 0.0)
         add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
     }
   }
 
-  // Round a pole or the globe some triangle has to jump.
+  // Round a pole or the globe some triangle has to jump: ADCIRC has versions that take such meshes as they are.
   void checkJumps() {
-    if (!inOneTurn(grid_.nodes, grid_.triangles)) return;
     for (std::size_t t = 0; t < grid_.triangles.size(); ++t)
       if (longitudesJump(grid_.nodes, grid_.triangles[t]))
         add(TargetDefectKind::RoundTheGlobe, middle(t), static_cast<std::int64_t>(t));
+    goes_round_ = std::ranges::any_of(defects_, isJump) && !inOneTurn(grid_.nodes, grid_.triangles);
+    if (!goes_round_ || target_ != Target::Adcirc) return;
+    for (TargetDefect& defect : defects_)
+      if (isJump(defect)) defect.advice = true;
   }
+  static bool isJump(const TargetDefect& defect) { return defect.kind == TargetDefectKind::RoundTheGlobe; }
 
   void checkNodes() {
     std::vector<int> cells(grid_.nodes.size(), 0), boundary_starts(grid_.nodes.size(), 0);
@@ -280,18 +286,23 @@ class TargetCheck {
     }
   }
 
+  // TELEMAC refuses a single solid node between openings too, which is a wall of two edges: its first one is reported.
   void checkLoneWalls() {
-    const bool rivers_open = target_ == Target::Telemac;
+    const bool of_telemac = target_ == Target::Telemac;
     std::vector<bool> on_opening(grid_.nodes.size(), false);
-    const auto opens = [&](BoundaryRole role) {
-      return role == BoundaryRole::Open || (rivers_open && isOpening(role));
-    };
+    const auto opens = [&](BoundaryRole role) { return role == BoundaryRole::Open || (of_telemac && isOpening(role)); };
     for (const Boundary& boundary : grid_.boundaries)
       if (opens(boundary.role))
         for (const std::uint32_t node : boundary.nodes) on_opening[node] = true;
+    const std::vector<NodePair> edges = boundaryEdges();
+    std::vector<std::uint32_t> after(grid_.nodes.size(), kNone);
+    for (const auto& [from, to] : edges) after[from] = to;
     const EdgeKinds kinds(grid_);
-    for (const auto& [from, to] : boundaryEdges()) {
-      if (!on_opening[from] || !on_opening[to]) continue;
+    for (const auto& [from, to] : edges) {
+      if (!on_opening[from]) continue;
+      const bool ends_here = on_opening[to];
+      const bool ends_next = of_telemac && after[to] != kNone && on_opening[after[to]] && after[to] != from;
+      if (!ends_here && !ends_next) continue;
       const BoundaryKind* const kind = kinds.find(from, to);
       if (kind == nullptr || !opens(kind->role)) add(TargetDefectKind::LoneWall, middle(from, to), -1, from);
     }
@@ -327,6 +338,7 @@ class TargetCheck {
   TriMesh mesh_;
   std::vector<EdgeConflict> conflicts_;
   std::vector<TargetDefect> defects_;
+  bool goes_round_ = false;  // a pole or the globe
 };
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <numeric>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/model/fill_depths.hpp"
 #include "gis/model/sample_average.hpp"
 #include "gis/model/sample_raster.hpp"
@@ -91,22 +93,41 @@ class ValueSearch {
   std::vector<std::size_t> partial_file_;
 };
 
-// Of all nodes: so many without a value are no rim of a raster any more.
-constexpr double kManyWithout = 0.05;
+// Of all nodes, or of the area: so much without a value is no edge of a raster any more.
+constexpr double kMuchWithout = 0.05;
 
-// What to tell of nodes for which no raster has a value; empty where they are few.
+// Of the grid's area, what lies at nodes without a value: a third of each triangle at each of them.
+double shareWithout(const Grid& grid) {
+  double without = 0.0, all = 0.0;
+  for (const auto& corners : grid.triangles) {
+    const Point &a = grid.nodes[corners[0]], &b = grid.nodes[corners[1]], &c = grid.nodes[corners[2]];
+    Point ab{b.x - a.x, b.y - a.y}, ac{c.x - a.x, c.y - a.y};
+    if (grid.crs.geographic) {
+      const double narrow = std::cos((a.y + b.y + c.y) / 3.0 * std::numbers::pi / 180.0);
+      for (Point* side : {&ab, &ac}) side->x = std::remainder(side->x, 360.0) * narrow;
+    }
+    const double area = std::abs(ab.x * ac.y - ab.y * ac.x);
+    all += area;
+    for (const std::uint32_t corner : corners) without += std::isnan(grid.z[corner]) ? area / 3.0 : 0.0;
+  }
+  return all > 0.0 ? without / all : 0.0;
+}
+
+// What to report of nodes for which no raster has a value; empty where they are few and lie in little of the mesh.
 std::string gapWarning(const Grid& grid, const DepthOptions& options) {
   const auto isUnknown = [](double z) { return std::isnan(z); };
   const auto count = static_cast<std::size_t>(std::ranges::count_if(grid.z, isUnknown));
-  if (static_cast<double>(count) <= kManyWithout * static_cast<double>(grid.nodes.size())) return {};
+  if (count == 0) return {};
+  const double of_nodes = static_cast<double>(count) / static_cast<double>(grid.nodes.size());
+  const double of_area = shareWithout(grid);
+  if (std::max(of_nodes, of_area) <= kMuchWithout) return {};
   const Point& first = grid.nodes[static_cast<std::size_t>(std::ranges::find_if(grid.z, isUnknown) - grid.z.begin())];
-  char text[200];
-  std::snprintf(
-      text, sizeof text, "no raster has a value for %zu of %zu nodes (%.0f %%), the first at (%.6g, %.6g): ", count,
-      grid.nodes.size(), 100.0 * static_cast<double>(count) / static_cast<double>(grid.nodes.size()), first.x, first.y);
-  return text +
-         std::string(options.fill == DepthFill::None ? "they stay without a depth"
-                                                     : "their depths are made from other nodes, however far") +
+  char text[120];
+  std::snprintf(text, sizeof text, "no raster has a value for %zu of %zu nodes (%.0f %%, and %.0f %% of the area)",
+                count, grid.nodes.size(), 100.0 * of_nodes, 100.0 * of_area);
+  return text + (", the first at (" + roughPlaceInWords(first)) + "): " +
+         (options.fill == DepthFill::None ? "they stay without a depth"
+                                          : "their depths are made from other nodes, however far") +
          "; give another --bathymetry that covers them";
 }
 

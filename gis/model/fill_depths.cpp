@@ -36,8 +36,9 @@ Neighbours neighboursOfUnknown(const Grid& grid, const ItemLoop& loop) {
 // In metres or, in a plane, its units; near enough to tell which of two nodes is nearer.
 double distance(const Grid& grid, std::uint32_t a, std::uint32_t b) {
   const Point &p = grid.nodes[a], &q = grid.nodes[b];
-  const double scale = grid.crs.geographic ? std::cos((p.y + q.y) / 2.0 * std::numbers::pi / 180.0) : 1.0;
-  return std::hypot((p.x - q.x) * scale, p.y - q.y);
+  if (!grid.crs.geographic) return std::hypot(p.x - q.x, p.y - q.y);
+  const double scale = std::cos((p.y + q.y) / 2.0 * std::numbers::pi / 180.0);
+  return std::hypot(std::remainder(p.x - q.x, 360.0) * scale, p.y - q.y);
 }
 
 }  // namespace

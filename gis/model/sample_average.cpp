@@ -7,7 +7,7 @@
 #include <optional>
 #include <tuple>
 
-#include "gis/model/raster_tiles.hpp"
+#include "gis/model/stored_tiles.hpp"
 
 namespace coastmesh {
 namespace {
@@ -63,7 +63,7 @@ struct PixelBox {
 
 // A triangle and a tile that hold pixels in common.
 struct Overlap {
-  RasterTile tile;
+  StoredTile tile;
   std::uint32_t triangle = 0;
   std::int64_t shift = 0;  // columns to be added to the triangle's
   double sum = 0.0;        // over its pixels in the tile that have a value
@@ -143,14 +143,14 @@ class AverageSampler {
                    std::vector<Overlap>& overlaps) const {
     const PixelBox box = boxOf(corners, shift);
     if (box.left >= box.right || box.top >= box.bottom) return;
-    const RasterTile first = tileAt(raster_, box.left, box.top), last = tileAt(raster_, box.right - 1, box.bottom - 1);
+    const StoredTile first = tileAt(raster_, box.left, box.top), last = tileAt(raster_, box.right - 1, box.bottom - 1);
     for (std::int64_t row = first.row; row <= last.row; ++row)
       for (std::int64_t column = first.column; column <= last.column; ++column)
         overlaps.push_back({.tile = {row, column}, .triangle = t, .shift = shift});
   }
 
   void addTile(const RasterBand& raster, std::size_t begin, std::size_t end) {
-    const RasterTile& tile = overlaps_[begin].tile;
+    const StoredTile& tile = overlaps_[begin].tile;
     const PixelBox whole{tile.column * raster_.tileColumns(),
                          std::min((tile.column + 1) * raster_.tileColumns(), raster_.columns()),
                          tile.row * raster_.tileRows(), std::min((tile.row + 1) * raster_.tileRows(), raster_.rows())};

@@ -8,7 +8,7 @@
 
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
-#include "gis/model/raster_tiles.hpp"
+#include "gis/model/stored_tiles.hpp"
 
 namespace coastmesh {
 namespace {
@@ -57,7 +57,7 @@ RasterSample blend(const std::array<double, 4>& values, const Corner& corner) {
 
 // A place in the raster, by its number.
 struct Visit {
-  RasterTile tile;
+  StoredTile tile;
   std::size_t index = 0;
 
   friend auto operator<=>(const Visit&, const Visit&) = default;

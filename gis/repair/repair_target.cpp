@@ -23,7 +23,8 @@ constexpr int kRelaxRounds = 12;
 std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
   std::vector<FoundDefect> found;
   for (const Target target : targets)
-    for (TargetDefect& defect : checkTarget(grid, target)) found.push_back({target, std::move(defect)});
+    for (TargetDefect& defect : checkTarget(grid, target))
+      if (!defect.advice) found.push_back({target, std::move(defect)});
   if (options.time_step_s > 0.0 && !grid.z.empty())
     for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s)) found.push_back({{}, std::move(defect)});
   return found;

@@ -1,6 +1,7 @@
 #include "gis/size/size_depth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -36,12 +37,13 @@ class DepthTable {
   std::vector<double> values_;
 };
 
-// Depths with the margin, after a mean over squares three times, which is nearly a Gaussian's. NaN where nothing is
-// known.
-void smooth(std::vector<double>& depth, std::size_t width, std::size_t height, int radius) {
-  if (radius < 1) return;
-  std::vector<double> line, sums, counts;
-  const auto pass = [&](std::size_t first, std::size_t step, std::size_t count) {
+// Depths with the margin, after a mean over rectangles three times, which is nearly a Gaussian's. NaN where nothing is
+// known. `radius`: half their width and height, pixels.
+void smooth(std::vector<double>& depth, std::size_t width, std::size_t height, std::array<int, 2> radius) {
+  std::vector<double> sums, counts;
+  const auto pass = [&](std::size_t first, std::size_t step, std::size_t count, int radius_there) {
+    if (radius_there < 1) return;
+    const auto half = static_cast<std::size_t>(radius_there);
     sums.assign(count + 1, 0.0);
     counts.assign(count + 1, 0.0);
     for (std::size_t i = 0; i < count; ++i) {
@@ -51,14 +53,13 @@ void smooth(std::vector<double>& depth, std::size_t width, std::size_t height, i
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (std::isnan(depth[first + i * step])) continue;
-      const std::size_t from = i - std::min(i, static_cast<std::size_t>(radius));
-      const std::size_t to = std::min(count, i + static_cast<std::size_t>(radius) + 1);
+      const std::size_t from = i - std::min(i, half), to = std::min(count, i + half + 1);
       depth[first + i * step] = (sums[to] - sums[from]) / (counts[to] - counts[from]);
     }
   };
   for (int repeat = 0; repeat < 3; ++repeat) {
-    for (std::size_t y = 0; y < height; ++y) pass(y * width, 1, width);
-    for (std::size_t x = 0; x < width; ++x) pass(x, width, height);
+    for (std::size_t y = 0; y < height; ++y) pass(y * width, 1, width, radius[0]);
+    for (std::size_t x = 0; x < width; ++x) pass(x, width, height, radius[1]);
   }
 }
 
@@ -91,9 +92,10 @@ void applySlope(const RasterTile& tile, const DepthRules& rules, std::span<float
   std::vector<double> depth(tile.values.begin(), tile.values.end());
   for (double& d : depth) d = depthOf(d, rules);
   // Three squares of this half width even out what is shorter than the filter.
-  const int radius =
-      static_cast<int>(std::lround(rules.slope_filter_m / (4.0 * std::min(tile.pixel_m[0], tile.pixel_m[1]))));
-  smooth(depth, width, depth.size() / width, radius);
+  const auto radius = [&](int axis) {
+    return static_cast<int>(std::lround(rules.slope_filter_m / (4.0 * tile.pixel_m[static_cast<std::size_t>(axis)])));
+  };
+  smooth(depth, width, depth.size() / width, {radius(0), radius(1)});
   forEachDepth(tile, rules, [&](std::size_t pixel, int x, int y, double) {
     const std::size_t k = static_cast<std::size_t>(y + tile.margin) * width + static_cast<std::size_t>(x + tile.margin);
     const double dx = slopeBetween(depth[k - 1], depth[k], depth[k + 1], tile.pixel_m[0]);

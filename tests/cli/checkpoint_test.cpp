@@ -195,10 +195,14 @@ TEST_F(Checkpoint, AnInterruptedRunGoesOn) {
 
 TEST_F(Checkpoint, IsOfOneCommandAndInput) {
   const std::string input = lakes();
+  writeText(file("lakes.geojson.aux.xml"), "<PAMDataset/>");
   killInRounds(input);
   expectRefused(keeping(input, {"--no-coarsen"}), 2, "was begun with another --coarsen: remove the folder '");
   expectRefused(keeping(input, {"--shard", "1/2"}), 2, "was begun with another --shard");
   expectRefused(keeping(lake()), 2, "was begun with another INPUT");
+  // What belongs to the input too.
+  writeText(file("lakes.geojson.aux.xml"), "<PAMDataset></PAMDataset>");
+  expectRefused(keeping(input), 3, "lakes.geojson.aux.xml' has changed since");
   const std::string text = readText(input);
   writeText(input, text + "\n");
   expectRefused(keeping(input), 3, "lakes.geojson' has changed since");

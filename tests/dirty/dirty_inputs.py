@@ -88,7 +88,7 @@ def cases():
                (1000, 1000), (0, 1000)])], exit=None)
     yield Case("overlapping_edge_out_and_back", [polygon([(0, 0), (1000, 0), (1000, 500), (1400, 500), (1000, 500),
                (1000, 1000), (0, 1000)])], area=1e6, edits=["spike"])
-    yield Case("island_twice", [polygon(LAKE, island, island)], area=LAKE_AREA, edits=["overlapping_edge"])
+    yield Case("island_twice", [polygon(LAKE, island, island)], area=LAKE_AREA - area(island), edits=["repeated_ring"], islands=1)
     yield Case("island_in_island", [polygon(LAKE, circle(0, 0, 500, 12), circle(0, 0, 200, 9))],
                area=LAKE_AREA - area(circle(0, 0, 500, 12)) + area(circle(0, 0, 200, 9)), edits=["misplaced_ring"])
     yield Case("island_outside", [polygon(LAKE, circle(3000, 0, 100, 8))], area=LAKE_AREA + island_area,

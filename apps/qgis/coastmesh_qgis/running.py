@@ -5,7 +5,7 @@ from qgis.core import QgsBlockingProcess, QgsProcessingException
 from qgis.PyQt.QtCore import QProcess
 
 # Where each phase lies on Processing's scale of 0 to 100.
-PHASES = {"read": (0, 5), "refine": (5, 90), "write": (90, 100), "done": (100, 100)}
+PHASES = {"read": (0, 5), "refine": (5, 85), "finish": (85, 90), "write": (90, 100), "done": (100, 100)}
 SHORT = 1  # exit code: done, but the result misses a requirement
 
 

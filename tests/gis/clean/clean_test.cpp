@@ -187,6 +187,33 @@ TEST(Clean, LinesThatCloseNoRingSayHowFarTheyAreApart) {
   }
 }
 
+// Otherwise the even-odd rule would leave neither.
+TEST(Clean, RingsThatAFeatureHasTwiceCountOnce) {
+  const Ring island = square(1, 1, 2), turned{{3, 3}, {1, 3}, {1, 1}, {3, 1}}, reversed{{3, 1}, {1, 1}, {1, 3}, {3, 3}};
+  Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4), {island, turned, reversed})});
+  EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 2u);
+  EXPECT_EQ(cleaned.edits(), 2u);
+  EXPECT_EQ(cleaned.area(0), 12.0);
+  Feature twice = polygonFeature(1, square(0, 0, 4));
+  twice.polygons.push_back(twice.polygons.front());
+  cleaned = cleanInPlane({twice});
+  EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 1u);
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  // A ring traced twice without a stop, and one that touches itself where it began.
+  cleaned = cleanInPlane({polygonFeature(1, {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}})});
+  EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 1u);
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  cleaned = cleanInPlane({polygonFeature(1, {{0, 0}, {4, 0}, {4, 4}, {0, 0}, {-4, 0}, {-4, -4}})});
+  EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 0u);
+  EXPECT_EQ(cleaned.area(0), 16.0);
+  // An island that another part fills is no repetition.
+  Feature filled = polygonFeature(1, square(0, 0, 4), {island});
+  filled.polygons.push_back({island, {}});
+  cleaned = cleanInPlane({filled});
+  EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 0u);
+  EXPECT_EQ(cleaned.area(0), 16.0);
+}
+
 TEST(Clean, MisplacedRingsGoByTheEvenOddRule) {
   Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4), {square(6, 0, 2)})});
   EXPECT_EQ(cleaned.count(EditKind::MisplacedRing), 1u);

@@ -88,6 +88,29 @@ TEST(FollowSizes, AFrameThatGrazesAWaterBesideTheSeaLeavesOneWater) {
   }
 }
 
+// Two waters, each with an open boundary, and a strait between them narrower than an element: it is widened if it is not
+// far narrower, and otherwise named.
+TEST(FollowSizes, WatersThatAreBothKeptAreJoinedOrNamed) {
+  for (const double width : {0.6, 1.2}) {
+    for (const KeepWater keep : {KeepWater::All, KeepWater::Modelled, KeepWater::Open}) {
+      Domain domain = twoLakes(width);
+      for (const SegmentId s : {5u, 11u}) domain.pslg.segments[s].tag = kOpenTag;
+      CleanReport report;
+      const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
+      EXPECT_EQ(parts(coarse), width < 1.0 ? 2u : 1u);
+      EXPECT_EQ(countOf(report, EditKind::CutOffWater), 0u);
+      if (width > 1.0) {
+        EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+        continue;
+      }
+      ASSERT_EQ(report.warnings.size(), 1u);
+      EXPECT_NE(report.warnings[0].find("the water is meshed in 2 parts without a connection"), std::string::npos);
+      EXPECT_NE(report.warnings[0].find("which has an open boundary, behind water 0.6 wide at ("), std::string::npos);
+      EXPECT_NE(report.warnings[0].find("--keep-water largest"), std::string::npos);
+    }
+  }
+}
+
 // Water whose opening is too short for an element would be left without any.
 TEST(FollowSizes, AShortOpeningKeepsNoWater) {
   Domain domain = twoLakes(0.6);

@@ -186,6 +186,21 @@ TEST_P(RoundTrip, KeepsGapsInZ) {
   }
 }
 
+// The number that stands for a gap in some file is a depth like any other.
+TEST_P(RoundTrip, KeepsDepthsThatLookLikeGaps) {
+  const auto& [format, place] = GetParam();
+  Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+  for (std::size_t i = 0; i < 4; ++i) grid.z[i] = std::array{-999.0, 999.0, -9999.0, -99999.0}[i];
+  const TemporaryFolder folder;
+  const std::string path = folder / ("lakes" + endingOf(format));
+  StagedOutput output(path, format, false);
+  output.write(grid);
+  output.commit();
+  const Grid got = readGrid(path);
+  ASSERT_EQ(got.z.size(), grid.z.size());
+  for (std::size_t i = 0; i < grid.z.size(); ++i) EXPECT_NEAR(got.z[i], grid.z[i], 1e-12) << i;
+}
+
 // Bare: no z, no features, no boundaries, no angles.
 TEST_P(RoundTrip, InventsNothing) {
   const auto& [format, place] = GetParam();

@@ -65,6 +65,24 @@ TEST(KeepBoundaryEdges, TurnsThemAndDropsTheOthers) {
   EXPECT_THAT(groups[2], IsEmpty());
 }
 
+// The outer shore of a mesh whose longitudes jump at ±180, and its island.
+TEST(FindMissingBoundaries, TellsShoresFromIslandsAcrossTheAntimeridian) {
+  const TriMesh mesh = lattice(
+      5, 5, [](int i, int j) { return i != 2 || j != 2; },
+      [](int i, int j) {
+        const double x = 179.5 + 0.2 * i;
+        return Point{x > 180.0 ? x - 360.0 : x, 0.2 * j};
+      });
+  Grid grid;
+  grid.crs = parseCrs("EPSG:4326");
+  grid.nodes = mesh.points;
+  grid.triangles = cornersOf(mesh);
+  findMissingBoundaries(grid);
+  ASSERT_EQ(grid.boundaries.size(), 2u);
+  for (const Boundary& boundary : grid.boundaries)
+    EXPECT_EQ(boundary.role, boundary.nodes.size() > 10 ? BoundaryRole::Land : BoundaryRole::Island);
+}
+
 TEST(BoundaryMarker, TellsTheRole) {
   EXPECT_EQ(boundaryMarker(0, BoundaryRole::Land), 11);
   EXPECT_EQ(boundaryMarker(2, BoundaryRole::Open), 33);

@@ -316,6 +316,22 @@ TEST(CheckTarget, LoneWall) {
   }
 }
 
+// A wall of two edges has one solid node, which TELEMAC refuses between liquid ones; with three it has two.
+TEST(CheckTarget, OneSolidNodeBetweenOpenings) {
+  for (const double length : {2000.0, 3000.0}) {
+    Grid grid = soundGrid();
+    grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
+      const bool south = grid.nodes[a].y == 0.0 && grid.nodes[b].y == 0.0;
+      const double west = std::min(grid.nodes[a].x, grid.nodes[b].x);
+      const bool wall = west >= 2000.0 && west < 2000.0 + length;
+      return BoundaryKind{south && !wall ? BoundaryRole::Open : BoundaryRole::Land};
+    });
+    EXPECT_FALSE(kindsIn(grid, Target::Fvcom).contains(TargetDefectKind::LoneWall));
+    EXPECT_EQ(kindsIn(grid, Target::Telemac).contains(TargetDefectKind::LoneWall), length == 2000.0);
+    if (length == 2000.0) expectMended(grid, {Target::Telemac});
+  }
+}
+
 // A fan of `cells` triangles round an inner node, in a ring of squares that ends it.
 Grid fan(int cells) {
   Grid grid;
@@ -391,7 +407,17 @@ TEST(CheckTarget, RoundThePole) {
   grid.crs = wgs84();
   grid.nodes = {{0.0, 80.0}, {120.0, 80.0}, {-120.0, 80.0}, {0.0, 90.0}};
   grid.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  EXPECT_FALSE(kindsIn(grid, Target::Adcirc).contains(TargetDefectKind::RoundTheGlobe));
+  EXPECT_FALSE(kindsIn(grid, Target::Schism).contains(TargetDefectKind::RoundTheGlobe));
+  for (const Target target : {Target::Adcirc, Target::Telemac, Target::Swan}) {
+    std::size_t jumps = 0;
+    for (const TargetDefect& defect : checkTarget(grid, target)) {
+      if (defect.kind != TargetDefectKind::RoundTheGlobe) continue;
+      ++jumps;
+      EXPECT_EQ(defect.triangle, 1);
+      EXPECT_EQ(defect.advice, target == Target::Adcirc);
+    }
+    EXPECT_EQ(jumps, 1u);
+  }
 }
 
 // At 75 degrees north, where a degree of longitude is a quarter of one

@@ -195,6 +195,29 @@ TEST_F(Depth, GapsAreFilledAndCounted) {
   }
 }
 
+// Nodes across the antimeridian get the depth of the nearest ones, on whichever side of it they are.
+TEST_F(Depth, NearestDepthsAcrossTheAntimeridian) {
+  const auto west =
+      raster("west.tif", "EPSG:4326", {130, 200, 178.5, 11.0, 0.01}, [](double, double) { return -100.0; });
+  const auto east =
+      raster("east.tif", "EPSG:4326", {100, 200, -179.0, 11.0, 0.01}, [](double, double) { return -10.0; });
+  Grid grid = squares("EPSG:4326", {179.0, 9.5}, 0.1, 20, 10);
+  for (Point& p : grid.nodes)
+    if (p.x > 180.0) p.x -= 360.0;
+  DepthOptions options{{west, east}};
+  options.fill = DepthFill::Nearest;
+  EXPECT_GT(setDepths(grid, options).filled, 50u);
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    const double x = grid.nodes[i].x < 0.0 ? grid.nodes[i].x + 360.0 : grid.nodes[i].x;
+    if (x < 180.31) {
+      EXPECT_EQ(grid.z[i], -100.0) << x;
+    }
+    if (x > 180.49) {
+      EXPECT_EQ(grid.z[i], -10.0) << x;
+    }
+  }
+}
+
 // A raster that ends a little before the mesh does needs no words.
 TEST_F(Depth, AFewNodesWithoutAValueAreNotWarnedOf) {
   const auto most = raster("most.tif", "EPSG:4326", {200, 200, 10.0, 52.0, 0.01},

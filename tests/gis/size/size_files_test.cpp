@@ -237,6 +237,30 @@ TEST_F(SizeFiles, BumpsShorterThanTheFilterDoNotCount) {
   EXPECT_GT(sizesIn(options, domain)->at({10000.0, 5000.0}), 1500.0);
 }
 
+// Pixels twice as high as wide, and a ripple along one axis or the other: a filter evens it out alike.
+TEST_F(SizeFiles, TheSlopeFilterIsAsLongAlongBothAxes) {
+  std::array<double, 2> sizes;
+  for (const bool along_x : {true, false}) {
+    const auto ripple = [&](double column, double row) {
+      return 100.0 + 10.0 * std::sin(2.0 * std::numbers::pi * (along_x ? column / 40.0 : row / 20.0));
+    };
+    const std::string depths =
+        raster(along_x ? "x.tif" : "y.tif", 400, 200, {0.0, 50.0, 0.0, 20000.0, 0.0, -100.0}, 0, ripple);
+    SizeOptions options;
+    options.bathymetry = {depths};
+    options.depth.positive_down = true;
+    options.depth.slope_elements = 30.0;
+    options.depth.slope_filter_m = 1200.0;
+    options.least_m = 1.0;
+    options.most_m = 1e6;
+    const auto size = sizesIn(options, planeDomain(rectangle(20000.0, 20000.0)));
+    double least = 1e6;
+    for (double x = 8000.0; x < 12000.0; x += 50.0) least = std::min(least, size->at({x, x}));
+    sizes[along_x ? 0 : 1] = least;
+  }
+  EXPECT_NEAR(sizes[0] / sizes[1], 1.0, 0.15);
+}
+
 TEST_F(SizeFiles, FeaturesWithSizes) {
   std::ofstream(file("f.geojson")) << R"({"type": "FeatureCollection", "features": [
     {"type": "Feature", "properties": {"size": 0.02, "rate": 0.1}, "geometry":

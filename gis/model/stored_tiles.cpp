@@ -1,15 +1,15 @@
-#include "gis/model/raster_tiles.hpp"
+#include "gis/model/stored_tiles.hpp"
 
 #include <algorithm>
 #include <optional>
 
 namespace coastmesh {
 
-RasterTile tileAt(const RasterBand& raster, std::int64_t column, std::int64_t row) {
+StoredTile tileAt(const RasterBand& raster, std::int64_t column, std::int64_t row) {
   return {row / raster.tileRows(), column / raster.tileColumns()};
 }
 
-std::vector<std::size_t> endsOfTiles(std::size_t count, const std::function<RasterTile(std::size_t i)>& tile_of) {
+std::vector<std::size_t> endsOfTiles(std::size_t count, const std::function<StoredTile(std::size_t i)>& tile_of) {
   std::vector<std::size_t> ends;
   for (std::size_t i = 1; i < count; ++i)
     if (tile_of(i) != tile_of(i - 1)) ends.push_back(i);

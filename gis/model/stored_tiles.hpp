@@ -13,18 +13,18 @@
 namespace coastmesh {
 
 // A tile of a raster as its file stores it.
-struct RasterTile {
+struct StoredTile {
   std::int64_t row = 0;
   std::int64_t column = 0;
 
-  friend auto operator<=>(const RasterTile&, const RasterTile&) = default;
+  friend auto operator<=>(const StoredTile&, const StoredTile&) = default;
 };
 
 // The tile of a pixel.
-RasterTile tileAt(const RasterBand& raster, std::int64_t column, std::int64_t row);
+StoredTile tileAt(const RasterBand& raster, std::int64_t column, std::int64_t row);
 
 // Items in the order of their tiles: where those of each tile end. `tile_of(i)` is the tile of item i.
-std::vector<std::size_t> endsOfTiles(std::size_t count, const std::function<RasterTile(std::size_t i)>& tile_of);
+std::vector<std::size_t> endsOfTiles(std::size_t count, const std::function<StoredTile(std::size_t i)>& tile_of);
 
 // Calls `use(raster, first, last)` for the items of each tile, `first` up to `last`. If there are more items than
 // `least_items`, tiles are read at the same time by rasters of their own, since GDAL's are for one thread. Throws what
