@@ -7,8 +7,8 @@
 
 namespace coastmesh {
 
-// Sets unknown z to the mean of the known neighbours', starting from the known nodes, ring by ring. Returns the number
-// of nodes filled; connected parts of the mesh without a known node are unchanged.
+// Sets unknown z so that each is the mean of its neighbours': as smooth as a membrane between the known nodes. Returns
+// the number of nodes filled; connected parts of the mesh without a known node are unchanged.
 std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop = inOrder);
 
 // Sets them to the z of the nearest known node along the mesh's edges.

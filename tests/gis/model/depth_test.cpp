@@ -195,6 +195,20 @@ TEST_F(Depth, GapsAreFilledAndCounted) {
   }
 }
 
+// A hole in a bed that is a plane: its nodes are on the plane again, up to what the means are off.
+TEST_F(Depth, AGapIsFilledAsSmoothlyAsTheBedAroundIt) {
+  const auto holed = raster("holed.tif", "EPSG:4326", {400, 400, 10.0, 52.0, 0.005}, [](double x, double y) {
+    return std::hypot(x - 11.0, y - 51.0) < 0.4 ? kNoValue : slope(x, y);
+  });
+  Grid grid = squares("EPSG:4326", {10.1, 50.1}, 0.02, 90, 90), other = grid;
+  const DepthReport report = setDepths(grid, {{holed}});
+  EXPECT_GT(report.filled, 1000u);
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 0.02) << i;
+  setDepths(other, {{holed}}, {}, testing::backwards);
+  EXPECT_EQ(other.z, grid.z);
+}
+
 // Nodes across the antimeridian get the depth of the nearest ones, on whichever side of it they are.
 TEST_F(Depth, NearestDepthsAcrossTheAntimeridian) {
   const auto west =
