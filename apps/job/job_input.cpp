@@ -104,8 +104,11 @@ std::size_t pointsOf(const Feature& feature) {
 
 JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_(options) {
   if (options_.pslg) {
-    requireSurface();
-    takePlaneGraph(*options_.pslg, "the plane graph given");
+    const std::string name = "the plane graph given";
+    requireReadyGraph(name);
+    if (!sourcesOf(options_).empty())
+      throw OptionError(name + " defines the domain itself; leave out files, --constraints, --weirs and --regions");
+    takePlaneGraph(*options_.pslg, name);
     return;
   }
   for (const std::string& file : options_.files) {
@@ -157,28 +160,29 @@ void JobInput::bendEdges() {
                           " by more than --edge-tolerance");
 }
 
-void JobInput::readPolyFile(const std::string& path) {
-  if (sourcesOf(options_).size() > 1 || options_.frame.side != DomainSide::Auto || options_.frame.box ||
-      options_.frame.water_at) {
-    throw OptionError("'" + path +
-                      "' defines the domain itself; leave out --domain, --bbox, --clip, --water-at, --constraints, "
-                      "--weirs and --regions");
-  }
-  if (!options_.filter.layers.empty() || !options_.filter.where.empty()) {
-    throw OptionError("'" + path + "' has neither layers nor attributes; leave out --layer and --where");
-  }
+// Of a ready plane graph, which is taken as it is.
+void JobInput::requireReadyGraph(const std::string& name) {
+  if (options_.frame.side != DomainSide::Auto || options_.frame.box || options_.frame.water_at ||
+      !options_.clip.empty())
+    throw OptionError(name + " defines the domain itself; leave out --domain, --bbox, --clip and --water-at");
+  if (!options_.filter.layers.empty() || !options_.filter.where.empty())
+    throw OptionError(name + " has neither layers nor attributes; leave out --layer and --where");
   if (options_.pinches == Pinches::Open || options_.dissolve || options_.simplify_m > 0.0 ||
       options_.min_island_area_m2 > 0.0 || options_.snap_in_plane) {
-    throw OptionError("'" + path +
-                      "' is a ready plane graph and is not cleaned; leave out --pinches open, --dissolve, --simplify, "
+    throw OptionError(name +
+                      " is a ready plane graph and is not cleaned; leave out --pinches open, --dissolve, --simplify, "
                       "--min-island-area and --snap");
   }
-  if (options_.crs != "auto" && options_.crs != "plane") {
-    throw OptionError("'" + path + "' has plane coordinates already; leave out --crs, or give --crs plane");
-  }
-  if (options_.edges != EdgeLine::Plane)
-    throw OptionError("'" + path + "' has straight edges in a plane; leave out --edges");
+  if (options_.crs != "auto" && options_.crs != "plane")
+    throw OptionError(name + " has plane coordinates already; leave out --crs, or give --crs plane");
+  if (options_.edges != EdgeLine::Plane) throw OptionError(name + " has straight edges in a plane; leave out --edges");
   requireSurface();
+}
+
+void JobInput::readPolyFile(const std::string& path) {
+  requireReadyGraph("'" + path + "'");
+  if (sourcesOf(options_).size() > 1)
+    throw OptionError("'" + path + "' defines the domain itself; leave out --constraints, --weirs and --regions");
   takePlaneGraph(readPoly(path), path);
 }
 

@@ -79,6 +79,7 @@ class JobInput {
   std::optional<double> area(std::size_t group, const Domain& domain, const ItemLoop& loop = inOrder) const;
 
  private:
+  void requireReadyGraph(const std::string& name);
   void readPolyFile(const std::string& path);
   void requireSurface();
   void bendEdges();

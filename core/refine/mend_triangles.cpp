@@ -138,7 +138,12 @@ void mend(RefineRun& run, TriId t) {
   if (!isBad(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.bound)) return;
   const auto isFrozen = [&](VertexId v) { return v < run.frozen.size() && run.frozen[v]; };
   if (std::ranges::any_of(mesh.triangle(t).v, isFrozen)) return defer(run, t);
-  if (fillsCorner(run, t, mesh.triangle(t).v[shape.shortest])) return;
+  if (const VertexId corner = mesh.triangle(t).v[shape.shortest]; fillsCorner(run, t, corner)) {
+    // Nothing makes its angles better, but its sides may be longer than they may be.
+    if (isTooLong(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), shape.squared[shape.longest], run.bound))
+      splitSide(run, t, corner, t, shape.shortest);
+    return;
+  }
   // No move brings edges to the length wanted where there are too few.
   const bool is_only_long =
       run.options.size != nullptr && !isBad(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.strict);

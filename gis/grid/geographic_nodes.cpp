@@ -1,14 +1,17 @@
 #include "gis/grid/geographic_nodes.hpp"
 
-#include "gis/crs/geographic_map.hpp"
+#include "gis/crs/crs.hpp"
+#include "gis/crs/crs_map.hpp"
+#include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
 
 std::vector<Point> geographicNodes(const Grid& grid, const ItemLoop& loop) {
-  const GeographicMap map(grid.crs);
+  if (sameCrs(grid.crs, wgs84())) return grid.nodes;
+  const CrsMap map(toOgr(grid.crs), toOgr(wgs84()));
   std::vector<Point> places(grid.nodes.size());
-  forEachByStretches(loop, places.size(), [&](std::size_t i) { places[i] = asGeographic(map.forward(grid.nodes[i])); });
+  forEachByStretches(loop, places.size(), [&](std::size_t i) { places[i] = map.forward(grid.nodes[i]); });
   return places;
 }
 

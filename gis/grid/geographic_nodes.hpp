@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// The nodes in longitudes and latitudes on the ellipsoid of the grid's CRS; the same bits where they are that already.
-// REQUIRES: the grid lies in no plane.
+// The nodes in longitudes and latitudes of WGS 84, which is what formats without a CRS mean; the same bits where they
+// are that already. REQUIRES: the grid lies in no plane. Throws InputError if PROJ has no transformation.
 std::vector<Point> geographicNodes(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // The same for formats that know nothing else. Throws OutputError for a grid in a plane; `model` is whose format it is.

@@ -125,6 +125,9 @@ class ArraysTest(unittest.TestCase):
         refused(coastmesh.InputError, "nothing to mesh", [])
         refused(coastmesh.OptionError, "^min_angle: '50' is not a number in the range 0 to 45$", SQUARE, BOUNDARY, min_angle=50)
         refused(coastmesh.OptionError, "min_angle", SQUARE, BOUNDARY, min_angle=True)
+        for options in ({"bbox": (0, 0, 1, 1)}, {"clip": "nowhere.shp"}, {"crs": "EPSG:4326"}, {"layer": "a"},
+                        {"dissolve": True}, {"snap": 1.0}, {"constraints": "nowhere.shp"}, {"edges": "geodesic"}):
+            refused(coastmesh.OptionError, "the plane graph given", SQUARE, BOUNDARY, **options)
         refused(coastmesh.OptionError, "coarsen", SQUARE, BOUNDARY, coarsen="yes")
         refused(coastmesh.OptionError, "^size_max: 'nan'", SQUARE, BOUNDARY, size_max=float("nan"))
         refused(TypeError, "did you mean 'min_angle'", SQUARE, BOUNDARY, min_angel=30)

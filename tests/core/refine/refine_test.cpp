@@ -231,6 +231,20 @@ TEST(Refine, LongestEdgeHoldsTheSize) {
   }
 }
 
+// The triangle that fills an input angle too small for the bound is no longer than any other.
+TEST(Refine, LongestEdgeHoldsInSharpCorners) {
+  for (const double width : {0.02, 0.1, 0.3}) {
+    Pslg pslg;
+    pslg.points = {{0, 0}, {1, 0}, {1, width}};
+    pslg.segments = {{0, 1}, {1, 2}, {2, 0}};
+    for (const double size : {0.3, 0.05}) {
+      const Refined result = refined(pslg, {.min_angle_deg = 30.0, .size_max = size});
+      EXPECT_TRUE(result.stats.unresolved.empty()) << width << ' ' << size;
+      EXPECT_LE(measureQuality(result.mesh, 30.0).longest_edge, size) << width;
+    }
+  }
+}
+
 // A lake whose western end is an angle too small for the bound: the triangle that fills it has its base across the
 // water, and what mends the triangle beyond lies in that triangle's circumcircle. Its sides are to be split first.
 TEST(Refine, BeyondTheBaseOfATriangleThatFillsACorner) {
