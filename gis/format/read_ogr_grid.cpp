@@ -140,7 +140,7 @@ std::vector<Point> pointsOf(const std::vector<std::vector<Point>>& parts) {
   return points;
 }
 
-// The order of `ids`, which are a layer's; empty where they repeat, and then the file's order is as good.
+// The order of `ids`, which are a layer's: those that repeat stay in the file's.
 std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
   std::vector<std::uint32_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -104,7 +104,7 @@ class Mesh:
 
     @property
     def boundaries(self):
-        """Chains of points on the boundary, the mesh to their left: dicts with "role" ("land", "island", "open"),
+        """Chains of points on the boundary, the mesh to their left: dicts with "role" ("land", "island", "open", "river"),
         "closed" (the first point is not repeated) and "nodes" (uint32 array of indices of points)."""
         return self._made.boundaries
 
