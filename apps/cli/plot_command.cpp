@@ -25,9 +25,12 @@ struct PlotUsage {
   bool overwrite = false;
 };
 
-std::string storeBox(const std::vector<double>& sides, PlotOptions& plot) {
+// An east below the west lies across the antimeridian, as for the domain.
+std::string storeBox(std::vector<double> sides, PlotOptions& plot) {
+  constexpr double kHalfTurn = 180.0;
   plot.bbox.reset();
   if (sides.empty()) return {};
+  if (sides[0] > sides[2] && sides[0] <= kHalfTurn && sides[2] >= -kHalfTurn) sides[2] += 2.0 * kHalfTurn;
   const bool finite = std::ranges::all_of(sides, [](double side) { return std::isfinite(side); });
   if (!finite || sides[0] >= sides[2] || sides[1] >= sides[3]) return "is not W,S,E,N with W below E and S below N";
   plot.bbox = {sides[0], sides[1], sides[2], sides[3]};

@@ -36,6 +36,16 @@ std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes
   return text;
 }
 
+// Edges so short that the requirement is missed: they cause the exit code.
+std::string missedText(const StepOutcome& outcome, const SizeOptions& sizes) {
+  if (!outcome.least_missed) return {};
+  const auto missed = std::ranges::count_if(outcome.below_least, [&](const ShortEdge& edge) {
+    return edge.length_m < StepOutcome::kShareOfLeast * sizes.least_m;
+  });
+  return ", " + std::to_string(missed) + " of them shorter than " + amount("%g", StepOutcome::kShareOfLeast) +
+         " times it (exit code 1)";
+}
+
 std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOptions& sizes) {
   const std::vector<ShortStep>& below_step = outcome.below_step;
   const std::vector<ShortEdge>& below_least = outcome.below_least;
@@ -49,9 +59,9 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
   }
   if (!below_least.empty()) {
     all.push_back("edges shorter than " + amount("%g", StepOutcome::kUsualShare) + " times --size-min " +
-                  amount("%g", sizes.least_m) + ": " + std::to_string(below_least.size()) + ", the shortest of " +
-                  amount("%.4g m at ", below_least.front().length_m) + pointText(below_least.front().place) + ": " +
-                  causesText(below_least, sizes));
+                  amount("%g", sizes.least_m) + ": " + std::to_string(below_least.size()) + missedText(outcome, sizes) +
+                  ", the shortest of " + amount("%.4g m at ", below_least.front().length_m) +
+                  pointText(below_least.front().place) + ": " + causesText(below_least, sizes));
   }
   return all;
 }

@@ -16,6 +16,11 @@ namespace {
 // in a .prj; depth positive down. `path` may name either file. Throws OutputError, also where a depth is unknown.
 void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
+  if (grid.crs.isPlane() && path.ends_with(".ll"))
+    throw OutputError(
+        "cannot write '" + path +
+        "': it holds longitudes and latitudes, and the mesh lies in a plane; write a .gr3, or say its CRS "
+        "with --crs");
   TextWriter gr3(withEnding(path, ".gr3"));
   writeFort14(gr3, grid, grid.nodes, Fort14Kind::Schism, loop);
   gr3.close();
