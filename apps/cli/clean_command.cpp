@@ -19,7 +19,7 @@
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/poly_io.hpp"
-#include "gis/model/assign_boundaries.hpp"
+#include "gis/model/boundary_rules.hpp"
 #include "parallel/workers.hpp"
 
 namespace coastmesh {
@@ -28,7 +28,6 @@ namespace {
 
 struct CleanUsage {
   InputOptions input;
-  std::string boundary_column;
   std::string output;
   std::string report;
   bool overwrite = false;
@@ -99,24 +98,27 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
   return cleaned;
 }
 
-// What the input's column says of the segments of the boundary, by domain; empty where nothing is said.
+// What the input says of the segments of the boundary, by domain; empty where nothing is said.
 BoundaryTypes boundaryTypes(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned) {
   BoundaryTypes types;
-  if (usage.boundary_column.empty() && !input.report().boundary_types) return types;
+  if (usage.input.boundary_column.empty() && input.boundaries().empty()) return types;
+  std::vector<Point> places;
+  std::vector<NodePair> edges;
+  std::vector<std::string*> texts;  // of each edge
   for (const Domain& domain : cleaned.domains) {
-    std::vector<NodePair> edges;
-    std::vector<std::size_t> segments;
+    const auto first = static_cast<std::uint32_t>(places.size());
+    places.insert(places.end(), domain.input_points.begin(), domain.input_points.end());
+    std::vector<std::string>& of_domain = types.emplace_back(domain.pslg.segments.size());
     for (std::size_t s = 0; s < domain.pslg.segments.size(); ++s) {
       const Segment& segment = domain.pslg.segments[s];
       if ((segment.left < 0) == (segment.right < 0)) continue;
-      edges.push_back({segment.a, segment.b});
-      segments.push_back(s);
+      edges.push_back({first + segment.a, first + segment.b});
+      texts.push_back(&of_domain[s]);
     }
-    const std::vector<std::string> texts =
-        boundaryTexts(input.coastline().crs, domain.input_points, edges, usage.input.files, usage.boundary_column);
-    std::vector<std::string>& of_domain = types.emplace_back(domain.pslg.segments.size());
-    for (std::size_t i = 0; i < segments.size(); ++i) of_domain[segments[i]] = texts[i];
   }
+  const auto kinds = input.boundaries().kindsOf(input.coastline().crs, places, edges, std::vector(edges.size(), true));
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (kinds[e]) *texts[e] = textOfKind(*kinds[e]);
   return types;
 }
 
@@ -183,7 +185,7 @@ void printReport(const CleanUsage& usage, const CleanedInput& cleaned) {
 
 int runClean(const CleanUsage& usage, Run& run) {
   const bool poly = std::filesystem::path(usage.output).extension() == ".poly";
-  if (poly && !usage.boundary_column.empty())
+  if (poly && !usage.input.boundary_column.empty())
     throw OptionError("--boundary-column: '" + usage.output + "' cannot hold types of boundaries; write a .gpkg");
   if (!poly) requireVectorFormat(usage.output, 2);
   RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
@@ -230,7 +232,7 @@ Command declareClean(CLI::App& root) {
   declareSurface(table, usage->input.surface);
   declarePinches(table, usage->input);
   table.section(Section::Boundaries);
-  table.text({"--boundary-column", "Column of boundary types"}, usage->boundary_column, "NAME",
+  table.text({"--boundary-column", "Column of boundary types"}, usage->input.boundary_column, "NAME",
              "column of INPUT with the boundary types, which the layer pslg keeps for meshing");
   table.section(Section::Output);
   table.output({"--report", "Report"}, usage->report, {.standard_output = true},

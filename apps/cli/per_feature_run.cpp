@@ -189,11 +189,9 @@ class Shares {
 
 // Whether its jobs read files, which they can only one after another.
 bool readsFiles(const MeshJob& job) {
-  const BoundaryOptions& boundaries = job.finish.boundaries;
   const SizeOptions& sizes = job.sizes;
-  return !job.finish.depth.files.empty() || !boundaries.files.empty() || !boundaries.inputs.empty() ||
-         !sizes.features.empty() || !sizes.rasters.empty() || !sizes.bathymetry.empty() || !sizes.passages.empty() ||
-         !sizes.barriers.empty();
+  return !job.finish.depth.files.empty() || !sizes.features.empty() || !sizes.rasters.empty() ||
+         !sizes.bathymetry.empty() || !sizes.passages.empty() || !sizes.barriers.empty();
 }
 
 // Meshes and writes features; each call is for another one, from any thread.
@@ -314,14 +312,15 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
   ReadReport read;
   PerFeatureTimes seconds;
   display.show("read", 0.0);
-  const Coastline coastline = readInput(usage.mesh.job.input, read);
+  MeshJob job = usage.mesh.job;
+  BoundaryOptions& boundaries = job.finish.boundaries;
+  const Coastline coastline = readInput(job.input, read, boundaries.of_input);
   std::vector<Planned> planned = plan(usage, coastline, run);
+  boundaries.of_files = readBoundaryFiles(boundaries);
   seconds.read = whole.seconds();
   run.interrupt.check();
   display.show("read", 1.0);
 
-  MeshJob job = usage.mesh.job;
-  if (read.boundary_types) job.finish.boundaries.inputs = job.input.files;
   Shares shares(planned, display);
   Maker maker(usage, coastline, job, partition, run, shares, cancelled);
   std::vector<std::size_t> order;  // the large ones first

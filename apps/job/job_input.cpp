@@ -11,6 +11,7 @@
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/poly_io.hpp"
+#include "gis/read/raw_layer.hpp"
 
 namespace coastmesh {
 
@@ -86,8 +87,14 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
 
 }  // namespace
 
-Coastline readInput(const InputOptions& options, ReadReport& report) {
-  Coastline coastline = readCoastline(sourcesOf(options), options.filter, report);
+bool isPlaneGraph(const InputOptions& options) {
+  return options.pslg || (!options.files.empty() && isPolyFile(options.files.front()));
+}
+
+Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries) {
+  Coastline coastline =
+      readCoastline(sourcesOf(options), options.filter, report,
+                    [&](const std::vector<RawLayer>& layers) { boundaries.addInput(layers, options.boundary_column); });
   if (options.crs == "plane") forgetImpossibleCrs(coastline, report);
   return coastline;
 }
@@ -131,7 +138,7 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   } else if (globe && sourcesOf(options_).empty()) {
     coastline_.crs = wgs84();
   } else {
-    coastline_ = readInput(options_, report_);
+    coastline_ = readInput(options_, report_, boundaries_);
   }
   if ((globe || options_.frame.side == DomainSide::Ocean) && !coastline_.crs.geographic)
     throw InputError("--domain " + nameOfUnframed(options_.frame.side) +
@@ -167,6 +174,7 @@ void JobInput::requireReadyGraph(const std::string& name) {
     throw OptionError(name + " defines the domain itself; leave out --domain, --bbox, --clip and --water-at");
   if (!options_.filter.layers.empty() || !options_.filter.where.empty())
     throw OptionError(name + " has neither layers nor attributes; leave out --layer and --where");
+  if (!options_.boundary_column.empty()) throw OptionError(name + " has no columns; leave out --boundary-column");
   if (options_.pinches == Pinches::Open || options_.dissolve || options_.simplify_m > 0.0 ||
       options_.min_island_area_m2 > 0.0 || options_.snap_in_plane) {
     throw OptionError(name +
@@ -191,7 +199,7 @@ void JobInput::requireSurface() {
   SurfaceChoice& surface = options_.surface;
   if (!surface.needsEarth()) return;
   std::string plane;
-  if (options_.pslg || (!options_.files.empty() && isPolyFile(options_.files.front()))) {
+  if (isPlaneGraph(options_)) {
     plane = "a ready plane graph has no place on Earth";
   } else if (options_.crs == "plane") {
     plane = "--crs plane takes coordinates as they are";

@@ -9,6 +9,7 @@
 #include "gis/clean/clean.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/frame.hpp"
+#include "gis/model/boundary_rules.hpp"
 #include "gis/projection/projection.hpp"
 #include "gis/read/read_coastline.hpp"
 
@@ -28,6 +29,7 @@ struct InputOptions {
   std::shared_ptr<const Pslg> pslg{};        // instead of files: a ready plane graph, not to be cleaned
   std::shared_ptr<const Coastline> ready{};  // instead of files: features read by `readInput`
   ReadFilter filter{};                       // what of the files is read
+  std::string boundary_column{};             // their column of boundary types; empty: only what `clean` kept counts
   FrameOptions frame{};                      // the limits of the domain besides the shores
   std::string clip{};                        // a file of polygons that limit it, instead of `frame.box`; empty: none
   std::vector<std::string> constraints{};    // files of lines and points that become edges and vertices
@@ -45,8 +47,12 @@ struct InputOptions {
   double min_island_area_m2 = 0.0;           // square metres, 0 or more
 };
 
-// Reads all the files of `options`, which must not be a .poly. Throws OptionError, InputError.
-Coastline readInput(const InputOptions& options, ReadReport& report);
+// Whether the input is a plane graph, which has no features: `pslg` or a .poly.
+bool isPlaneGraph(const InputOptions& options);
+
+// Reads all the files of `options`, which must not be a .poly, once; what `files` define about boundaries is added to
+// `boundaries`. Throws OptionError, InputError.
+Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries);
 
 // The number of points of its rings and lines: a measure of the work.
 std::size_t pointsOf(const Feature& feature);
@@ -59,6 +65,8 @@ class JobInput {
 
   const Coastline& coastline() const { return coastline_; }
   const ReadReport& report() const { return report_; }
+  // What the files define about boundaries; empty for features that were read already.
+  const BoundaryRules& boundaries() const { return boundaries_; }
   bool isPoly() const { return poly_.has_value(); }
   std::size_t groups() const { return groups_.size(); }
   const std::vector<std::size_t>& members(std::size_t group) const { return groups_[group]; }
@@ -88,6 +96,7 @@ class JobInput {
   InputOptions options_;
   Coastline coastline_;
   ReadReport report_;
+  BoundaryRules boundaries_;
   std::vector<std::vector<std::size_t>> groups_;
   std::optional<Pslg> poly_;
   std::optional<Projection> chosen_;  // if the user chose one; the same for all groups

@@ -318,6 +318,9 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.read = input.report();
   result.read.notes.insert(result.read.notes.begin(), job.notes.begin(), job.notes.end());
   result.crs = input.coastline().crs;
+  FinishOptions finish = job.finish;
+  if (finish.boundaries.of_input.empty()) finish.boundaries.of_input = input.boundaries();
+  if (!finish.boundaries.of_files) finish.boundaries.of_files = readBoundaryFiles(finish.boundaries);
   SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
   RasterHelpers rasters(job.mesh.helpers, RunControl{control.cancelled, {}});
   sizes.readers = rasters.readers();
@@ -373,9 +376,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   }
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   result.log.append(recorder.finish("grid"));
-  FinishOptions finish = job.finish;
   finish.depth.readers = rasters.pixelReaders();
-  if (result.read.boundary_types) finish.boundaries.inputs = job.input.files;
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg};
   if (finish.any()) {

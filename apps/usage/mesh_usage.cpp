@@ -109,7 +109,9 @@ void settle(MeshUsage& usage) {
   chooseLargestAngle(usage);
   // The classical algorithms are there to compare with: they insert what their papers say.
   if (!usage.coarsen_given) usage.job.mesh.coarsen = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
-  if (!usage.job.finish.boundaries.column.empty()) usage.job.finish.boundaries.inputs = usage.job.input.files;
+  const BoundaryOptions& boundaries = usage.job.finish.boundaries;
+  // Beside a plane graph, which has no columns, that of the files alone is meant.
+  if (boundaries.files.empty() || !isPlaneGraph(usage.job.input)) usage.job.input.boundary_column = boundaries.column;
   usage.job.mesh.one_piece = !usage.cut;
   usage.job.parallel.threads = static_cast<int>(usage.threads);
 }

@@ -267,7 +267,6 @@ std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, ReadR
       layer.lines.push_back({std::move(ring.points), 0});
     }
     for (JoinedLines::Part& part : joined.open) layer.lines.push_back({std::move(part.points), 0});
-    report.boundary_types = true;
   }
   if (!cleaned.alone.empty()) {
     RawLayer& layer = add(FeatureUse::Constraint);

@@ -165,12 +165,15 @@ Coastline readCoastline(const std::vector<std::string>& paths, ReadReport& repor
   return readCoastline(sources, {}, report);
 }
 
-Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report) {
+Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report,
+                        const SeeLayers& see_areas) {
   if (sources.empty()) throw InputError("no input was given: name at least one vector source");
   std::vector<RawLayer> layers;
   for (const Source& source : sources) {
-    const ReadFilter& own_filter = source.use == FeatureUse::Area ? filter : ReadFilter{};
-    for (RawLayer& layer : readLayers(source, own_filter, report))
+    const bool is_area = source.use == FeatureUse::Area;
+    std::vector<RawLayer> of_source = readLayers(source, is_area ? filter : ReadFilter{}, report);
+    if (is_area && see_areas) see_areas(of_source);
+    for (RawLayer& layer : of_source)
       if (layer.use != FeatureUse::Boundary) layers.push_back(std::move(layer));
   }
   Coastline coastline;

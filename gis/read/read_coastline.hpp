@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,11 @@
 #include "gis/read/source.hpp"
 
 namespace coastmesh {
+
+struct RawLayer;
+
+// Sees the layers of a source as they are in the file, in their own CRS, with those of FeatureUse::Boundary.
+using SeeLayers = std::function<void(const std::vector<RawLayer>& layers)>;
 
 // Reads every vector layer of every source that OGR opens, in their order. Z and M are dropped, curves
 // become straight pieces. A file that is one bare geometry (such as a GeoJSON GeometryCollection)
@@ -21,8 +27,10 @@ namespace coastmesh {
 // polygon or line in it, a coordinate that is not finite (with feature and vertex), incompatible CRS,
 // a layer or field that does not exist. Sources of another use than Area provide their polygons
 // (Frame, Region), lines (Weir) or lines and points (Constraint); closed lines are polygons of a
-// frame.
-Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report);
+// frame. `see_areas` is called for each source with FeatureUse::Area, for what else its features define: a stream
+// cannot be read a second time.
+Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report,
+                        const SeeLayers& see_areas = {});
 Coastline readCoastline(const std::vector<std::string>& sources, ReadReport& report);
 
 }  // namespace coastmesh

@@ -25,7 +25,6 @@ struct ReadReport {
   std::uint64_t beyond_frame = 0;    // features excluded by framing: see `frameCoastline`
   std::uint64_t unclosed_rings = 0;  // rings of polygons whose last point is not the first; they were closed
   bool cleaned = false;              // a source was written by `coastmesh clean`
-  bool boundary_types = false;       // and has boundary types: see FeatureUse::Boundary
   std::vector<EarlierEdit> edits;
   std::vector<std::string> warnings;
   std::vector<std::string> notes;  // decisions where the input was ambiguous

@@ -18,6 +18,7 @@
 #include "gis/grid/grid.hpp"
 #include "gis/grid/grid_parts.hpp"
 #include "gis/model/assign_boundaries.hpp"
+#include "gis/model/boundary_rules.hpp"
 #include "gis/model/check_target.hpp"
 #include "gis/model/depth.hpp"
 #include "gis/model/target.hpp"
@@ -164,6 +165,20 @@ TEST_F(GisGridExamples, AssignBoundaries) {
   //! [gis/model/assign_boundaries.hpp]
   EXPECT_EQ(report.edges_by_depth, 4u);
   EXPECT_TRUE(std::ranges::any_of(grid.boundaries, [](const Boundary& b) { return b.role == BoundaryRole::Open; }));
+}
+
+// gis/model/boundary_rules.hpp: Types of the boundary from polygons and lines, read once for any number of grids.
+TEST_F(GisGridExamples, BoundaryRules) {
+  reference::WorkFolder::write("types.geojson", R"({"type": "Feature", "properties": {"type": "tidal"}, "geometry":
+      {"type": "LineString", "coordinates": [[0, 0], [10, 0]]}})");
+  //! [gis/model/boundary_rules.hpp]
+  const BoundaryRules rules = BoundaryRules::ofFile("types.geojson", "type");
+  const std::vector<Point> places{{1, 0}, {2, 0}, {2, 1}};
+  const auto kinds = rules.kindsOf(wgs84(), places, {{0, 1}, {1, 2}}, {true, true});
+  //! [gis/model/boundary_rules.hpp]
+  ASSERT_TRUE(kinds[0].has_value());
+  EXPECT_EQ(textOfKind(*kinds[0]), "open");
+  EXPECT_FALSE(kinds[1].has_value());
   EXPECT_EQ(kindOfText("tidal", "column type").role, BoundaryRole::Open);
 }
 

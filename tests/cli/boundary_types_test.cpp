@@ -1,0 +1,190 @@
+// Types of the boundary that the input itself defines, or files beside it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+using Roles = std::map<std::string, int>;  // number of edges of each role
+
+Json feature(const Json& properties, const std::string& type, const Json& coordinates) {
+  return {
+      {"type", "Feature"}, {"properties", properties}, {"geometry", {{"type", type}, {"coordinates", coordinates}}}};
+}
+
+// A rectangle of some 6 km.
+Json lakeAt(double west, const Json& properties) {
+  const Json ring = {{west, 50.0}, {west + 0.1, 50.0}, {west + 0.1, 50.05}, {west, 50.05}, {west, 50.0}};
+  return feature(properties, "Polygon", Json::array({ring}));
+}
+
+// Along its southern shore.
+Json southOf(double west, const Json& properties) {
+  return feature(properties, "LineString", {{west, 50.0}, {west + 0.1, 50.0}});
+}
+
+// Along its western shore.
+Json westOf(double west, const Json& properties) {
+  return feature(properties, "LineString", {{west, 50.0}, {west, 50.05}});
+}
+
+class BoundaryTypes : public ProgramTest {
+ protected:
+  std::string put(const std::string& name, const Json& features) const {
+    return write(name, Json{{"type", "FeatureCollection"}, {"features", features}}.dump());
+  }
+  // A lake, and a line along its southern shore that opens it.
+  std::string lakeWithLine() const {
+    return put("lake.geojson", {lakeAt(5, {{"status", "new"}}), southOf(5, {{"status", "old"}, {"type", "open"}})});
+  }
+  void done(const std::vector<std::string>& arguments) const { expectDone(runProgram(arguments)); }
+  void doneInShell(const std::string& script) const { expectDone(runShell("cd '" + file("") + "' && " + script)); }
+
+  Roles rolesIn(const std::string& mesh) const {
+    done({"convert", file(mesh), "-o", file("roles.geojson"), "--overwrite", "--quiet"});
+    Roles roles;
+    const Json boundaries = Json::parse(readText(file("roles_boundaries.geojson")));
+    for (const Json& boundary : boundaries["features"])
+      roles[boundary["properties"]["role"]] += static_cast<int>(boundary["geometry"]["coordinates"].size()) - 1;
+    return roles;
+  }
+
+ private:
+  static void expectDone(const ProgramRun& run) {
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_EQ(run.errors, "");
+  }
+};
+
+TEST_F(BoundaryTypes, WhatIsFilteredOutDefinesNothing) {
+  const std::string input = lakeWithLine();
+  const std::vector<std::string> options{"--boundary-column", "type", "--overwrite", "--quiet"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    done(arguments);
+  };
+  run({"mesh", input, "-o", file("all.gpkg")});
+  EXPECT_EQ(rolesIn("all.gpkg").count("open"), 1u);
+  run({"mesh", input, "-o", file("new.gpkg"), "--where", "status='new'"});
+  EXPECT_EQ(rolesIn("new.gpkg").count("open"), 0u);
+  run({"clean", input, "-o", file("cleaned.gpkg"), "--where", "status='new'"});
+  done({"mesh", file("cleaned.gpkg"), "-o", file("then.gpkg"), "--quiet"});
+  EXPECT_EQ(rolesIn("then.gpkg").count("open"), 0u);
+  run({"mesh", input, "--per-feature", "-o", file("one-{}.gpkg"), "--where", "status='new'"});
+  EXPECT_EQ(rolesIn("one-0.gpkg").count("open"), 0u);
+}
+
+TEST_F(BoundaryTypes, LayersThatAreLeftOutDefineNothing) {
+  put("lake.geojson", Json::array({lakeAt(5, {{"type", "land"}})}));
+  put("mouth.geojson", Json::array({southOf(5, {{"type", "open"}})}));
+  std::string layers;
+  for (const std::string name : {"lake", "mouth"})
+    layers += "<OGRVRTLayer name='" + name + "'><SrcDataSource relativeToVRT='1'>" + name +
+              ".geojson</SrcDataSource></OGRVRTLayer>";
+  const std::string both = write("both.vrt", "<OGRVRTDataSource>" + layers + "</OGRVRTDataSource>");
+  const std::vector<std::string> options{"--boundary-column", "type", "--overwrite", "--quiet", "-o", file("a.gpkg")};
+  for (const std::size_t open : {1u, 0u}) {
+    std::vector<std::string> arguments{"mesh", both};
+    if (open == 0) arguments.insert(arguments.end(), {"--layer", "lake"});
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    done(arguments);
+    EXPECT_EQ(rolesIn("a.gpkg").count("open"), open);
+  }
+}
+
+TEST_F(BoundaryTypes, TheFilterIsNotForFilesOfBoundaries) {
+  const std::string input = lakeWithLine();
+  const std::string types = put("types.geojson", Json::array({westOf(5, {{"type", "river"}})}));
+  done({"mesh", input, "-o", file("a.gpkg"), "--where", "status='new'", "--boundaries", types, "--quiet"});
+  const Roles roles = rolesIn("a.gpkg");
+  EXPECT_EQ(roles.count("river"), 1u);
+  EXPECT_EQ(roles.count("open"), 0u);
+}
+
+// It can be read only once.
+TEST_F(BoundaryTypes, StandardInputAndPipesDefineThemToo) {
+  lakeWithLine();
+  const std::string options = " --boundary-column type --quiet --overwrite ";
+  doneInShell("\"$0\" mesh lake.geojson -o mesh.nc" + options);
+  EXPECT_EQ(rolesIn("mesh.nc").count("open"), 1u);
+  const std::string mesh = readText(file("mesh.nc"));
+  doneInShell("\"$0\" mesh - -o mesh.nc" + options + "< lake.geojson");
+  EXPECT_TRUE(readText(file("mesh.nc")) == mesh);
+  doneInShell("mkfifo pipe && (cat lake.geojson > pipe & \"$0\" mesh pipe -o mesh.nc" + options + ")");
+  EXPECT_TRUE(readText(file("mesh.nc")) == mesh);
+  doneInShell("\"$0\" mesh - --per-feature -o mesh-{}.gpkg" + options + "< lake.geojson");
+  EXPECT_EQ(rolesIn("mesh-0.gpkg"), rolesIn("mesh.nc"));
+  doneInShell("\"$0\" clean - -o cleaned.gpkg" + options + "< lake.geojson");
+  doneInShell("\"$0\" mesh cleaned.gpkg -o mesh.nc --quiet --overwrite");
+  EXPECT_EQ(rolesIn("mesh.nc").count("open"), 1u);
+  const std::string then = readText(file("mesh.nc"));
+  doneInShell("\"$0\" mesh - -o mesh.nc --quiet --overwrite < cleaned.gpkg");
+  EXPECT_TRUE(readText(file("mesh.nc")) == then);
+  doneInShell("\"$0\" clean - -o again.gpkg --quiet < cleaned.gpkg");
+  EXPECT_TRUE(readText(file("again.gpkg")) == readText(file("cleaned.gpkg")));
+}
+
+// What cannot be used is said before a long job has begun.
+TEST_F(BoundaryTypes, AnUnknownTypeIsRefusedBeforeMeshing) {
+  const std::string input = put("lake.geojson", Json::array({lakeAt(5, {{"type", "reed"}})}));
+  const std::string types = put("types.geojson", Json::array({lakeAt(5, {{"type", "reed"}})}));
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--boundary-column", "type"}, {"--boundaries", types}}) {
+    std::vector<std::string> arguments{"mesh", input, "-o", file("a.nc"), "--progress", "json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 3);
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr("\"reed\" is not a type of boundary"));
+    EXPECT_THAT(run.output, Not(HasSubstr("refine")));
+  }
+}
+
+TEST_F(BoundaryTypes, EachFeatureHasItsOwnForAnyNumberOfThreads) {
+  Json lakes = Json::array();
+  for (int i = 0; i < 6; ++i) {
+    const double west = 5.0 + i;
+    lakes.push_back(lakeAt(west, {{"type", i % 2 == 0 ? "river" : "10"}}));
+    lakes.push_back(southOf(west, {{"type", "open"}}));
+  }
+  const std::string input = put("lakes.geojson", lakes);
+  const std::string types = put("types.geojson", Json::array({westOf(7, {{"type", "river"}})}));
+  for (const std::string threads : {"1", "4"})
+    EXPECT_EQ(runProgram({"mesh", input, "--per-feature", "--boundary-column", "type", "--boundaries", types, "-o",
+                          file("lake-{}-" + threads + ".gpkg"), "--threads", threads, "--quiet"})
+                  .code,
+              0);
+  for (int i = 0; i < 6; ++i) {
+    const std::string name = "lake-" + std::to_string(2 * i);
+    EXPECT_TRUE(readText(file(name + "-1.gpkg")) == readText(file(name + "-4.gpkg"))) << name;
+    const Roles roles = rolesIn(name + "-4.gpkg");
+    EXPECT_EQ(roles.count("open"), 1u) << name;
+    EXPECT_EQ(roles.count("river"), i % 2 == 0 ? 1u : 0u) << name;
+  }
+}
+
+TEST_F(BoundaryTypes, APlaneGraphHasNoColumn) {
+  done({"clean", put("lake.geojson", Json::array({lakeAt(5, Json::object())})), "-o", file("lake.poly"), "--quiet"});
+  for (const std::string command : {"mesh", "clean"}) {
+    const ProgramRun run = runProgram({command, file("lake.poly"), "--boundary-column", "type", "-o", file("a.gpkg")});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.errors, HasSubstr("leave out --boundary-column"));
+  }
+  // Beside it the column is that of the files.
+  const std::string types = put("types.geojson", Json::array({lakeAt(5, {{"side", "open"}})}));
+  const ProgramRun run = runProgram(
+      {"mesh", file("lake.poly"), "--boundaries", types, "--boundary-column", "side", "-o", file("a.nc"), "--quiet"});
+  EXPECT_EQ(run.code, 0) << run.errors;
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test
