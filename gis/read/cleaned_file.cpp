@@ -12,6 +12,7 @@
 #include "gis/coast/nest_rings.hpp"
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/error.hpp"
+#include "gis/read/ogr_geometry.hpp"
 
 namespace coastmesh {
 
@@ -93,17 +94,30 @@ std::int64_t wholeOf(const OGRFeature& row, const char* field) {
 }
 std::string textOf(const OGRFeature& row, const char* field) { return row.GetFieldAsString(row.GetFieldIndex(field)); }
 
-std::vector<Point> pointsOf(const OGRSimpleCurve& chain) {
-  std::vector<Point> points;
-  for (int i = 0; i < chain.getNumPoints(); ++i) points.push_back({chain.getX(i), chain.getY(i)});
-  return points;
-}
+// Reads the rows of layers with shapes of one type.
+class ShapeReader {
+ public:
+  ShapeReader(std::string source, ReadReport& report) : source_(std::move(source)), report_(report) {}
 
-// The row's shape, null where it is of another type.
-const OGRGeometry* shapeOf(const OGRFeature& row, OGRwkbGeometryType type) {
-  const OGRGeometry* geometry = row.GetGeometryRef();
-  return geometry && wkbFlatten(geometry->getGeometryType()) == type ? geometry : nullptr;
-}
+  // The row's shape; no parts where it is of another type, or there is none.
+  GeometryParts shapeOf(const OGRFeature& row, OGRwkbGeometryType type) const {
+    GeometryParts parts;
+    const OGRGeometry* geometry = row.GetGeometryRef();
+    if (!geometry || geometry->IsEmpty()) {
+      ++report_.skipped_empty;
+    } else if (wkbFlatten(geometry->getGeometryType()) == type) {
+      takeApart(*geometry, source_ + "|" + row.GetDefnRef()->GetName() + ", feature " + std::to_string(row.GetFID()),
+                parts);
+    }
+    return parts;
+  }
+
+  ReadReport& report() const { return report_; }
+
+ private:
+  std::string source_;
+  ReadReport& report_;
+};
 
 void takeFeatures(OGRLayer* features, OGRLayer* attributes, Cleaned& cleaned) {
   forEachRow(features, [&](const OGRFeature& row) {
@@ -125,14 +139,13 @@ std::optional<FeatureUse> useOfKind(std::string_view kind) {
   return kind == "region" ? std::optional(FeatureUse::Region) : std::nullopt;
 }
 
-void takeEdges(OGRLayer* layer, Cleaned& cleaned, ReadReport& report) {
+void takeEdges(OGRLayer* layer, const ShapeReader& shapes, Cleaned& cleaned) {
   forEachRow(layer, [&](const OGRFeature& row) {
-    const OGRGeometry* const geometry = shapeOf(row, wkbLineString);
-    if (!geometry) return;
-    std::vector<Point> points = pointsOf(*geometry->toLineString());
-    if (points.size() < 2) return;
+    GeometryParts parts = shapes.shapeOf(row, wkbLineString);
+    if (parts.lines.empty() || parts.lines.front().size() < 2) return;
+    std::vector<Point> points = std::move(parts.lines.front());
     for (const Point& p : points) cleaned.bounds.add(p);
-    report.points += points.size();
+    shapes.report().points += points.size();
     const std::int64_t part = wholeOf(row, "region");
     cleaned.vertices[part].emplace(wholeOf(row, "first"), points.front());
     cleaned.vertices[part].emplace(wholeOf(row, "last"), points.back());
@@ -151,48 +164,35 @@ void takeEdges(OGRLayer* layer, Cleaned& cleaned, ReadReport& report) {
   });
 }
 
-void takeVertices(OGRLayer* layer, Cleaned& cleaned) {
+void takeVertices(OGRLayer* layer, const ShapeReader& shapes, Cleaned& cleaned) {
   forEachRow(layer, [&](const OGRFeature& row) {
-    const OGRGeometry* const geometry = shapeOf(row, wkbPoint);
-    if (!geometry) return;
-    cleaned.alone.push_back({geometry->toPoint()->getX(), geometry->toPoint()->getY()});
-    cleaned.bounds.add(cleaned.alone.back());
-    cleaned.vertices[wholeOf(row, "region")].emplace(wholeOf(row, "number"), cleaned.alone.back());
+    for (const Point& p : shapes.shapeOf(row, wkbPoint).points) {
+      cleaned.alone.push_back(p);
+      cleaned.bounds.add(p);
+      cleaned.vertices[wholeOf(row, "region")].emplace(wholeOf(row, "number"), p);
+    }
   });
 }
 
-void takeRegions(OGRLayer* layer, Cleaned& cleaned) {
-  const auto ringOf = [](const OGRLinearRing& ring) {
-    Ring points = pointsOf(ring);
-    if (points.size() > 1 && points.front() == points.back()) points.pop_back();
-    return points;
-  };
+void takeRegions(OGRLayer* layer, const ShapeReader& shapes, Cleaned& cleaned) {
   forEachRow(layer, [&](const OGRFeature& row) {
-    const OGRGeometry* const geometry = shapeOf(row, wkbPolygon);
-    if (!geometry) return;
-    const OGRPolygon& shape = *geometry->toPolygon();
-    Polygon& polygon = cleaned.regions[wholeOf(row, "feature_id")].emplace_back();
-    polygon.outer = ringOf(*shape.getExteriorRing());
-    for (int i = 0; i < shape.getNumInteriorRings(); ++i) polygon.holes.push_back(ringOf(*shape.getInteriorRing(i)));
+    for (Polygon& polygon : shapes.shapeOf(row, wkbPolygon).polygons)
+      cleaned.regions[wholeOf(row, "feature_id")].push_back(std::move(polygon));
   });
 }
 
-void takeEdits(OGRLayer& layer, ReadReport& report) {
-  const OGRFeatureDefn& fields = *layer.GetLayerDefn();
-  const int kind = fields.GetFieldIndex("kind"), fid = fields.GetFieldIndex("fid_of_feature");
-  if (kind < 0 || fid < 0) return;
-  for (const auto& row : layer) {
-    const OGRGeometry* geometry = row->GetGeometryRef();
-    if (!geometry || wkbFlatten(geometry->getGeometryType()) != wkbPoint) continue;
-    report.edits.push_back({row->GetFieldAsString(kind),
-                            {geometry->toPoint()->getX(), geometry->toPoint()->getY()},
-                            row->GetFieldAsInteger64(fid)});
-  }
+void takeEdits(OGRLayer* layer, const ShapeReader& shapes) {
+  if (!layer || !hasFields(*layer, {"kind", "fid_of_feature"})) return;
+  forEachRow(layer, [&](const OGRFeature& row) {
+    for (const Point& p : shapes.shapeOf(row, wkbPoint).points)
+      shapes.report().edits.push_back({textOf(row, "kind"), p, wholeOf(row, "fid_of_feature")});
+  });
 }
 
 }  // namespace
 
-std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, ReadReport& report) {
+std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, const OgrErrors& errors,
+                                                 ReadReport& report) {
   OGRLayer* const pslg = layerNamed(source, kPslgLayer);
   if (!pslg || !hasFields(*pslg, {"kind", "region", "left_fid", "right_fid"})) return std::nullopt;
   OGRLayer* const features = layerNamed(source, kFeatureLayer);
@@ -204,10 +204,12 @@ std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, ReadR
   report.cleaned = true;
   Cleaned cleaned;
   takeFeatures(features, attributes, cleaned);
-  takeEdges(pslg, cleaned, report);
-  takeVertices(layerNamed(source, kVertexLayer), cleaned);
-  takeRegions(layerNamed(source, kRegionLayer), cleaned);
-  if (OGRLayer* const edits = layerNamed(source, kEditLayer)) takeEdits(*edits, report);
+  const ShapeReader shapes(source.name, report);
+  takeEdges(pslg, shapes, cleaned);
+  takeVertices(layerNamed(source, kVertexLayer), shapes, cleaned);
+  takeRegions(layerNamed(source, kRegionLayer), shapes, cleaned);
+  takeEdits(layerNamed(source, kEditLayer), shapes);
+  requireReadToEnd(source, errors);
 
   std::vector<RawLayer> layers;
   const auto add = [&](FeatureUse use) -> RawLayer& {

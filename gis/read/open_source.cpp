@@ -64,8 +64,8 @@ std::string insideOf(const std::string& archive) {
 
 bool isStandardInput(const std::string& path) { return path == "-" || path == "/dev/stdin"; }
 
-// Whether it can be read but once, from its beginning to its end.
-bool isStream(const std::string& path) {
+// Of a path that names no layer.
+bool isStreamFile(const std::string& path) {
   std::error_code error;
   return isStandardInput(path) || std::filesystem::is_fifo(path, error);
 }
@@ -84,6 +84,8 @@ std::string inMemory(const std::string& given) {
     const std::size_t before = bytes.size();
     bytes.resize(before + kPiece);
     got = std::fread(bytes.data() + before, 1, kPiece, stream);
+    const int reason = errno;
+    if (std::ferror(stream) != 0) throw InputError(name + ": cannot be read: " + std::strerror(reason));
     bytes.resize(before + got);
   }
   if (bytes.empty()) throw InputError(name + ": it is empty");
@@ -104,7 +106,7 @@ std::string inMemory(const std::string& given) {
 
 // The path as OGR wants it.
 std::string pathForOgr(const std::string& path) {
-  const std::string real = isStream(path) ? inMemory(path) : path;
+  const std::string real = isStreamFile(path) ? inMemory(path) : path;
   if (real.starts_with("/vsi") && !real.starts_with("/vsimem/")) return real;
   if (endsWith(real, ".shp.zip")) return real;
   if (!exists(real)) {  // a file in an archive
@@ -169,6 +171,21 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
                      (there.empty() ? "none" : listed(there)));
   }
   return source;
+}
+
+bool isStream(const std::string& path) { return isStreamFile(splitLayer(path).first); }
+
+void refuseOddGeojson(const OpenSource& source, const OgrErrors& errors) {
+  if (!errors.failed() && errors.leftOut().empty()) return;
+  if (source.dataset->GetDriverName() != std::string_view("GeoJSON")) return;
+  if (const std::optional<std::string> odd = oddGeojson(source.dataset->GetDescription())) {
+    throw InputError(source.name + ", " + *odd + ": repair or remove this feature");
+  }
+}
+
+void requireReadToEnd(const OpenSource& source, const OgrErrors& errors) {
+  refuseOddGeojson(source, errors);
+  if (errors.failed()) throw InputError(source.name + ": cannot be read to its end (" + errors.text() + ")");
 }
 
 std::uint64_t keepWhere(const OpenSource& source, const std::string& where, OgrErrors& errors) {

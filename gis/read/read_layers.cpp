@@ -11,7 +11,6 @@
 #include "gis/error.hpp"
 #include "gis/read/bare_geojson.hpp"
 #include "gis/read/cleaned_file.hpp"
-#include "gis/read/odd_geojson.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
 
@@ -182,16 +181,6 @@ std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, const std::st
   return raw;
 }
 
-// OGR drops invalid geometries of GeoJSON, even a hole of a polygon, silently; or it reports the error, but not the
-// feature.
-void refuseOddGeojson(const OpenSource& source, const OgrErrors& errors) {
-  if (!errors.failed() && errors.leftOut().empty()) return;
-  if (source.dataset->GetDriverName() != std::string_view("GeoJSON")) return;
-  if (const std::optional<std::string> odd = oddGeojson(source.dataset->GetDescription())) {
-    throw InputError(source.name + ", " + *odd + ": repair or remove this feature");
-  }
-}
-
 }  // namespace
 
 std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, ReadReport& report) {
@@ -213,7 +202,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   const OpenSource source = openSource(given.path, filter.layers, errors);
   refuseOddGeojson(source, errors);
   if (!filtered) {
-    if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, report)) return std::move(*cleaned);
+    if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, errors, report)) return std::move(*cleaned);
   }
   if (!filter.where.empty()) report.filtered += keepWhere(source, filter.where, errors);
   const bool only = source.dataset->GetLayerCount() == 1;
@@ -229,8 +218,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
     if (at == source.layers.end()) continue;
     readers[static_cast<std::size_t>(at - source.layers.begin())].add(*feature, report);
   }
-  refuseOddGeojson(source, errors);
-  if (errors.failed()) throw InputError(source.name + ": cannot be read to its end (" + errors.text() + ")");
+  requireReadToEnd(source, errors);
   if (!errors.text().empty()) report.warnings.push_back(source.name + ": " + errors.text());
   if (!errors.leftOut().empty()) {
     report.warnings.push_back(source.name + ": something is left out that is not a geometry (" + errors.leftOut() +

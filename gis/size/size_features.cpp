@@ -1,6 +1,5 @@
 #include "gis/size/size_features.hpp"
 
-#include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "gis/error.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/read/ogr_geometry.hpp"
+#include "gis/read/open_source.hpp"
 
 namespace coastmesh {
 
@@ -125,11 +125,12 @@ class FeatureReader {
   FeatureReader(const Crs& crs, double usual_rate, SizedFeatures& features)
       : crs_(crs), usual_rate_(usual_rate), features_(features) {}
 
-  void read(OGRLayer& layer, const std::string& source) {
+  void read(OGRLayer& layer, const std::string& source, bool one_of_several) {
     const int size_field = layer.GetLayerDefn()->GetFieldIndex("size");
     const int rate_field = layer.GetLayerDefn()->GetFieldIndex("rate");
     if (size_field < 0) {
-      throw InputError(source + ": has no attribute 'size', which says the size wanted in metres; add it");
+      throw InputError(source + ": has no attribute 'size', which says the size wanted in metres; add it" +
+                       (one_of_several ? ", or name the layer that has it as FILE|LAYER" : ""));
     }
     std::optional<CrsMap> map;
     const OGRSpatialReference* srs = layer.GetSpatialRef();
@@ -177,21 +178,20 @@ class FeatureReader {
 
 }  // namespace
 
-SizedFeatures readSizedFeatures(const std::string& source, const Crs& crs, double usual_rate) {
-  registerDrivers();
+SizedFeatures readSizedFeatures(const std::string& path, const Crs& crs, double usual_rate) {
   const OgrErrors errors;
-  const std::unique_ptr<GDALDataset> dataset(
-      GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset) {
-    throw InputError(source + ": cannot be read as features with sizes" +
-                     (errors.text().empty() ? "; check the path" : " (" + errors.text() + ")"));
-  }
+  const OgrOption any_size("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
+  const OgrOption what_is_left_out("CPL_DEBUG", "GeoJSON");
+  const OpenSource source = openSource(path, {}, errors);
+  refuseOddGeojson(source, errors);
   SizedFeatures features;
   FeatureReader reader(crs, usual_rate, features);
-  for (OGRLayer* layer : dataset->GetLayers()) {
-    reader.read(*layer, dataset->GetLayerCount() > 1 ? source + "|" + layer->GetName() : source);
+  const bool only = source.dataset->GetLayerCount() == 1;
+  for (OGRLayer* layer : source.layers) {
+    reader.read(*layer, only ? source.name : source.name + "|" + layer->GetName(), source.layers.size() > 1);
+    requireReadToEnd(source, errors);
   }
-  if (features.parts.empty()) throw InputError(source + ": no feature in it has a geometry and a size");
+  if (features.parts.empty()) throw InputError(source.name + ": no feature in it has a geometry and a size");
   return features;
 }
 

@@ -22,11 +22,11 @@ struct SizedFeatures {
   std::vector<Part> parts;
 };
 
-// Reads all vector layers of `source`. The attribute `size` (metres, above 0) is the size, the optional attribute
-// `rate` its growth with the distance; otherwise `usual_rate`. Transforms coordinates to `crs`; a source without a CRS
-// is assumed to be in it. Throws InputError: unreadable, no attribute `size`, a size that is not above 0 or a rate
-// below 0, no transformation between the CRS.
-SizedFeatures readSizedFeatures(const std::string& source, const Crs& crs, double usual_rate);
+// Reads what `openSource` opens: all vector layers, or the one that `path` names. The attribute `size` (metres, above
+// 0) is the size, the optional attribute `rate` its growth with the distance; otherwise `usual_rate`. Transforms
+// coordinates to `crs`; a source without a CRS is assumed to be in it. Throws InputError: unreadable, damaged, no
+// attribute `size`, a size that is not above 0 or a rate below 0, no transformation between the CRS.
+SizedFeatures readSizedFeatures(const std::string& path, const Crs& crs, double usual_rate);
 
 // The fields of such features: their size inside polygons, growing with the distance around all of them. Lines that
 // leave the area of the projection are dropped. `scale` is plane length over metres; distances are those on the

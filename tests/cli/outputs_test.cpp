@@ -226,6 +226,16 @@ TEST_F(Outputs, PipesAreRead) {
   EXPECT_EQ(readText(file("a.2dm")), readText(file("b.2dm")));
 }
 
+// What cannot be read is not taken for the end, or for nothing.
+TEST_F(Outputs, StandardInputThatCannotBeReadIsRefused) {
+  for (const std::string words : {"mesh - -o '" + file("a.2dm") + "'", std::string("info /dev/stdin")}) {
+    const ProgramRun run = runShell("\"$0\" " + words + " < '" + file(".") + "'");
+    EXPECT_EQ(run.code, 3) << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr("standard input: cannot be read: Is a directory"));
+  }
+}
+
 TEST_F(Outputs, NestingInAFileOfOptionsIsRefused) {
   const auto repeated = [](const std::string& text) {
     std::string all;

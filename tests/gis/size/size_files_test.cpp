@@ -1,5 +1,7 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <array>
@@ -19,11 +21,14 @@
 #include "gis/size/size_raster.hpp"
 #include "gis/size/size_source.hpp"
 #include "tests/gis/size/size_samples.hpp"
+#include "tests/support/damaged_geopackage.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 using testing::kInfinity;
 using testing::planeDomain;
 using testing::rectangle;
@@ -290,6 +295,58 @@ TEST_F(SizeFiles, FeaturesWithoutSizesAreRefused) {
     {"type": "Feature", "properties": {"size": -3}, "geometry": {"type": "Point", "coordinates": [3, 4]}}]})";
   EXPECT_THROW(readSizedFeatures(file("f.geojson"), {}, 0.2), InputError);
   EXPECT_THROW(readSizedFeatures(file("g.geojson"), {}, 0.2), InputError);
+}
+
+// As those of other options.
+TEST_F(SizeFiles, FeaturesWithSizesAreReadFromArchivesAndLayers) {
+  const auto layer = [](GDALDataset& dataset, const char* name, const char* field) {
+    OGRLayer* const made = dataset.CreateLayer(name, nullptr, wkbPoint, nullptr);
+    OGRFieldDefn definition(field, OFTReal);
+    EXPECT_EQ(made->CreateField(&definition), OGRERR_NONE);
+    OGRFeature feature(made->GetLayerDefn());
+    feature.SetField(0, 25.0);
+    feature.SetGeometryDirectly(new OGRPoint(3, 4));
+    EXPECT_EQ(made->CreateFeature(&feature), OGRERR_NONE);
+  };
+  const auto make = [&](const char* driver, const std::string& path) {
+    return std::unique_ptr<GDALDataset>(
+        GetGDALDriverManager()->GetDriverByName(driver)->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  };
+  layer(*make("GeoJSON", file("p.geojson")), "p", "size");
+  const std::string zipped = "/vsizip/" + file("p.zip") + "/in/p.geojson";
+  ASSERT_EQ(CPLCopyFile(zipped.c_str(), file("p.geojson").c_str()), 0);
+  {
+    const auto dataset = make("GPKG", file("two.gpkg"));
+    layer(*dataset, "depths", "depth");
+    layer(*dataset, "pts", "size");
+  }
+  for (const std::string path : {file("p.zip"), file("two.gpkg") + "|pts", file("two.gpkg") + "|layername=pts"})
+    EXPECT_EQ(readSizedFeatures(path, {}, 0.2).parts.at(0).size_m, 25.0) << path;
+  EXPECT_THAT([&] { readSizedFeatures(file("two.gpkg"), {}, 0.2); },
+              ::testing::ThrowsMessage<InputError>(
+                  AllOf(HasSubstr("two.gpkg|depths: has no attribute 'size'"), HasSubstr("FILE|LAYER"))));
+}
+
+TEST_F(SizeFiles, FeaturesWithSizesThatCannotBeReadToTheirEndAreRefused) {
+  {
+    const std::unique_ptr<GDALDataset> dataset(
+        GetGDALDriverManager()->GetDriverByName("GPKG")->Create(file("p.gpkg").c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    OGRLayer* const layer = dataset->CreateLayer("p", nullptr, wkbPoint, nullptr);
+    OGRFieldDefn size("size", OFTReal), name("name", OFTString);
+    EXPECT_EQ(layer->CreateField(&size), OGRERR_NONE);
+    EXPECT_EQ(layer->CreateField(&name), OGRERR_NONE);
+    for (int i = 0; i < 1000; ++i) {
+      OGRFeature feature(layer->GetLayerDefn());
+      feature.SetField("size", 25.0);
+      feature.SetField("name", "a buoy");
+      feature.SetGeometryDirectly(new OGRPoint(i, 0));
+      EXPECT_EQ(layer->CreateFeature(&feature), OGRERR_NONE);
+    }
+  }
+  ASSERT_EQ(readSizedFeatures(file("p.gpkg"), {}, 0.2).parts.size(), 1000u);
+  testing::damageRowsWith("a buoy", file("p.gpkg"));
+  EXPECT_THAT([&] { readSizedFeatures(file("p.gpkg"), {}, 0.2); },
+              ::testing::ThrowsMessage<InputError>(HasSubstr("p.gpkg: cannot be read to its end")));
 }
 
 // OGR itself takes the number that a text begins with, whatever unit follows.
