@@ -112,6 +112,7 @@ std::vector<std::vector<Point>> partsOf(const OGRFeature& feature, const LayerRe
   const auto add = [&](const OGRGeometry& part) {
     const OGRwkbGeometryType type = wkbFlatten(part.getGeometryType());
     if (type != wkbPolygon && type != wkbTriangle) reader.fail("it is not a polygon; only triangles can be read");
+    if (part.IsEmpty()) reader.fail("a part of it is empty; only triangles can be read");
     const OGRPolygon& polygon = *part.toPolygon();
     const OGRLinearRing& ring = *polygon.getExteriorRing();
     const int points = ring.getNumPoints();
@@ -312,7 +313,8 @@ void readTriangles(LayerReader& reader, const std::string& path, const std::vect
 std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader, const NodesByPlace& index,
                                       const LineNodes& lines) {
   const OGRGeometry* geometry = feature.GetGeometryRef();
-  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) reader.fail("it is not a line");
+  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString || geometry->IsEmpty())
+    reader.fail("it is not a line");
   const OGRLineString& line = *geometry->toLineString();
   std::vector<Point> places;
   for (int i = 0; i < line.getNumPoints(); ++i) {

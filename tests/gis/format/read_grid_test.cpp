@@ -1,7 +1,11 @@
 // Meshes of other programs, and what is wrong with those that cannot be read.
+#include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
+#include <ogrsf_frmts.h>
+
+#include <memory>
 
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
@@ -156,6 +160,38 @@ TEST_F(ReadGrid, GisLayersOfOtherPrograms) {
   EXPECT_THAT(errorIn("point.geojson", head + R"({"type":"Feature","properties":{},"geometry":)"
                                               R"({"type":"Point","coordinates":[1,2]}}]})"),
               HasSubstr("no layer of polygons"));
+}
+
+// OGR has no ring of an empty polygon.
+TEST_F(ReadGrid, EmptyPartsOfGisLayersAreRefused) {
+  GDALAllRegister();
+  const auto errorOfLayers = [this](const std::string& triangle, const std::string& boundary) {
+    const std::string path = folder_ / "parts.gpkg";
+    const std::unique_ptr<GDALDataset> dataset(
+        GetGDALDriverManager()->GetDriverByName("GPKG")->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    const auto addLayer = [&](const char* name, const std::vector<std::string>& shapes) {
+      OGRLayer* const layer = dataset->CreateLayer(name, nullptr, wkbUnknown, nullptr);
+      OGRFieldDefn id("id", OFTInteger64), role("role", OFTString);
+      layer->CreateField(&id);
+      layer->CreateField(&role);
+      for (const std::string& wkt : shapes) {
+        OGRFeature feature(layer->GetLayerDefn());
+        OGRGeometry* shape = nullptr;
+        OGRGeometryFactory::createFromWkt(wkt.c_str(), nullptr, &shape);
+        feature.SetGeometryDirectly(shape);
+        feature.SetField("role", "land");
+        EXPECT_EQ(layer->CreateFeature(&feature), OGRERR_NONE);
+      }
+    };
+    addLayer("triangles", {"POLYGON((0 0,1 0,0 1,0 0))", triangle});
+    addLayer("boundaries", {boundary});
+    dataset->FlushCache();
+    return errorOf(path);
+  };
+  EXPECT_THAT(errorOfLayers("MULTIPOLYGON(EMPTY,((1 0,1 1,0 1,1 0)))", "LINESTRING(0 0,1 0)"),
+              AllOf(HasSubstr("parts.gpkg"), HasSubstr("layer \"triangles\", feature 2"), HasSubstr("is empty")));
+  EXPECT_THAT(errorOfLayers("POLYGON((1 0,1 1,0 1,1 0))", "LINESTRING EMPTY"),
+              AllOf(HasSubstr("layer \"boundaries\", feature 1"), HasSubstr("not a line")));
 }
 
 // A UGRID file as others write it: names of their own, from 0, transposed, depth down, quads only in the columns.
