@@ -91,10 +91,14 @@ MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
   ExtentOf extent;
   for (const Point& node : grid.nodes) extent.add(node);
   info.extent = extent.extent();
-  if (!grid.z.empty()) {
+  for (const double z : grid.z) {
+    if (std::isnan(z)) {
+      ++info.nodes_without_z;
+      continue;
+    }
+    info.lowest_z = info.has_z ? std::min(info.lowest_z, z) : z;
+    info.highest_z = info.has_z ? std::max(info.highest_z, z) : z;
     info.has_z = true;
-    info.lowest_z = *std::ranges::min_element(grid.z);
-    info.highest_z = *std::ranges::max_element(grid.z);
   }
   for (const GridPiece& piece : splitGrid(grid, surface)) {
     ++info.pieces;

@@ -26,9 +26,10 @@ struct MeshInfo {
   std::uint64_t features = 0;
   std::map<std::string, std::uint64_t> boundaries;  // by role
   Extent extent;
-  bool has_z = false;
+  bool has_z = false;     // at any node
   double lowest_z = 0.0;  // metres
   double highest_z = 0.0;
+  std::uint64_t nodes_without_z = 0;  // where the file has a place for it
   double area_m2 = 0.0;
   MeshQuality quality;     // lengths and areas in it are the surface's
   std::string surface;     // that angles are measured on; "mixed" where pieces differ

@@ -72,7 +72,10 @@ std::string toJson(const MeshInfo& info) {
             {"longest_edge_m", info.longest_edge_m},
             {"step", stepSection(info.step)},
             {"angle_histogram", info.quality.angle_histogram}};
-  if (info.has_z) json["z"] = {info.lowest_z, info.highest_z};
+  if (info.has_z) {
+    json["z"] = {info.lowest_z, info.highest_z};
+    json["nodes_without_z"] = info.nodes_without_z;
+  }
   return dump(json);
 }
 
@@ -114,7 +117,12 @@ std::string toText(const MeshInfo& info) {
   for (const auto& [role, count] : info.boundaries) addLine(text, "boundaries      %llu %s", big(count), role.c_str());
   text += "crs             " + info.crs + "\n";
   addExtent(text, info.extent);
-  if (info.has_z) addLine(text, "z               %.10g to %.10g m", info.lowest_z, info.highest_z);
+  if (info.has_z && info.nodes_without_z > 0) {
+    addLine(text, "z               %.10g to %.10g m, unknown at %llu %s", info.lowest_z, info.highest_z,
+            big(info.nodes_without_z), forCount(info.nodes_without_z, "node", "nodes"));
+  } else if (info.has_z) {
+    addLine(text, "z               %.10g to %.10g m", info.lowest_z, info.highest_z);
+  }
   addLine(text, "area            %.10g m2", info.area_m2);
   addLine(text, "edges           %.6g to %.6g m", info.step.shortest_edge_m, info.longest_edge_m);
   text += "step            " + stepText(info.step, info.plane) + "\n";

@@ -1,0 +1,45 @@
+#include "apps/report/file_info.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+namespace coastmesh {
+
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+MeshInfo infoWith(std::vector<double> z) {
+  Grid grid;
+  grid.nodes = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  grid.triangles = {{0, 1, 2}, {0, 2, 3}};
+  grid.z = std::move(z);
+  return describeMesh(grid);
+}
+
+TEST(MeshInfo, DepthsAreThoseThatAreKnown) {
+  const MeshInfo some = infoWith({kUnknown, -3.0, -7.0, kUnknown});
+  EXPECT_THAT(toText(some), HasSubstr("z               -7 to -3 m, unknown at 2 nodes\n"));
+  EXPECT_EQ(Json::parse(toJson(some))["z"], (Json{-7.0, -3.0}));
+  EXPECT_EQ(Json::parse(toJson(some))["nodes_without_z"], 2);
+  const MeshInfo all = infoWith({-4.0, -3.0, -7.0, 2.0});
+  EXPECT_THAT(toText(all), HasSubstr("z               -7 to 2 m\n"));
+  EXPECT_EQ(Json::parse(toJson(all))["nodes_without_z"], 0);
+  for (const MeshInfo& none : {infoWith({kUnknown, kUnknown, kUnknown, kUnknown}), infoWith({})}) {
+    EXPECT_THAT(toText(none), Not(HasSubstr("\nz  ")));
+    EXPECT_FALSE(Json::parse(toJson(none)).contains("z"));
+  }
+}
+
+}  // namespace
+
+}  // namespace coastmesh
