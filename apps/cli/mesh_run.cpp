@@ -28,6 +28,7 @@
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/read/open_source.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 
@@ -37,6 +38,25 @@ namespace {
 
 int threadsAsked(const ParallelOptions& options) {
   return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+// Throws OptionError for a vector file of the job that can be read but once; `purpose` says what reads it again.
+void requireNoStream(const MeshJob& job, const std::string& purpose) {
+  const InputOptions& input = job.input;
+  const SizeOptions& sizes = job.sizes;
+  for (const std::vector<std::string>& paths : {input.files,
+                                                {input.clip},
+                                                input.constraints,
+                                                input.weirs,
+                                                input.regions,
+                                                sizes.features,
+                                                sizes.passages,
+                                                sizes.barriers,
+                                                job.finish.boundaries.files}) {
+    const auto stream = std::ranges::find_if(paths, isStream);
+    if (stream == paths.end()) continue;
+    throw OptionError(purpose + ", which standard input and other pipes do not allow (" + *stream + "): give a file");
+  }
 }
 
 // Why there is no mesh at all.
@@ -153,12 +173,10 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   const PartitionOptions partition = partitionFor(usage.parts, grids, usage.format);
   std::tie(job.exchange.shard, job.exchange.shards) = shardOf(usage.shard);
   const bool to_shard = grids.size() < usage.outputs.size();
-  if (to_shard && std::ranges::count(job.input.files, "-") > 0)
-    throw OptionError("gather reads the input of a .shard again, which standard input does not allow: give a file");
+  if (to_shard) requireNoStream(job, "gather reads the input of a .shard again");
   MeshUsage of_job;
   const bool keeps = !usage.checkpoint.empty();
-  if (keeps && std::ranges::count(job.input.files, "-") > 0)
-    throw OptionError("--checkpoint reads the input again to resume, which standard input does not allow: give a file");
+  if (keeps) requireNoStream(job, "--checkpoint reads the input again to resume");
   const GivenOptions given = to_shard || keeps ? givenOptions(run.options, meshJobOptions(of_job)) : GivenOptions();
   const bool skips = usage.skip_existing && !usage.overwrite;
   if (skips) {

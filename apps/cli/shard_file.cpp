@@ -24,17 +24,29 @@ constexpr std::string_view kMagic = "coastmesh shard\n";
 constexpr const char* kEnding = ".shard";
 constexpr std::uint64_t kMostNamed = 20;  // of shards that are missing
 
+// Thrown by readers of a file's beginning.
+struct EndsTooEarly : InputError {
+  using InputError::InputError;
+};
+
 std::string contentsOf(const std::string& path, std::size_t most) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (is_directory(status)) throw InputError("'" + path + "' is a folder, not a file written by mesh --shard");
+  if (exists(status) && !is_regular_file(status)) throw InputError("'" + path + "' is not a regular file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError("there is no file '" + path + "', or it cannot be read");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw InputError("'" + path + "' cannot be read: " + error.message());
   std::string bytes;
-  bytes.resize(std::min<std::uintmax_t>(most, std::filesystem::file_size(path)));
+  bytes.resize(std::min<std::uintmax_t>(most, size));
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file) throw InputError("'" + path + "' cannot be read");
   return bytes;
 }
 
-ShardHeader readHeader(ByteReader& reader, const std::string& path) {
+template <typename Error>
+ShardHeader readHeader(BasicByteReader<Error>& reader, const std::string& path) {
   std::string magic(kMagic.size(), ' ');
   for (char& c : magic) reader.pass(c);
   if (magic != kMagic) throw InputError("'" + path + "' was not written by mesh --shard");
@@ -93,10 +105,17 @@ GivenOptions givenOptions(const OptionTable& table, const OptionTable& of_job) {
 }
 
 ShardHeader readShardHeader(const std::string& path) {
-  constexpr std::size_t kEnough = 1 << 20;
-  const std::string bytes = contentsOf(path, kEnough);
-  ByteReader reader(bytes, "'" + path + "'");
-  return readHeader(reader, path);
+  // Enough for most; thousands of inputs with long names need more.
+  constexpr std::size_t kAtFirst = 1 << 20, kGrowth = 8;
+  for (std::size_t most = kAtFirst;; most *= kGrowth) {
+    const std::string bytes = contentsOf(path, most);
+    BasicByteReader<EndsTooEarly> reader(bytes, "'" + path + "'");
+    try {
+      return readHeader(reader, path);
+    } catch (const EndsTooEarly&) {
+      if (bytes.size() < most) throw;
+    }
+  }
 }
 
 ShardWriter::ShardWriter(GivenOptions options, std::uint32_t shard, std::uint32_t shards) {

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -208,12 +209,26 @@ TEST_F(Shard, WhatDoesNotGoTogetherIsRefused) {
   }
   expectRefused(gather(3, {"-o", input, "--overwrite", "--format", "geojson"}), 2, "input and output at once");
   expectRefused({"mesh", "-", "--shard", "1/2", "-o", file("a.shard")}, 2, "standard input");
+  expectRefused({"mesh", "/dev/stdin", "--shard", "1/1", "-o", file("a.shard")}, 2, "standard input");
+  ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
+  expectRefused({"mesh", file("pipe"), "--shard", "1/1", "-o", file("a.shard")}, 2, "other pipes");
   for (const std::string wrong : {"0/3", "4/3", "1", "1/", "/3", "1/3x", "-1/3", "1/9999999"})
     expectRefused({"mesh", input, "--shard=" + wrong, "-o", file("a.shard")}, 2, "--shard");
   // The input changed meanwhile.
   lakes(0.25);
   expectRefused(gather(3, out), 3, "another input");
   EXPECT_EQ(names().count("g.nc"), 0u);
+}
+
+TEST_F(Shard, WhatIsNoRegularFileIsRefused) {
+  const std::string input = lakes();
+  std::filesystem::create_directory(file("d.shard"));
+  ASSERT_EQ(mkfifo(file("p.shard").c_str(), 0600), 0);
+  for (const auto& [name, why] :
+       {std::pair{"d.shard", "d.shard' is a folder"}, {"p.shard", "p.shard' is not a regular"}}) {
+    expectRefused({"gather", file(name), "-o", file("g.nc")}, 3, why);
+    expectRefused({"mesh", input, "--shard", "1/1", "-o", file(name), "--skip-existing"}, 3, why);
+  }
 }
 
 // By name, before anything is said of a checksum, which another version may make otherwise.

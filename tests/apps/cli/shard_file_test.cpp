@@ -1,0 +1,39 @@
+#include "apps/cli/shard_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "gis/error.hpp"
+#include "tests/gis/grid_samples.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// More than what is read of it at first.
+TEST(ShardFile, AHeaderMayNameThousandsOfInputs) {
+  const testing::TemporaryFolder folder;
+  const std::string path = folder / "a.shard";
+  GivenOptions options;
+  for (int i = 0; i < 12'000; ++i) options.emplace_back("INPUT", std::string(1000, 'x') + std::to_string(i));
+  ShardWriter shard(options, 2, 7);
+  shard.begin(5, 11);
+  const std::string bytes = shard.file(1);
+  std::ofstream(path, std::ios::binary) << bytes;
+  const ShardHeader header = readShardHeader(path);
+  EXPECT_EQ(header.options, options);
+  EXPECT_EQ(header.shard, 2u);
+  EXPECT_EQ(header.groups, 11u);
+  EXPECT_EQ(header.exit_code, 1);
+  for (const std::size_t size : {bytes.size() / 2, std::size_t{1} << 20, std::size_t{3}}) {
+    std::filesystem::resize_file(path, size);
+    EXPECT_THROW(readShardHeader(path), InputError) << size;
+  }
+}
+
+}  // namespace
+
+}  // namespace coastmesh
