@@ -6,12 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include "gis/crs/ogr_support.hpp"
+
 namespace coastmesh {
 
 Crs fromOgr(const OGRSpatialReference* srs) {
   if (srs == nullptr || srs->IsEmpty() || srs->IsLocal()) return {};
-  // What OGR writes into a GeoPackage for no CRS at all.
-  if (srs->GetName() != nullptr && std::string_view(srs->GetName()) == "Undefined geographic SRS") return {};
+  if (srs->GetName() != nullptr && std::string_view(srs->GetName()) == kUndefinedGeographic) return {};
   const auto codeOf = [](const OGRSpatialReference& of) {
     const char* name = of.GetAuthorityName(nullptr);
     const char* code = of.GetAuthorityCode(nullptr);
@@ -24,6 +25,13 @@ Crs fromOgr(const OGRSpatialReference* srs) {
           if (found) found->Release();
         });
     if (match) code = codeOf(*match);
+  }
+  // MapInfo's has no name, by which matches are weighed.
+  if (code.empty() && srs->IsGeographic()) {
+    const char* const options[] = {"CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCS",
+                                   "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", nullptr};
+    const OGRSpatialReference known = toOgr(wgs84());
+    if (srs->IsSame(&known, options)) return wgs84();
   }
   if (!code.empty()) return parseCrs(code);
   const char* const options[] = {"FORMAT=WKT2", nullptr};

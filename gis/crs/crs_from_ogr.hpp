@@ -2,11 +2,16 @@
 
 #include <ogr_spatialref.h>
 
+#include <string_view>
+
 #include "gis/crs/crs.hpp"
 
 namespace coastmesh {
 
-// The CRS of `srs`; a plane for null. Looks up the EPSG code if the source has none, as in the WKT of a .prj
+// What OGR says of a GeoPackage's layer without a CRS.
+inline constexpr std::string_view kUndefinedGeographic = "Undefined geographic SRS";
+
+// The CRS of `srs`; a plane for null, and for an undefined one. Looks up the EPSG code if the source has none, as in the WKT of a .prj
 // file.
 Crs fromOgr(const OGRSpatialReference* srs);
 

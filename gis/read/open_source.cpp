@@ -50,11 +50,16 @@ std::string insideOf(const std::string& archive) {
   const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
   std::vector<std::string> found;
   for (int i = 0; i < entries.size(); ++i) {
-    const std::string entry = entries[i];
+    const std::string entry = entries[i], name = std::filesystem::path(entry).filename();
+    // What macOS puts beside every file.
+    if (name.starts_with("._") || entry.starts_with("__MACOSX/")) continue;
     if (std::ranges::any_of(kEndings, [&](std::string_view ending) { return endsWith(entry, ending); })) {
       found.push_back(entry);
     }
   }
+  // Beside a file of another kind a .json says something of it.
+  const auto isJson = [](const std::string& entry) { return endsWith(entry, ".json"); };
+  if (!std::ranges::all_of(found, isJson)) std::erase_if(found, isJson);
   if (found.size() > 1) {
     throw InputError(archive.substr(archive.find('/', 1) + 1) + ": holds " + std::to_string(found.size()) +
                      " vector files (" + listed(found) + "): name one as '" + archive + "/" + found.front() + "'");
@@ -116,6 +121,8 @@ std::string pathForOgr(const std::string& path) {
     }
     return real;
   }
+  registerDrivers();
+  if (endsWith(real, ".kmz") && GDALGetDriverByName("LIBKML") != nullptr) return real;
   if (endsWith(real, ".zip") || endsWith(real, ".kmz")) return insideOf("/vsizip/" + real);
   if (endsWith(real, ".tar") || endsWith(real, ".tgz") || endsWith(real, ".tar.gz")) return insideOf("/vsitar/" + real);
   if (endsWith(real, ".gz")) return "/vsigzip/" + real;

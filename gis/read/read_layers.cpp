@@ -68,6 +68,8 @@ class LayerReader {
     raw_.use = use;
     const OGRSpatialReference* srs = layer.GetSpatialRef();
     if (!srs || srs->IsEmpty()) return;
+    // So OGR names a GeoPackage's undefined one: whether they are degrees is seen by the coordinates, as elsewhere.
+    if (srs->GetName() != nullptr && std::string_view(srs->GetName()) == kUndefinedGeographic) return;
     try {
       raw_.crs = fromOgr(srs);
     } catch (const InputError& error) {

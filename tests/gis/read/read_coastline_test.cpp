@@ -361,8 +361,9 @@ TEST_F(ReadCoastline, Archives) {
   };
   zip("one.zip", {"some/folder/lake.geojson", "some/readme.txt"});
   zip("two.zip", {"a.geojson", "b.geojson"});
+  zip("of_macos.zip", {"lake.geojson", "__MACOSX/._lake.geojson", "metadata.json"});
   ReadReport report;
-  for (const std::string archive : {"lake.geojson.gz", "lake.tgz", "one.zip"}) {
+  for (const std::string archive : {"lake.geojson.gz", "lake.tgz", "one.zip", "of_macos.zip"}) {
     EXPECT_EQ(readCoastline({path(archive)}, report).features.size(), 1u) << archive;
   }
   EXPECT_EQ(readCoastline({path("two.zip") + "/b.geojson"}, report).features.size(), 1u);
