@@ -79,6 +79,8 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
   app.footer(
       "coastmesh COMMAND --help shows the options of a command, with examples. Start with:\n"
       "  coastmesh mesh lake.geojson -o lake.gpkg\n");
+  // Each command takes this over when it is added: a word after the command is no second command, whatever its name.
+  app.require_subcommand(0, 1);
   std::vector<Command> commands;
   app.add_flag_callback(
          "--json-usage", [&commands] { throw UsageText{wholeUsage(commands)}; }, "print all commands' usage as JSON")
@@ -106,7 +108,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const auto command = std::ranges::find_if(commands, isNamed);
     if (command != commands.end()) {
-      arguments = command->line.withPresentNames({arguments.begin() + 1, arguments.end()}, former_names);
+      arguments = command->line.toParse({arguments.begin() + 1, arguments.end()}, former_names);
       arguments.insert(arguments.begin(), argv[1]);
     }
     std::ranges::reverse(arguments);  // as CLI11 wants them

@@ -47,12 +47,8 @@ CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& e
       throw CLI::ValidationError(entry.name, error.what());
     }
   };
-  if (entry.kind == OptionKind::Flag) {
-    const std::string help = entry.shown_help;
-    return app.add_flag(entry.names, help)->each([set](const std::string& text) {
-      set(CLI::detail::to_flag_value(text) > 0 ? "true" : "false");
-    });
-  }
+  // CLI11 passes "true" or "false": it turns the values of opposites round, and `toParse` lets no others through.
+  if (entry.kind == OptionKind::Flag) return app.add_flag(entry.names, entry.shown_help)->each(set);
   CLI::Option* option = nullptr;
   if (entry.multiple) {
     const auto set_all = [set](const std::vector<std::string>& texts) { std::ranges::for_each(texts, set); };
@@ -65,6 +61,15 @@ CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& e
   option->type_name(entry.shown_unit);
   if (!entry.shown_default.empty()) option->default_str(entry.shown_default);
   return option;
+}
+
+// Whether `value` turns a switch on; `shown` is all that the user gave.
+bool isOn(const std::string& shown, const std::string& value) {
+  for (const char* const yes : {"true", "on", "yes", "1"})
+    if (value == yes) return true;
+  for (const char* const no : {"false", "off", "no", "0"})
+    if (value == no) return false;
+  throw OptionError(shown + " is a switch: say true or false");
 }
 
 }  // namespace
@@ -111,21 +116,46 @@ void CommandLine::complete(const std::set<std::string>& commands, std::vector<st
   if (!missing.empty()) throw OptionError(missing.front() + " is required; coastmesh COMMAND --help lists the options");
 }
 
-std::vector<std::string> CommandLine::withPresentNames(std::vector<std::string> arguments,
-                                                       std::vector<std::string>& warnings) const {
+std::vector<std::string> CommandLine::toParse(const std::vector<std::string>& arguments,
+                                              std::vector<std::string>& warnings) const {
   std::map<std::string, std::string> present;
-  for (const OptionTable::Entry* entry : table_->entries())
+  std::map<std::string, const OptionTable::Entry*> named;
+  for (const OptionTable::Entry* entry : table_->entries()) {
+    if (entry->argument) continue;
     present.insert(entry->former_names.begin(), entry->former_names.end());
-  for (std::string& argument : arguments) {
-    if (argument == "--") break;  // only arguments follow
-    const std::size_t sign = std::min(argument.find('='), argument.size());
-    const auto found = present.find(argument.substr(0, sign));
-    if (found == present.end()) continue;
-    warnings.push_back(found->first + " is called " + found->second +
-                       " now; the next version will not accept the former name");
-    argument.replace(0, sign, found->second);
+    for (const std::string& name : namesIn(entry->names)) named.emplace(name, entry);
   }
-  return arguments;
+  std::vector<std::string> words;
+  for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
+    if (*argument == "--") {  // only arguments follow
+      words.insert(words.end(), argument, arguments.end());
+      break;
+    }
+    const std::size_t sign =
+        argument->starts_with("--") ? std::min(argument->find('='), argument->size()) : argument->size();
+    const bool with_value = sign < argument->size();
+    std::string name = argument->substr(0, sign);
+    if (const auto former = present.find(name); former != present.end()) {
+      warnings.push_back(name + " is called " + former->second +
+                         " now; the next version will not accept the former name");
+      name = former->second;
+    }
+    const auto option = named.find(name);
+    if (option == named.end()) {
+      words.push_back(*argument);
+    } else if (option->second->kind == OptionKind::Flag) {
+      words.push_back(with_value ? name + (isOn(*argument, argument->substr(sign + 1)) ? "=true" : "=false") : name);
+    } else {
+      // In two words, since CLI11 would take "--name=" for one whose value is the next word.
+      words.push_back(name);
+      if (with_value) {
+        words.push_back(argument->substr(sign + 1));
+      } else if (argument + 1 != arguments.end()) {
+        words.push_back(*++argument);
+      }
+    }
+  }
+  return words;
 }
 
 }  // namespace coastmesh

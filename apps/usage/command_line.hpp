@@ -31,10 +31,10 @@ class CommandLine {
   const OptionTable& options() const { return *table_; }
   bool chosen() const;  // whether this command is the one that was called
 
-  // What follows the command's name, with options that go by a former name called as they are now, to be parsed; a
-  // sentence for each goes to `warnings`.
-  std::vector<std::string> withPresentNames(std::vector<std::string> arguments,
-                                            std::vector<std::string>& warnings) const;
+  // What follows the command's name, as words to be parsed. Options that go by a former name are called as they are
+  // now, with a sentence for each in `warnings`; switches have true or false for a value, if any; other values are
+  // words of their own. Throws OptionError for a switch whose value is no truth value.
+  std::vector<std::string> toParse(const std::vector<std::string>& arguments, std::vector<std::string>& warnings) const;
 
   // Once the arguments are parsed: takes what they leave open from the file that --config names (see takeConfig).
   // Throws OptionError besides where something that must be given is in neither.

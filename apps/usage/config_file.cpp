@@ -67,7 +67,6 @@ std::vector<std::string> textsFor(const Entry& option, const ConfigEntry& entry,
   for (const auto& value : values) {
     if (value.size() != 1 && value.size() != parts) throw OptionError(where + " holds a list where one value belongs");
     texts.push_back(joined(value));
-    if (texts.back().empty()) throw OptionError(where + " is an empty text; leave it out");
     if (texts.back().find('\0') != std::string::npos) throw OptionError(where + " holds a character 0");
   }
   return texts;

@@ -486,6 +486,8 @@ void OptionTable::set(const std::string& name, const OptionValue& value, const s
 }
 
 void OptionTable::setText(const std::string& name, const std::string& text) {
+  // A variable of the shell that is not set, most likely: without the option another mesh would be made.
+  if (text.empty()) throw OptionError("'' is an empty text; leave it out");
   set(name, valueOf(text, impl_->declared(name).entry.kind), text);
 }
 

@@ -92,7 +92,7 @@ class OptionTable {
                 const std::string& help, bool* given = nullptr);
   Option integer(const OptionNames& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
                  std::uint64_t high, const std::string& help);
-  // As many numbers as `unit` names: "W,S,E,N". `store` gets as many, or none where the text given is empty, and
+  // As many numbers as `unit` names: "W,S,E,N". `store` gets as many, or none where the list given is empty, and
   // returns what is wrong with them as the end of a sentence about them ("is not ..."), empty where nothing is.
   // `multiple`: the option may be repeated, `store` being called for each.
   using StoreNumbers = std::function<std::string(const std::vector<double>&)>;

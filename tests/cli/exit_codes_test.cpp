@@ -114,6 +114,52 @@ TEST_F(ExitCodes, WrongUsage) {
   EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
 }
 
+TEST_F(ExitCodes, SwitchesWithAValueThatIsNoTruthValue) {
+  const std::string input = lake();
+  const std::string out = file("out.2dm");
+  const std::vector<std::vector<std::string>> wrong{{"mesh", input, "-o", out, "--coarsen=maybe"},
+                                                    {"mesh", input, "-o", out, "--coarsen=3.5"},
+                                                    {"mesh", input, "-o", out, "--overwrite=2"},
+                                                    {"check", input, "--delaunay=foo"},
+                                                    {"info", input, "--json=foo"}};
+  for (const std::vector<std::string>& arguments : wrong) {
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 2) << testing::PrintToString(arguments) << run.errors;
+    EXPECT_NE(run.errors.find(arguments.back() + " is a switch: say true or false"), std::string::npos) << run.errors;
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
+}
+
+// As from a variable of the shell that is not set.
+TEST_F(ExitCodes, EmptyValues) {
+  const std::string input = lake();
+  for (const std::string option : {"--checkpoint", "--clip", "--report", "--edits", "--shard", "--bbox", "--where",
+                                   "--format", "--size", "--config", "-o"}) {
+    const ProgramRun run = runProgram({"mesh", input, "-o", file("out.2dm"), option, ""});
+    EXPECT_EQ(run.code, 2) << option << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_NE(run.errors.find("is an empty text; leave it out"), std::string::npos) << run.errors;
+  }
+  const ProgramRun joined = runProgram({"mesh", input, "-o", file("out.2dm"), "--checkpoint=", "--quiet"});
+  EXPECT_EQ(joined.code, 2) << joined.errors;
+  EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
+}
+
+TEST_F(ExitCodes, AnArgumentMayBeCalledAsACommandIs) {
+  const std::string there = "cd '" + file("") + "' && ";
+  write("check", readText(lake()));
+  const ProgramRun alone = runShell(there + "\"$0\" mesh check -o out.nc --report - && \"$0\" info check");
+  EXPECT_EQ(alone.code, 0) << alone.errors;
+  EXPECT_NE(alone.output.find("\"check\""), std::string::npos) << alone.output;
+  const ProgramRun last = runShell(there + "\"$0\" mesh -o no.nc lake.geojson nowhere check");
+  EXPECT_EQ(last.code, 3) << last.errors;
+  EXPECT_NE(last.errors.find("nowhere"), std::string::npos) << last.errors;
+  const ProgramRun two = runShell(there + "\"$0\" mesh lake.geojson -o z.nc check z.nc --min-angle 30");
+  EXPECT_EQ(two.code, 2) << two.errors;
+  const ProgramRun many = runShell(there + "\"$0\" info lake.geojson check");
+  EXPECT_EQ(many.code, 2) << many.errors;
+}
+
 // What the file holds does not matter: it is not looked for.
 TEST_F(ExitCodes, ABoxUpsideDownIsWrongUsageThatNamesTheSides) {
   const ProgramRun run = runProgram({"mesh", file("none.geojson"), "-o", file("out.2dm"), "--bbox", "-87,42.5,-86,41"});

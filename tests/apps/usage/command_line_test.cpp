@@ -44,9 +44,12 @@ class CommandLineTest : public testing::Test {
   }
 
   void parse(std::vector<std::string> words) {
+    std::vector<std::string> warnings;
+    const std::string command = words.front();
+    words = line_.toParse({words.begin() + 1, words.end()}, warnings);
+    words.insert(words.begin(), command);
     std::reverse(words.begin(), words.end());
     app_.parse(words);
-    std::vector<std::string> warnings;
     if (line_.chosen()) line_.complete({"knit"}, warnings);
   }
 
@@ -144,14 +147,43 @@ TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
 TEST_F(CommandLineTest, FormerNamesBecomeThePresentOnesWithAWarning) {
   using Words = std::vector<std::string>;
   Words warnings;
-  EXPECT_EQ(line_.withPresentNames({"--no-felt", "--angle", "3", "--felt=true", "--", "--felt"}, warnings),
+  EXPECT_EQ(line_.toParse({"--no-felt", "--angle", "3", "--felt=true", "--", "--felt"}, warnings),
             (Words{"--no-coarsen", "--angle", "3", "--coarsen=true", "--", "--felt"}));
   EXPECT_EQ(warnings, (Words{"--no-felt is called --no-coarsen now; the next version will not accept the former name",
                              "--felt is called --coarsen now; the next version will not accept the former name"}));
   warnings.clear();
-  const Words present{"--coarsen", "--no-coarsen", "--felted", "felt"};
-  EXPECT_EQ(line_.withPresentNames(present, warnings), present);
+  const Words present{"--coarsen", "--no-coarsen", "--felted", "felt", "--path", "--felt", "-o=--felt"};
+  EXPECT_EQ(line_.toParse(present, warnings), present);
   EXPECT_TRUE(warnings.empty());
+}
+
+TEST_F(CommandLineTest, SwitchesTakeTruthValuesOnly) {
+  for (const auto& [word, on] : std::vector<std::pair<std::string, bool>>{{"--coarsen", true},
+                                                                          {"--coarsen=true", true},
+                                                                          {"--coarsen=off", false},
+                                                                          {"--no-coarsen", false},
+                                                                          {"--no-coarsen=yes", false},
+                                                                          {"--no-coarsen=0", true}}) {
+    values_ = Values();
+    app_.clear();
+    parse({"knit", "wool", "-o", "sock", word});
+    EXPECT_EQ(values_.coarsen, on) << word;
+  }
+  for (const char* value : {"maybe", "3.5", "-1", "2", "99999999999999999999", "", "x"}) {
+    for (const std::string option : {"--coarsen=", "--no-coarsen=", "--felt="})
+      EXPECT_THROW(parse({"knit", "wool", "-o", "sock", option + value}), OptionError) << option << value;
+  }
+}
+
+TEST_F(CommandLineTest, AnEmptyValueIsRefusedAndTakesNoOtherWord) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"--path", ""}, {"--path="}, {"--path=", "yarn"}, {"--name", ""}, {"--size="}, {"-o", ""}, {"--config="}}) {
+    std::vector<std::string> all{"knit", "wool", "-o", "sock"};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_THROW(parse(all), CLI::ParseError) << testing::PrintToString(words);
+    EXPECT_TRUE(values_.path.empty());
+    app_.clear();
+  }
 }
 
 TEST_F(CommandLineTest, HelpShowsUnitDefaultAndRange) {

@@ -92,8 +92,13 @@ TEST_F(OptionTableTest, TextsAreReadAsValues) {
   EXPECT_EQ(angle_, 15.0);
   EXPECT_EQ(count_, 7u);
   EXPECT_THAT(box_, ElementsAre(-1, 2, 3, 4));
-  table_.setText("--box", "");
+  table_.set("--box", std::vector<double>{}, "[]");
   EXPECT_TRUE(box_.empty());
+}
+
+TEST_F(OptionTableTest, AnEmptyTextIsNoValue) {
+  for (const char* option : {"--heel-angle", "--count", "--box", "--toe", "--path"})
+    EXPECT_THROW(table_.setText(option, ""), OptionError) << option;
 }
 
 TEST_F(OptionTableTest, RefusesTypedValuesAsTexts) {
