@@ -18,36 +18,47 @@ namespace {
 constexpr auto kPatience = std::chrono::milliseconds(400);
 constexpr int kRemovalTries = 100;
 
-sigset_t stopSignals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGHUP);
+}  // namespace
+
+std::vector<int> stopSignals() {
+  std::vector<int> signals;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction now {};
+    if (sigaction(number, nullptr, &now) != 0 || now.sa_handler != SIG_IGN) signals.push_back(number);
+  }
   return signals;
 }
 
-}  // namespace
+sigset_t setOf(const std::vector<int>& signals) {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : signals) sigaddset(&set, number);
+  return set;
+}
 
-Interrupt::Interrupt(Notes notes) : notes_(std::move(notes)) {
+Interrupt::Interrupt(Notes notes) : notes_(std::move(notes)), signals_(stopSignals()) {
   // Whoever reads our output may go away first, and a file may come to its limit: such a write then fails as any other
   // does.
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
-  const sigset_t signals = stopSignals();
+  if (signals_.empty()) return;
+  const sigset_t signals = setOf(signals_);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   watcher_ = std::thread([this] { watch(); });
 }
 
 Interrupt::~Interrupt() {
+  if (!watcher_.joinable()) return;
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;
   }
   ended_changed_.notify_all();
-  pthread_kill(watcher_.native_handle(), SIGTERM);
+  wakeWatcher();
   watcher_.join();
 }
+
+void Interrupt::wakeWatcher() { pthread_kill(watcher_.native_handle(), signals_.front()); }
 
 void Interrupt::check() const {
   if (requested()) throw Cancelled();
@@ -85,11 +96,11 @@ void Interrupt::close() {
 void Interrupt::reopen() {
   const std::lock_guard lock(mutex_);
   closed_ = false;
-  if (missed_.exchange(false)) pthread_kill(watcher_.native_handle(), SIGTERM);
+  if (missed_.exchange(false)) wakeWatcher();
 }
 
 void Interrupt::watch() {
-  const sigset_t signals = stopSignals();
+  const sigset_t signals = setOf(signals_);
   for (;;) {
     int signal_number = 0;
     if (sigwait(&signals, &signal_number) != 0) continue;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <signal.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <filesystem>
@@ -7,8 +9,14 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace coastmesh {
+
+// What stops the program: of SIGINT, SIGTERM and SIGHUP those that are not ignored now. Whoever started the program may
+// have them ignored, as nohup does with SIGHUP; that has to stay so.
+std::vector<int> stopSignals();
+sigset_t setOf(const std::vector<int>& signals);
 
 // SIGINT, SIGTERM and SIGHUP, turned into a question that the long stages ask. Where a library call does not come back
 // within kPatience, a watcher thread removes the folders under guard and ends the process itself, so that an
@@ -44,6 +52,7 @@ class Interrupt {
 
  private:
   void watch();
+  void wakeWatcher();
   [[noreturn]] void endProcess();
   void emptyGuarded() noexcept;
 
@@ -55,7 +64,8 @@ class Interrupt {
   std::atomic<bool> missed_{false};                                 // a signal came while closed
   std::map<std::filesystem::path, std::filesystem::path> guarded_;  // as given, and from the root
   Notes notes_;
-  std::thread watcher_;
+  std::vector<int> signals_;  // those that stop the program
+  std::thread watcher_;       // none where nothing does
 };
 
 }  // namespace coastmesh

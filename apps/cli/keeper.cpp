@@ -17,15 +17,16 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "apps/cli/exit_codes.hpp"
+#include "apps/cli/interrupt.hpp"
 #include "gis/file/remove_folder.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-constexpr std::array kStopSignals{SIGINT, SIGTERM, SIGHUP};
 constexpr char kGuarded = '+', kReleased = '-';
 
 volatile sig_atomic_t g_child = 0;
@@ -74,7 +75,7 @@ pid_t makeSweeper(int from_child, int to_sweeper) {
   if (sweeper != 0) return sweeper;
   nameAs("coastmesh-sweep");
   setsid();
-  for (const int signal_number : kStopSignals) signal(signal_number, SIG_IGN);
+  for (const int signal_number : stopSignals()) signal(signal_number, SIG_IGN);
   const int nowhere = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
   close(to_sweeper);
@@ -132,9 +133,9 @@ Keeper::Keeper(const Lost& lost) {
   const auto [from_child, to_sweeper] = pipe_ends;
   const pid_t parent = getpid();
   // Until the child is known no signal may end only the parent.
-  sigset_t signals, before;
-  sigemptyset(&signals);
-  for (const int signal_number : kStopSignals) sigaddset(&signals, signal_number);
+  const std::vector<int> stopping = stopSignals();
+  const sigset_t signals = setOf(stopping);
+  sigset_t before;
   sigprocmask(SIG_BLOCK, &signals, &before);
   const pid_t sweeper = makeSweeper(from_child, to_sweeper);
   close(from_child);
@@ -144,7 +145,7 @@ Keeper::Keeper(const Lost& lost) {
     g_child = child;
     struct sigaction action {};
     action.sa_handler = passOn;
-    for (const int signal_number : kStopSignals) sigaction(signal_number, &action, nullptr);
+    for (const int signal_number : stopping) sigaction(signal_number, &action, nullptr);
     sigprocmask(SIG_UNBLOCK, &signals, nullptr);
     keep(child, sweeper, lost);
   }

@@ -64,6 +64,22 @@ TEST_F(Interrupted, ByACrash) {
   }
 }
 
+// Whoever starts the program may have signals ignored, as nohup does with SIGHUP, and a shell with SIGINT in what it
+// runs in the background: that stays, and the others stop it still.
+TEST_F(Interrupted, NotByWhatIsIgnored) {
+  const std::string run = "\"$0\" mesh '" + lake() + "' -o '" + file("out.gpkg") +
+                          "' --size-max 1 --progress json > '" + file("log") + "' & until grep -q refine '" +
+                          file("log") + "'; do sleep 0.01; done\n";
+  const ProgramRun stopped = runShell("trap '' HUP INT; " + run + "kill -HUP $!; kill -INT $!; sleep 1; kill -0 $! " +
+                                      "|| exit 99; kill -TERM $!; wait $!");
+  EXPECT_EQ(stopped.code, 5) << stopped.errors;
+  EXPECT_TRUE(isOneErrorLine(stopped.errors)) << stopped.errors;
+  const ProgramRun killed = runShell("trap '' HUP INT TERM; " + run + "kill -HUP $!; kill -TERM $!; sleep 1; " +
+                                     "kill -0 $! || exit 99; kill -KILL $!; wait $!");
+  EXPECT_EQ(killed.code, 128 + SIGKILL) << killed.errors;
+  EXPECT_EQ(runShell("trap '' HUP INT TERM; \"$0\" mesh '" + lake() + "' -o '" + file("x.2dm") + "'").code, 0);
+}
+
 // Opening a pipe that nobody writes to does not come back: nothing but the watcher can end the program then.
 TEST_F(Interrupted, WhileALibraryCallHangs) {
   ASSERT_EQ(mkfifo(file("pipe.geojson").c_str(), 0600), 0);

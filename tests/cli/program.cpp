@@ -39,7 +39,16 @@ class Child {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out().c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err().c_str(), flags, 0600);
-    const int failed = posix_spawn(&pid_, words.front().c_str(), &actions, nullptr, pointers.data(), environ);
+    // A shell starts what runs in the background, which the tests may, with SIGINT ignored.
+    sigset_t stopping;
+    sigemptyset(&stopping);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&stopping, number);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &stopping);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    const int failed = posix_spawn(&pid_, words.front().c_str(), &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (failed != 0) throw std::runtime_error("cannot start " + words.front());
   }
