@@ -7,7 +7,6 @@
 #include <cstring>
 #include <exception>
 #include <functional>
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -107,11 +106,10 @@ int guardedMain(int argc, char** argv, Interrupt& interrupt, int ranks) {
     // The reader of the progress has ended, or cannot store it.
     if (!interrupt.requested() && !flushOutput(why)) return failWith(kExitOutput, why);
     return fail(kExitInterrupted, "interrupted");
-  } catch (const std::bad_alloc&) {
-    return fail(kExitInput, kNoMemory);
   } catch (const HelperOutOfMemory& error) {
     return fail(kExitInput, error.what());
   } catch (const std::exception& error) {
+    if (const char* const lacking = whatLacks(); lacking != nullptr) return fail(kExitInput, lacking);
     return failWith(kExitBug, std::string("this is a bug in coastmesh, please report it: ") + error.what());
   }
 }

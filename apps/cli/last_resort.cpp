@@ -10,6 +10,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -25,22 +26,6 @@ std::optional<int> g_finished;
 
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr unsigned kSecondsToRemove = 10;  // what crashed may have left a lock closed
-
-// The type of memory shortage in an error; null if it is another error. Without an exception it is GDAL that ends the
-// process, which it does if memory runs out.
-const char* shortage() {
-  const std::exception_ptr current = std::current_exception();
-  if (!current) return kNoMemory;
-  try {
-    std::rethrow_exception(current);
-  } catch (const std::bad_alloc&) {
-    return kNoMemory;
-  } catch (const std::system_error& error) {
-    return error.code() == std::errc::resource_unavailable_try_again ? kNoThread : nullptr;
-  } catch (...) {
-    return nullptr;
-  }
-}
 
 // Nothing here allocates memory.
 void tell(const char* text) { [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text)); }
@@ -58,7 +43,8 @@ void removeWhatIsHalfWritten() {
 }
 
 [[noreturn]] void endAtOnce() {
-  const char* const lacking = shortage();
+  // Without an exception it is GDAL that ends the process, which it does if memory runs out.
+  const char* const lacking = std::current_exception() ? whatLacks() : kNoMemory;
   removeWhatIsHalfWritten();
   end(lacking, "this is a bug in coastmesh, please report it: an error where none may be thrown");
 }
@@ -85,6 +71,22 @@ void endedFromWithin() {
 }
 
 }  // namespace
+
+const char* whatLacks() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return kNoMemory;
+  } catch (const std::system_error& error) {
+    return error.code() == std::errc::resource_unavailable_try_again ? kNoThread : nullptr;
+  } catch (const std::runtime_error& error) {
+    // oneTBB has no type of its own for it: "pthread_create has failed: ...".
+    constexpr const char* kOfTbb = "pthread_create";
+    return std::strncmp(error.what(), kOfTbb, std::strlen(kOfTbb)) == 0 ? kNoThread : nullptr;
+  } catch (...) {
+    return nullptr;
+  }
+}
 
 // A stack overflow leaves no room for this handler.
 void catchCrashes() {

@@ -22,6 +22,9 @@ void finishedWith(int code);
 // libraries. Asks for none itself.
 void catchCrashes();
 
+// What the system lacks by the exception that is being handled, in words for the user; null if it is another error.
+const char* whatLacks();
+
 // Somebody calls exit(), which only a library does: ends the process as main would have where that is done, and as one
 // that lacked memory where it did. Returns otherwise.
 void exitIsCalled();
@@ -29,6 +32,7 @@ void exitIsCalled();
 inline constexpr const char* kNoMemory =
     "this takes more memory than there is; mesh the input in parts, or ask for larger triangles";
 inline constexpr const char* kNoThread =
-    "the system starts no further thread for this process; raise its limits (ulimit -u, or those of the container)";
+    "the system starts no further thread for this process; ask for fewer --threads, or raise its limits (ulimit -u, "
+    "ulimit -v, or those of the container)";
 
 }  // namespace coastmesh

@@ -128,6 +128,19 @@ TEST_F(SizeLimits, ChannelsAreWalkedNoFurtherThanTheyMayAskFor) {
   }
 }
 
+// Where a thread lacks for its limits, those of memory for stacks among them, it is no bug.
+TEST_F(SizeLimits, ThreadsThatCannotBeStarted) {
+  if (!kMemoryIsTheProgramsOwn) GTEST_SKIP() << "no limit can be set on memory";
+  const std::string run = "\"$0\" mesh '" + lake() + "' -o '" + file("a.2dm") + "' --size-max 20 --quiet --threads ";
+  for (const std::string limited : {"ulimit -v 200000; " + run + "8", "ulimit -v 1000000; " + run + "1024"}) {
+    const ProgramRun refused = runShell(limited);
+    if (refused.code == 0) continue;  // on a machine where threads take less
+    EXPECT_EQ(refused.code, 3) << refused.errors;
+    EXPECT_TRUE(isOneErrorLine(refused.errors)) << refused.errors;
+    EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
+  }
+}
+
 // Two shores of a kilometre ten micrometres apart: 33 degrees take a hundred million triangles between them.
 TEST_F(SizeLimits, RefinementBeyondTheMemoryStopsAndSaysWhere) {
   if (!kMemoryIsTheProgramsOwn) GTEST_SKIP() << "no limit can be set on memory";
