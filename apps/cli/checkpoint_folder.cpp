@@ -177,7 +177,9 @@ CheckpointFolder::CheckpointFolder(const std::string& folder, CheckpointHeader h
                       "' cannot be made: " + (error ? error.message() : std::strerror(ENOENT)));
   }
   const std::vector<std::string> names = namesIn(folder_, error);
-  if (error) throw OutputError("the folder '" + folder + "' cannot be listed: " + error.message());
+  // Another run may have removed it just now.
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw OutputError("the folder '" + folder + "' cannot be listed: " + error.message());
   if (!names.empty() && std::ranges::find(names, kLock) == names.end())
     throw OptionError("--checkpoint " + folder + ": there are other files in it; name a folder that is empty or new");
   lock();
@@ -219,7 +221,14 @@ void CheckpointFolder::lock() {
   const fs::path path = folder_ / kLock;
   for (int i = 0; i < kTries; ++i) {
     lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0) failToKeep(path, errno);
+    if (lock_ < 0 && errno != ENOENT) failToKeep(path, errno);
+    if (lock_ < 0) {
+      // The run that had the folder is done and has removed it: this one begins anew.
+      std::error_code error;
+      made_ = fs::create_directory(folder_, error) || made_;
+      if (error) failToKeep(folder_, error.value());
+      continue;
+    }
     const int error = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
     struct stat ours {
     }, there{};

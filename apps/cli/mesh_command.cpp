@@ -56,6 +56,7 @@ Command declareMesh(CLI::App& root) {
   auto usage = std::make_shared<MeshRunUsage>();
   return {{root, declareOptions(*usage)}, [usage](Run& run) {
             settle(usage->mesh);
+            requireShardOfThisRank(usage->shard, run);
             return usage->per_feature ? runPerFeature(*usage, run) : runMesh(*usage, run);
           }};
 }

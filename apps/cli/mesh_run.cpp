@@ -25,6 +25,7 @@
 #include "apps/usage/grid_usage.hpp"
 #include "apps/usage/mesh_usage.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/ranks_started.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
@@ -107,6 +108,14 @@ std::optional<int> doneBefore(const MeshRunUsage& usage, const Run& run, const G
   return code;
 }
 
+// The folder of --checkpoint from the files of the run.
+void requireCheckpointApart(const std::string& folder, const OptionTable& options) {
+  std::vector<OptionTable::NamedOutput> written = options.outputs();
+  const std::string name = (std::filesystem::path(folder) / "").parent_path();  // without a slash at its end
+  written.push_back({"--checkpoint", folder, {{name}, {}, {}}});
+  requireOutputsApart(written, options.inputs());
+}
+
 }  // namespace
 
 std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text) {
@@ -120,6 +129,16 @@ std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text) {
   if (!divided || second.ec != std::errc() || second.ptr != end || shards > kMostShards || shard < 1 || shard > shards)
     throw OptionError("--shard " + text + ": is not I/N, such as 3/7 for the third of seven, up to a million");
   return {shard - 1, shards};
+}
+
+void requireShardOfThisRank(const std::string& text, const Run& run) {
+  const int ranks = ranksStarted();
+  if (text.empty() || ranks <= 1 || run.cluster != nullptr) return;
+  const auto made_by = static_cast<int>(shardOf(text).first % static_cast<std::uint32_t>(ranks));
+  if (made_by == rankStarted()) return;
+  throw OptionError("--shard " + text + ": of " + std::to_string(ranks) + " ranks it is rank " +
+                    std::to_string(made_by) + " that makes it, this is rank " + std::to_string(rankStarted()) +
+                    "; give each rank a share of its own, or start one process");
 }
 
 OptionTable meshJobOptions(MeshUsage& usage) {
@@ -177,6 +196,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   MeshUsage of_job;
   const bool keeps = !usage.checkpoint.empty();
   if (keeps) requireNoStream(job, "--checkpoint reads the input again to resume");
+  if (keeps) requireCheckpointApart(usage.checkpoint, run.options);
   const GivenOptions given = to_shard || keeps ? givenOptions(run.options, meshJobOptions(of_job)) : GivenOptions();
   const bool skips = usage.skip_existing && !usage.overwrite;
   if (skips) {

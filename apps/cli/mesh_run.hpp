@@ -42,6 +42,10 @@ void declareRunOutputs(OptionTable& table, MeshRunUsage& usage);
 // "3/7" as the third of seven, counted from 0; the only one of one where `text` is empty. Throws OptionError.
 std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text);
 
+// Processes that a launcher has started together do not know of one another's shards: where each is to make one of its
+// own, rank (I - 1) modulo their number makes shard I, and none is made twice. Throws OptionError for another.
+void requireShardOfThisRank(const std::string& text, const Run& run);
+
 // REQUIRES: `usage.mesh` is settled. Gives an exit code; throws what main turns into messages and codes.
 int runMesh(const MeshRunUsage& usage, Run& run);
 

@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
@@ -267,6 +269,32 @@ TEST_F(Checkpoint, BelongsToOneRunAtATime) {
   expectRefused(keeping(input), 2, "another run is using it");
   close(lock);
   EXPECT_EQ(runProgram(keeping(input)).code, 0);
+}
+
+// The run that has the folder removes it when it is done.
+TEST_F(Checkpoint, BeginsAnewWhereTheRunBeforeIsDoneMeanwhile) {
+  const std::string input = lake();
+  std::filesystem::create_directory(file("kept"));
+  const int lock = open(kept("coastmesh.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  ASSERT_GE(lock, 0);
+  ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
+  std::future<ProgramRun> waiting = std::async(std::launch::async, [&] { return runProgram(keeping(input)); });
+  EXPECT_EQ(waiting.wait_for(std::chrono::seconds(1)), std::future_status::timeout);
+  std::filesystem::remove_all(file("kept"));
+  close(lock);
+  const ProgramRun run = waiting.get();
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_FALSE(std::filesystem::exists(file("kept")));
+}
+
+TEST_F(Checkpoint, TheFolderIsNoInputAndNoOutput) {
+  const std::string input = lake();
+  for (const std::string folder : {"r.nc", "r.nc/", "r.json", "./r.nc"}) {
+    expectRefused({"mesh", input, "-o", file("r.nc"), "--report", file("r.json"), "--checkpoint", file(folder)}, 2,
+                  "would both write");
+  }
+  expectRefused({"mesh", input, "-o", file("r.nc"), "--checkpoint", input}, 2, "is input and output at once");
+  EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
 }
 
 TEST_F(Checkpoint, AFailureBeforeAnythingIsKeptLeavesNoFolder) {

@@ -246,6 +246,26 @@ TEST_F(Shard, OfAnotherVersionIsRefused) {
   EXPECT_EQ(names().count("g.nc"), 0u);
 }
 
+// Two processes that a launcher has started would race for the file.
+TEST_F(Shard, IsMadeByOneOfTheRanks) {
+  const std::string input = lakes();
+  const auto as = [&](int rank, const std::string& shard, const std::string& option) {
+    return runShell("OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=" + std::to_string(rank) + " \"$0\" mesh '" + input +
+                    "' --overwrite --quiet --shard=" + shard + " " + option);
+  };
+  for (const std::string& option : {"-o '" + shardFile(1) + "'", "--per-feature -o '" + file("l-{}.2dm") + "'"}) {
+    const ProgramRun refused = as(1, "1/3", option);
+    EXPECT_EQ(refused.code, 2) << refused.errors;
+    EXPECT_TRUE(isOneErrorLine(refused.errors)) << refused.errors;
+    EXPECT_THAT(refused.errors, HasSubstr("of 2 ranks it is rank 0 that makes it, this is rank 1"));
+    EXPECT_EQ(as(0, "2/3", option).code, 2);
+  }
+  EXPECT_EQ(names(), std::set<std::string>{"lakes.geojson"});
+  EXPECT_EQ(as(0, "1/3", "-o '" + shardFile(1) + "'").code, 0);
+  EXPECT_EQ(as(1, "2/3", "-o '" + shardFile(2) + "'").code, 0);
+  EXPECT_NE(as(0, "3/3", "-o '" + shardFile(3) + "'").code, 2);
+}
+
 TEST_F(Shard, MoreShardsThanLakes) {
   const std::string input = lakes();
   const std::vector<int> codes = runShards(input, 30, {});

@@ -301,6 +301,11 @@ class Refusals(Folder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["0.shard", "1.shard"])
 
+    def test_one_shard_for_all_ranks_is_refused(self):
+        done = run(on_ranks(2, PROGRAM, "mesh", LAKE, "-o", "s.shard", "--shard", "1/2", "--quiet"), self.folder)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("of 2 ranks it is rank 0 that makes it", done.stderr)
+
     def test_without_mpi_ranks_are_refused(self):
         done = run(on_ranks(2, ALONE, "mesh", LAKE, "-o", "out.nc"), self.folder)
         self.assertEqual(done.returncode, 2, done.stderr)
