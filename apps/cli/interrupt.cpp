@@ -96,6 +96,8 @@ void Interrupt::close() {
 void Interrupt::reopen() {
   const std::lock_guard lock(mutex_);
   closed_ = false;
+  if (notes_)
+    for (const auto& [given, folder] : guarded_) notes_(folder, true);
   if (missed_.exchange(false)) wakeWatcher();
 }
 

@@ -106,6 +106,8 @@ std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline,
     points.push_back(pointsOf(feature));
     indices.push_back(i);
   }
+  if (features.empty())
+    throw InputError("no feature of the input has an area to mesh: --per-feature takes polygons and closed lines");
   const std::vector<std::string> names = namesOfFeatures(features, usage.name_field);
   const auto [shard, shards] = shardOf(usage.shard);
   const std::vector<std::uint32_t> shard_of = dealGroups(points, shards);
