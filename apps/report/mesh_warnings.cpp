@@ -20,10 +20,9 @@ std::vector<std::string> warningsOf(const MeshJobResult& result) {
   }
   if (result.short_of.count > 0 && !result.finish.repairs.repairs.empty() &&
       result.short_of.count > result.short_before_repairs) {
-    all.push_back(
-        "repairs left triangles that miss the requested bounds: " + std::to_string(result.short_of.count) +
-        " in all, the first at " + pointText(result.short_of.places.front().place) + "; before there were " +
-        std::to_string(result.short_before_repairs));
+    all.push_back("repairs left triangles that miss the requested bounds: " + std::to_string(result.short_of.count) +
+                  " in all, the first at " + pointText(result.short_of.places.front().place) + "; before there were " +
+                  std::to_string(result.short_before_repairs));
   }
   if (result.regions == 0 && result.refusals.size() == 1) return all;
   const std::size_t shown = std::min(kRefusalsShown, result.refusals.size());

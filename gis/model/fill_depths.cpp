@@ -42,8 +42,8 @@ double distance(const Grid& grid, std::uint32_t a, std::uint32_t b) {
   return std::hypot(std::remainder(p.x - q.x, 360.0) * scale, p.y - q.y);
 }
 
-// Values at nodes, each the mean of its neighbours', by conjugate gradients from what is there. The steps are as many as
-// a gap is wide, in edges; what is left of the difference after the most is small and smooth.
+// Values at nodes, each the mean of its neighbours', by conjugate gradients from what is there. It takes about as many
+// steps as a gap is wide, in edges.
 class MeanOfNeighbours {
  public:
   // `nodes` are to be changed, and all of their neighbours have a value.
