@@ -88,8 +88,8 @@ TEST(FollowSizes, AFrameThatGrazesAWaterBesideTheSeaLeavesOneWater) {
   }
 }
 
-// Two waters, each with an open boundary, and a strait between them narrower than an element: it is widened unless it is
-// far narrower, and then named.
+// Two waters, each with an open boundary, and a strait between them narrower than an element: it is widened unless it
+// is far narrower, and then named.
 TEST(FollowSizes, WatersThatAreBothKeptAreJoinedOrNamed) {
   for (const double width : {0.6, 1.2}) {
     for (const KeepWater keep : {KeepWater::All, KeepWater::Modelled, KeepWater::Open}) {
