@@ -32,6 +32,7 @@ namespace {
 using namespace coastmesh;
 
 int fail(ExitCode code, const std::string& message) {
+  beFirstToTell();
   std::fprintf(stderr, "coastmesh: error: %s\n", oneLine(message).c_str());
   return code;
 }

@@ -1,9 +1,9 @@
 // malloc and its family for the whole process: definitions in a program take precedence over the C library's, for all
 // libraries, operator new and the C library itself. Each calls the next definition (the C library, or an allocator,
-// heap profiler or fault shim that is loaded before it) and records failures. So does exit, for libraries that end the
-// process after one. Only in the program: the libraries and the Python module run in other programs' processes.
-// Inactive if a sanitizer has its own allocator, and with C libraries other than glibc: there only operator new is
-// watched (apps/cli/last_resort).
+// heap profiler or fault shim that is loaded before it) and records failures. So does pthread_create, after whose
+// failure oneTBB may crash, and exit, for libraries that end the process after one. Only in the program: the libraries
+// and the Python module run in other programs' processes. Inactive if a sanitizer has its own allocator, and with C
+// libraries other than glibc: there only operator new is watched (apps/cli/last_resort).
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define COASTMESH_OTHER_MALLOC
@@ -19,6 +19,7 @@
 #if defined(__GLIBC__) && !defined(COASTMESH_OTHER_MALLOC)
 
 #include <dlfcn.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -76,6 +77,10 @@ int alignedByLibc(void** memory, std::size_t alignment, std::size_t size) noexce
   return 0;
 }
 
+using Start = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*) noexcept;
+int startedByNobody(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*) noexcept { return EAGAIN; }
+
+constinit Next<Start> g_start{"pthread_create", startedByNobody};
 constinit Next<void* (*)(std::size_t) noexcept> g_malloc{"malloc", __libc_malloc};
 constinit Next<void* (*)(std::size_t, std::size_t) noexcept> g_calloc{"calloc", __libc_calloc};
 constinit Next<void* (*)(void*, std::size_t) noexcept> g_realloc{"realloc", __libc_realloc};
@@ -130,6 +135,13 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
   const int result = g_posix.get()(memory, alignment, size);
   if (result == ENOMEM) [[unlikely]]
     failed(size);
+  return result;
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*work)(void*), void* given) noexcept {
+  const int result = g_start.get()(thread, attributes, work, given);
+  if (result != 0) [[unlikely]]
+    coastmesh::noteThreadLacked();
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -23,6 +24,7 @@ namespace {
 
 Interrupt* g_interrupt = nullptr;
 std::optional<int> g_finished;
+std::atomic<bool> g_thread_lacked = false;
 
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr unsigned kSecondsToRemove = 10;  // what crashed may have left a lock closed
@@ -46,6 +48,7 @@ void removeWhatIsHalfWritten() {
   // Without an exception it is GDAL that ends the process, which it does if memory runs out.
   const char* const lacking = std::current_exception() ? whatLacks() : kNoMemory;
   removeWhatIsHalfWritten();
+  beFirstToTell();
   end(lacking, "this is a bug in coastmesh, please report it: an error where none may be thrown");
 }
 
@@ -55,7 +58,8 @@ void crashed(int number) {
   signal(SIGALRM, SIG_DFL);
   alarm(kSecondsToRemove);
   removeWhatIsHalfWritten();
-  const char* const lacking = memoryLacked() || CPLGetLastErrorNo() == CPLE_OutOfMemory ? kNoMemory : nullptr;
+  const bool no_memory = memoryLacked() || CPLGetLastErrorNo() == CPLE_OutOfMemory;
+  const char* const lacking = no_memory ? kNoMemory : g_thread_lacked ? kNoThread : nullptr;
   rlimit core{};
   // For users who want to see the cause.
   if (lacking == nullptr && getrlimit(RLIMIT_CORE, &core) == 0 && core.rlim_cur > 0) raise(number);
@@ -71,6 +75,13 @@ void endedFromWithin() {
 }
 
 }  // namespace
+
+void noteThreadLacked() noexcept { g_thread_lacked = true; }
+
+void beFirstToTell() {
+  static std::atomic_flag told;
+  if (told.test_and_set()) sleep(kSecondsToRemove);
+}
 
 const char* whatLacks() {
   try {

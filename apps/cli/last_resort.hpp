@@ -25,6 +25,13 @@ void catchCrashes();
 // What the system lacks by the exception that is being handled, in words for the user; null if it is another error.
 const char* whatLacks();
 
+// A thread could not be started: a crash after that is its consequence. Called by `watch_memory`, from any thread.
+void noteThreadLacked() noexcept;
+
+// To be called before the line that says why the process ends, which several threads may come to at once: all but the
+// first wait here for the end, and go on only where it does not come.
+void beFirstToTell();
+
 // Somebody calls exit(), which only a library does: ends the process as main would have where that is done, and as one
 // that lacked memory where it did. Returns otherwise.
 void exitIsCalled();
