@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "gis/crs/crs_map.hpp"
+#include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
 #include "tests/gis/grid_samples.hpp"
@@ -333,6 +335,47 @@ TEST(GridFormats, LongitudesOfAProjectedGridGoOnToo) {
   EXPECT_GT(east.x, 180.0);
   EXPECT_LT(east.x, 180.2);
   EXPECT_EQ(readGrid(folder / "hgrid.gr3").nodes, grid.nodes);
+}
+
+// UTM zones by their projection, but in other units, or on a datum that is shifted: no drivers take them for the zone.
+TEST(GridFormats, KeepCrssThatHaveNoCode) {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::string, double>> with_metres = {
+      {"+proj=utm +zone=32 +datum=WGS84 +units=km", 1000.0},
+      {"+proj=utm +zone=17 +datum=NAD83 +units=us-ft", 0.3048},
+      {"+proj=utm +zone=32 +ellps=WGS84 +towgs84=100,0,0", 1.0}};
+  for (const auto& [proj, metres] : with_metres) {
+    const Grid grid = sampleGrid(parseCrs(proj), {500000.0 / metres, 5000000.0 / metres}, 100.0 / metres);
+    for (const char* name : {"a.gpkg", "a.fgb"}) {
+      const std::string path = folder / name;
+      StagedOutput output(path, gridFormatFor(path), true);
+      output.write(grid);
+      output.commit();
+      EXPECT_TRUE(sameCrs(readGrid(path).crs, grid.crs)) << name << ' ' << proj;
+    }
+  }
+}
+
+// Files that hold longitudes and no CRS mean WGS 84, whatever meridian and datum those of the mesh count from.
+TEST(GridFormats, LongitudesWithoutACrsAreThoseOfWgs84) {
+  const TemporaryFolder folder;
+  for (const char* code : {"EPSG:31281", "EPSG:27572", "EPSG:4230"}) {  // from Ferro, from Paris, ED50
+    const Crs crs = parseCrs(code);
+    const CrsMap map(toOgr(wgs84()), toOgr(crs));
+    const Point origin = map.forward({10.0, 47.0});
+    const Grid grid = sampleGrid(crs, origin, crs.geographic ? 0.01 : 1000.0);
+    const std::string path = folder / "a_mpas.nc";
+    StagedOutput output(path, gridFormatFor(path), true);
+    output.write(grid);
+    output.commit();
+    const Grid got = readGrid(path);
+    ASSERT_EQ(got.nodes.size(), grid.nodes.size());
+    for (std::size_t i = 0; i < got.nodes.size(); ++i) {
+      const Point expected = map.inverse(grid.nodes[i]);
+      EXPECT_NEAR(got.nodes[i].x, expected.x, 1e-8) << code;
+      EXPECT_NEAR(got.nodes[i].y, expected.y, 1e-8) << code;
+    }
+  }
 }
 
 TEST(GridFormats, AreChosenByEndingOrName) {
