@@ -214,7 +214,15 @@ TEST_F(Shard, WhatDoesNotGoTogetherIsRefused) {
   expectRefused({"mesh", file("pipe"), "--shard", "1/1", "-o", file("a.shard")}, 2, "other pipes");
   for (const std::string wrong : {"0/3", "4/3", "1", "1/", "/3", "1/3x", "-1/3", "1/9999999"})
     expectRefused({"mesh", input, "--shard=" + wrong, "-o", file("a.shard")}, 2, "--shard");
-  // The input changed meanwhile.
+  // The input changed meanwhile: a name, the CRS, all places.
+  const std::string text = readText(input);
+  std::string renamed = text;
+  renamed.replace(renamed.find("lake 3"), 6, "loch 3");
+  const std::string in_nad83 = R"({"crs":{"type":"name","properties":{"name":"EPSG:4269"}},)" + text.substr(1);
+  for (const std::string& changed : {renamed, in_nad83}) {
+    writeText(input, changed);
+    expectRefused(gather(3, out), 3, "another input");
+  }
   lakes(0.25);
   expectRefused(gather(3, out), 3, "another input");
   EXPECT_EQ(names().count("g.nc"), 0u);
