@@ -239,11 +239,13 @@ void dropRepeatedRings(std::vector<CleanChain>& chains, Drop&& drop) {
     return std::tie(a.feature, a.role, a.size, a.least) == std::tie(b.feature, b.role, b.size, b.least);
   };
   for (std::size_t k = 1, first = 0; k < keys.size(); ++k) {
-    if (!isAlike(keys[first], keys[k])) {
-      first = k;
-    } else if (isSameRing(chains[keys[first].chain].walk, chains[keys[k].chain].walk)) {
-      repeated[keys[k].chain] = true;
-    }
+    if (!isAlike(keys[first], keys[k])) first = k;
+    // Different rings may share their least vertex.
+    repeated[keys[k].chain] = std::any_of(keys.begin() + static_cast<std::ptrdiff_t>(first),
+                                          keys.begin() + static_cast<std::ptrdiff_t>(k), [&](const Key& before) {
+                                            return !repeated[before.chain] &&
+                                                   isSameRing(chains[before.chain].walk, chains[keys[k].chain].walk);
+                                          });
   }
   for (std::size_t c = 0; c < chains.size(); ++c)
     if (repeated[c]) drop(chains[c]);

@@ -44,8 +44,7 @@ struct CleanChains {
 
 // Projects the members' points, merges those that are equal or within the snap distance (the first stays), removes
 // repeated points and spikes from chains, and drops chains without area, islands too small and rings that a feature has
-// twice. Throws InputError for a
-// point that cannot be projected.
+// twice. Throws InputError for a point that cannot be projected.
 CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t>& members,
                        const Projection& projection, const CleanOptions& options, CleanReport& report,
                        const ItemLoop& loop = inOrder);

@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "gis/crs/ogr_support.hpp"
-
 namespace coastmesh {
 
 Crs fromOgr(const OGRSpatialReference* srs) {
@@ -26,19 +24,14 @@ Crs fromOgr(const OGRSpatialReference* srs) {
         });
     if (match) code = codeOf(*match);
   }
-  // MapInfo's has no name, by which matches are weighed.
-  if (code.empty() && srs->IsGeographic()) {
-    const char* const options[] = {"CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCS",
-                                   "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", nullptr};
-    const OGRSpatialReference known = toOgr(wgs84());
-    if (srs->IsSame(&known, options)) return wgs84();
-  }
   if (!code.empty()) return parseCrs(code);
   const char* const options[] = {"FORMAT=WKT2", nullptr};
   char* wkt = nullptr;
   srs->exportToWkt(&wkt, options);
   const std::unique_ptr<char, void (*)(void*)> owner(wkt, CPLFree);
-  return parseCrs(wkt);
+  // MapInfo's WGS 84 has no name, by which matches are weighed.
+  const Crs crs = parseCrs(wkt);
+  return crs.geographic && sameCrs(crs, wgs84()) ? wgs84() : crs;
 }
 
 }  // namespace coastmesh

@@ -31,13 +31,13 @@ enum class TargetDefectKind {
   TwoOpenEdges,    // a triangle with two open edges
   OpenAndSolid,    // a triangle with an open edge and a solid one
   OneNeighbour,    // a triangle with only one neighbour
-  LoneWall,    // a wall between two open boundaries that is too short for codes at nodes: of one edge, TELEMAC's of two
-  Valence,     // an interior node with too few or too many triangles
-  LargeAngle,  // an angle larger than the model accepts
-  NotOrthogonal,  // an edge far from perpendicular to the line between the neighbours' centres
-  SmallFlowLink,  // an edge with the neighbours' centres too close to one another
-  Courant,        // a triangle whose Courant number is out of range for the time step
-  RoundTheGlobe,  // a triangle whose longitudes jump at ±180, for a model that takes differences of them as they are
+  LoneWall,        // a wall between openings too short for codes at nodes: one edge, for TELEMAC two
+  Valence,         // an interior node with too few or too many triangles
+  LargeAngle,      // an angle larger than the model accepts
+  NotOrthogonal,   // an edge far from perpendicular to the line between the neighbours' centres
+  SmallFlowLink,   // an edge with the neighbours' centres too close to one another
+  Courant,         // a triangle whose Courant number is out of range for the time step
+  RoundTheGlobe,   // a triangle whose longitudes jump at ±180, for a model that takes differences of them as they are
 };
 inline constexpr std::size_t kTargetDefectKinds = 26;
 std::string_view toString(TargetDefectKind kind);

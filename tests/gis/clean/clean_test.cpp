@@ -206,6 +206,11 @@ TEST(Clean, RingsThatAFeatureHasTwiceCountOnce) {
   cleaned = cleanInPlane({polygonFeature(1, {{0, 0}, {4, 0}, {4, 4}, {0, 0}, {-4, 0}, {-4, -4}})});
   EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 0u);
   EXPECT_EQ(cleaned.area(0), 16.0);
+  // Two islands that share a corner, of which the second is there twice.
+  const Ring west{{2, 2}, {1, 3}, {1, 1}}, east{{2, 2}, {3, 1}, {3, 3}};
+  cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4), {west, east, east})});
+  EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 1u);
+  EXPECT_EQ(cleaned.area(0), 14.0);
   // An island that another part fills is no repetition.
   Feature filled = polygonFeature(1, square(0, 0, 4), {island});
   filled.polygons.push_back({island, {}});

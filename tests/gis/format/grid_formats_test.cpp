@@ -135,15 +135,19 @@ void PrintTo(const Place& place, std::ostream* out) { *out << place.name; }
 
 class RoundTrip : public ::testing::TestWithParam<std::tuple<GridFormat, Place>> {};
 
-TEST_P(RoundTrip, GivesTheSameGrid) {
-  const auto& [format, place] = GetParam();
-  const Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+Grid writtenAndRead(const Grid& grid, const GridFormat& format) {
   const TemporaryFolder folder;
   const std::string path = folder / ("lakes" + endingOf(format));
   StagedOutput output(path, format, false);
   output.write(grid);
   output.commit();
-  expectSame(readGrid(path), grid, std::string(format.name));
+  return readGrid(path);
+}
+
+TEST_P(RoundTrip, GivesTheSameGrid) {
+  const auto& [format, place] = GetParam();
+  const Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
+  expectSame(writtenAndRead(grid, format), grid, std::string(format.name));
 }
 
 TEST_P(RoundTrip, KeepsExtremeNumbers) {
@@ -153,12 +157,7 @@ TEST_P(RoundTrip, KeepsExtremeNumbers) {
   grid.nodes[1].y = 1.0000000000000002;
   grid.nodes[2].x = 1e-7 / 3.0;
   grid.z[0] = -1.7976931348623157e+308;
-  const TemporaryFolder folder;
-  const std::string path = folder / ("lakes" + endingOf(format));
-  StagedOutput output(path, format, false);
-  output.write(grid);
-  output.commit();
-  const Grid got = readGrid(path);
+  const Grid got = writtenAndRead(grid, format);
   EXPECT_EQ(bitsOf(got.nodes), bitsOf(grid.nodes));
   EXPECT_EQ(bitsOf(got.z), bitsOf(grid.z));
 }
@@ -193,12 +192,7 @@ TEST_P(RoundTrip, KeepsDepthsThatLookLikeGaps) {
   const auto& [format, place] = GetParam();
   Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
   for (std::size_t i = 0; i < 4; ++i) grid.z[i] = std::array{-999.0, 999.0, -9999.0, -99999.0}[i];
-  const TemporaryFolder folder;
-  const std::string path = folder / ("lakes" + endingOf(format));
-  StagedOutput output(path, format, false);
-  output.write(grid);
-  output.commit();
-  const Grid got = readGrid(path);
+  const Grid got = writtenAndRead(grid, format);
   ASSERT_EQ(got.z.size(), grid.z.size());
   for (std::size_t i = 0; i < grid.z.size(); ++i) EXPECT_NEAR(got.z[i], grid.z[i], 1e-12) << i;
 }
@@ -211,12 +205,7 @@ TEST_P(RoundTrip, InventsNothing) {
   grid.crs = full.crs;
   grid.nodes = full.nodes;
   grid.triangles = full.triangles;
-  const TemporaryFolder folder;
-  const std::string path = folder / ("lakes" + endingOf(format));
-  StagedOutput output(path, format, false);
-  output.write(grid);
-  output.commit();
-  const Grid got = readGrid(path);
+  const Grid got = writtenAndRead(grid, format);
   EXPECT_EQ(bitsOf(got.nodes), bitsOf(grid.nodes));
   EXPECT_EQ(got.triangles, grid.triangles);
   EXPECT_TRUE(got.z.empty());
