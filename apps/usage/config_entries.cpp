@@ -13,12 +13,12 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <tuple>
 
+#include "apps/usage/ascii_toml.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -111,40 +111,6 @@ ConfigEntries readJson(const std::string& file, const std::string& text) {
 
 // TOML ------------------------------------------------------------------------------------------------------------
 
-// What stands outside of texts and comments.
-struct BareParts {
-  std::size_t dots = 0;
-  std::optional<std::size_t> foreign;  // the first byte that is no ASCII
-  std::optional<std::size_t> stray;    // the first quote that begins no text, as it stands within a word
-};
-
-// The library frees tables within tables by recursion, and dotted names may nest as many as there are dots, each of
-// which opens at most one. And letters beyond ASCII it takes for what cannot be, where it looks for the end of a name
-// or of a number, quotes and all.
-BareParts barePartsOf(std::string_view text) {
-  BareParts parts;
-  const std::size_t first = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-  for (std::size_t at = first; at < text.size(); ++at) {
-    const char c = text[at];
-    if (c == '.') ++parts.dots;
-    if (static_cast<unsigned char>(c) >= 0x80 && !parts.foreign) parts.foreign = at;
-    if (c == '#') at = std::min(text.find('\n', at), text.size());
-    if (c != '"' && c != '\'') continue;
-    constexpr std::string_view kBeforeTexts = " \t\n=[{,.";
-    const bool within_word = at > first && kBeforeTexts.find(text[at - 1]) == std::string_view::npos;
-    if (within_word && !parts.stray) parts.stray = at;
-    const bool tripled = text.substr(at, 3) == std::string(3, c);
-    const std::string end(tripled ? 3 : 1, c);
-    for (at += end.size(); at < text.size() && text.substr(at, end.size()) != end; ++at) {
-      if (!tripled && text[at] == '\n') break;
-      if (c == '"' && text[at] == '\\') ++at;
-    }
-    at += end.size() - 1;
-    while (tripled && at + 1 < text.size() && text[at + 1] == c) ++at;  // quotes at the end belong to the text
-  }
-  return parts;
-}
-
 std::string numberText(double number) {
   char text[40];
   const auto end = std::to_chars(text, text + sizeof text, number).ptr;
@@ -184,21 +150,21 @@ ConfigEntry entryOf(const toml::node& value, const std::string& file, const std:
 }
 
 ConfigEntries readToml(const std::string& file, const std::string& text) {
-  constexpr std::size_t kMostDots = 10'000;
-  const BareParts bare = barePartsOf(text);
-  if (bare.dots > kMostDots) refuseDepth(file);
-  const auto refuseAt = [&](std::size_t at, const std::string& why) {
-    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
-    throw OptionError(file + ": line " + std::to_string(line) + " is not TOML: " + why);
+  const auto refuseLine = [&](std::size_t line, std::string_view why) {
+    throw OptionError(file + ": line " + std::to_string(line) + " is not TOML: " + std::string(why));
   };
-  if (bare.foreign) refuseAt(*bare.foreign, "letters beyond ASCII stand in texts and comments alone");
-  if (bare.stray) refuseAt(*bare.stray, "a quote stands within a word");
+  const AsciiToml ascii = toAsciiToml(text);
+  if (ascii.fault)
+    refuseLine(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(ascii.fault->at), '\n') + 1,
+               ascii.fault->why);
+  // The library frees tables within tables by recursion, and dotted names may nest as many as there are dots.
+  constexpr std::size_t kMostDots = 10'000;
+  if (ascii.dots > kMostDots) refuseDepth(file);
   toml::table table;
   try {
-    table = toml::parse(text);
+    table = toml::parse(ascii.text);
   } catch (const toml::parse_error& error) {
-    throw OptionError(file + ": line " + std::to_string(error.source().begin.line) +
-                      " is not TOML: " + std::string(error.description()));
+    refuseLine(error.source().begin.line, error.description());
   }
   // By their places in the file, which the library's table forgets.
   ConfigEntries read;

@@ -158,17 +158,45 @@ TEST_F(ConfigFile, LettersBeyondAsciiStandInTextsAndComments) {
 
 // Nor would the library see the end of the number before the letter.
 TEST_F(ConfigFile, AQuoteWithinAWordBeginsNoText) {
-  for (const char* const text : {"\nsize-max = 2_'\u00e9'\n", "\ntitle = it's \u00e9\n", "\noutput = \"a\"'b'\n"}) {
+  for (const char* const text : {"\nsize-max = 2_'\u00e9'\n", "\nsize-max = 2[[['\u00e9']]]\n",
+                                 "\nsize-max = 2='\u00e9'\n", "\ntitle = it's \u00e9\n", "\noutput = \"a\"'b'\n"}) {
     try {
       taken(write("b.toml", text));
       ADD_FAILURE() << text;
     } catch (const OptionError& error) {
-      EXPECT_NE(std::string(error.what()).find("line 2 is not TOML: a quote stands within a word"), std::string::npos)
-          << error.what();
+      EXPECT_NE(std::string(error.what()).find("line 2 is not TOML: "), std::string::npos) << error.what();
     }
   }
   const auto job = taken(write("a.toml", "output=['a.nc',\"b.nc\"]\n\"quiet\"=true\n"));
   EXPECT_THAT(job->outputs, ElementsAre("a.nc", "b.nc"));
+}
+
+TEST_F(ConfigFile, TextsOfEveryKindKeepTheirLetters) {
+  const auto job = taken(write("a.toml", R"(output = ["\"\u00e9\\é.nc", 'C:\é "x".nc', """
+é\
+  \tb"""", '''é\'b''''', "😀"]
+)"));
+  EXPECT_THAT(job->outputs, ElementsAre("\"é\\é.nc", "C:\\é \"x\".nc", "é\tb\"", "é\\'b''", "😀"));
+}
+
+TEST_F(ConfigFile, TextsThatAreNotUtf8OrDoNotEndAreRefusedByTheirLine) {
+  const auto refusal = [&](const std::string& text) {
+    try {
+      taken(write("b.toml", text));
+    } catch (const OptionError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  for (const char* const bytes : {"\xE9", "\xC0\xAF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82"}) {
+    EXPECT_THAT(refusal("quiet = true\noutput = '" + std::string(bytes) + "'\n"),
+                testing::HasSubstr("line 2 is not TOML: the text is not UTF-8"));
+  }
+  EXPECT_THAT(refusal("\n\noutput = 'a.nc\nquiet = true\n"),
+              testing::HasSubstr("line 3 is not TOML: a text does not end"));
+  EXPECT_THAT(refusal("output = '''a.nc\nquiet = true\n"),
+              testing::HasSubstr("line 1 is not TOML: a text does not end"));
+  EXPECT_THAT(refusal("output = \"a\\\u00e9\"\n"), testing::HasSubstr("a backslash stands before"));
 }
 
 TEST_F(ConfigFile, SwitchesByTheirOtherName) {
