@@ -182,10 +182,13 @@ class TableWriter {
     constexpr std::size_t kChildren = (kPage - kInnerHeader) / (kPointer + kChild + 9);
     while (level.size() > kChildren) {
       std::vector<Child> above;
-      const std::uint64_t first = numbers.take((level.size() + kChildren - 1) / kChildren);
-      for (std::size_t at = 0; at < level.size(); at += kChildren) {
-        const std::span<const Child> children = std::span(level).subspan(at, std::min(kChildren, level.size() - at));
-        above.push_back({PageNumbers::numberOf(first, at / kChildren), children.back().greatest});
+      const std::uint64_t pages = (level.size() + kChildren - 1) / kChildren;
+      const std::uint64_t first = numbers.take(pages);
+      for (std::uint64_t k = 0; k < pages; ++k) {
+        // In equal shares: SQLite takes a page of a single child for damage.
+        const std::size_t from = level.size() * k / pages, to = level.size() * (k + 1) / pages;
+        const std::span<const Child> children = std::span(level).subspan(from, to - from);
+        above.push_back({PageNumbers::numberOf(first, k), children.back().greatest});
         addInner(above.back().page, children);
       }
       level = std::move(above);

@@ -101,6 +101,23 @@ TEST(SqlitePages, TreesOfAnyDepthAreSound) {
   }
 }
 
+// A page above leaves holds up to 272 of them, and none holds a single one.
+TEST(SqlitePages, LeavesOneMoreThanFillPagesMakeASoundTree) {
+  for (const std::uint64_t leaves : {2, 3, 271, 272, 273, 274, 544, 545, 546, 817}) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "rows.sqlite";
+    const std::uint64_t root = makeEmpty(path, "id INTEGER PRIMARY KEY, a");
+    const SqliteTable table{root, leaves, 1, [](std::uint64_t, SqliteRow& row) {
+                              row.null();
+                              std::ranges::fill(row.blob(3000), std::byte{1});  // two do not fit into a page
+                            }};
+    writeSqliteTables(path, {table}, onThreads);
+    EXPECT_EQ(ask(path, "PRAGMA integrity_check"), "ok") << leaves;
+    EXPECT_EQ(ask(path, "SELECT count(*) FROM t WHERE length(a) = 3000"), std::to_string(leaves));
+    EXPECT_EQ(ask(path, "SELECT length(a) FROM t WHERE id = " + std::to_string(leaves)), "3000");
+  }
+}
+
 // SQLite keeps the page at 1 GiB for locks. The file is made to end just before that, with a hole for its pages.
 TEST(SqlitePages, ThePageOfLocksIsPassedOver) {
   constexpr std::uint64_t kPage = 4096, kLockPage = (std::uint64_t{1} << 30) / kPage + 1;
