@@ -20,6 +20,7 @@
 #include "gis/follow/shore_ends.hpp"
 #include "gis/follow/shore_graph.hpp"
 #include "gis/follow/shore_joins.hpp"
+#include "gis/follow/shore_meets.hpp"
 #include "gis/follow/shore_mend.hpp"
 #include "gis/follow/shore_settle.hpp"
 #include "gis/follow/shore_shift.hpp"
@@ -208,6 +209,14 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   };
   mendEnds(chains, gone);
   coarsenShores(chains, gone);
+  MetPoints met_points;
+  meetPoints(chains, [&](VertexId v, VertexId w) {
+    const Point& x = chains.at[w];
+    addGain(chains, v, &x, scales, opened.gained);
+    log.add(EditKind::MovedPoint, x, chains.leaving[v].left);
+    met_points.add(x, distance(chains.at[v], x) / scales.at(x));
+  });
+  noteMetPoints(met_points, domain.projection, report);
   mendShores(chains, gone, moved, loop);
   WaterAreas missing;
   for (const auto& [water, gained] : opened.gained)

@@ -112,6 +112,14 @@ std::string nameOf(const std::string& kind, const std::vector<ShoreLine>& lines,
 
 }  // namespace
 
+void noteMetPoints(const MetPoints& met, const Projection& projection, CleanReport& report) {
+  if (met.count == 0) return;
+  report.notes.push_back("the shore passes through " + std::to_string(met.count) +
+                         forCount(met.count, " point or end of a line", " points or ends of lines") +
+                         " less than a quarter of an element off it, the farthest " +
+                         lengthText(met.apart_m, projection) + " at " + placeText(met.farthest, projection));
+}
+
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
                    const Projection& projection, CleanReport& report) {
   std::vector<std::string>& texts = report.notes;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "gis/clean/clean_report.hpp"
@@ -25,6 +26,22 @@ struct FollowNotes {
   std::vector<std::size_t> dry;  // passages that meet no water
   std::vector<OpenBarrier> open_barriers;
 };
+
+// Points and ends of lines in the water that the shore passes through, since they were almost on it.
+struct MetPoints {
+  std::size_t count = 0;
+  Point farthest;        // from the shore as it was
+  double apart_m = 0.0;  // of that one
+
+  void add(const Point& place, double metres) {
+    if (count++ != 0 && metres <= apart_m) return;
+    farthest = place;
+    apart_m = metres;
+  }
+};
+
+// Adds a note on them to the report, if there are any.
+void noteMetPoints(const MetPoints& met, const Projection& projection, CleanReport& report);
 
 // Adds sentences on the largest changes to the report, with their places in the input's CRS: a warning if more of the
 // water is left out, or parted from the largest, than is acceptable for a model, otherwise notes.

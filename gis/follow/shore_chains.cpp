@@ -124,6 +124,23 @@ void drop(ShoreChains& chains, VertexId v) {
   chains.alive[v] = 0;
 }
 
+VertexId cutAfter(ShoreChains& chains, VertexId v, const Point& x, double size) {
+  const auto made = static_cast<VertexId>(chains.at.size());
+  const VertexId q = chains.next[v];
+  const Segment leaving = chains.leaving[v];
+  chains.at.push_back(x);
+  chains.source.push_back(kNone);
+  chains.next.push_back(q);
+  chains.prev.push_back(v);
+  chains.leaving.push_back(leaving);
+  chains.stays.push_back(0);
+  chains.open.push_back(0);
+  chains.alive.push_back(1);
+  chains.size.push_back(size);
+  chains.next[v] = chains.prev[q] = made;
+  return made;
+}
+
 void takeOut(ShoreChains& chains, VertexId v) {
   const VertexId p = chains.prev[v], q = chains.next[v];
   chains.next[p] = q;

@@ -48,6 +48,9 @@ void dropSamples(ShoreChains& chains);
 // REQUIRES: its neighbours are dropped too, or joined.
 void drop(ShoreChains& chains, VertexId v);
 
+// A new vertex at x between v and the next, where that size is wanted. REQUIRES: no open boundary leaves v.
+VertexId cutAfter(ShoreChains& chains, VertexId v, const Point& x, double size);
+
 // Joins the neighbours of v. REQUIRES: they are not joined.
 void takeOut(ShoreChains& chains, VertexId v);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/metric.hpp"
+#include "gis/follow/shore_divide.hpp"
 #include "gis/follow/shore_pieces.hpp"
 
 namespace coastmesh {
@@ -23,15 +24,10 @@ constexpr double kSteps[] = {0.1, 0.25, 0.45};
 class Mender {
  public:
   Mender(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved, const ItemLoop& loop)
-      : c_(chains),
-        gone_(gone),
-        moved_(moved),
-        loop_(loop),
-        from_(chains.at),
-        near_(chains),
-        is_new_(chains.at.size(), 1) {}
+      : c_(chains), gone_(gone), moved_(moved), loop_(loop), near_(chains) {}
 
   void run() {
+    divide();
     for (int round = 0; round < kRounds && mendOnce(); ++round) {
     }
   }
@@ -42,6 +38,19 @@ class Mender {
     std::optional<Point> x;
     double quality = 0.0;
   };
+
+  // Moving a vertex moves all of the two segments that it joins.
+  void divide() {
+    divideAtLines(c_);
+    near_.buildTrees();
+    is_new_.assign(c_.at.size(), 1);
+    for (const auto& [quality, v] : findBad())
+      if (!isFixed(v)) divideBeside(c_, v);
+    from_ = c_.at;
+    is_new_.assign(c_.at.size(), 1);
+  }
+
+  bool isFixed(VertexId v) const { return c_.stays[v] != 0 || c_.open[v] != 0; }
 
   std::vector<std::pair<double, VertexId>> findBad() const {
     constexpr std::size_t kStretch = 4096;
@@ -70,7 +79,7 @@ class Mender {
     is_new_.assign(c_.at.size(), 0);
     bool any = false;
     for (const auto& [quality, v] : bad) {
-      if (c_.stays[v] || c_.open[v] || c_.next[v] == kNone) continue;
+      if (isFixed(v) || c_.next[v] == kNone) continue;
       near_.gather(v, kSteps[2]);
       if (std::ranges::any_of(near_.points(), [&](VertexId w) { return locked_[w] != 0; })) {
         is_new_[v] = 1;
@@ -135,6 +144,7 @@ class Mender {
 
 void mendShores(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved, const ItemLoop& loop) {
   Mender(chains, gone, moved, loop).run();
+  dropSamples(chains);
 }
 
 }  // namespace coastmesh

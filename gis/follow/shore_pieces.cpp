@@ -162,18 +162,18 @@ bool ShorePieces::isFine(VertexId v) const {
   return fine;
 }
 
-bool ShorePieces::canMove(VertexId v, const Point& x) const {
+bool ShorePieces::canMove(VertexId v, const Point& x, VertexId but) const {
   const VertexId p = c_.prev[v], q = c_.next[v];
   const Point& from = c_.at[v];
   for (const VertexId w : points_) {
-    if (w == v || !c_.alive[w]) continue;
+    if (w == v || w == but || !c_.alive[w]) continue;
     if (w != p && w != q && (holds(c_.at[p], from, x, c_.at[w]) || holds(from, c_.at[q], x, c_.at[w]))) return false;
   }
   if (orient2d(c_.at[p], x, c_.at[q]) == 0 || holds(c_.at[p], from, x, c_.at[q]) || holds(from, c_.at[q], x, c_.at[p]))
     return false;
   return std::ranges::none_of(segments_, [&](const auto& s) {
-    return s.first != v && s.second != v && c_.alive[s.first] && c_.alive[s.second] &&
-           crosses(from, x, c_.at[s.first], c_.at[s.second]);
+    return s.first != v && s.second != v && s.first != but && s.second != but && c_.alive[s.first] &&
+           c_.alive[s.second] && crosses(from, x, c_.at[s.first], c_.at[s.second]);
   });
 }
 

@@ -37,8 +37,9 @@ class ShorePieces {
   // REQUIRES: `buildTrees`, since when nothing was moved.
   bool isFine(VertexId v) const;
 
-  // Whether nothing crosses then, nor lies between the piece as it is and as it would be.
-  bool canMove(VertexId v, const Point& x) const;
+  // Whether nothing crosses then, nor lies between the piece as it is and as it would be; `but` and what ends there do
+  // not matter.
+  bool canMove(VertexId v, const Point& x, VertexId but = kNone) const;
 
   // Whether nothing lies between v and the segment that would replace it.
   bool canCut(VertexId v) const;
