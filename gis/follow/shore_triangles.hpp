@@ -2,14 +2,14 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "core/item_loop.hpp"
 #include "core/size_function.hpp"
 #include "core/tri_mesh.hpp"
-#include "gis/follow/shore_graph.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/shore/even_sizes.hpp"
+#include "gis/shore/shore_graph.hpp"
 
 namespace coastmesh {
 
@@ -59,10 +59,6 @@ void forTrianglesRound(const ShoreTriangles& triangles, VertexId v, Visit&& visi
 
 // Sets `width` and `size` of a triangle.
 void measureTriangle(ShoreTriangles& triangles, TriId t, const SizeFunction& size);
-
-// Sizes at places, by all threads. `on_shore`: which of them lie there, where sizes are `even`.
-std::vector<double> sizesAt(std::span<const Point> places, std::span<const char> on_shore, const SizeFunction& size,
-                            const EvenSizes* even, const ItemLoop& loop);
 
 // The bits of a vertex, from the segments that end in it.
 std::uint8_t useOf(const ShoreTriangles& triangles, VertexId v);

@@ -23,7 +23,6 @@
 #include "gis/file/output_files.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/follow/follow_options.hpp"
-#include "gis/follow/shore_graph.hpp"
 #include "gis/follow/shore_guides.hpp"
 #include "gis/follow/shore_sizes.hpp"
 #include "gis/follow/shore_triangles.hpp"
@@ -37,6 +36,8 @@
 #include "gis/read/read_coastline.hpp"
 #include "gis/read/read_report.hpp"
 #include "gis/read/source.hpp"
+#include "gis/shore/even_sizes.hpp"
+#include "gis/shore/shore_graph.hpp"
 #include "tests/reference/folder.hpp"
 
 namespace coastmesh {
@@ -249,20 +250,6 @@ TEST_F(GisCoastExamples, FollowOptions) {
   EXPECT_LT(options.strait_min, options.channel_min);
 }
 
-// gis/follow/shore_graph.hpp: A domain's graph while its coast is made to follow sizes.
-TEST_F(GisCoastExamples, ShoreGraph) {
-  //! [gis/follow/shore_graph.hpp]
-  ShoreGraph graph;
-  graph.pslg.points = {{0, 0}, {1, 0}, {0, 1}};
-  graph.pslg.segments = {{0, 1, 0, 0, kOutside}, {1, 2, 0, 0, kOutside}, {2, 0, 0, 0, kOutside}};
-  graph.source = {0, 1, 2};
-  const bool is_shore = isBoundary(graph.pslg.segments[0]);
-  const RegionId water = waterOf(graph.pslg.segments[0]);
-  //! [gis/follow/shore_graph.hpp]
-  EXPECT_TRUE(is_shore);
-  EXPECT_EQ(water, 0);
-}
-
 // gis/follow/shore_guides.hpp: Passages that stay open, and barriers.
 TEST_F(GisCoastExamples, ShoreGuides) {
   //! [gis/follow/shore_guides.hpp]
@@ -413,6 +400,32 @@ TEST_F(GisCoastExamples, Source) {
   //! [gis/read/source.hpp]
   ASSERT_EQ(coastline.features.size(), 1u);
   EXPECT_EQ(coastline.features[0].use, FeatureUse::Land);
+}
+
+// gis/shore/even_sizes.hpp: Sizes that grow evenly with the distance from the shore.
+TEST_F(GisCoastExamples, EvenSizes) {
+  //! [gis/shore/even_sizes.hpp]
+  const ConstantSize on_shore(100.0), elsewhere(500.0);
+  const EvenSizes even{0.1, on_shore};
+  const std::vector<Point> places{{0, 0}, {9000, 0}};
+  const std::vector<char> lies_on_shore{1, 0};
+  const std::vector<double> sizes = sizesAt(places, lies_on_shore, elsewhere, &even, inOrder);
+  //! [gis/shore/even_sizes.hpp]
+  EXPECT_EQ(sizes, (std::vector<double>{100.0, 500.0}));
+}
+
+// gis/shore/shore_graph.hpp: A domain's graph while its coast is made to follow sizes.
+TEST_F(GisCoastExamples, ShoreGraph) {
+  //! [gis/shore/shore_graph.hpp]
+  ShoreGraph graph;
+  graph.pslg.points = {{0, 0}, {1, 0}, {0, 1}};
+  graph.pslg.segments = {{0, 1, 0, 0, kOutside}, {1, 2, 0, 0, kOutside}, {2, 0, 0, 0, kOutside}};
+  graph.source = {0, 1, 2};
+  const bool is_shore = isBoundary(graph.pslg.segments[0]);
+  const RegionId water = waterOf(graph.pslg.segments[0]);
+  //! [gis/shore/shore_graph.hpp]
+  EXPECT_TRUE(is_shore);
+  EXPECT_EQ(water, 0);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
-#include "gis/follow/shore_chains.hpp"
+#include "gis/shore/shore_chains.hpp"
 
 namespace coastmesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "gis/follow/shore_pieces.hpp"
+#include "gis/shore/shore_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gis/follow/shore_divide.hpp"
+#include "gis/shore/shore_divide.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "gis/follow/shore_shift.hpp"
+#include "gis/shore/shore_shift.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/metric.hpp"
-#include "gis/follow/shore_pieces.hpp"
+#include "gis/shore/shore_pieces.hpp"
 
 namespace coastmesh {
 

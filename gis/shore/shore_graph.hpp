@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/pslg.hpp"
-#include "core/size_function.hpp"
 
 namespace coastmesh {
 
@@ -15,12 +14,5 @@ struct ShoreGraph {
 
 inline bool isBoundary(const Segment& s) { return (s.left >= 0) != (s.right >= 0); }
 inline RegionId waterOf(const Segment& s) { return s.left >= 0 ? s.left : s.right; }
-
-// Sizes that grow evenly with the distance from the shore and that nothing else decides on: how fast, and those on the
-// shore itself, which need not be looked for.
-struct EvenSizes {
-  double rate;
-  const SizeFunction& on_shore;
-};
 
 }  // namespace coastmesh

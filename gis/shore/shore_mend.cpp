@@ -1,4 +1,4 @@
-#include "gis/follow/shore_mend.hpp"
+#include "gis/shore/shore_mend.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/metric.hpp"
-#include "gis/follow/shore_divide.hpp"
-#include "gis/follow/shore_pieces.hpp"
+#include "gis/shore/shore_divide.hpp"
+#include "gis/shore/shore_pieces.hpp"
 
 namespace coastmesh {
 

@@ -1,4 +1,4 @@
-#include "gis/follow/shore_ends.hpp"
+#include "gis/shore/shore_ends.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "gis/follow/shore_thin.hpp"
+#include "gis/shore/shore_thin.hpp"
 
 #include <algorithm>
 #include <cmath>

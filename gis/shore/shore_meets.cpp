@@ -1,4 +1,4 @@
-#include "gis/follow/shore_meets.hpp"
+#include "gis/shore/shore_meets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "gis/coast/segment_tags.hpp"
-#include "gis/follow/shore_divide.hpp"
-#include "gis/follow/shore_pieces.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/shore/shore_divide.hpp"
+#include "gis/shore/shore_pieces.hpp"
 
 namespace coastmesh {
 

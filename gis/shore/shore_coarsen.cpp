@@ -1,4 +1,4 @@
-#include "gis/follow/shore_coarsen.hpp"
+#include "gis/shore/shore_coarsen.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/metric.hpp"
-#include "gis/follow/shore_chains.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/shore/shore_chains.hpp"
 
 namespace coastmesh {
 

@@ -6,7 +6,8 @@
 
 #include "core/item_loop.hpp"
 #include "core/size_function.hpp"
-#include "gis/follow/shore_graph.hpp"
+#include "gis/shore/even_sizes.hpp"
+#include "gis/shore/shore_graph.hpp"
 
 namespace coastmesh {
 

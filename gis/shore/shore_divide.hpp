@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gis/follow/shore_chains.hpp"
+#include "gis/shore/shore_chains.hpp"
 
 namespace coastmesh {
 

@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "gis/follow/shore_chains.hpp"
 #include "gis/projection/scale_table.hpp"
+#include "gis/shore/shore_chains.hpp"
 
 namespace coastmesh {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/item_loop.hpp"
-#include "gis/follow/shore_chains.hpp"
+#include "gis/shore/shore_chains.hpp"
 
 namespace coastmesh {
 

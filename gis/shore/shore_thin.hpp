@@ -3,8 +3,8 @@
 #include <functional>
 
 #include "core/item_loop.hpp"
-#include "gis/follow/shore_chains.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/shore/shore_chains.hpp"
 
 namespace coastmesh {
 

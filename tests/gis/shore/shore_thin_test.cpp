@@ -1,4 +1,4 @@
-#include "gis/follow/shore_thin.hpp"
+#include "gis/shore/shore_thin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
-#include "gis/follow/shore_graph.hpp"
+#include "gis/shore/shore_graph.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {

@@ -1,4 +1,4 @@
-#include "gis/follow/shore_meets.hpp"
+#include "gis/shore/shore_meets.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "gis/follow/shore_chains.hpp"
+#include "gis/shore/shore_chains.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
-#include "gis/follow/shore_triangles.hpp"
 
 namespace coastmesh {
 

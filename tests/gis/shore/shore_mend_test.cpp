@@ -1,4 +1,4 @@
-#include "gis/follow/shore_mend.hpp"
+#include "gis/shore/shore_mend.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/metric.hpp"
-#include "gis/follow/shore_pieces.hpp"
+#include "gis/shore/shore_pieces.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {

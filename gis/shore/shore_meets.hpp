@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "gis/follow/shore_chains.hpp"
+#include "gis/shore/shore_chains.hpp"
 
 namespace coastmesh {
 
