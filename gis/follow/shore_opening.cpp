@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLongestIsland = 3.0;  // in elements: what is longer stays
 constexpr double kShallow = 0.3;        // of the size: what reaches no deeper is left to simplifying
+constexpr double kBlunt = 0.6;          // of its gate, nor does what reaches no deeper: corners of 80 degrees and more
 constexpr double kWinding = 2.5;        // times as long as its gate: such a shore simplifying would not get straight
 constexpr double kPassage = 0.55;       // of its width: what is nearer to its line is part of a passage
 constexpr double kLeastOpening = 1.0;   // elements of open boundary: a shorter one may become shore
@@ -77,7 +78,7 @@ class Opening {
       const RegionId water = waterAround(spit);
       const auto gates = gatesOf(spit, spits.of, [&](TriId t) { return isLand(t); });
       const auto [deepest, depth] = deepestOf(spit, gates);
-      if (water == kNoRegion || (depth < kShallow && !isWinding(spit, gates))) continue;
+      if (water == kNoRegion || isShallow(spit, gates, depth)) continue;
       flip(spit, water, EditKind::DroppedSpit, deepest);
     }
   }
@@ -100,7 +101,7 @@ class Opening {
     for (const std::vector<TriId>& patch : closed.triangles) {
       const auto gates = gatesOf(patch, closed.of, [&](TriId t) { return !isLand(t); });
       const auto [deepest, depth] = deepestOf(patch, gates);
-      if (gates.size() == 1 && depth < kShallow && !isWinding(patch, gates)) continue;
+      if (isShallow(patch, gates, depth)) continue;
       flip(patch, t_.land, EditKind::ClosedWater, gates.size() == 1 ? deepest : mesh().triangles[patch.front()].v[0]);
     }
     parts_ = patchesOf(mesh(), [&](TriId t) { return !isLand(t); }).triangles;
@@ -274,6 +275,12 @@ class Opening {
       }
     }
     return deepest;
+  }
+
+  // Whether simplifying will do with the patch: it has one gate and reaches `depth` beyond it.
+  bool isShallow(const std::vector<TriId>& patch, const std::vector<EdgeRef>& gates, double depth) const {
+    if (gates.size() != 1 || isWinding(patch, gates)) return false;
+    return depth < std::max(kShallow, kBlunt * lengthOf(gates[0]) / t_.size[triOf(gates[0])]);
   }
 
   void flip(const std::vector<TriId>& patch, RegionId region, EditKind kind, VertexId place) {

@@ -17,12 +17,13 @@ namespace {
 constexpr double kMoved = 0.25;       // how far a shore may be moved
 constexpr double kMovedShort = 0.45;  // where segments are shorter than kShort
 constexpr double kShort = 0.55;
-constexpr double kLong = 1.1;        // longer segments are made only where the shore is straight:
-constexpr double kStraight = 0.03;   // so much out of it
-constexpr double kNothing = 1e-9;    // what rounding takes a place off a straight line
-constexpr double kOpenMoved = 0.01;  // open boundaries
-constexpr double kApart = 0.5;       // shores keep so far from one another
-constexpr double kNearAlong = 1.6;   // along the shore: nearer vertices are the same piece of it
+constexpr double kLong = 1.1;            // longer segments are made only where the shore is straight:
+constexpr double kStraight = 0.03;       // so much out of it
+constexpr double kAlmostStraight = 0.1;  // or so much where segments are shorter than kShort: else corners would go
+constexpr double kNothing = 1e-9;        // what rounding takes a place off a straight line
+constexpr double kOpenMoved = 0.01;      // open boundaries
+constexpr double kApart = 0.5;           // shores keep so far from one another
+constexpr double kNearAlong = 1.6;       // along the shore: nearer vertices are the same piece of it
 constexpr double kLeastAngle = std::numbers::pi / 4;
 
 class Coarsener {
@@ -89,8 +90,9 @@ class Coarsener {
     const Point &a = c_.at[c_.prev[v]], &b = c_.at[c_.next[v]], &x = c_.at[v];
     const double size = c_.size[v], cost = costOf(v);
     double most = c_.open[v] ? kOpenMoved : kMoved;
-    if (!c_.open[v] && std::min(distance(a, x), distance(x, b)) < kShort * size) most = kMovedShort;
-    if (distance(a, b) > kLong * size) most = std::min(most, kStraight);
+    const bool is_short = !c_.open[v] && std::min(distance(a, x), distance(x, b)) < kShort * size;
+    if (is_short) most = kMovedShort;
+    if (distance(a, b) > kLong * size) most = std::min(most, is_short ? kAlmostStraight : kStraight);
     if (cost <= most) queue_.push({cost, v, version_[v]});
   }
 
