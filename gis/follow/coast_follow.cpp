@@ -15,6 +15,7 @@
 #include "core/size/plane_sizes.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/follow/follow_notes.hpp"
+#include "gis/follow/passage_sizes.hpp"
 #include "gis/follow/shore_joins.hpp"
 #include "gis/follow/shore_settle.hpp"
 #include "gis/shore/shore_chains.hpp"
@@ -159,8 +160,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   for (const Point& p : domain.pslg.points) box.add(p);
   const ScaleTable scales(domain.projection, box);
   const SizesInPlane in_plane(wanted, domain);
-  const SizeFunction& size = in_plane.get();
-  const ShoreSizes sizes{size, scales};
+  const SizeFunction& given = in_plane.get();
   const EditLog log{domain, coastline, report};
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) { log.add(kind, place, water); };
   const BoxTree lines = guides.tree();
@@ -171,16 +171,19 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   start.gained = std::move(known.gained);
   ShoreGraph graph;
   {
-    ShoreChains chains = chainsOf(takeGraph(domain), size, loop, even);
-    thin(chains, sizes, lines, options, known.thinned_m > 0.0 ? &thinned : nullptr, log, start.gained, loop);
+    ShoreChains chains = chainsOf(takeGraph(domain), given, loop, even);
+    thin(chains, {given, scales}, lines, options, known.thinned_m > 0.0 ? &thinned : nullptr, log, start.gained, loop);
     graph = graphOf(std::move(chains));
   }
-  sampleShores(graph, size, lines, loop, even);
-  start.triangles = triangulateShores(std::move(graph), size, loop, even);
+  sampleShores(graph, given, lines, loop, even);
+  start.triangles = triangulateShores(std::move(graph), given, loop, even);
+  const PassageSizes size(given, guides.passages, start.triangles);
+  const ShoreSizes sizes{size, scales};
   FollowNotes noted;
   if (!guides.passages.empty() || !guides.barriers.empty()) {
     WaterAreas by_the_user;
-    widenPassages(start.triangles, sizes, guides.passages, edit, by_the_user, noted.widened, noted.dry);
+    size.measure(start.triangles);
+    widenPassages(start.triangles, sizes, guides.passages, edit, by_the_user, noted.passages);
     closeBarriers(start.triangles, sizes, guides, edit, noted.open_barriers);
   }
   JoinedShores joined = openJoined(std::move(start), sizes, guides, options);

@@ -110,6 +110,25 @@ std::string nameOf(const std::string& kind, const std::vector<ShoreLine>& lines,
   return kind + " " + (name.empty() ? std::to_string(line + 1) : "'" + name + "'");
 }
 
+void notePassages(const PassageEffects& effects, const std::vector<ShoreLine>& passages, const Projection& projection,
+                  CleanReport& report) {
+  for (const WidenedPassage& passage : effects.widened) {
+    const std::string name = nameOf("passage", passages, passage.line);
+    report.notes.push_back(name + " was widened to " + lengthText(passage.width_m, projection) + " along " +
+                           lengthText(passage.length_m, projection) + ", up to " +
+                           placeText(passage.place, projection));
+    if (passage.dug_m > 0.0)
+      report.warnings.push_back(name + " was dug through land: " + lengthText(passage.dug_m, projection) +
+                                " of it, the longest piece, at " + placeText(passage.dug_at, projection));
+  }
+  for (const auto& [line, place, length_m] : effects.ends)
+    report.warnings.push_back(nameOf("passage", passages, line) + " goes on for " + lengthText(length_m, projection) +
+                              " beyond the water, from " + placeText(place, projection) +
+                              ", and reaches none that is meshed together with it: nothing was dug there");
+  for (const std::size_t line : effects.dry)
+    report.notes.push_back(nameOf("passage", passages, line) + " meets no water here: it has no effect");
+}
+
 }  // namespace
 
 void noteMetPoints(const MetPoints& met, const Projection& projection, CleanReport& report) {
@@ -123,13 +142,7 @@ void noteMetPoints(const MetPoints& met, const Projection& projection, CleanRepo
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
                    const Projection& projection, CleanReport& report) {
   std::vector<std::string>& texts = report.notes;
-  for (const WidenedPassage& passage : notes.widened) {
-    texts.push_back(nameOf("passage", guides.passages, passage.line) + " was widened to " +
-                    lengthText(passage.width_m, projection) + " along " + lengthText(passage.length_m, projection) +
-                    ", up to " + placeText(passage.place, projection));
-  }
-  for (const std::size_t line : notes.dry)
-    texts.push_back(nameOf("passage", guides.passages, line) + " meets no water here: it has no effect");
+  notePassages(notes.passages, guides.passages, projection, report);
   for (const auto& [line, end] : notes.open_barriers) {
     const std::string name = nameOf("barrier", guides.barriers, line);
     texts.push_back(end ? name + " ends in the water, at " + placeText(*end, projection) +

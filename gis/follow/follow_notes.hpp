@@ -22,8 +22,7 @@ struct FollowNotes {
   std::vector<ApartWater> apart;    // kept beside the largest
   std::vector<JoinedWater> joined;
   std::vector<ClosedStrait> straits;
-  std::vector<WidenedPassage> widened;
-  std::vector<std::size_t> dry;  // passages that meet no water
+  PassageEffects passages;
   std::vector<OpenBarrier> open_barriers;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "gis/follow/line_samples.hpp"
 #include "gis/follow/shore_settle.hpp"
 
 namespace coastmesh {
@@ -12,105 +13,13 @@ namespace coastmesh {
 namespace {
 
 // Shares of the size wanted.
-constexpr double kStep = 0.25;         // between samples of a line
 constexpr double kBarrier = 0.25;      // to either side
 constexpr double kTooNear = 0.02;      // helpers keep so far from what is there
-constexpr double kMostSamples = 1e6;   // of a line
+constexpr double kDug = 1.0;           // land that long on a passage is told of
 constexpr double kLittleMore = 1.001;  // of the reach: rounding of helpers at it
-
-struct Sample {
-  Point at;
-  double size = 0.0, way = 0.0;  // wanted there; along the line
-  RegionId water = kUnlabelled;  // none on land
-  bool wanting = true;           // land, or water narrower than it should be
-};
-
-std::vector<Sample> samplesOf(const ShoreLine& line, const SizeFunction& size) {
-  std::vector<Sample> samples;
-  double way = 0.0;
-  const auto add = [&](const Point& p) { samples.push_back({p, size.at(p), way}); };
-  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-    const Point &a = line.points[i], &b = line.points[i + 1];
-    const double length = distance(a, b), before = way;
-    if (length == 0.0) continue;
-    if (samples.empty()) add(a);
-    const double least = length / kMostSamples;
-    for (double t = std::max(least, kStep * samples.back().size); t < length;) {
-      way = before + t;
-      add(a + (t / length) * (b - a));
-      t += std::max(least, kStep * samples.back().size);
-    }
-    way = before + length;
-    add(b);
-  }
-  return samples;
-}
 
 bool isIn(const Point& x, const Point& a, const Point& b, const Point& c) {
   return orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 && orient2d(c, a, x) >= 0;
-}
-
-// Tells at little cost that none of many boxes comes near: by the squares of a grid that they touch.
-class BoxGrid {
- public:
-  explicit BoxGrid(const std::vector<Box>& boxes) {
-    for (const Box& box : boxes) bounds_.add(box);
-    for (const Box& box : boxes) forSquares(box, [&](std::size_t square) { touched_[square] = true; });
-  }
-
-  bool mayMeet(const Box& box) const {
-    if (!bounds_.meets(box)) return false;
-    bool any = false;
-    forSquares(box, [&](std::size_t square) { any = any || touched_[square]; });
-    return any;
-  }
-
- private:
-  static constexpr std::size_t kSide = 512;
-
-  template <typename Visit>
-  void forSquares(const Box& box, Visit&& visit) const {
-    const auto number = [](double x, double low, double high) {
-      const double share = high > low ? (x - low) / (high - low) : 0.0;
-      return static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(kSide - 1));
-    };
-    const std::size_t left = number(box.xmin, bounds_.xmin, bounds_.xmax);
-    const std::size_t right = number(box.xmax, bounds_.xmin, bounds_.xmax);
-    const std::size_t above = number(box.ymax, bounds_.ymin, bounds_.ymax);
-    for (std::size_t j = number(box.ymin, bounds_.ymin, bounds_.ymax); j <= above; ++j)
-      for (std::size_t i = left; i <= right; ++i) visit(j * kSide + i);
-  }
-
-  Box bounds_;
-  std::vector<bool> touched_ = std::vector<bool>(kSide * kSide, false);
-};
-
-// What of the water the samples of all lines lie in.
-void locate(std::vector<std::vector<Sample>>& lines, const std::vector<ShoreLine>& passages, const ShoreTriangles& t) {
-  std::vector<Box> boxes;
-  std::vector<std::pair<Sample*, double>> samples;
-  for (std::size_t line = 0; line < lines.size(); ++line) {
-    for (Sample& sample : lines[line]) {
-      samples.emplace_back(&sample, passages[line].elements);
-      boxes.push_back(Box::of(sample.at, sample.at));
-    }
-  }
-  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-  const BoxGrid grid(boxes);
-  for (TriId i = 0; i < t.mesh.triangles.size(); ++i) {
-    if (t.mesh.regions[i] == t.land) continue;
-    const auto& v = t.mesh.triangles[i].v;
-    const Point &a = t.mesh.point(v[0]), &b = t.mesh.point(v[1]), &c = t.mesh.point(v[2]);
-    Box box = Box::of(a, b);
-    box.add(c);
-    if (!grid.mayMeet(box)) continue;
-    tree.visit(box, [&](std::uint32_t s) {
-      auto& [sample, elements] = samples[s];
-      if (!isIn(sample->at, a, b, c)) return;
-      sample->water = t.mesh.regions[i];
-      sample->wanting = t.width[i] < elements;
-    });
-  }
 }
 
 // Points that are added for a while, so that triangles end where they should.
@@ -144,7 +53,7 @@ class Helpers {
   }
 
   // Round all of the line, `reach` times the size away.
-  void addAround(const std::vector<Sample>& samples, double reach) {
+  void addAround(const std::vector<LineSample>& samples, double reach) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const Point along = samples[std::min(i + 1, samples.size() - 1)].at - samples[i == 0 ? 0 : i - 1].at;
       const double length = std::sqrt(squaredLength(along));
@@ -237,8 +146,7 @@ bool LineZone::holds(const Point& a, const Point& b, const Point& c, double reac
 }
 
 void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
-                   const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
-                   std::vector<std::size_t>& dry) {
+                   const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects) {
   Helpers helpers(triangles);
   struct Piece {
     Point a, b;
@@ -247,25 +155,25 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
   };
   std::vector<Piece> pieces;
   std::vector<Box> boxes;
-  std::vector<std::vector<Sample>> sampled;
+  std::vector<std::vector<LineSample>> sampled;
   for (const ShoreLine& line : passages) sampled.push_back(samplesOf(line, sizes.wanted));
-  locate(sampled, passages, triangles);
+  locateSamples(sampled, passages, triangles);
+  const std::size_t widened_before = effects.widened.size();
   for (std::size_t line = 0; line < passages.size(); ++line) {
     const double elements = passages[line].elements;
-    const std::vector<Sample>& samples = sampled[line];
-    const auto isWet = [](const Sample& sample) { return sample.water != kUnlabelled; };
+    const std::vector<LineSample>& samples = sampled[line];
     const auto first = std::ranges::find_if(samples, isWet);
     const auto last = std::find_if(samples.rbegin(), samples.rend(), isWet).base();
     if (first == samples.end()) {
-      dry.push_back(line);
+      effects.dry.push_back(line);
       continue;
     }
-    const std::vector<Sample> wet(first, last);
+    const std::vector<LineSample> wet(first, last);
     RegionId water = wet.front().water;
-    WidenedPassage passage{line, {}, 0.0, 0.0};
+    WidenedPassage passage{.line = line};
     for (std::size_t i = 0; i + 1 < wet.size(); ++i) {
       if (isWet(wet[i])) water = wet[i].water;
-      if (!wet[i].wanting && !wet[i + 1].wanting) continue;
+      if ((!wet[i].wanting && !wet[i + 1].wanting) || wet[i].beyond || wet[i + 1].beyond) continue;
       pieces.push_back({wet[i].at, wet[i + 1].at, elements, water});
       boxes.push_back(Box::of(wet[i].at, wet[i + 1].at).grownBy(elements * wet[i].size));
       helpers.addAround({wet[i], wet[i + 1]}, 0.5 * elements);
@@ -274,7 +182,18 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
       passage.width_m = std::max(passage.width_m, elements * wet[i].size / scale);
       passage.place = wet[i].at;
     }
-    if (passage.length_m > 0.0) widened.push_back(passage);
+    for (const LandOnLine& land : landsOn(samples)) {
+      if (samples[land.first].beyond || land.length < kDug * samples[land.middle].size) continue;
+      const Point& place = samples[land.middle].at;
+      const double length_m = land.length / sizes.scale.at(place);
+      if (land.at_end) {
+        effects.ends.push_back({line, samples[land.first > 0 ? land.first : land.last].at, length_m});
+      } else if (length_m > passage.dug_m) {
+        passage.dug_m = length_m;
+        passage.dug_at = place;
+      }
+    }
+    if (passage.length_m > 0.0) effects.widened.push_back(passage);
   }
   if (pieces.empty()) return;
   helpers.finish(sizes.wanted);
@@ -297,16 +216,17 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
     const double scale = sizes.scale.at(centre);
     gained[triangles.mesh.regions[t]] += 0.5 * cross(b - a, c - a) / scale / scale;
   }
-  for (const WidenedPassage& passage : widened) edit(EditKind::WidenedPassage, passage.place, pieces.front().water);
+  for (std::size_t i = widened_before; i < effects.widened.size(); ++i)
+    edit(EditKind::WidenedPassage, effects.widened[i].place, pieces.front().water);
   settleShores(triangles, sizes.wanted);
 }
 
 namespace {
 
 // The ends of barriers with so much water around them that it goes round.
-void findOpenEnds(const std::vector<ShoreLine>& barriers, const std::vector<std::vector<Sample>>& sampled,
+void findOpenEnds(const std::vector<ShoreLine>& barriers, const std::vector<std::vector<LineSample>>& sampled,
                   Helpers& helpers, std::vector<OpenBarrier>& open) {
-  const auto isAtAnother = [&](std::size_t own, const Sample& end) {
+  const auto isAtAnother = [&](std::size_t own, const LineSample& end) {
     for (std::size_t line = 0; line < barriers.size(); ++line)
       for (std::size_t i = 0; line != own && i + 1 < barriers[line].points.size(); ++i)
         if (squaredDistanceToSegment(end.at, barriers[line].points[i], barriers[line].points[i + 1]) <=
@@ -316,7 +236,7 @@ void findOpenEnds(const std::vector<ShoreLine>& barriers, const std::vector<std:
   };
   for (std::size_t line = 0; line < barriers.size(); ++line) {
     if (sampled[line].empty() || barriers[line].points.front() == barriers[line].points.back()) continue;
-    for (const Sample* end : {&sampled[line].front(), &sampled[line].back()}) {
+    for (const LineSample* end : {&sampled[line].front(), &sampled[line].back()}) {
       if (end->water == kUnlabelled || !helpers.isFree(end->at, end->size) || isAtAnother(line, *end)) continue;
       open.push_back({line, end->at});
       break;
@@ -330,11 +250,11 @@ void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const Sho
                    std::vector<OpenBarrier>& open) {
   if (guides.barriers.empty()) return;
   Helpers helpers(triangles);
-  std::vector<std::vector<Sample>> sampled;
+  std::vector<std::vector<LineSample>> sampled;
   for (const ShoreLine& line : guides.barriers) sampled.push_back(samplesOf(line, sizes.wanted));
-  locate(sampled, guides.barriers, triangles);
+  locateSamples(sampled, guides.barriers, triangles);
   findOpenEnds(guides.barriers, sampled, helpers, open);
-  for (const std::vector<Sample>& samples : sampled) helpers.addAround(samples, kBarrier);
+  for (const std::vector<LineSample>& samples : sampled) helpers.addAround(samples, kBarrier);
   helpers.finish(sizes.wanted);
   for (std::size_t line = 0; line < guides.barriers.size(); ++line) {
     const LineZone zone({guides.barriers[line]});
@@ -350,7 +270,6 @@ void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const Sho
       any = true;
     }
     // Where it lies in what another has closed before it, it has met water.
-    const auto isWet = [](const Sample& sample) { return sample.water != kUnlabelled; };
     if (!any && std::ranges::none_of(sampled[line], isWet)) open.push_back({line, std::nullopt});
   }
   settleShores(triangles, sizes.wanted);

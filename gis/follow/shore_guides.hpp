@@ -47,17 +47,31 @@ class LineZone {
 // A passage where land gave way.
 struct WidenedPassage {
   std::size_t line = 0;  // of the guides' passages
-  Point place;
+  Point place{};
   double length_m = 0.0;  // along which it did
   double width_m = 0.0;   // what it has become, at most
+  double dug_m = 0.0;     // the longest way through land, if there is one of more than an element
+  Point dug_at{};         // the middle of it
+};
+
+// Land beyond the last water on a passage, more than an element long: it stays.
+struct LandAhead {
+  std::size_t line = 0;
+  Point place;  // where it begins
+  double length_m = 0.0;
+};
+
+struct PassageEffects {
+  std::vector<WidenedPassage> widened;
+  std::vector<std::size_t> dry;  // passages that meet no water
+  std::vector<LandAhead> ends;
 };
 
 // Where a passage runs over land, or through water narrower than it has to be, land beside it becomes water: from the
-// first water on the line to the last. `dry` is given the passages that meet no water. What waters gain is added to
-// `gained`. The triangles are settled.
+// first water on the line to the last, but not beyond open boundaries. What waters gain is added to `gained`, what else
+// there is to tell to `effects`. The triangles are settled.
 void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
-                   const ShoreEdit& edit, WaterAreas& gained, std::vector<WidenedPassage>& widened,
-                   std::vector<std::size_t>& dry);
+                   const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects);
 
 // A barrier that meets no water, or that water goes round: no shore and no other barrier within an element of its end.
 struct OpenBarrier {

@@ -45,9 +45,8 @@ class Joiner {
     const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
       start_.edits.emplace_back(kind, place, water);
     };
-    std::vector<WidenedPassage> widened;
-    std::vector<std::size_t> dry;
-    widenPassages(start_.triangles, sizes_, lines, edit, start_.gained, widened, dry);
+    PassageEffects effects;
+    widenPassages(start_.triangles, sizes_, lines, edit, start_.gained, effects);
     guides_.passages.insert(guides_.passages.end(), lines.begin(), lines.end());
     opened_ = openShores(start_, sizes_, guides_, options_, opened_.first);
     return true;

@@ -8,9 +8,11 @@
 
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
+#include "gis/coast/segment_tags.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "tests/support/followed_coasts.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/size_figures.hpp"
 
 namespace coastmesh {
 namespace {
@@ -85,6 +87,71 @@ TEST(FollowSizes, APassageIsCutThroughLand) {
   const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {}, oneFeature(), report, guides);
   EXPECT_EQ(parts(coarse), 1u);
   for (const Point& p : coarse.pslg.points) EXPECT_TRUE(p.x > -1.0 && p.x < 51.0) << p.x;  // not beyond the last water
+  ASSERT_EQ(report.warnings.size(), 3u);  // what was dug, and both ends of the line
+  double dug = 0.0, x = 0.0, y = 0.0, beyond = 0.0;
+  ASSERT_EQ(std::sscanf(report.warnings[0].c_str(),
+                        "passage 1 was dug through land: %lf of it, the longest piece, at (%lf, %lf)", &dug, &x, &y),
+            3)
+      << report.warnings[0];
+  EXPECT_NEAR(dug, 10.0, 1.0);
+  EXPECT_NEAR(x, 25.0, 1.0);
+  EXPECT_EQ(y, 10.0);
+  ASSERT_EQ(std::sscanf(report.warnings[2].c_str(), "passage 1 goes on for %lf beyond the water, from (%lf, %lf)",
+                        &beyond, &x, &y),
+            3)
+      << report.warnings[2];
+  EXPECT_NEAR(beyond, 10.0, 1.0);
+  EXPECT_NEAR(x, 50.0, 1.0);
+}
+
+TEST(FollowSizes, LandUpToAnElementIsDugWithoutAWord) {
+  Domain domain;
+  addShore(domain, {{0, 0}, {20, 0}, {20, 20}, {0, 20}});
+  addShore(domain, {{21, 0}, {50, 0}, {50, 20}, {21, 20}});
+  CleanReport report;
+  const ShoreGuides guides{{{{{5, 10}, {45, 10}}, ""}}, {}};
+  EXPECT_EQ(parts(followSizes(std::move(domain), ConstantSize(2.0), {}, oneFeature(), report, guides)), 1u);
+  EXPECT_EQ(report.warnings, std::vector<std::string>{});
+}
+
+// Sizes grow from the shores, and deep in the land they are seven times as large as on them.
+TEST(FollowSizes, APassageThroughLandIsAsWideAsTheSizesAtItsShores) {
+  const SizeOf size(1.0, 20.0, [](const Point& p) { return 1.0 + 0.3 * std::max(0.0, 20.0 - std::abs(p.x)); });
+  for (const double elements : {1.0, 3.0}) {
+    Domain domain;
+    addShore(domain, {{-60, -50}, {60, -50}, {60, 50}, {-60, 50}});
+    addShore(domain, {{-20, -40}, {-20, 40}, {20, 40}, {20, -40}});
+    CleanReport report;
+    const ShoreGuides guides{{{{{-30, 0.3}, {30, 0.3}}, "canal", elements}}, {}};
+    const Domain coarse = followSizes(std::move(domain), size, {}, oneFeature(), report, guides);
+    EXPECT_EQ(boundaryLoops(constrainedDelaunay(coarse.pslg)).size(), 3u);  // the island is cut in two
+    for (double x = -19.0; x <= 19.0; x += 0.5) {
+      double north = 1e300, south = -1e300;
+      for (const Segment& s : coarse.pslg.segments) {
+        const Point &a = coarse.pslg.points[s.a], &b = coarse.pslg.points[s.b];
+        if ((a.x < x) == (b.x < x)) continue;
+        const double y = a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y);
+        (y > 0.3 ? north : south) = y > 0.3 ? std::min(north, y) : std::max(south, y);
+      }
+      EXPECT_GE(north - south, 0.9 * elements) << x;
+      EXPECT_LE(north - south, 1.5 * elements) << x;
+    }
+    const std::string wanted = "passage 'canal' was widened to " + std::string(elements == 1.0 ? "1" : "3");
+    EXPECT_TRUE(std::ranges::any_of(report.notes, [&](const std::string& note) { return note.starts_with(wanted); }));
+  }
+}
+
+// A frame around the southern half of a bay: the line leaves it and comes back.
+TEST(FollowSizes, NothingIsDugBeyondAnOpenBoundary) {
+  Domain domain;
+  addShore(domain, {{0, 0}, {60, 0}, {60, 30}, {0, 30}});
+  domain.pslg.segments[2].tag = kOpenTag;
+  CleanReport report;
+  const ShoreGuides guides{{{{{10, 20}, {10, 45}, {50, 45}, {50, 20}}, ""}}, {}};
+  const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {}, oneFeature(), report, guides);
+  for (const Point& p : coarse.pslg.points) EXPECT_LE(p.y, 30.0);
+  EXPECT_EQ(report.warnings, std::vector<std::string>{});
+  EXPECT_EQ(countOf(report, EditKind::WidenedPassage), 0u);
 }
 
 TEST(FollowSizes, ABarrierClosesTheWaterItCrosses) {
