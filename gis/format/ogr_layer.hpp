@@ -27,13 +27,12 @@ struct CloseDataset {
 };
 using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
 
-// A layer of polygons on the map; where some are cut, all may have several parts.
+// A layer of polygons or lines on the map; where some are cut, all may have several parts.
 struct MapOfLayer {
   MapCutter cutter;
   bool has_parts = false;
 
-  MapOfLayer(const Grid& grid, const GridLayer& layer)
-      : cutter(grid), has_parts(layer.shape == GridLayer::Shape::Polygon && cutter.cutsAny()) {}
+  MapOfLayer(const Grid& grid, const GridLayer& layer);
 };
 
 // All throw OutputError, with the message that OGR gives.

@@ -309,28 +309,90 @@ void readTriangles(LayerReader& reader, const std::string& path, const std::vect
   makeTriangles(triangles, node_ids, grid, index, path);
 }
 
-// The nodes along a line of a layer.
-std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader, const NodesByPlace& index,
-                                      const LineNodes& lines) {
-  const OGRGeometry* geometry = feature.GetGeometryRef();
-  if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString || geometry->IsEmpty())
-    reader.fail("it is not a line");
-  const OGRLineString& line = *geometry->toLineString();
-  std::vector<Point> places;
-  for (int i = 0; i < line.getNumPoints(); ++i) {
-    places.push_back(placeOf(line, i));
-    if (index.firstAt(places.back()) == kNone)
-      reader.fail("point " + std::to_string(i + 1) + " of the line is not a corner of a triangle");
-  }
-  return lines.of(places);
+// Whether two places of a map of longitudes and latitudes are one on the ground: a turn apart, or at a pole.
+bool sameOnGround(const Point& a, const Point& b) {
+  return a.y == b.y && (a.x == b.x || std::max(a.x, b.x) - 360.0 == std::min(a.x, b.x) || std::abs(a.y) == 90.0);
 }
+
+// The parts of a line of a layer; one that was cut where the map ends (`MapCutter`) has several.
+std::vector<std::vector<Point>> linePartsOf(const OGRFeature& feature, const LayerReader& reader) {
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (geometry == nullptr || geometry->IsEmpty()) reader.fail("it is not a line");
+  std::vector<std::vector<Point>> parts;
+  const auto add = [&](const OGRLineString& line) {
+    std::vector<Point>& places = parts.emplace_back();
+    for (int i = 0; i < line.getNumPoints(); ++i) places.push_back(placeOf(line, i));
+    if (places.empty()) reader.fail("a part of it is empty");
+  };
+  const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
+  if (type == wkbLineString)
+    add(*geometry->toLineString());
+  else if (type == wkbMultiLineString)
+    for (const OGRLineString* const part : *geometry->toMultiLineString()) add(*part);
+  else
+    reader.fail("it is not a line");
+  return parts;
+}
+
+// Finds the nodes along lines of layers.
+class LineReader {
+ public:
+  // REQUIRES: both outlive it.
+  LineReader(const Grid& grid, const NodesByPlace& index, LineNodes::Along along)
+      : grid_(grid), index_(index), nodes_(grid, along) {
+    if (!grid.crs.geographic) return;
+    for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
+      if (std::abs(grid.nodes[node].y) == 90.0) poles_.push_back(node);
+  }
+
+  std::vector<std::uint32_t> nodesAlong(const OGRFeature& feature, const LayerReader& reader) {
+    const std::vector<std::vector<Point>> parts = linePartsOf(feature, reader);
+    std::vector<std::vector<std::uint32_t>> choices;
+    std::size_t point = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const bool continues = k > 0, continued = k + 1 < parts.size();
+      if (continues && !(grid_.crs.geographic && sameOnGround(parts[k - 1].back(), parts[k].front())))
+        reader.fail("its part " + std::to_string(k + 1) + " does not begin where the one before it ends");
+      for (std::size_t i = 0; i < parts[k].size(); ++i) {
+        ++point;
+        if (continues && i == 0) continue;
+        std::vector<std::uint32_t> here = nodesAt(parts[k][i]);
+        if (here.empty() && continued && i + 1 == parts[k].size()) continue;  // cut between two nodes
+        if (here.empty()) reader.fail("point " + std::to_string(point) + " of the line is not a corner of a triangle");
+        choices.push_back(std::move(here));
+      }
+    }
+    const Point &first = parts.front().front(), &last = parts.back().back();
+    return nodes_.of(std::move(choices), first == last || (grid_.crs.geographic && sameOnGround(first, last)));
+  }
+
+ private:
+  // Those at the very place come first.
+  std::vector<std::uint32_t> nodesAt(const Point& place) const {
+    std::vector<std::uint32_t> nodes = index_.allAt(place);
+    const auto add = [&](std::uint32_t node) {
+      if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
+    };
+    if (!grid_.crs.geographic) return nodes;
+    for (const double turn : {-360.0, 360.0})
+      for (const std::uint32_t node : index_.allAt({place.x + turn, place.y})) add(node);
+    for (const std::uint32_t node : poles_)
+      if (grid_.nodes[node].y == place.y) add(node);
+    return nodes;
+  }
+
+  const Grid& grid_;
+  const NodesByPlace& index_;
+  LineNodes nodes_;
+  std::vector<std::uint32_t> poles_;  // the nodes there, which have any longitude
+};
 
 void readBoundaries(const Companion& companion, const OgrErrors& errors, const NodesByPlace& index, Grid& grid) {
   if (companion.layer == nullptr) return;
   LayerReader reader(*companion.layer, companion.path, errors);
   const int id_field = reader.field("id"), role_field = reader.field("role"), type_field = reader.field("ibtype");
   if (id_field < 0 || role_field < 0) return;
-  const LineNodes nodes(grid, index, LineNodes::Along::Boundary);
+  LineReader lines(grid, index, LineNodes::Along::Boundary);
   std::vector<std::int64_t> ids;
   while (const OGRFeature* feature = reader.next()) {
     Boundary boundary;
@@ -342,7 +404,7 @@ void readBoundaries(const Companion& companion, const OgrErrors& errors, const N
     boundary.role = *known;
     if (type_field >= 0 && feature->IsFieldSetAndNotNull(type_field))
       boundary.ibtype = feature->GetFieldAsInteger(type_field);
-    boundary.nodes = nodesAlong(*feature, reader, index, nodes);
+    boundary.nodes = lines.nodesAlong(*feature, reader);
     boundary.closed = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
     if (boundary.closed) boundary.nodes.pop_back();
     ids.push_back(feature->GetFieldAsInteger64(id_field));
@@ -356,14 +418,14 @@ void readLines(const Companion& companion, const OgrErrors& errors, const NodesB
   LayerReader reader(*companion.layer, companion.path, errors);
   const int id_field = reader.field("id"), kind_field = reader.field("kind"), name_field = reader.field("name");
   if (id_field < 0 || kind_field < 0) return;
-  const LineNodes nodes(grid, index, LineNodes::Along::Inside);
+  LineReader lines(grid, index, LineNodes::Along::Inside);
   std::vector<std::int64_t> ids;
   while (const OGRFeature* feature = reader.next()) {
     const std::string kind = textOf(*feature, kind_field);
     const std::optional<LineKind> known = lineKindNamed(kind);
     if (!known) reader.fail("its kind is \"" + kind + "\", not constraint, weir or region border");
     ids.push_back(feature->GetFieldAsInteger64(id_field));
-    grid.lines.push_back(lineOfNodes(*known, textOf(*feature, name_field), nodesAlong(*feature, reader, index, nodes)));
+    grid.lines.push_back(lineOfNodes(*known, textOf(*feature, name_field), lines.nodesAlong(*feature, reader)));
   }
   reorder(grid.lines, orderOf(ids));
 }

@@ -75,10 +75,23 @@ void writeCutTriangle(TextBlock& file, const std::vector<MapCutter::Ring>& parts
   file << '}';
 }
 
+void writeCutLine(TextBlock& file, const std::vector<std::vector<Point>>& parts) {
+  file << (parts.size() == 1 ? R"({"type":"LineString","coordinates":)"
+                             : R"({"type":"MultiLineString","coordinates":[)");
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0) file << ',';
+    for (std::size_t i = 0; i < parts[k].size(); ++i)
+      file << (i > 0 ? ",[" : "[[") << parts[k][i].x << ',' << parts[k][i].y << ']';
+    file << ']';
+  }
+  file << (parts.size() == 1 ? "}" : "]}");
+}
+
 void writeShape(TextBlock& file, const Grid& grid, GridLayer::Shape shape, const std::vector<std::uint32_t>& nodes,
                 const MapCutter& cutter) {
   if (shape == GridLayer::Shape::Polygon && cutter.cuts({nodes[0], nodes[1], nodes[2]}))
     return writeCutTriangle(file, cutter.partsOf({nodes[0], nodes[1], nodes[2]}));
+  if (shape == GridLayer::Shape::Line && cutter.cutsLine(nodes)) return writeCutLine(file, cutter.partsOfLine(nodes));
   const auto writePlace = [&](std::uint32_t node) {
     file << '[' << grid.nodes[node].x << ',' << grid.nodes[node].y;
     if (shape == GridLayer::Shape::Point && !grid.z.empty() && std::isfinite(grid.z[node])) file << ',' << grid.z[node];

@@ -285,13 +285,16 @@ void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& 
   Sql sql(*dataset, path, errors);
   std::vector<SqliteTable> tables;
   std::vector<std::unique_ptr<GeoPackageIndex>> indices;
+  const MapCutter cutter(grid);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const GridLayer& layer = layers[i];
-    std::function<IndexBox(std::uint32_t)> box = [&grid, &layer](std::uint32_t row) {
+    std::function<IndexBox(std::uint32_t)> box = [&cutter, &layer](std::uint32_t row) {
       std::vector<std::uint32_t> nodes;
       layer.shapeOf(row, nodes);
       std::vector<Point> places;
-      for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
+      const bool is_polygon = layer.shape == GridLayer::Shape::Polygon;
+      for (const auto& part : is_polygon ? cutter.partsOf({nodes[0], nodes[1], nodes[2]}) : cutter.partsOfLine(nodes))
+        places.insert(places.end(), part.begin(), part.end());
       return boxOf(places);
     };
     if (const LayerRows* const rows = rows_of[i].get()) {

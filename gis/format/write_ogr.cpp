@@ -61,6 +61,15 @@ void setField(OGRFeature& feature, int index, const LayerColumn& column, std::si
   }
 }
 
+bool cutsLines(const MapCutter& cutter, const GridLayer& layer) {
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t row = 0; row < layer.rows; ++row) {
+    layer.shapeOf(row, nodes);
+    if (cutter.cutsLine(nodes)) return true;
+  }
+  return false;
+}
+
 // One geometry for all rows of a layer, so that a row costs no allocation.
 class ShapeCursor {
  public:
@@ -86,7 +95,7 @@ class ShapeCursor {
       case GridLayer::Shape::Point:
         return grid.z.empty() ? wkbPoint : wkbPoint25D;
       case GridLayer::Shape::Line:
-        return wkbLineString;
+        return MapOfLayer(grid, layer).has_parts ? wkbMultiLineString : wkbLineString;
       case GridLayer::Shape::Polygon:
         break;
     }
@@ -102,6 +111,7 @@ class ShapeCursor {
       if (!grid_.z.empty()) point.setZ(grid_.z[nodes_[0]]);
       return point;
     }
+    if (map_.has_parts && layer_.shape == GridLayer::Shape::Line) return partsOfLine();
     if (map_.has_parts) return partsOf({nodes_[0], nodes_[1], nodes_[2]});
     auto& chain = layer_.shape == GridLayer::Shape::Line
                       ? static_cast<OGRSimpleCurve&>(static_cast<OGRLineString&>(*geometry_))
@@ -127,6 +137,17 @@ class ShapeCursor {
     return *geometry_;
   }
 
+  const OGRGeometry& partsOfLine() {
+    auto parts = std::make_unique<OGRMultiLineString>();
+    for (const std::vector<Point>& part : map_.cutter.partsOfLine(nodes_)) {
+      auto line = std::make_unique<OGRLineString>();
+      for (const Point& p : part) line->addPoint(p.x, p.y);
+      parts->addGeometryDirectly(line.release());
+    }
+    geometry_ = std::move(parts);
+    return *geometry_;
+  }
+
   const Grid& grid_;
   const GridLayer& layer_;
   MapOfLayer map_;
@@ -135,6 +156,12 @@ class ShapeCursor {
 };
 
 }  // namespace
+
+MapOfLayer::MapOfLayer(const Grid& grid, const GridLayer& layer) : cutter(grid) {
+  has_parts = layer.shape == GridLayer::Shape::Polygon
+                  ? cutter.cutsAny()
+                  : layer.shape == GridLayer::Shape::Line && cutsLines(cutter, layer);
+}
 
 void failToWrite(const std::string& path, const OgrErrors& errors) {
   throw OutputError("cannot write '" + path + "'" + (errors.text().empty() ? "" : ": " + errors.text()));

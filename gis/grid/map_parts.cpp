@@ -105,6 +105,52 @@ Way clipped(const Way& way, double end, int turn, double sign) {
   return kept;
 }
 
+// Collects the parts of a line, each within one turn of the map.
+class LineParts {
+ public:
+  explicit LineParts(double end) : end_(end) {}
+
+  void interrupt() { is_open_ = false; }
+
+  // REQUIRES: they are less than half a turn apart.
+  void add(const WayPoint& from, const WayPoint& to) {
+    const double low = std::min(from.lon(), to.lon()), high = std::max(from.lon(), to.lon());
+    const int turn = static_cast<int>(std::ceil((high - end_) / kTurn));
+    const double meridian = end_ + kTurn * (turn - 1);
+    if (low == high) {
+      // Along the map's end it lies on either side: where the line comes from, else where its nodes are.
+      addWithin(from, to, low != end_ + kTurn * turn ? turn : is_open_ ? turn_ : from.turn);
+    } else if (low < meridian) {
+      const int before = from.lon() < to.lon() ? turn - 1 : turn, after = from.lon() < to.lon() ? turn : turn - 1;
+      const WayPoint met{{end_, latitudeAt(meridian, from, to)}, turn - 1};
+      addWithin(from, met, before);
+      addWithin(met, to, after);
+    } else {
+      addWithin(from, to, turn);
+    }
+  }
+
+  std::vector<std::vector<Point>> take() { return std::move(parts_); }
+
+ private:
+  static Point onTurn(const WayPoint& point, int turn) {
+    const int away = point.turn - turn;
+    return away == 0 ? point.place : Point{point.place.x + kTurn * away, point.place.y};
+  }
+
+  void addWithin(const WayPoint& from, const WayPoint& to, int turn) {
+    if (!is_open_ || turn != turn_) parts_.push_back({onTurn(from, turn)});
+    is_open_ = true;
+    turn_ = turn;
+    parts_.back().push_back(onTurn(to, turn));
+  }
+
+  double end_;
+  int turn_ = 0;
+  bool is_open_ = false;
+  std::vector<std::vector<Point>> parts_;
+};
+
 bool hasArea(const Way& way) {
   const auto [low, high] = std::ranges::minmax(way, {}, &WayPoint::lon);
   return high.lon() > low.lon();
@@ -138,6 +184,45 @@ bool MapCutter::cuts(const std::array<std::uint32_t, 3>& corners) const {
     if (isPole(p) || std::abs(q.x - p.x) >= kTurn / 2) return true;
   }
   return false;
+}
+
+bool MapCutter::cutsLine(std::span<const std::uint32_t> nodes) const {
+  if (!end_) return false;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const Point &p = grid_.nodes[nodes[i - 1]], &q = grid_.nodes[nodes[i]];
+    if (isPole(p) || isPole(q) || std::abs(q.x - p.x) >= kTurn / 2) return true;
+  }
+  return false;
+}
+
+std::vector<std::vector<Point>> MapCutter::partsOfLine(std::span<const std::uint32_t> nodes) const {
+  if (!cutsLine(nodes)) {
+    std::vector<Point> whole;
+    for (const std::uint32_t node : nodes) whole.push_back(grid_.nodes[node]);
+    return {std::move(whole)};
+  }
+  LineParts parts(*end_);
+  WayPoint at{grid_.nodes[nodes[0]], 0};
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const Point &p = grid_.nodes[nodes[i - 1]], &q = grid_.nodes[nodes[i]];
+    if (isPole(q)) {
+      if (!isPole(p)) parts.add(at, {{at.place.x, q.y}, at.turn});
+      continue;
+    }
+    if (isPole(p)) {
+      parts.interrupt();
+      at = {{q.x, p.y}, 0};
+    } else if (std::abs(stepBetween(p, q)) == kTurn / 2) {
+      const double pole = p.y + q.y >= 0.0 ? 90.0 : -90.0;
+      parts.add(at, {{at.place.x, pole}, at.turn});
+      parts.interrupt();
+      at = {{q.x, pole}, 0};
+    }
+    const WayPoint to = following(at, q);
+    parts.add(at, to);
+    at = to;
+  }
+  return parts.take();
 }
 
 bool MapCutter::cutsAny() const {

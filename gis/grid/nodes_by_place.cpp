@@ -13,7 +13,6 @@ void NodesByPlace::add(const Point& place, std::uint32_t node) {
   if (next_.size() <= node) next_.resize(node + 1, kNone);
   if (added) return;
   next_[node] = std::exchange(next_[at->second], node);
-  several_ = true;
 }
 
 std::uint32_t NodesByPlace::firstAt(const Point& place) const {
@@ -27,29 +26,32 @@ std::vector<std::uint32_t> NodesByPlace::allAt(const Point& place) const {
   return nodes;
 }
 
-LineNodes::LineNodes(const Grid& grid, const NodesByPlace& nodes, Along along) : nodes_(nodes), along_(along) {
-  if (!nodes.severalSomewhere()) return;
-  for (const auto& t : grid.triangles)
-    for (unsigned i = 0; i < 3; ++i) edges_.insert({t[i], t[(i + 1) % 3]});
+LineNodes::LineNodes(const Grid& grid, Along along) : grid_(grid), along_(along) {}
+
+std::vector<std::uint32_t> LineNodes::of(std::vector<std::vector<std::uint32_t>> choices, bool closed) {
+  std::vector<std::uint32_t> first;
+  bool several = false;
+  for (const auto& nodes : choices) {
+    first.push_back(nodes.front());
+    several = several || nodes.size() > 1;
+  }
+  if (!several || choices.size() < 2) return first;
+  if (edges_.empty())
+    for (const auto& t : grid_.triangles)
+      for (unsigned i = 0; i < 3; ++i) edges_.insert({t[i], t[(i + 1) % 3]});
+  std::vector<std::uint32_t> found = find(choices, closed);
+  if (found.empty() && closed) found = find(choices, false);
+  return found.empty() ? first : found;
 }
 
-std::vector<std::uint32_t> LineNodes::of(const std::vector<Point>& places) const {
-  std::vector<std::vector<std::uint32_t>> choices;
-  for (const Point& place : places) choices.push_back(nodes_.allAt(place));
-  std::vector<std::uint32_t> first;
-  for (const auto& nodes : choices) {
-    if (nodes.empty()) return {};
-    first.push_back(nodes.front());
-  }
-  if (edges_.empty() || choices.size() < 2) return first;
-  const bool closed = places.front() == places.back();
+std::vector<std::uint32_t> LineNodes::find(std::vector<std::vector<std::uint32_t>> choices, bool closed) const {
   const std::vector<std::uint32_t> starts = choices.front();
   for (const std::uint32_t start : starts) {
     choices.front() = {start};
     if (closed) choices.back() = {start};
     if (std::vector<std::uint32_t> found = follow(choices); !found.empty()) return found;
   }
-  return first;
+  return {};
 }
 
 bool LineNodes::joined(std::uint32_t a, std::uint32_t b) const {

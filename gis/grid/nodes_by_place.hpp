@@ -20,32 +20,32 @@ class NodesByPlace {
 
   std::uint32_t firstAt(const Point& place) const;  // kNone where there is none
   std::vector<std::uint32_t> allAt(const Point& place) const;
-  bool severalSomewhere() const { return several_; }
 
  private:
   std::unordered_map<Point, std::uint32_t, PointHash> first_;
   std::vector<std::uint32_t> next_;  // one a node: another at its place
-  bool several_ = false;
 };
 
-// Which nodes a line of places goes along: where several have a place, those that are joined by edges of the mesh.
+// Which nodes a line goes along where several are at a place: those that are joined by edges of the mesh.
 class LineNodes {
  public:
   enum class Along { Boundary, Inside };  // with the mesh to the left and nothing to the right, or with both
 
-  // REQUIRES: `nodes` outlives it.
-  LineNodes(const Grid& grid, const NodesByPlace& nodes, Along along);
+  // REQUIRES: `grid` outlives it; no triangle is added meanwhile.
+  LineNodes(const Grid& grid, Along along);
 
-  // Empty where there is no node at some place. What is closed ends with its first node.
-  std::vector<std::uint32_t> of(const std::vector<Point>& places) const;
+  // One node of each set of choices. What is closed has the same choices at both ends and ends with its first node.
+  // Where no choice follows edges of the mesh: the first of each. REQUIRES: there is a choice everywhere.
+  std::vector<std::uint32_t> of(std::vector<std::vector<std::uint32_t>> choices, bool closed);
 
  private:
+  std::vector<std::uint32_t> find(std::vector<std::vector<std::uint32_t>> choices, bool closed) const;
   bool joined(std::uint32_t a, std::uint32_t b) const;
   std::vector<std::uint32_t> follow(const std::vector<std::vector<std::uint32_t>>& choices) const;
 
-  const NodesByPlace& nodes_;
+  const Grid& grid_;
   Along along_;
-  std::set<NodePair> edges_;  // of triangles, in their direction; empty where every place has one node
+  std::set<NodePair> edges_;  // of triangles, in their direction; made when a line first has a choice
 };
 
 }  // namespace coastmesh

@@ -1,10 +1,15 @@
 // GIS layers give a mesh back as it was, wherever on the globe it lies.
 #include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
 
 #include <numbers>
+#include <set>
 
+#include "gis/crs/ogr_support.hpp"
+#include "gis/format/grid_layers.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/loop_role.hpp"
+#include "gis/grid/map_parts.hpp"
 #include "gis/grid/wind_triangles.hpp"
 #include "tests/gis/grid_samples.hpp"
 
@@ -194,6 +199,67 @@ TEST_P(LayersOnTheGlobe, KeepWhatIsBroken) {
   grid.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 4, 2}};
   grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs);
   expectSame(readGrid(write(grid)), grid);
+}
+
+// The farthest step along the lines of a layer, in degrees of longitude.
+double farthestStep(const std::string& path, const char* name) {
+  registerDrivers();
+  const std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR),
+                                                                     [](GDALDataset* opened) { GDALClose(opened); });
+  OGRLayer* layer = dataset ? dataset->GetLayerByName(name) : nullptr;
+  if (layer == nullptr && dataset && dataset->GetLayerCount() == 1) layer = dataset->GetLayer(0);
+  if (layer == nullptr) return NAN;
+  double farthest = 0.0;
+  const auto look = [&](const OGRLineString& line) {
+    for (int i = 1; i < line.getNumPoints(); ++i)
+      farthest = std::max(farthest, std::abs(line.getX(i) - line.getX(i - 1)));
+  };
+  for (const auto& feature : layer) {
+    const OGRGeometry& geometry = *feature->GetGeometryRef();
+    if (wkbFlatten(geometry.getGeometryType()) == wkbMultiLineString)
+      for (const OGRLineString* const part : *geometry.toMultiLineString()) look(*part);
+    else
+      look(*geometry.toLineString());
+  }
+  return farthest;
+}
+
+// Edges with a triangle on either side.
+std::vector<NodePair> innerEdges(const Grid& grid) {
+  std::set<NodePair> sides;
+  std::vector<NodePair> inner;
+  for (const auto& t : grid.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const NodePair side{t[i], t[(i + 1) % 3]};
+      sides.insert(side);
+      if (sides.contains({side[1], side[0]})) inner.push_back(side);
+    }
+  return inner;
+}
+
+// Boundaries and lines that a map would draw across the world are cut where it ends, as triangles are.
+TEST_P(LayersOnTheGlobe, CutLinesWhereTheMapEnds) {
+  std::mt19937_64 random(20261125);
+  int cut = 0;
+  for (int round = 0; round < 25; ++round) {
+    SCOPED_TRACE(round);
+    Grid grid = randomGrid(random);
+    const MapCutter cutter(grid);
+    for (const NodePair& edge : innerEdges(grid))
+      if (cutter.cutsLine(edge) || grid.lines.empty())
+        grid.lines.push_back({LineKind::Weir, "", false, {edge[0], edge[1]}});
+    const std::string path = write(grid);
+    for (const char* const layer : {"boundaries", "lines"}) {
+      const std::string own = pathOfLayer(path, layer);
+      EXPECT_LT(farthestStep(std::filesystem::exists(own) ? own : path, layer), 180.0) << layer;
+    }
+    const Grid got = readGrid(path);
+    expectSame(got, grid);
+    ASSERT_EQ(got.lines.size(), grid.lines.size());
+    for (std::size_t k = 0; k < got.lines.size(); ++k) EXPECT_EQ(got.lines[k].nodes, grid.lines[k].nodes);
+    cut += std::ranges::any_of(grid.boundaries, [&](const Boundary& b) { return cutter.cutsLine(b.nodes); });
+  }
+  EXPECT_GT(cut, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, LayersOnTheGlobe, ::testing::Values(".gpkg", ".shp", ".geojson", ".fgb"),

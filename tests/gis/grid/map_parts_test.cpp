@@ -136,5 +136,39 @@ TEST(MapCutter, LeavesAloneWhatLiesOnTheMap) {
   EXPECT_FALSE(MapCutter(grid).cutsAny());
 }
 
+// Nothing of a line goes across the map: its parts together are as long as it is.
+TEST(MapCutter, LinesEndWhereTheMapEnds) {
+  Grid grid;
+  grid.crs = wgs84();
+  grid.nodes = {{170, 0}, {-170, 10}, {180, 20}, {180, 30}, {-170, 40}, {170, 40}, {160, 40}};
+  const std::vector<std::uint32_t> nodes{0, 1, 2, 3, 4, 5, 6, 0};
+  const MapCutter cutter(grid);
+  ASSERT_TRUE(cutter.cutsLine(nodes));
+  const auto parts = cutter.partsOfLine(nodes);
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[0].size(), 2u);
+  EXPECT_EQ(parts[0][1].x, 180.0);
+  EXPECT_NEAR(parts[0][1].y, 5.0, 0.2);  // of the great circle
+  // Along the map's end it stays on the side that it came from.
+  ASSERT_EQ(parts[1].size(), 6u);
+  EXPECT_EQ(parts[1][0], (Point{-180.0, parts[0][1].y}));
+  EXPECT_EQ(parts[1][2], (Point{-180.0, 20.0}));
+  EXPECT_EQ(parts[1][3], (Point{-180.0, 30.0}));
+  EXPECT_EQ(parts[1][5].x, -180.0);
+  EXPECT_EQ(parts[2], (std::vector<Point>{{180.0, parts[1][5].y}, {170, 40}, {160, 40}, {170, 0}}));
+  EXPECT_FALSE(cutter.cutsLine(std::vector<std::uint32_t>{5, 6, 0}));
+}
+
+// A line to a pole ends there and goes on from the pole at another longitude, whether it is a node or lies on an edge.
+TEST(MapCutter, LinesEndAtPoles) {
+  Grid grid;
+  grid.crs = wgs84();
+  grid.nodes = {{0, 80}, {77, 90}, {120, 80}, {-60, 80}, {-90, 80}};
+  const MapCutter cutter(grid);
+  const auto parts = cutter.partsOfLine(std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  EXPECT_EQ(parts, (std::vector<std::vector<Point>>{
+                       {{0, 80}, {0, 90}}, {{120, 90}, {120, 80}, {120, 90}}, {{-60, 90}, {-60, 80}, {-90, 80}}}));
+}
+
 }  // namespace
 }  // namespace coastmesh
