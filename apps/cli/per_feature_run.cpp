@@ -317,6 +317,7 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
   MeshJob job = usage.mesh.job;
   BoundaryOptions& boundaries = job.finish.boundaries;
   const Coastline coastline = readInput(job.input, read, boundaries.of_input);
+  requireUnmirrored(coastline, job.input);
   std::vector<Planned> planned = plan(usage, coastline, run);
   boundaries.of_files = readBoundaryFiles(boundaries);
   seconds.read = whole.seconds();

@@ -8,6 +8,7 @@
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/group_features.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/crs/handedness.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/poly_io.hpp"
@@ -107,6 +108,29 @@ std::size_t pointsOf(const Feature& feature) {
   }
   for (const auto& line : feature.lines) count += line.size();
   return count;
+}
+
+void requireUnmirrored(const Coastline& coastline, const InputOptions& options) {
+  if (coastline.crs.isPlane() || options.crs == "plane" || coastline.features.empty()) return;
+  const Feature& first = coastline.features.front();
+  const std::vector<Point>& points = !first.polygons.empty() ? first.polygons.front().outer
+                                     : !first.lines.empty()  ? first.lines.front()
+                                                             : first.points;
+  if (points.empty()) return;
+  const bool mirrored = mirrorsGround(coastline.crs, points.front());
+  bool working_mirrored = false;
+  if (options.crs != "auto") {
+    const Crs working = parseWorkingCrs(options.crs);
+    working_mirrored = mirrorsGround(working, Projection::to(coastline.crs, working).forward(points.front()));
+  }
+  if (mirrored == working_mirrored) return;
+  if (working_mirrored)
+    throw OptionError("--crs: " + options.crs + " mirrors the ground, and the mesh would be clockwise in the input's " +
+                      nameOf(coastline.crs) + ": give " + unmirrored(parseWorkingCrs(options.crs)));
+  throw InputError("the input's CRS " + nameOf(coastline.crs) +
+                   " mirrors the ground: a mesh that is counter-clockwise on the ground would be clockwise in its "
+                   "coordinates, which programs reject; bring the data to " +
+                   unmirrored(coastline.crs) + " (ogr2ogr -t_srs)");
 }
 
 JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_(options) {

@@ -57,6 +57,10 @@ Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRul
 // The number of points of its rings and lines: a measure of the work.
 std::size_t pointsOf(const Feature& feature);
 
+// Throws InputError if the mesh would be clockwise in the coordinates that it is written in: those of the input mirror
+// the ground, or `options.crs` mirrors them.
+void requireUnmirrored(const Coastline& coastline, const InputOptions& options);
+
 // An input that was read and split into groups of features, each to be meshed separately. A .poly is one group.
 class JobInput {
  public:

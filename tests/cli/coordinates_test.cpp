@@ -328,6 +328,37 @@ TEST_F(Coordinates, NodesOffAProjectionAreRefused) {
   EXPECT_NE(run.errors.find("node 3"), std::string::npos) << run.errors;
 }
 
+// What is counter-clockwise on the ground is not so in coordinates to the south and west.
+TEST_F(Coordinates, InputsThatMirrorTheGroundAreRefused) {
+  const auto inCrs = [&](const std::string& code) {
+    return write("field.geojson",
+                 R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::)" +
+                     code + R"("}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon",)" +
+                     R"("coordinates":[[[1050000,700000],[1060000,700000],[1060000,712000],[1050000,700000]]]}}]})");
+  };
+  const std::string krovak = inCrs("5513");
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{}, {"--per-feature"}}) {
+    std::vector<std::string> arguments{"mesh", krovak, "-o", file("field{}.14"), "--size", "2000", "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 3);
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_NE(run.errors.find("EPSG:5513 mirrors the ground"), std::string::npos) << run.errors;
+    EXPECT_NE(run.errors.find("EPSG:5514"), std::string::npos) << run.errors;
+  }
+  // As a plane it is what it is.
+  for (const std::string crs : {"plane", "EPSG:5513"}) {
+    const ProgramRun run =
+        runProgram({"mesh", krovak, "--crs", crs, "-o", file("field.2dm"), "--size", "2000", "--quiet", "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_EQ(runProgram({"check", file("field.2dm"), "--assume-crs", "EPSG:5513"}).code, 0) << crs;
+  }
+  const ProgramRun run =
+      runProgram({"mesh", lake(), "--crs", "EPSG:5513", "-o", file("lake.2dm"), "--size", "2000", "--quiet"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.errors.find("give EPSG:5514"), std::string::npos) << run.errors;
+}
+
 // GDAL's own words may have line ends; an error has none.
 TEST_F(Coordinates, ErrorsAreOneLine) {
   const std::string geojson = lake();
