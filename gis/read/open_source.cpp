@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "gis/error.hpp"
@@ -42,9 +43,40 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > kShown ? text + ", and " + std::to_string(names.size() - kShown) + " more" : text;
 }
 
-// The one vector file in an archive, however deep. Where there are several, or none that is known by its name, OGR is
-// given the archive as a folder.
-std::string insideOf(const std::string& archive) {
+std::string stemOf(const std::string& entry) { return std::filesystem::path(entry).stem(); }
+
+// Of several files in an archive: the one that is called as the layer wanted, or the folder of shapefiles in which all
+// layers wanted are. `archive` begins with "/vsizip/" or the like.
+std::string chosenInside(const std::string& archive, const std::vector<std::string>& found,
+                         const std::vector<std::string>& wanted) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> stems, chosen;
+  std::set<std::string> folders;
+  for (const std::string& entry : found) {
+    stems.push_back(stemOf(entry));
+    if (std::ranges::find(wanted, stems.back()) == wanted.end()) continue;
+    chosen.push_back(entry);
+    folders.insert(endsWith(entry, ".shp") ? fs::path(entry).parent_path().string() : "no shapefile");
+  }
+  if (chosen.size() == 1 && wanted.size() == 1) return archive + "/" + chosen.front();
+  const std::set<std::string> different(stems.begin(), stems.end());
+  const bool by_name = different.size() == stems.size();
+  if (by_name && chosen.size() == wanted.size() && chosen.size() > 1 && folders.size() == 1 &&
+      *folders.begin() != "no shapefile")
+    return (fs::path(archive) / *folders.begin()).string();
+  const std::string shown = archive.substr(archive.find('/', 1) + 1);
+  for (const std::string& name : wanted)
+    if (!different.contains(name))
+      throw InputError(shown + ": has no layer '" + name + "'; there are " + listed(by_name ? stems : found));
+  const std::string one = by_name ? shown + "|" + stems.front() : shown + "/" + found.front();
+  throw InputError(shown + ": holds " + std::to_string(found.size()) + (by_name ? " layers (" : " vector files (") +
+                   listed(by_name ? stems : found) + "): name one as '" + one + "'" +
+                   (by_name && wanted.empty() ? ", or choose one of the input's with --layer" : ""));
+}
+
+// The one vector file in an archive, however deep. Where there are several, those with the layers wanted; where none is
+// known by its name, OGR is given the archive as a folder.
+std::string insideOf(const std::string& archive, const std::vector<std::string>& wanted) {
   constexpr std::array<std::string_view, 8> kEndings = {".shp", ".gpkg", ".geojson", ".json",
                                                         ".fgb", ".gml",  ".kml",     ".osm"};
   const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
@@ -60,10 +92,7 @@ std::string insideOf(const std::string& archive) {
   // Beside a file of another kind a .json says something of it.
   const auto isJson = [](const std::string& entry) { return endsWith(entry, ".json"); };
   if (!std::ranges::all_of(found, isJson)) std::erase_if(found, isJson);
-  if (found.size() > 1) {
-    throw InputError(archive.substr(archive.find('/', 1) + 1) + ": holds " + std::to_string(found.size()) +
-                     " vector files (" + listed(found) + "): name one as '" + archive + "/" + found.front() + "'");
-  }
+  if (found.size() > 1) return chosenInside(archive, found, wanted);
   return found.empty() ? archive : archive + "/" + found.front();
 }
 
@@ -109,8 +138,8 @@ std::string inMemory(const std::string& given) {
   return path;
 }
 
-// The path as OGR wants it.
-std::string pathForOgr(const std::string& path) {
+// The path as OGR wants it; in an archive of several files that of the layers wanted, if any are.
+std::string pathForOgr(const std::string& path, const std::vector<std::string>& wanted) {
   const std::string real = isStreamFile(path) ? inMemory(path) : path;
   if (real.starts_with("/vsi") && !real.starts_with("/vsimem/")) return real;
   if (endsWith(real, ".shp.zip")) return real;
@@ -123,8 +152,9 @@ std::string pathForOgr(const std::string& path) {
   }
   registerDrivers();
   if (endsWith(real, ".kmz") && GDALGetDriverByName("LIBKML") != nullptr) return real;
-  if (endsWith(real, ".zip") || endsWith(real, ".kmz")) return insideOf("/vsizip/" + real);
-  if (endsWith(real, ".tar") || endsWith(real, ".tgz") || endsWith(real, ".tar.gz")) return insideOf("/vsitar/" + real);
+  if (endsWith(real, ".zip") || endsWith(real, ".kmz")) return insideOf("/vsizip/" + real, wanted);
+  if (endsWith(real, ".tar") || endsWith(real, ".tgz") || endsWith(real, ".tar.gz"))
+    return insideOf("/vsitar/" + real, wanted);
   if (endsWith(real, ".gz")) return "/vsigzip/" + real;
   return real;
 }
@@ -161,12 +191,16 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   const auto [file, layer_of_file] = splitLayer(given);
   OpenSource source;
   source.name = isStandardInput(file) ? "standard input" : file;
-  const std::string path = pathForOgr(file);
+  std::vector<std::string> names = wanted;
+  if (!layer_of_file.empty()) names = {layer_of_file};
+  const std::string path = pathForOgr(file, names);
   source.dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (!source.dataset) refuse(source.name, path, errors);
 
-  std::vector<std::string> names = wanted;
-  if (!layer_of_file.empty()) names = {layer_of_file};
+  // A file in an archive stands for its only layer, whatever that is called inside.
+  const bool in_archive = path != file && (path.starts_with("/vsizip/") || path.starts_with("/vsitar/"));
+  if (in_archive && names.size() == 1 && names.front() == stemOf(path) && source.dataset->GetLayerCount() == 1)
+    names.clear();
   std::vector<std::string> there;
   for (OGRLayer* layer : source.dataset->GetLayers()) {
     there.emplace_back(layer->GetName());

@@ -20,9 +20,9 @@ struct OpenSource {
 };
 
 // Opens what OGR knows: files, folders, URLs and its own "/vsi…" paths; besides them "-" for standard input, other
-// pipes, archives (.zip, .tar, .tgz, .gz) by their plain names, and "file|layer" or "file|layername=layer" for one
-// layer of a file. `layers` names those wanted; empty: all. Throws InputError: no such file, empty, no vector file, no
-// such layer.
+// pipes, archives (.zip, .tar, .tgz, .gz) by their plain names, where a file stands for the layer of its name, and
+// "file|layer" or "file|layername=layer" for one layer of a file. `layers` names those wanted; empty: all. Throws
+// InputError: no such file, empty, no vector file, no such layer, several files in an archive and none named.
 OpenSource openSource(const std::string& path, const std::vector<std::string>& layers, const OgrErrors& errors);
 
 // Whether such a path, with a layer or without, can be read but once: standard input or another pipe.

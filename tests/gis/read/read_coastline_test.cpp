@@ -2,6 +2,7 @@
 
 #include <cpl_conv.h>
 #include <gdal_priv.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <unistd.h>
@@ -18,6 +19,8 @@
 
 namespace coastmesh {
 namespace {
+
+using ::testing::HasSubstr;
 
 class ReadCoastline : public ::testing::Test {
  protected:
@@ -368,6 +371,62 @@ TEST_F(ReadCoastline, Archives) {
   }
   EXPECT_EQ(readCoastline({path("two.zip") + "/b.geojson"}, report).features.size(), 1u);
   EXPECT_THROW(readCoastline({path("two.zip")}, report), InputError);
+}
+
+TEST_F(ReadCoastline, LayersOfArchives) {
+  const auto shapefile = [&](const std::string& name, int squares) {
+    std::vector<std::string> shapes;
+    for (int i = 0; i < squares; ++i) shapes.push_back(squareAt(3 * i));
+    geojson(name + ".geojson", shapes);
+    const std::string source = path(name + ".geojson"), target = path(name + ".shp");
+    const std::unique_ptr<GDALDataset> from(GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR));
+    GDALClose(GetGDALDriverManager()
+                  ->GetDriverByName("ESRI Shapefile")
+                  ->CreateCopy(target.c_str(), from.get(), FALSE, nullptr, nullptr, nullptr));
+  };
+  const auto zip = [&](const std::string& archive, const std::string& folder, const std::string& name) {
+    for (const char* const ending : {".shp", ".shx", ".dbf", ".prj"}) {
+      const std::string target = "/vsizip/" + path(archive) + "/" + folder + name + ending;
+      ASSERT_EQ(CPLCopyFile(target.c_str(), path(name + ending).c_str()), 0);
+    }
+  };
+  shapefile("lakes", 2);
+  shapefile("coast", 3);
+  shapefile("ponds", 1);
+  for (const std::string name : {"lakes", "coast", "ponds"}) {
+    zip("flat.zip", "", name);
+    zip("deep.zip", "gis data/", name);
+    zip("twice.zip", name + "/", "lakes");
+  }
+  ReadReport report;
+  const auto count = [&](const std::string& source, const std::vector<std::string>& layers) {
+    return readCoastline({{source}}, {layers, ""}, report).features.size();
+  };
+  const auto errorOf = [&](const std::string& source, const std::vector<std::string>& layers) -> std::string {
+    try {
+      count(source, layers);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  for (const std::string archive : {path("flat.zip"), path("deep.zip")}) {
+    EXPECT_EQ(count(archive, {"lakes"}), 2u);
+    EXPECT_EQ(count(archive, {"coast"}), 3u);
+    EXPECT_EQ(count(archive, {"coast", "ponds"}), 4u);
+    EXPECT_EQ(count(archive + "|lakes", {}), 2u);
+    EXPECT_EQ(count(archive + "|layername=coast", {}), 3u);
+    const std::string several = errorOf(archive, {}), none = errorOf(archive, {"rivers"});
+    for (const char* const name : {"lakes", "coast", "ponds"}) {
+      EXPECT_THAT(several, HasSubstr(name));
+      EXPECT_THAT(none, HasSubstr(name));
+    }
+    EXPECT_THAT(several, HasSubstr("--layer"));
+    EXPECT_THAT(none, HasSubstr("'rivers'"));
+  }
+  // Only their paths tell them apart.
+  EXPECT_THAT(errorOf(path("twice.zip"), {"lakes"}), HasSubstr("coast/lakes.shp"));
+  EXPECT_EQ(count(path("twice.zip") + "/coast/lakes.shp", {}), 2u);
 }
 
 // Sources of other uses keep their lines apart from the coast's, and points where they are wanted.
