@@ -70,10 +70,11 @@ double longestInPlane(const RefineOptions& options, const Point& low, const Poin
   return least < kAlike * most ? std::numeric_limits<double>::infinity() : options.size_max / most;
 }
 
-// Where lengths rule, most vertices are known beforehand. Algorithms for comparison stay as they were published.
-std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
+// Where lengths rule, most vertices are known beforehand. Algorithms for comparison stay as they were published. The
+// memory that there is decides nothing here: the mesh would depend on it.
+std::vector<LatticePlaces> placesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
   if (options.algorithm != Algorithm::Relocate) return {};
-  const std::uint64_t most = std::min({options.max_vertices, options.most_in_memory, kMostVertices});
+  const std::uint64_t most = std::min(options.max_vertices, kMostVertices);
   const std::uint64_t left = most - std::min<std::uint64_t>(most, mesh.points.size());
   LatticeWishes wishes{options.size_max, options.size, options.min_angle_deg, options.max_angle_deg, left};
   if (!options.surface.isCurved() || mesh.points.empty()) return layLattices(mesh, wishes, loop);
@@ -83,6 +84,15 @@ std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions&
   const PlaneSizes in_plane(*options.size, options.surface, low, high);
   wishes.size = &in_plane;
   return layLattices(mesh, wishes, loop);
+}
+
+// Throws OutOfRoom.
+std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
+  std::vector<LatticePlaces> lattices = placesFor(mesh, options, loop);
+  std::uint64_t vertices = mesh.points.size();
+  for (const LatticePlaces& lattice : lattices) vertices += static_cast<std::uint64_t>(lattice.places.count());
+  if (vertices > options.most_in_memory) throw OutOfRoom(mesh.points.front());
+  return lattices;
 }
 
 // The PSLG of what is to be meshed: with the ring of a cap round it.

@@ -14,8 +14,10 @@
 #include "apps/cli/progress.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/cli/shard_file.hpp"
+#include "apps/job/available_memory.hpp"
 #include "apps/job/deal_groups.hpp"
 #include "apps/job/feature_file_names.hpp"
+#include "apps/job/memory_share.hpp"
 #include "apps/job/mesh_job.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "apps/report/mesh_warnings.hpp"
@@ -210,15 +212,18 @@ class Maker {
         shares_(shares),
         cancelled_(std::move(cancelled)) {}
 
-  void make(std::size_t i, Planned& one) {
+  // Within so many bytes of memory. Returns whether it is done; what lacks memory is so only in the end.
+  bool make(std::size_t i, Planned& one, double memory, bool in_the_end) {
     FeatureOutcome& outcome = one.outcome;
     MeshJob job = job_;
+    job.memory = memory;
     job.input.ready = alone(coastline_, beside_, one);
     const JobControl control{cancelled_, [this, i](std::string_view phase, double share) {
                                if (phase == "refine") shares_.report(i, share);
                              }};
     try {
       MeshJobResult result = runMeshJobHere(job, control);
+      if (!in_the_end && std::ranges::any_of(result.refusals, &Refusal::lacks_memory)) return false;
       if (result.regions == 0) {
         outcome.state = FeatureState::Refused;
         outcome.reason = result.refusals.empty() ? result.last_unwanted : result.refusals.front().reason;
@@ -234,6 +239,7 @@ class Maker {
       outcome.reason = error.what();
     }
     shares_.report(i, 1.0);
+    return true;
   }
 
  private:
@@ -331,14 +337,23 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
     if (planned[i].outcome.state != FeatureState::Skipped) order.push_back(i);
   std::ranges::stable_sort(order, std::greater(), [&planned](std::size_t i) { return planned[i].points; });
   int threads = 1;
+  const double memory = availableMemory();
   withThreads(job.parallel, [&] {
     threads = threadCount();
     if (readsFiles(job)) {
-      for (const std::size_t i : order) maker.make(i, planned[i]);
-    } else {
-      forEachItem(order.size(), RunControl{cancelled, {}},
-                  [&](std::size_t i) { maker.make(order[i], planned[order[i]]); });
+      for (const std::size_t i : order) maker.make(i, planned[i], memory, true);
+      return;
     }
+    Together together{order.size(), 0, static_cast<std::size_t>(threads)};
+    for (const std::size_t i : order) together.points += planned[i].points;
+    // Those whose share of the memory is too little are made once they are alone.
+    std::vector<char> done(order.size(), false);
+    forEachItem(order.size(), RunControl{cancelled, {}}, [&](std::size_t at) {
+      Planned& one = planned[order[at]];
+      done[at] = maker.make(order[at], one, memoryShare(memory, one.points, together), order.size() == 1);
+    });
+    for (std::size_t at = 0; at < order.size(); ++at)
+      if (!done[at]) maker.make(order[at], planned[order[at]], memory, true);
   });
   display.clear();
 

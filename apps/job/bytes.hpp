@@ -36,8 +36,8 @@ auto partsOf(auto& grid) requires std::is_same_v<std::remove_cvref_t<decltype(gr
                   area_m2, features, boundaries, lines, notes);
 }
 auto partsOf(auto& refusal) requires std::is_same_v<std::remove_cvref_t<decltype(refusal)>, Refusal> {
-  auto& [source, fids, reason, place, over_budget] = refusal;
-  return std::tie(source, fids, reason, place, over_budget);
+  auto& [source, fids, reason, place, over_budget, lacks_memory] = refusal;
+  return std::tie(source, fids, reason, place, over_budget, lacks_memory);
 }
 auto partsOf(auto& edit) requires std::is_same_v<std::remove_cvref_t<decltype(edit)>, Edit> {
   auto& [kind, place, fid] = edit;

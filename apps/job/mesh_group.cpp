@@ -405,6 +405,7 @@ MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&
     region = meshRegion(domain.pslg, std::move(options), task.control);
   } catch (const OutOfRoom& error) {
     result.refusal_place = domain.projection.inverse(error.place);
+    result.lacks_memory = most < kMostVertices;
     throw InputError(featureText(task.firstFeature()) + ": the bounds on angles and lengths take more than " +
                      amount("%.2g", static_cast<double>(most)) +
                      " vertices, the most that fit in memory, the last of them near " +
@@ -512,7 +513,9 @@ void refuse(const BadPslg& error, const GroupTask& task, GroupResult& result) {
 
 void refuse(const TooManyVertices& error, const GroupTask& task, GroupResult& result) {
   result.estimated_vertices = std::min(error.demand.vertices, kMostReported);
-  result.over_budget = kClearlyMore * static_cast<double>(task.room.vertices) <= possibleVertices(task, result.surface);
+  const double possible = possibleVertices(task, result.surface);
+  result.over_budget = kClearlyMore * static_cast<double>(task.room.vertices) <= possible;
+  result.lacks_memory = !result.over_budget && possible < static_cast<double>(kMostVertices);
   result.refusal_place = error.demand.place;
   result.refusal = featureText(task.firstFeature()) + ": " + demandText(error, task, result);
 }

@@ -30,6 +30,7 @@ struct GroupResult {
   double estimated_vertices = 0.0;  // from the requested sizes; 0 if there are none
   std::string refusal;              // empty if it was meshed, or nothing of it was requested
   bool over_budget = false;         // refused because its sizes require many more vertices than `--max-vertices`
+  bool lacks_memory = false;        // refused because it takes more than its room's memory
   std::optional<Point> refusal_place;
   std::string unwanted;            // why nothing of it was requested, if so
   std::vector<std::string> notes;  // decisions of cleaning, and of following sizes
@@ -39,7 +40,7 @@ struct GroupResult {
 // The limits of a group's mesh.
 struct GroupRoom {
   std::uint64_t vertices = 0;  // its share of `--max-vertices`
-  double memory = 0.0;         // bytes
+  double memory = 0.0;         // bytes; changes nothing but whether the group is refused
 };
 
 // Projects, cleans, meshes and checks a group. Reasons why it cannot be meshed go to `refusal`, also if its sizes

@@ -16,6 +16,7 @@
 #include "apps/job/grid_pieces.hpp"
 #include "apps/job/group_bytes.hpp"
 #include "apps/job/idle_inputs.hpp"
+#include "apps/job/memory_share.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/raster_helpers.hpp"
 #include "apps/job/stopwatch.hpp"
@@ -28,6 +29,7 @@
 #include "gis/grid/local_plane.hpp"
 #include "parallel/free_memory.hpp"
 #include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -83,6 +85,7 @@ void addRefusal(const JobInput& input, std::size_t group, GroupResult&& part, Me
   refusal.reason = std::move(part.refusal);
   refusal.place = part.refusal_place;
   refusal.over_budget = part.over_budget;
+  refusal.lacks_memory = part.lacks_memory;
   result.refusals.push_back(std::move(refusal));
 }
 
@@ -244,9 +247,87 @@ std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
   return order;
 }
 
-}  // namespace
+// Memory of the groups of a run. As many as there are threads are meshed at once, each within its share; those for
+// which that is too little are meshed afterwards, one by one, with all that finished groups leave. Hence together they
+// never take more than there is, and which are refused does not depend on what is meshed beside them.
+class GroupMemory {
+ public:
+  GroupMemory(double whole, const Together& together) : whole_(whole), together_(together) {}
 
-namespace {
+  double shareOf(std::size_t points) const { return memoryShare(whole_, points, together_); }
+  double left() const { return whole_ - held_; }
+  // Throws InputError if finished groups alone take more than there is.
+  void hold(const Grid& grid) {
+    const double bytes = bytesHeldBy(grid);
+    const std::lock_guard lock(mutex_);
+    held_ += bytes;
+    if (held_ > whole_)
+      throw InputError(
+          "all features together have a mesh that takes more memory than there is: request larger sizes, or mesh a "
+          "share of the features at a time (--shard)");
+  }
+
+ private:
+  double whole_, held_ = 0.0;
+  Together together_;
+  std::mutex mutex_;
+};
+
+// Meshes the groups that this run is to mesh, or takes them from the job's exchange, and puts them together.
+std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, const SizeInputs& sizes,
+                                    const JobControl& control, MeshJobResult& result) {
+  std::vector<std::size_t> points(input.groups());
+  for (std::size_t g = 0; g < points.size(); ++g) points[g] = input.pointsOf(g);
+  const std::size_t all_points = std::accumulate(points.begin(), points.end(), std::size_t{0});
+  const GroupExchange& exchange = job.exchange;
+  if (exchange.begin) exchange.begin(input.digest(), input.groups());
+  std::vector<std::size_t> order = workOrder(points);
+  std::vector<bool> expected(input.groups(), true);
+  if (exchange.shards > 1) {
+    const std::vector<std::uint32_t> shard_of = dealGroups(points, exchange.shards);
+    for (std::size_t g = 0; g < expected.size(); ++g) expected[g] = shard_of[g] == exchange.shard;
+    std::erase_if(order, [&expected](std::size_t g) { return !expected[g]; });
+  }
+  std::vector<std::size_t> weights = points;
+  for (std::size_t g = 0; g < weights.size(); ++g)
+    if (!expected[g]) weights[g] = 0;
+  GroupProgress progress(weights, control);
+  OrderedMerge merge(input, expected, result);
+  const std::size_t own_points = std::accumulate(weights.begin(), weights.end(), std::size_t{0});
+  GroupMemory memory(job.memory ? *job.memory : availableMemory(),
+                     {order.size(), own_points, static_cast<std::size_t>(threadCount())});
+  // Returns whether it is done; what lacks memory is so only in the end.
+  const auto make = [&](std::size_t g, double room, bool in_the_end) {
+    const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
+    const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
+    const bool taken = exchange.take && (!exchange.has || exchange.has(g));
+    GroupResult part = taken ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, room}, inner);
+    if (part.lacks_memory && !in_the_end) return false;
+    if (exchange.keep) exchange.keep(g, part);
+    memory.hold(part.grid);
+    const bool large = part.pieces > 1;
+    merge.add(g, std::move(part));
+    // Many may have waited for it.
+    if (large) giveBackFreeMemory();
+    progress.report(g, 1.0);
+    return true;
+  };
+  std::mutex mutex;
+  std::vector<std::size_t> left;
+  forEachItem(order.size(), RunControl{control.cancelled, {}}, [&](std::size_t i) {
+    const std::size_t g = order[i];
+    if (make(g, memory.shareOf(points[g]), order.size() == 1)) return;
+    const std::lock_guard lock(mutex);
+    left.push_back(g);
+  });
+  std::ranges::sort(left);
+  for (const std::size_t g : left) {
+    giveBackFreeMemory();
+    make(g, memory.left(), true);
+  }
+  merge.finish();
+  return merge.merged();
+}
 
 // The grid as it is now, each group in the plane that it was made in. The digest stays that of the mesh where nothing
 // but nodes of the frame moved.
@@ -331,38 +412,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   if (control.cancelled && control.cancelled()) throw Cancelled();
   if (control.progress) control.progress("read", 1.0);
 
-  std::vector<std::size_t> points(input.groups());
-  for (std::size_t g = 0; g < points.size(); ++g) points[g] = input.pointsOf(g);
-  const std::size_t all_points = std::accumulate(points.begin(), points.end(), std::size_t{0});
-  const GroupExchange& exchange = job.exchange;
-  if (exchange.begin) exchange.begin(input.digest(), input.groups());
-  std::vector<std::size_t> order = workOrder(points);
-  std::vector<bool> expected(input.groups(), true);
-  if (exchange.shards > 1) {
-    const std::vector<std::uint32_t> shard_of = dealGroups(points, exchange.shards);
-    for (std::size_t g = 0; g < expected.size(); ++g) expected[g] = shard_of[g] == exchange.shard;
-    std::erase_if(order, [&expected](std::size_t g) { return !expected[g]; });
-  }
-  std::vector<std::size_t> weights = points;
-  for (std::size_t g = 0; g < weights.size(); ++g)
-    if (!expected[g]) weights[g] = 0;
-  GroupProgress progress(weights, control);
-  OrderedMerge merge(input, expected, result);
-  const double memory = availableMemory();
-  forEachItem(order.size(), RunControl{control.cancelled, {}}, [&](std::size_t i) {
-    const std::size_t g = order[i];
-    const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
-    const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
-    const bool taken = exchange.take && (!exchange.has || exchange.has(g));
-    GroupResult part = taken ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, memory}, inner);
-    if (exchange.keep) exchange.keep(g, part);
-    const bool large = part.pieces > 1;
-    merge.add(g, std::move(part));
-    // Many may have waited for it.
-    if (large) giveBackFreeMemory();
-    progress.report(g, 1.0);
-  });
-  merge.finish();
+  const std::vector<MergedGroup> merged = meshGroups(job, input, sizes, control, result);
   giveBackFreeMemory();
   result.grid.crs = result.crs;
   Recorder recorder;
@@ -371,7 +421,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
       input.isPoly() ? FrameMoves{} : keepInFrame(result.grid, input.coastline(), job.mesh.refine.min_angle_deg, loop);
   // In the plane it is what was made there that counts, less what this spoilt; on the Earth, where every node lies.
   if (moves.nodes > 0 && isMeasuredOnEarth(result)) {
-    measureAgain(job, input, merge.merged(), false, result);
+    measureAgain(job, input, merged, false, result);
   } else {
     noteFallenShort(moves, job.mesh.refine.min_angle_deg, result);
   }
@@ -387,14 +437,14 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     result.finish = finishGrid(result.grid, finish, inner, recorder.loop("finish", RunControl{control.cancelled, {}}));
     if (!result.finish.repairs.repairs.empty()) {
       result.short_before_repairs = result.short_of.count;
-      measureAgain(job, input, merge.merged(), true, result);
+      measureAgain(job, input, merged, true, result);
       result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
     }
     result.seconds.finish = finishing.seconds();
     result.log.append(recorder.finish("finish"));
   }
   // A shard, or one feature of many, may well lie beside them.
-  if (exchange.shards <= 1 && !job.input.ready)
+  if (job.exchange.shards <= 1 && !job.input.ready)
     std::ranges::move(warningsOfIdleInputs(job, sizes, input.coastline(), result.grid),
                       std::back_inserter(result.read.warnings));
   findTurned(result, loop);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string_view>
 
 #include "apps/job/finish_grid.hpp"
@@ -22,6 +23,7 @@ struct MeshJob {
   GroupExchange exchange;
   std::vector<std::string> notes;  // choices made for the user, for messages
   bool keep_edits = false;         // record where changes were made, not only how many
+  std::optional<double> memory;    // bytes that it may take; none: `availableMemory()`
 };
 
 // Communication of a job with its caller. Either function may be empty; `progress` is called from one thread at a time,

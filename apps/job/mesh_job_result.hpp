@@ -30,6 +30,7 @@ struct Refusal {
   std::string reason;
   std::optional<Point> place;  // in the input's CRS, if known
   bool over_budget = false;    // its sizes require many more vertices than `max_vertices`
+  bool lacks_memory = false;   // it may be meshed where there is more memory
 };
 
 // A triangle that misses the bounds and that no input angle explains.
