@@ -314,7 +314,7 @@ GroupResult CheckpointFolder::take(std::size_t group) {
 }
 
 void CheckpointFolder::keep(std::size_t group, const GroupResult& result) {
-  if (has(group)) return;
+  if (has(group) || result.lacks_memory) return;
   std::uint64_t size = 0;
   putBytesOf(result, [&size](std::string_view bytes) { size += bytes.size(); });
   const fs::path path = folder_ / kGroups, rounds = folder_ / (kRounds + std::to_string(group));

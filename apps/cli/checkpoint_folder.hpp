@@ -53,7 +53,8 @@ class CheckpointFolder {
   // The rest from several threads.
   bool has(std::size_t group) const { return places_.contains(group); }  // from an earlier run
   GroupResult take(std::size_t group);
-  void keep(std::size_t group, const GroupResult& result);  // unless it was there already
+  // Unless it was there already, or lacks memory: then another run may do it.
+  void keep(std::size_t group, const GroupResult& result);
   RegionCheckpoint rounds(std::size_t group);
   CheckpointUse use() const;
   // What to do where what is kept cannot be used, as the end of a sentence.

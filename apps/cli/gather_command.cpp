@@ -14,7 +14,8 @@ struct GatherUsage {
   MeshRunUsage whole;
 };
 
-// The run that the shards are of, with their meshes in place of its own: whatever comes after meshing is done here.
+// The run that the shards are of, with their meshes in place of its own: whatever comes after meshing is done here, and
+// what shards lacked memory for.
 int runGather(GatherUsage& usage, Run& run) {
   const GatheredShards gathered(usage.shards);
   OptionTable job = meshJobOptions(usage.whole.mesh);
@@ -24,6 +25,7 @@ int runGather(GatherUsage& usage, Run& run) {
   for (const auto& [option, path] : job.inputs()) run.inputs.push_back(path);
   GroupExchange& exchange = usage.whole.mesh.job.exchange;
   exchange.begin = [&gathered](std::uint64_t digest, std::size_t groups) { gathered.begin(digest, groups); };
+  exchange.has = [&gathered](std::size_t group) { return gathered.has(group); };
   exchange.take = [&gathered](std::size_t group) { return gathered.take(group); };
   return runMesh(usage.whole, run);
 }

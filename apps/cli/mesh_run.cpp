@@ -103,6 +103,7 @@ std::optional<int> doneBefore(const MeshRunUsage& usage, const Run& run, const G
     const auto [shard, shards] = shardOf(usage.shard);
     if (header.options != given || header.shard != shard || header.shards != shards)
       throw OptionError("'" + output.path + "' exists, but belongs to another run: give another name, or --overwrite");
+    if (header.left > 0) return std::nullopt;  // there may be more memory now
     code = header.exit_code;
   }
   return code;
@@ -255,6 +256,10 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   if (checkpoint) result.checkpoint = checkpoint->use();
   display.clear();
   for (const std::string& warning : warningsOf(result)) run.warn(warning);
+  const bool lacks_memory = std::ranges::any_of(result.refusals, &Refusal::lacks_memory);
+  if (lacks_memory && keeps)
+    run.warn("--checkpoint " + usage.checkpoint +
+             " is kept: where there is more memory, the same command with --overwrite resumes from it");
 
   auto write_start = std::chrono::steady_clock::now();
   const bool any = result.regions > 0;
@@ -283,7 +288,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   const bool silent = usage.quiet || usage.progress == "json" || usage.report == "-";
   const std::string summary = any && !silent ? summaryOf(usage, job, result) : "";
   outputs.commit();
-  if (checkpoint) checkpoint->finish();
+  if (checkpoint && !lacks_memory) checkpoint->finish();
   // Other shards may have what this one has not.
   if (!any && to_shard) {
     display.clear();

@@ -15,8 +15,8 @@ namespace coastmesh {
 
 // Found by the calls of `pass`.
 auto partsOf(auto& header) requires std::is_same_v<std::remove_cvref_t<decltype(header)>, ShardHeader> {
-  auto& [version, options, shard, shards, exit_code, input_digest, groups] = header;
-  return std::tie(version, options, shard, shards, exit_code, input_digest, groups);
+  auto& [version, options, shard, shards, exit_code, input_digest, groups, left] = header;
+  return std::tie(version, options, shard, shards, exit_code, input_digest, groups, left);
 }
 namespace {
 
@@ -131,8 +131,9 @@ void ShardWriter::begin(std::uint64_t input_digest, std::size_t groups) {
 }
 
 void ShardWriter::keep(std::size_t group, const GroupResult& result) {
-  std::string bytes = bytesOf(result);
+  std::string bytes = result.lacks_memory ? "" : bytesOf(result);
   const std::lock_guard lock(mutex_);
+  header_.left += result.lacks_memory;
   groups_.emplace_back(group, std::move(bytes));
 }
 

@@ -33,6 +33,7 @@ struct ShardHeader {
   std::int32_t exit_code = 0;  // of the run that made it
   std::uint64_t input_digest = 0;
   std::uint64_t groups = 0;  // of the whole
+  std::uint64_t left = 0;    // of its own: for lack of memory they are not in it, and `gather` meshes them
 
   bool ofSameRun(const ShardHeader& other) const {
     return version == other.version && options == other.options && shards == other.shards;
@@ -51,7 +52,8 @@ class ShardWriter {
   ShardWriter(GivenOptions options, std::uint32_t shard, std::uint32_t shards);
 
   void begin(std::uint64_t input_digest, std::size_t groups);
-  void keep(std::size_t group, const GroupResult& result);  // from several threads
+  // From several threads. Of a group that lacks memory only that it does.
+  void keep(std::size_t group, const GroupResult& result);
   std::string file(int exit_code) const;
 
  private:
@@ -69,7 +71,9 @@ class GatheredShards {
   const GivenOptions& options() const { return header_.options; }
   // Throws InputError where the shards were made of another input.
   void begin(std::uint64_t input_digest, std::size_t groups) const;
-  GroupResult take(std::size_t group) const;  // from several threads; throws InputError
+  // From several threads. Those that lacked memory are not there.
+  bool has(std::size_t group) const { return !places_.at(group).bytes.empty(); }
+  GroupResult take(std::size_t group) const;  // throws InputError
 
  private:
   struct Place {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -229,6 +230,68 @@ TEST_F(SizeLimits, OfAPlaneGraph) {
               0.15);
   EXPECT_EQ(run("0.01", "20000"), 1);
   EXPECT_EQ(report()["mesh"]["triangles"], 0);
+}
+
+// A lake of a hectare, and one that takes some 930,000 vertices: more than `kLittle` leaves. In a plane.
+class LackingMemory : public SizeLimits {
+ protected:
+  static constexpr const char* kLittle = "ulimit -v 450000; ";
+
+  void SetUp() override {
+    if (!kMemoryIsTheProgramsOwn) GTEST_SKIP() << "no limit can be set on memory";
+    lakes_ = write("lakes.geojson", geoJsonPolygons({{{{0, 0}, {100, 0}, {100, 100}, {0, 100}}},
+                                                     {{{9000, 0}, {9900, 0}, {9900, 900}, {9000, 900}}}}));
+  }
+  std::string command(const std::string& more) const {
+    return "\"$0\" mesh '" + lakes_ + "' --crs plane --size-max 1 --threads 1 --quiet " + more;
+  }
+  std::string quoted(const std::string& name) const { return "'" + file(name) + "' "; }
+  std::string whole() const {
+    EXPECT_EQ(runShell(command("-o " + quoted("whole.2dm"))).code, 0);
+    return readText(file("whole.2dm"));
+  }
+
+  std::string lakes_;
+};
+
+TEST_F(LackingMemory, AShardIsMadeAnewWhereThereIsMore) {
+  const std::string shard = command("--shard 1/1 --skip-existing -o " + quoted("a.shard"));
+  const ProgramRun little = runShell(kLittle + shard);
+  EXPECT_EQ(little.code, 1);
+  EXPECT_NE(little.errors.find("there is memory for about"), std::string::npos) << little.errors;
+  EXPECT_EQ(runShell(shard).code, 0);
+  EXPECT_EQ(runProgram({"gather", file("a.shard"), "-o", file("a.2dm"), "--quiet"}).code, 0);
+  EXPECT_TRUE(readText(file("a.2dm")) == whole());
+}
+
+TEST_F(LackingMemory, GatherMeshesWhatShardsCouldNot) {
+  const int codes = runShell(kLittle + command("--shard 1/2 -o " + quoted("a.shard"))).code +
+                    runShell(kLittle + command("--shard 2/2 -o " + quoted("b.shard"))).code;
+  EXPECT_EQ(codes, 1);  // of one of them
+  const std::string gather =
+      "\"$0\" gather " + quoted("a.shard") + quoted("b.shard") + "--overwrite --quiet --threads 1 ";
+  EXPECT_EQ(runShell(kLittle + gather + "-o " + quoted("a.2dm")).code, 1);
+  EXPECT_EQ(runShell(gather + "-o " + quoted("a.2dm")).code, 0);
+  EXPECT_TRUE(readText(file("a.2dm")) == whole());
+}
+
+TEST_F(LackingMemory, ACheckpointKeepsTheRest) {
+  const std::string kept =
+      command("--overwrite --checkpoint " + quoted("kept") + "--report " + quoted("a.json") + "-o " + quoted("a.2dm"));
+  const ProgramRun little = runShell(kLittle + kept);
+  EXPECT_EQ(little.code, 1);
+  EXPECT_NE(little.errors.find("resumes from it"), std::string::npos) << little.errors;
+  EXPECT_TRUE(std::filesystem::exists(file("kept")));
+  EXPECT_EQ(runShell(kept).code, 0);
+  EXPECT_EQ(report()["checkpoint"]["groups_taken"], 1);
+  EXPECT_TRUE(readText(file("a.2dm")) == whole());
+  EXPECT_FALSE(std::filesystem::exists(file("kept")));
+}
+
+TEST_F(LackingMemory, FeaturesApartAreMadeWhereThereIsMore) {
+  const std::string apart = command("--per-feature --skip-existing -o " + quoted("lake-{}.2dm"));
+  EXPECT_EQ(runShell(kLittle + apart).code, 1);
+  EXPECT_EQ(runShell(apart).code, 0);
 }
 
 TEST_F(SizeLimits, OneLakeOfSeveralIsLeftOut) {
