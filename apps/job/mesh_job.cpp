@@ -27,6 +27,7 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/model/shore_for_sizes.hpp"
 #include "parallel/free_memory.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
@@ -406,6 +407,12 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
   RasterHelpers rasters(job.mesh.helpers, RunControl{control.cancelled, {}});
   sizes.readers = rasters.readers();
+  finish.depth.readers = rasters.pixelReaders();
+  sizes.shoreOf = [&](const Domain& domain, const SizeOptions& options, const ItemLoop& loop) {
+    return shoreForSizes(domain, input.coastline().crs, finish.boundaries, finish.depth,
+                         {std::min(options.shore_m, options.size_m), std::min(options.most_m, options.size_m)},
+                         RunControl{control.cancelled, {}}, loop);
+  };
   giveBackFreeMemory();
   result.seconds.read = whole.seconds();
   result.log.append(reading.finish("read"));
@@ -427,7 +434,6 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   }
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   result.log.append(recorder.finish("grid"));
-  finish.depth.readers = rasters.pixelReaders();
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg};
   if (finish.any()) {

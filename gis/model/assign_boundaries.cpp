@@ -2,26 +2,16 @@
 
 #include <algorithm>
 
-#include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/loop_role.hpp"
 
 namespace coastmesh {
 namespace {
 
-// The boundary's edges, loop after loop, with what each is.
-struct BoundaryEdges {
-  std::vector<std::vector<std::uint32_t>> loops;
-  std::vector<NodePair> edges;
-  std::vector<BoundaryKind> kinds;
-  std::vector<bool> outer;  // of each edge: its loop goes round the mesh
-};
-
-BoundaryEdges boundaryWithKinds(const Grid& grid) {
+BoundaryEdges edgesOfLoops(const Grid& grid, const std::vector<std::vector<std::uint32_t>>& loops) {
   BoundaryEdges boundary;
-  boundary.loops = boundaryLoops(grid);
   const EdgeKinds before(grid);
-  for (const auto& loop : boundary.loops) {
+  for (const auto& loop : loops) {
     const bool outer = roleOfLoop(grid.nodes, loop, grid.crs) == BoundaryRole::Land;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const NodePair edge{loop[i], loop[(i + 1) % loop.size()]};
@@ -32,137 +22,36 @@ BoundaryEdges boundaryWithKinds(const Grid& grid) {
       if (boundary.kinds.back().role == BoundaryRole::Island) boundary.kinds.back().role = BoundaryRole::Land;
       boundary.outer.push_back(outer);
     }
+    boundary.loop_ends.push_back(boundary.edges.size());
   }
   return boundary;
 }
 
-std::vector<Boundary> boundariesOf(const Grid& grid, const BoundaryEdges& boundary) {
+std::vector<Boundary> boundariesOf(const Grid& grid, const std::vector<std::vector<std::uint32_t>>& loops,
+                                   const BoundaryEdges& boundary) {
   std::vector<std::pair<NodePair, std::size_t>> index;
   for (std::size_t e = 0; e < boundary.edges.size(); ++e) index.emplace_back(boundary.edges[e], e);
   std::ranges::sort(index);
-  return cutLoops(grid, boundary.loops, [&](std::uint32_t from, std::uint32_t to) {
+  return cutLoops(grid, loops, [&](std::uint32_t from, std::uint32_t to) {
     const auto at =
         std::ranges::lower_bound(index, NodePair{from, to}, {}, [](const auto& entry) { return entry.first; });
     return boundary.kinds[at->second];
   });
 }
 
-// Edges of a loop that follow one another and are of one kind.
-struct Run {
-  std::size_t first = 0;  // edge of the loop
-  std::size_t count = 0;
-  BoundaryKind kind;
-  double length = 0.0;
-};
-
-std::vector<Run> runsOf(const std::vector<BoundaryKind>& kinds, const std::vector<double>& lengths, std::size_t begin,
-                        std::size_t n) {
-  std::vector<Run> runs;
-  std::size_t start = 0;
-  while (start < n && kinds[begin + start] == kinds[begin + (start + n - 1) % n]) ++start;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = (start + k) % n;
-    if (runs.empty() || kinds[begin + i] != runs.back().kind) runs.push_back({i, 0, kinds[begin + i]});
-    ++runs.back().count;
-    runs.back().length += lengths[begin + i];
-  }
-  return runs;
-}
-
-// Gives runs shorter than `least`, the shortest first, to the longer of their neighbours; each round leaves a run less.
-std::size_t mergeShortRuns(std::vector<Run>& runs, double least) {
-  std::size_t merged = 0;
-  while (runs.size() > 1) {
-    const auto shortest = std::ranges::min_element(runs, {}, &Run::length);
-    if (!(shortest->length < least)) break;
-    const std::size_t r = static_cast<std::size_t>(shortest - runs.begin()), n = runs.size();
-    const std::size_t before = (r + n - 1) % n, after = (r + 1) % n;
-    runs[r].kind = runs[runs[before].length >= runs[after].length ? before : after].kind;
-    ++merged;
-    // Neighbours of one kind now are one run.
-    std::vector<Run> joined;
-    for (const Run& run : runs) {
-      if (!joined.empty() && joined.back().kind == run.kind) {
-        joined.back().count += run.count;
-        joined.back().length += run.length;
-      } else {
-        joined.push_back(run);
-      }
-    }
-    if (joined.size() > 1 && joined.front().kind == joined.back().kind) {
-      joined.front().first = joined.back().first;
-      joined.front().count += joined.back().count;
-      joined.front().length += joined.back().length;
-      joined.pop_back();
-    }
-    runs = std::move(joined);
-  }
-  return merged;
-}
-
-std::size_t mergeShort(const Grid& grid, double least_m, BoundaryEdges& boundary) {
-  if (!(least_m > 0.0)) return 0;
-  std::vector<std::vector<Point>> edges;
-  for (const auto& [from, to] : boundary.edges) edges.push_back({grid.nodes[from], grid.nodes[to]});
-  const std::vector<double> lengths = chainLengths(edges, grid.crs);
-  std::size_t merged = 0, begin = 0;
-  for (const auto& loop : boundary.loops) {
-    const std::size_t n = loop.size();
-    std::vector<Run> runs = runsOf(boundary.kinds, lengths, begin, n);
-    merged += mergeShortRuns(runs, least_m);
-    for (const Run& run : runs)
-      for (std::size_t k = 0; k < run.count; ++k) boundary.kinds[begin + (run.first + k) % n] = run.kind;
-    begin += n;
-  }
-  return merged;
-}
-
 }  // namespace
 
-std::vector<BoundaryRules> readBoundaryFiles(const BoundaryOptions& options) {
-  std::vector<BoundaryRules> rules;
-  for (const std::string& file : options.files) rules.push_back(BoundaryRules::ofFile(file, options.column));
-  return rules;
-}
-
 BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options) {
-  BoundaryReport report;
-  if (!options.any()) return report;
+  if (!options.any()) return {};
   const auto isWeir = [](const Boundary& boundary) { return !boundary.weir.empty(); };
   if (std::ranges::any_of(grid.boundaries, isWeir))
     throw InputError("the mesh has weirs, whose boundaries cannot be set anew; leave the options of boundaries out");
-  BoundaryEdges boundary = boundaryWithKinds(grid);
-  std::vector<bool> said(boundary.edges.size(), false);
-  const auto apply = [&](const BoundaryRules& rules) {
-    const auto kinds = rules.kindsOf(grid.crs, grid.nodes, boundary.edges, boundary.outer);
-    bool any = false;
-    for (std::size_t e = 0; e < kinds.size(); ++e) {
-      if (!kinds[e]) continue;
-      boundary.kinds[e] = *kinds[e];
-      said[e] = any = true;
-    }
-    return any;
-  };
-  apply(options.of_input);
-  const std::vector<BoundaryRules> of_files = options.of_files ? *options.of_files : readBoundaryFiles(options);
-  for (std::size_t file = 0; file < of_files.size(); ++file)
-    if (!apply(of_files[file]))
-      report.warnings.push_back(options.files[file] +
-                                ": says nothing of the mesh's boundary: no edge of it has its middle in one of the "
-                                "polygons, or runs along one of the lines within a fifth of its length (polygons "
-                                "open no islands)");
-  report.edges_by_file = static_cast<std::size_t>(std::ranges::count(said, true));
-  if (options.open_deeper_m < 1e300) {
-    if (grid.z.empty()) throw InputError("to open boundaries by their depth takes depths; give --bathymetry");
-    for (std::size_t e = 0; e < boundary.edges.size(); ++e) {
-      const auto isDeep = [&](std::uint32_t node) { return 0.0 - grid.z[node] > options.open_deeper_m; };
-      if (said[e] || !boundary.outer[e] || !isDeep(boundary.edges[e][0]) || !isDeep(boundary.edges[e][1])) continue;
-      boundary.kinds[e] = {BoundaryRole::Open};
-      ++report.edges_by_depth;
-    }
-  }
-  report.merged = mergeShort(grid, options.least_length_m, boundary);
-  grid.boundaries = boundariesOf(grid, boundary);
+  const std::vector<std::vector<std::uint32_t>> loops = boundaryLoops(grid);
+  BoundaryEdges boundary = edgesOfLoops(grid, loops);
+  const BoundaryPlaces at{grid.crs, grid.nodes, grid.z};
+  BoundaryReport report = defineKinds(at, options, boundary);
+  report.merged = mergeShort(at, options.least_length_m, boundary);
+  grid.boundaries = boundariesOf(grid, loops, boundary);
   return report;
 }
 

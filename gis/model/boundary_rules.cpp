@@ -59,6 +59,7 @@ bool contains(const Polygon& polygon, const Point& p) {
 // An edge of the boundary in the layer's CRS.
 struct PlacedEdge {
   Point a, b;
+  double share = 1.0;  // of the edge that it is a piece of
 
   Point middle() const { return {(a.x + b.x) / 2.0, (a.y + b.y) / 2.0}; }
 };
@@ -137,19 +138,21 @@ class BoundaryRules::Layer {
 
   // Sets the kinds of those edges that it has rules for.
   void apply(const Crs& crs, const std::vector<Point>& places, const std::vector<NodePair>& edges,
-             const std::vector<bool>& outer, std::vector<std::optional<BoundaryKind>>& kinds) const {
+             const std::vector<bool>& outer, const std::vector<double>& share,
+             std::vector<std::optional<BoundaryKind>>& kinds) const {
     const bool as_is = crs.isPlane() || !crs_ || crs_->isPlane() || sameCrs(crs, *crs_);
     std::optional<CrsMap> map;
     if (!as_is) map.emplace(toOgr(crs), toOgr(*crs_));
     const auto place = [&](std::uint32_t node) { return map ? map->forward(places[node]) : places[node]; };
-    const bool geographic = crs_ ? crs_->geographic : crs.geographic;
+    // What has no place on Earth is not in degrees, whatever CRS a GeoJSON beside it implies.
+    const bool geographic = !crs.isPlane() && (crs_ ? crs_->geographic : crs.geographic);
     const std::vector<double> turns = turnsToTry(geographic);
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const Point a = place(edges[e][0]), b = place(edges[e][1]);
       if (!std::isfinite(a.x + a.y + b.x + b.y)) continue;
       std::optional<std::size_t> last;
       for (const double turn : turns) {
-        const PlacedEdge edge{{a.x + turn, a.y}, {b.x + turn, b.y}};
+        const PlacedEdge edge{{a.x + turn, a.y}, {b.x + turn, b.y}, share.empty() ? 1.0 : share[e]};
         const double shrink = geographic ? std::max(1e-6, std::cos(edge.middle().y * std::numbers::pi / 180.0)) : 1.0;
         last = std::max({last, lastLineAlong(edge, shrink), lastAreaAround(edge.middle(), outer[e])});
       }
@@ -169,7 +172,8 @@ class BoundaryRules::Layer {
 
   std::optional<std::size_t> lastLineAlong(const PlacedEdge& edge, double shrink) const {
     constexpr double kFarthest = 0.2;  // of the edge's length
-    const double length = std::hypot((edge.b.x - edge.a.x) * shrink, edge.b.y - edge.a.y), far = kFarthest * length;
+    const double length = std::hypot((edge.b.x - edge.a.x) * shrink, edge.b.y - edge.a.y);
+    const double far = kFarthest * length / edge.share;
     std::vector<std::size_t> common;
     const std::array<Point, 3> places{edge.a, edge.middle(), edge.b};
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -264,9 +268,10 @@ void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& 
 
 std::vector<std::optional<BoundaryKind>> BoundaryRules::kindsOf(const Crs& crs, const std::vector<Point>& places,
                                                                 const std::vector<NodePair>& edges,
-                                                                const std::vector<bool>& outer) const {
+                                                                const std::vector<bool>& outer,
+                                                                const std::vector<double>& share) const {
   std::vector<std::optional<BoundaryKind>> kinds(edges.size());
-  for (const auto& layer : layers_) layer->apply(crs, places, edges, outer, kinds);
+  for (const auto& layer : layers_) layer->apply(crs, places, edges, outer, share, kinds);
   return kinds;
 }
 

@@ -38,10 +38,11 @@ class BoundaryRules {
 
   // What they define about each of `edges`, which are pairs of `places` in `crs`; none where they define nothing.
   // `outer` says of each edge whether its loop goes round the mesh: polygons open no others, since they often happen to
-  // contain islands; lines along islands are meant.
+  // contain islands; lines along islands are meant. `share`: which part each is of an edge, whose fifth is the distance
+  // from lines; empty: all are whole edges.
   std::vector<std::optional<BoundaryKind>> kindsOf(const Crs& crs, const std::vector<Point>& places,
-                                                   const std::vector<NodePair>& edges,
-                                                   const std::vector<bool>& outer) const;
+                                                   const std::vector<NodePair>& edges, const std::vector<bool>& outer,
+                                                   const std::vector<double>& share = {}) const;
 
  private:
   class Layer;

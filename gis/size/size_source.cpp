@@ -265,11 +265,11 @@ bool isByShoreAlone(const SizeOptions& options, const SizeInputs& inputs) {
 
 // Nothing where the shore alone may ask for more vertices than there is room for, or where the change of scale counts
 // beside the gradation: a map tells.
-DomainSizes sizesByShore(const SizeOptions& options, const Domain& domain,
-                         const std::shared_ptr<const ScaleTable>& scales, const SizeBox& square, double most_vertices) {
+DomainSizes sizesByShore(const SizeOptions& options, const Pslg& shore, const std::shared_ptr<const ScaleTable>& scales,
+                         const SizeBox& square, double most_vertices) {
   constexpr double kHardly = 0.05, kJustBelow = 0.99;
   const double rate = std::min(options.shore_rate, kJustBelow * options.gradation);
-  std::vector<SizedLine> lines = shoreLines(domain.pslg, options.shore_m, rate);
+  std::vector<SizedLine> lines = shoreLines(shore, options.shore_m, rate);
   double length_m = 0.0;
   for (const SizedLine& line : lines) length_m += distance(line.a, line.b) / scales->at(midpoint(line.a, line.b));
   const double reach_m = 2.0 * square.half / scales->at(square.centre);
@@ -345,9 +345,14 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   const auto measure = [table](const Point& x) { return table->measureAt(x); };
   const Surface& surface = table->surface();
 
+  std::optional<Pslg> opened;
+  if (inputs.shoreOf && (options.shore_m < kInfinity || options.channel_elements > 0.0))
+    opened = inputs.shoreOf(domain, options, loop);
+  const Pslg& shore = opened ? *opened : domain.pslg;
+
   const SizeBox root{middle, 0.505 * extent};
   if (accuracy == SizeAccuracy::Rough && isByShoreAlone(options, inputs) && !surface.isCurved()) {
-    DomainSizes sizes = sizesByShore(options, domain, table, root, most_vertices);
+    DomainSizes sizes = sizesByShore(options, shore, table, root, most_vertices);
     if (sizes.function) return sizes;
   }
   const DomainMask mask(domain.closed() ? boundaryOf(box) : domain.pslg, root, surface);
@@ -355,14 +360,13 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   const double reach = reachOn(surface, extent, root), reach_m = reach / measure(middle);
   const double most_m = std::min(options.most_m, options.size_m);
   if (options.shore_m < kInfinity)
-    source.add("--size-shore",
-               std::make_unique<DistanceField>(shoreLines(domain.pslg, options.shore_m, options.shore_rate), scale,
-                                               most_m, surface));
+    source.add("--size-shore", std::make_unique<DistanceField>(shoreLines(shore, options.shore_m, options.shore_rate),
+                                                               scale, most_m, surface));
   if (options.channel_elements > 0.0) {
     // What the time step allows may be longer than what channels ask for: then their lines alone count.
-    ChannelLines channels = channelLines(
-        domain.pslg, options.channel_elements, options.gradation, options.least_m, std::min(most_m, reach_m), scale,
-        {options.time_step_s > 0.0 ? kInfinity : most_vertices, most_vertices}, surface);
+    ChannelLines channels =
+        channelLines(shore, options.channel_elements, options.gradation, options.least_m, std::min(most_m, reach_m),
+                     scale, {options.time_step_s > 0.0 ? kInfinity : most_vertices, most_vertices}, surface);
     if (!channels.complete) {
       const SizedLine& last = channels.lines.back();
       throw TooManyVertices({channels.vertices, projection.inverse(last.a), last.size_m, "--channel-elements",

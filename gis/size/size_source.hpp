@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -62,6 +64,9 @@ struct SizeInputs {
   std::vector<ShoreLine> passages, barriers;  // in the input's CRS
   Crs crs;                                    // of the input
   const RasterReaders* readers = nullptr;     // readers of rasters; null: only the caller
+  // The domain's graph without what is going to be open water although its tags do not say so; none if nothing is. May
+  // be empty.
+  std::function<std::optional<Pslg>(const Domain& domain, const SizeOptions& options, const ItemLoop& loop)> shoreOf;
 };
 
 // Throws InputError.

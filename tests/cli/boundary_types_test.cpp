@@ -171,6 +171,33 @@ TEST_F(BoundaryTypes, EachFeatureHasItsOwnForAnyNumberOfThreads) {
   }
 }
 
+// What a file or the input opens is no shore: --size-shore is not for it.
+TEST_F(BoundaryTypes, OpeningsDoNotDrawTheSizeOfTheShore) {
+  const Json open = southOf(5, {{"type", "open"}}), river = southOf(5, {{"type", "river"}});
+  put("lake.geojson", Json::array({lakeAt(5, Json::object())}));
+  put("own.geojson", Json::array({lakeAt(5, Json::object()), open}));
+  const auto vertices = [&](const std::string& input, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"mesh",         file(input), "-o",           file("a.gpkg"),
+                                       "--overwrite",  "--report",  file("r.json"), "--quiet",
+                                       "--size-shore", "100",       "--size-max",   "1500"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    done(arguments);
+    return Json::parse(readText(file("r.json")))["mesh"]["vertices"].get<int>();
+  };
+  const int all = vertices("lake.geojson", {});
+  const std::string types = put("open.geojson", Json::array({open}));
+  const int opened = vertices("lake.geojson", {"--boundaries", types});
+  EXPECT_LT(opened, 0.85 * all);
+  EXPECT_EQ(rolesIn("a.gpkg").count("open"), 1u);
+  // Coarse edges but for those beside the shores at both ends.
+  EXPECT_LT(rolesIn("a.gpkg")["open"], 40);
+  EXPECT_EQ(vertices("own.geojson", {"--boundary-column", "type"}), opened);
+  // A river's mouth is as fine as the shore.
+  EXPECT_EQ(vertices("lake.geojson", {"--boundaries", put("river.geojson", Json::array({river}))}), all);
+  // A coast that follows the sizes is one vertex a size as well.
+  EXPECT_LT(vertices("lake.geojson", {"--boundaries", types, "--coast", "follow"}), 0.85 * all);
+}
+
 TEST_F(BoundaryTypes, APlaneGraphHasNoColumn) {
   done({"clean", put("lake.geojson", Json::array({lakeAt(5, Json::object())})), "-o", file("lake.poly"), "--quiet"});
   for (const std::string command : {"mesh", "clean"}) {

@@ -18,6 +18,7 @@
 #include "gis/grid/grid.hpp"
 #include "gis/grid/grid_parts.hpp"
 #include "gis/model/assign_boundaries.hpp"
+#include "gis/model/boundary_edges.hpp"
 #include "gis/model/boundary_rules.hpp"
 #include "gis/model/check_target.hpp"
 #include "gis/model/depth.hpp"
@@ -165,6 +166,23 @@ TEST_F(GisGridExamples, AssignBoundaries) {
   //! [gis/model/assign_boundaries.hpp]
   EXPECT_EQ(report.edges_by_depth, 4u);
   EXPECT_TRUE(std::ranges::any_of(grid.boundaries, [](const Boundary& b) { return b.role == BoundaryRole::Open; }));
+}
+
+// gis/model/boundary_edges.hpp: The same decision for any boundary, before there is a mesh.
+TEST_F(GisGridExamples, BoundaryEdges) {
+  //! [gis/model/boundary_edges.hpp]
+  const Crs crs = parseCrs("EPSG:32635");
+  const std::vector<Point> corners{{0, 0}, {1000, 0}, {1000, 1000}, {0, 1000}};
+  const std::vector<double> z{-300, -300, -20, -20};
+  BoundaryEdges boundary{
+      {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {4}, std::vector<BoundaryKind>(4), std::vector<bool>(4, true)};
+  BoundaryOptions options;
+  options.open_deeper_m = 200.0;
+  const BoundaryReport report = defineKinds({crs, corners, z}, options, boundary);
+  //! [gis/model/boundary_edges.hpp]
+  EXPECT_EQ(report.edges_by_depth, 1u);
+  EXPECT_EQ(boundary.kinds[0].role, BoundaryRole::Open);
+  EXPECT_EQ(mergeShort({crs, corners, z}, 2000.0, boundary), 1u);
 }
 
 // gis/model/boundary_rules.hpp: Types of the boundary from polygons and lines, read once for any number of grids.
