@@ -62,12 +62,12 @@ void markBeyond(std::vector<std::vector<LineSample>>& lines, const ShoreTriangle
 
 }  // namespace
 
-std::vector<LineSample> samplesOf(const ShoreLine& line, const SizeFunction& size) {
+std::vector<LineSample> samplesOf(const std::vector<Point>& line, const SizeFunction& size) {
   std::vector<LineSample> samples;
   double way = 0.0;
   const auto add = [&](const Point& p) { samples.push_back({p, size.at(p), way}); };
-  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-    const Point &a = line.points[i], &b = line.points[i + 1];
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Point &a = line[i], &b = line[i + 1];
     const double length = distance(a, b), before = way;
     if (length == 0.0) continue;
     if (samples.empty()) add(a);
@@ -83,13 +83,13 @@ std::vector<LineSample> samplesOf(const ShoreLine& line, const SizeFunction& siz
   return samples;
 }
 
-void locateSamples(std::vector<std::vector<LineSample>>& lines, const std::vector<ShoreLine>& passages,
+void locateSamples(std::vector<std::vector<LineSample>>& lines, const std::vector<double>& elements,
                    const ShoreTriangles& t) {
   std::vector<Box> boxes;
   std::vector<std::pair<LineSample*, double>> samples;
   for (std::size_t line = 0; line < lines.size(); ++line) {
     for (LineSample& sample : lines[line]) {
-      samples.emplace_back(&sample, passages[line].elements);
+      samples.emplace_back(&sample, elements[line]);
       boxes.push_back(Box::of(sample.at, sample.at));
     }
   }
@@ -103,10 +103,10 @@ void locateSamples(std::vector<std::vector<LineSample>>& lines, const std::vecto
     box.add(c);
     if (!grid.mayMeet(box)) continue;
     tree.visit(box, [&](std::uint32_t s) {
-      auto& [sample, elements] = samples[s];
+      auto& [sample, wanted] = samples[s];
       if (!isIn(sample->at, a, b, c)) return;
       sample->water = t.mesh.regions[i];
-      sample->wanting = t.width[i] < elements;
+      sample->wanting = t.width[i] < wanted;
     });
   }
   markBeyond(lines, t);

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "core/size_function.hpp"
-#include "gis/follow/shore_guides.hpp"
 #include "gis/follow/shore_triangles.hpp"
+#include "gis/geometry/box.hpp"
 
 namespace coastmesh {
 
@@ -20,11 +21,11 @@ struct LineSample {
 
 inline bool isWet(const LineSample& sample) { return sample.water != kUnlabelled; }
 
-// Samples of a line, a quarter of the size apart.
-std::vector<LineSample> samplesOf(const ShoreLine& line, const SizeFunction& size);
+// Samples of a line of these points, a quarter of the size apart.
+std::vector<LineSample> samplesOf(const std::vector<Point>& line, const SizeFunction& size);
 
-// Sets what of the water the samples of all lines lie in. `lines` are those that were sampled.
-void locateSamples(std::vector<std::vector<LineSample>>& samples, const std::vector<ShoreLine>& lines,
+// Sets what of the water the samples of all lines lie in, and whether it is as wide as so many elements for each line.
+void locateSamples(std::vector<std::vector<LineSample>>& lines, const std::vector<double>& elements,
                    const ShoreTriangles& triangles);
 
 // A row of samples on land, with water before or after it.

@@ -20,8 +20,8 @@ PassageSizes::PassageSizes(const SizeFunction& size, const std::vector<ShoreLine
                            const ShoreTriangles& triangles)
     : size_(size) {
   std::vector<std::vector<LineSample>> sampled;
-  for (const ShoreLine& line : passages) sampled.push_back(samplesOf(line, size));
-  locateSamples(sampled, passages, triangles);
+  for (const ShoreLine& line : passages) sampled.push_back(samplesOf(line.points, size));
+  locateSamples(sampled, elementsOf(passages), triangles);
   std::vector<Box> boxes;
   for (std::size_t line = 0; line < passages.size(); ++line) {
     const std::vector<LineSample>& samples = sampled[line];

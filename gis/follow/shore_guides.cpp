@@ -110,6 +110,12 @@ bool meets(const Point& p, const Point& q, const Point& a, const Point& b, const
 
 }  // namespace
 
+std::vector<double> elementsOf(const std::vector<ShoreLine>& lines) {
+  std::vector<double> elements;
+  for (const ShoreLine& line : lines) elements.push_back(line.elements);
+  return elements;
+}
+
 BoxTree ShoreGuides::tree() const {
   std::vector<Box> boxes;
   for (const auto* lines : {&passages, &barriers})
@@ -156,8 +162,8 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
   std::vector<Piece> pieces;
   std::vector<Box> boxes;
   std::vector<std::vector<LineSample>> sampled;
-  for (const ShoreLine& line : passages) sampled.push_back(samplesOf(line, sizes.wanted));
-  locateSamples(sampled, passages, triangles);
+  for (const ShoreLine& line : passages) sampled.push_back(samplesOf(line.points, sizes.wanted));
+  locateSamples(sampled, elementsOf(passages), triangles);
   const std::size_t widened_before = effects.widened.size();
   for (std::size_t line = 0; line < passages.size(); ++line) {
     const double elements = passages[line].elements;
@@ -251,8 +257,8 @@ void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const Sho
   if (guides.barriers.empty()) return;
   Helpers helpers(triangles);
   std::vector<std::vector<LineSample>> sampled;
-  for (const ShoreLine& line : guides.barriers) sampled.push_back(samplesOf(line, sizes.wanted));
-  locateSamples(sampled, guides.barriers, triangles);
+  for (const ShoreLine& line : guides.barriers) sampled.push_back(samplesOf(line.points, sizes.wanted));
+  locateSamples(sampled, elementsOf(guides.barriers), triangles);
   findOpenEnds(guides.barriers, sampled, helpers, open);
   for (const std::vector<LineSample>& samples : sampled) helpers.addAround(samples, kBarrier);
   helpers.finish(sizes.wanted);

@@ -19,6 +19,9 @@ struct ShoreLine {
   std::size_t file = 0;   // that it was read from: an index of those given
 };
 
+// Of each line.
+std::vector<double> elementsOf(const std::vector<ShoreLine>& lines);
+
 struct ShoreGuides {
   std::vector<ShoreLine> passages;  // kept open, and made as wide as their elements where they are narrower
   std::vector<ShoreLine> barriers;  // closed

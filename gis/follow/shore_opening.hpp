@@ -12,8 +12,7 @@ namespace coastmesh {
 
 // A morphological opening of the land, with disks of `narrowest` times the size there as diameter: land that no disk
 // fits into and that ends in water is removed (spits, capes), and so are islands smaller than a triangle of that size.
-// Blunt corners stay.
-// Land that connects two lands stays, and so does an island longer than three elements, however thin. 0 keeps
+// Blunt corners stay, land that connects two lands, and an island longer than three elements, however thin. 0 keeps
 // everything. The gain of each region of water is added to `gained`, as below. The triangles are settled.
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
               const ShoreEdit& edit, WaterAreas& gained);
