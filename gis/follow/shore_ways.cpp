@@ -53,7 +53,8 @@ class WayFinder {
   Point centreOf(TriId t) const { return centroid(pointOf(t, 0), pointOf(t, 1), pointOf(t, 2)); }
   Point middleOf(EdgeRef e) const { return midpoint(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
   double lengthOf(EdgeRef e) const { return distance(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
-  double sizeAt(EdgeRef e) const { return std::max(t_.size[triOf(e)], t_.size[triOf(mesh().twin(e))]); }
+  // Of the nearer triangle to the shores: the other one may reach far into open water, where sizes are larger.
+  double sizeAt(EdgeRef e) const { return std::min(t_.size[triOf(e)], t_.size[triOf(mesh().twin(e))]); }
   // Edges of triangles reach from shore to shore.
   double shareOf(EdgeRef e) const { return lengthOf(e) / sizeAt(e); }
 

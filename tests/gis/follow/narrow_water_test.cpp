@@ -11,6 +11,7 @@
 #include "gis/follow/coast_follow.hpp"
 #include "tests/support/followed_coasts.hpp"
 #include "tests/support/mesh_checks.hpp"
+#include "tests/support/size_figures.hpp"
 
 namespace coastmesh {
 namespace {
@@ -177,6 +178,35 @@ TEST(FollowSizes, ASpitNarrowerThanAnElementGoesAndABarThatPartsWatersStays) {
   addShore(barred, {{20.5, 0}, {40, 0}, {40, 20}, {20.5, 20}});
   CleanReport report;
   EXPECT_EQ(parts(followSizes(std::move(barred), size, {}, oneFeature(), report)), 2u);
+}
+
+// Two waters with an opening in the wall between them. Sizes grow from the shores: those of the triangles at its mouths,
+// which reach far into the water, do not matter.
+TEST(FollowSizes, AnOpeningIsWidenedByTheSizesInIt) {
+  for (const double width : {0.35, 0.45, 0.6, 0.8}) {
+    for (const double thick : {0.2, 3.0}) {
+      const double w = 0.5 * width, t = 0.5 * thick;
+      const SizeOf size(1.0, 3.0,
+                        [&](const Point& p) { return std::min(3.0, 1.0 + 0.1 * std::max(0.0, std::abs(p.y) - t)); });
+      Domain domain;
+      addShore(domain, {{-30, -30},
+                        {30, -30},
+                        {30, -t},
+                        {w, -t},
+                        {w, t},
+                        {30, t},
+                        {30, 30},
+                        {-30, 30},
+                        {-30, t},
+                        {-w, t},
+                        {-w, -t},
+                        {-30, -t}});
+      CleanReport report;
+      const FollowOptions options{.land_min = 0.0};
+      const Domain coarse = followSizes(std::move(domain), size, options, oneFeature(), report);
+      EXPECT_EQ(parts(coarse), width < options.strait_min ? 2u : 1u) << width << " " << thick;
+    }
+  }
 }
 
 }  // namespace
