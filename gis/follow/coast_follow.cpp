@@ -190,6 +190,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   OpenedShores& opened = joined.opened;
   for (const auto& [kind, place, water] : opened.edits) edit(kind, place, water);
   noted.straits = allStraits(opened, sizes);
+  noted.spits = std::move(opened.spits);
   noted.joined = std::move(joined.joined);
   const std::vector<bool> is_main = areMain(opened.waters);
   for (std::size_t i = 0; i < opened.waters.size(); ++i) {

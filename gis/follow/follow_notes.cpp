@@ -11,7 +11,7 @@ namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kNamedWaters = 3, kMostWaters = 20, kNamedStraits = 10;
+constexpr std::size_t kNamedWaters = 3, kMostWaters = 20, kNamedStraits = 10, kNamedSpits = 5;
 // Of all the water.
 constexpr double kLargeWater = 0.005;  // is named, though not one of the largest
 constexpr double kWarned = 0.02;       // left out or parted by closing: more than models forgive
@@ -104,6 +104,16 @@ std::string noteOn(const std::vector<ClosedStrait>& straits, const Projection& p
   return note + "; keep them open with --passages";
 }
 
+std::string noteOn(const std::vector<DroppedSpit>& spits, const Projection& projection) {
+  std::string note = "land narrower than an element that ended in water was removed, the longest of " +
+                     std::to_string(spits.size()) + ": ";
+  for (std::size_t i = 0; i < std::min(kNamedSpits, spits.size()); ++i) {
+    if (i > 0) note += "; ";
+    note += placeText(spits[i].place, projection) + ", about " + lengthText(spits[i].length_m, projection) + " long";
+  }
+  return note + "; --land-min 0 keeps such breakwaters and spits";
+}
+
 // "passage 'Solent'", "barrier 2".
 std::string nameOf(const std::string& kind, const std::vector<ShoreLine>& lines, std::size_t line) {
   const std::string& name = lines[line].name;
@@ -153,6 +163,8 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
   if (!notes.joined.empty()) texts.push_back(noteOn(notes.joined, notes.area, projection));
   std::ranges::stable_sort(notes.straits, std::ranges::greater{}, &ClosedStrait::length_m);
   if (!notes.straits.empty()) texts.push_back(noteOn(notes.straits, projection));
+  std::ranges::stable_sort(notes.spits, std::ranges::greater{}, &DroppedSpit::length_m);
+  if (!notes.spits.empty()) texts.push_back(noteOn(notes.spits, projection));
   const auto areaOfWater = [](const ApartWater& apart) { return apart.water.area; };
   if (!notes.apart.empty()) {
     std::ranges::stable_sort(notes.apart, std::ranges::greater{}, areaOfWater);

@@ -22,6 +22,7 @@ struct FollowNotes {
   std::vector<ApartWater> apart;    // kept beside the largest
   std::vector<JoinedWater> joined;
   std::vector<ClosedStrait> straits;
+  std::vector<DroppedSpit> spits;
   PassageEffects passages;
   std::vector<OpenBarrier> open_barriers;
 };

@@ -25,14 +25,16 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   opened.first = first;
   opened.gained = start.gained;
   opened.edits = start.edits;
+  opened.spits = start.spits;
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
     opened.edits.emplace_back(kind, place, water);
   };
   opened.after = start.triangles;
   ShoreTriangles& triangles = opened.after;
-  openLand(triangles, sizes, guides, first * options.land_min, edit, opened.gained);
+  openLand(triangles, sizes, guides, first * options.land_min, edit, opened.gained, opened.spits);
   opened.gained_before = opened.gained;
   opened.edits_before = opened.edits.size();
+  opened.spits_before = opened.spits.size();
   opened.before = triangles;
   const auto close = [&](KeepWater keep) {
     return openWater(triangles, sizes, guides, options.channel_min, keep, edit, opened.gained);
@@ -41,7 +43,7 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   if (first < 1.0) {
     opened.straits = closedStraits(triangles, sizes.scale);
     settleShores(triangles, sizes.wanted);
-    openLand(triangles, sizes, guides, options.land_min, edit, opened.gained);
+    openLand(triangles, sizes, guides, options.land_min, edit, opened.gained, opened.spits);
     water = close(options.keep);
   }
   opened.waters = std::move(water.waters);

@@ -17,17 +17,19 @@ struct ShoreStart {
   ShoreTriangles triangles;
   WaterAreas gained;
   ShoreEdits edits;
+  std::vector<DroppedSpit> spits;
 };
 
 struct OpenedShores {
   ShoreTriangles before;  // as it was when land that goes first had gone, and what had been gained and edited by then
   WaterAreas gained_before;
-  std::size_t edits_before = 0;
+  std::size_t edits_before = 0, spits_before = 0;
   ShoreTriangles after;  // not settled
   std::vector<WaterPart> waters;
   std::vector<ClosedStrait> straits;  // by what was closed before the rest of the land went: see `allStraits`
   WaterAreas areas, gained;
   ShoreEdits edits;
+  std::vector<DroppedSpit> spits;
   double first = 1.0;  // how narrow land went before water, as a share of the narrowest that stays
   double error = std::numeric_limits<double>::infinity();  // share of the water that there is too much
 };

@@ -40,8 +40,10 @@ class Joiner {
     }
     if (lines.empty()) return false;
     // Continues from the state after the first opening of land, which cannot come back.
-    start_ = {std::move(opened_.before), std::move(opened_.gained_before), std::move(opened_.edits)};
+    start_ = {std::move(opened_.before), std::move(opened_.gained_before), std::move(opened_.edits),
+              std::move(opened_.spits)};
     start_.edits.resize(opened_.edits_before);
+    start_.spits.resize(opened_.spits_before);
     const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
       start_.edits.emplace_back(kind, place, water);
     };

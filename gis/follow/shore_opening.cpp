@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <queue>
+#include <tuple>
+#include <utility>
 
 #include "core/metric.hpp"
 #include "gis/follow/shore_guides.hpp"
@@ -16,6 +20,7 @@ namespace coastmesh {
 namespace {
 
 constexpr double kLongestIsland = 3.0;  // in elements: what is longer stays
+constexpr double kLongSpit = 3.0;       // in elements: what is longer is told of
 constexpr double kShallow = 0.3;        // of the size: what reaches no deeper is left to simplifying
 constexpr double kBlunt = 0.6;          // of its gate, nor does what reaches no deeper: corners of 80 degrees and more
 constexpr double kWinding = 2.5;        // times as long as its gate: such a shore simplifying would not get straight
@@ -51,7 +56,7 @@ class Opening {
     }
   }
 
-  void openLand(double narrowest) {
+  void openLand(double narrowest, std::vector<DroppedSpit>& long_spits) {
     narrowest_ = narrowest;
     dropIslands();
     // Ends are taken off one after another, so that no land is cut in two.
@@ -79,6 +84,11 @@ class Opening {
       const auto gates = gatesOf(spit, spits.of, [&](TriId t) { return isLand(t); });
       const auto [deepest, depth] = deepestOf(spit, gates);
       if (water == kNoRegion || isShallow(spit, gates, depth)) continue;
+      const auto [end, length] = farthestAlong(spit, spits.of, gates);
+      if (length > kLongSpit * t_.size[end]) {
+        const Point place = centreOf(end);
+        long_spits.push_back({place, length / scale_.at(place)});
+      }
       flip(spit, water, EditKind::DroppedSpit, deepest);
     }
   }
@@ -277,6 +287,32 @@ class Opening {
     return deepest;
   }
 
+  // The triangle of the patch with the longest way to the gates, from middle to middle of the edges that are crossed,
+  // and that way.
+  std::pair<TriId, double> farthestAlong(const std::vector<TriId>& patch, const std::vector<std::uint32_t>& number,
+                                         const std::vector<EdgeRef>& gates) const {
+    const auto middleOf = [&](EdgeRef e) {
+      return midpoint(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e)));
+    };
+    std::map<TriId, double> ways;
+    using Entry = std::tuple<double, TriId, EdgeRef>;  // way, and the edge by which the triangle is entered
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const EdgeRef gate : gates) queue.emplace(0.0, triOf(gate), gate);
+    std::pair<TriId, double> farthest{patch.front(), 0.0};
+    while (!queue.empty()) {
+      const auto [way, t, entrance] = queue.top();
+      queue.pop();
+      if (!ways.emplace(t, way).second) continue;
+      if (way > farthest.second) farthest = {t, way};
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i), back = mesh().twin(e);
+        if (back == kNone || number[triOf(back)] != number[t] || ways.contains(triOf(back))) continue;
+        queue.emplace(way + distance(middleOf(entrance), middleOf(e)), triOf(back), back);
+      }
+    }
+    return farthest;
+  }
+
   // Whether simplifying will do with the patch: it has one gate and reaches `depth` beyond it.
   bool isShallow(const std::vector<TriId>& patch, const std::vector<EdgeRef>& gates, double depth) const {
     if (gates.size() != 1 || isWinding(patch, gates)) return false;
@@ -319,8 +355,8 @@ class Opening {
 }  // namespace
 
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-              const ShoreEdit& edit, WaterAreas& gained) {
-  Opening(triangles, sizes, guides, edit, gained).openLand(narrowest);
+              const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits) {
+  Opening(triangles, sizes, guides, edit, gained).openLand(narrowest, spits);
   settleShores(triangles, sizes.wanted);
 }
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <vector>
 
 #include "gis/clean/clean.hpp"
 #include "gis/follow/follow_options.hpp"
@@ -10,12 +11,19 @@
 
 namespace coastmesh {
 
+// Land that ended in water and was removed, more than three elements long.
+struct DroppedSpit {
+  Point place;  // its end
+  double length_m = 0.0;
+};
+
 // A morphological opening of the land, with disks of `narrowest` times the size there as diameter: land that no disk
 // fits into and that ends in water is removed (spits, capes), and so are islands smaller than a triangle of that size.
 // Blunt corners stay, land that connects two lands, and an island longer than three elements, however thin. 0 keeps
-// everything. The gain of each region of water is added to `gained`, as below. The triangles are settled.
+// everything. The gain of each region of water is added to `gained`, as below, and long spits to `spits`. The triangles
+// are settled.
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-              const ShoreEdit& edit, WaterAreas& gained);
+              const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits);
 
 // A part of a region of water without a connection to the others, mostly because that was closed.
 struct WaterPart {

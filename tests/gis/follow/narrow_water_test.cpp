@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -180,8 +181,8 @@ TEST(FollowSizes, ASpitNarrowerThanAnElementGoesAndABarThatPartsWatersStays) {
   EXPECT_EQ(parts(followSizes(std::move(barred), size, {}, oneFeature(), report)), 2u);
 }
 
-// Two waters with an opening in the wall between them. Sizes grow from the shores: those of the triangles at its mouths,
-// which reach far into the water, do not matter.
+// Two waters with an opening in the wall between them. Sizes grow from the shores: those of the triangles at its
+// mouths, which reach far into the water, do not matter.
 TEST(FollowSizes, AnOpeningIsWidenedByTheSizesInIt) {
   for (const double width : {0.35, 0.45, 0.6, 0.8}) {
     for (const double thick : {0.2, 3.0}) {
@@ -207,6 +208,45 @@ TEST(FollowSizes, AnOpeningIsWidenedByTheSizesInIt) {
       EXPECT_EQ(parts(coarse), width < options.strait_min ? 2u : 1u) << width << " " << thick;
     }
   }
+}
+
+// A harbour behind a breakwater that is thin beside the elements: 15 out into the sea, and 10 along the coast.
+TEST(FollowSizes, LongBreakwatersThatGoAreNamed) {
+  const auto harbour = [](double out, double along) {
+    Domain domain;
+    addShore(domain, {{-30, 0},
+                      {0, 0},
+                      {0, out},
+                      {along, out},
+                      {along, out - 0.1},
+                      {0.1, out - 0.1},
+                      {0.1, 0},
+                      {30, 0},
+                      {30, 30},
+                      {-30, 30}});
+    return domain;
+  };
+  CleanReport report;
+  const Domain coarse = followSizes(harbour(15, 10), ConstantSize(1.0), {}, oneFeature(), report);
+  EXPECT_EQ(boundaryLoops(constrainedDelaunay(coarse.pslg)).size(), 1u);
+  ASSERT_EQ(report.notes.size(), 1u);
+  double x = 0.0, y = 0.0, length = 0.0;
+  ASSERT_EQ(std::sscanf(report.notes[0].c_str(),
+                        "land narrower than an element that ended in water was removed, the longest of 1: (%lf, %lf), "
+                        "about %lf long",
+                        &x, &y, &length),
+            3)
+      << report.notes[0];
+  EXPECT_NEAR(x, 10.0, 0.5);
+  EXPECT_NEAR(y, 15.0, 0.5);
+  EXPECT_NEAR(length, 25.0, 1.5);
+  CleanReport small, kept;
+  followSizes(harbour(2, 0.6), ConstantSize(1.0), {}, oneFeature(), small);
+  EXPECT_EQ(countOf(small, EditKind::DroppedSpit), 1u);
+  EXPECT_EQ(small.notes, std::vector<std::string>{});
+  const Domain walled = followSizes(harbour(15, 10), ConstantSize(1.0), {.land_min = 0.0}, oneFeature(), kept);
+  EXPECT_EQ(kept.notes, std::vector<std::string>{});
+  EXPECT_TRUE(std::ranges::any_of(walled.pslg.points, [](const Point& p) { return distance(p, {10, 15}) < 0.2; }));
 }
 
 }  // namespace
