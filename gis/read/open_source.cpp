@@ -45,6 +45,13 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string stemOf(const std::string& entry) { return std::filesystem::path(entry).stem(); }
 
+// A folder of an archive as OGR reads it: its root only by a name in braces.
+std::string folderInside(const std::string& archive, const std::string& folder) {
+  if (!folder.empty()) return archive + "/" + folder;
+  const std::size_t path = archive.find('/', 1) + 1;
+  return archive.substr(0, path) + "{" + archive.substr(path) + "}";
+}
+
 // Of several files in an archive: the one that is called as the layer wanted, or the folder of shapefiles in which all
 // layers wanted are. `archive` begins with "/vsizip/" or the like.
 std::string chosenInside(const std::string& archive, const std::vector<std::string>& found,
@@ -63,7 +70,7 @@ std::string chosenInside(const std::string& archive, const std::vector<std::stri
   const bool by_name = different.size() == stems.size();
   if (by_name && chosen.size() == wanted.size() && chosen.size() > 1 && folders.size() == 1 &&
       *folders.begin() != "no shapefile")
-    return (fs::path(archive) / *folders.begin()).string();
+    return folderInside(archive, *folders.begin());
   const std::string shown = archive.substr(archive.find('/', 1) + 1);
   for (const std::string& name : wanted)
     if (!different.contains(name))
