@@ -21,6 +21,7 @@ struct RawLayer {
   std::vector<Feature> features;       // those with polygons
   std::vector<Feature> line_features;  // those with lines or points: name and attributes
   std::vector<Line> lines;
+  std::vector<std::string> columns;  // of its table, also those without a value anywhere
   Box bounds;
 
   bool empty() const { return features.empty() && line_features.empty(); }

@@ -1,9 +1,11 @@
 #include "gis/read/read_layers.hpp"
 
+#include <cpl_string.h>
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/crs_from_ogr.hpp"
@@ -25,11 +27,21 @@ bool axesSwapped(const OGRSpatialReference& srs) {
   return srs.GetDataAxisToSRSAxisMapping() != traditional.GetDataAxisToSRSAxisMapping();
 }
 
-std::vector<std::pair<std::string, std::string>> attributesOf(OGRFeature& feature) {
+// As UTF-8. OGR gives the bytes of old tables that do not say their encoding (a .dbf without .cpg) as they are: these
+// are mostly of Windows.
+std::string inUtf8(const char* text, bool& guessed) {
+  if (CPLIsUTF8(text, -1)) return text;
+  guessed = true;
+  const std::unique_ptr<char, void (*)(void*)> recoded(CPLRecode(text, "CP1252", CPL_ENC_UTF8), CPLFree);
+  return recoded.get();
+}
+
+std::vector<std::pair<std::string, std::string>> attributesOf(OGRFeature& feature, bool& guessed) {
   std::vector<std::pair<std::string, std::string>> attributes;
   for (int i = 0; i < feature.GetFieldCount(); ++i) {
     if (!feature.IsFieldSetAndNotNull(i)) continue;
-    attributes.emplace_back(feature.GetFieldDefnRef(i)->GetNameRef(), feature.GetFieldAsString(i));
+    attributes.emplace_back(inUtf8(feature.GetFieldDefnRef(i)->GetNameRef(), guessed),
+                            inUtf8(feature.GetFieldAsString(i), guessed));
   }
   return attributes;
 }
@@ -66,6 +78,9 @@ class LayerReader {
   LayerReader(OGRLayer& layer, std::string source, FeatureUse use, bool of_texts) : of_texts_(of_texts) {
     raw_.source = std::move(source);
     raw_.use = use;
+    const OGRFeatureDefn& table = *layer.GetLayerDefn();
+    for (int i = 0; i < table.GetFieldCount(); ++i)
+      raw_.columns.push_back(inUtf8(table.GetFieldDefn(i)->GetNameRef(), guesses_));
     const OGRSpatialReference* srs = layer.GetSpatialRef();
     if (!srs || srs->IsEmpty()) return;
     // So OGR names a GeoPackage's undefined one: whether they are degrees is seen by the coordinates, as elsewhere.
@@ -97,7 +112,11 @@ class LayerReader {
     }
     GeometryParts parts;
     takeApart(*geometry, describe(feature), parts);
-    if (!parts.empty()) feature.attributes = attributesOf(given);
+    if (!parts.empty()) feature.attributes = attributesOf(given, guesses_);
+    if (guesses_ && !std::exchange(told_guess_, true))
+      report.warnings.push_back(describe(feature) +
+                                ": has a text that is not UTF-8; such texts are taken for those of " +
+                                "Windows-1252 (a .cpg beside a shapefile says its encoding)");
     add(std::move(parts), std::move(feature), report);
   }
 
@@ -166,6 +185,7 @@ class LayerReader {
   std::int64_t count_ = 0;  // features with a geometry
   bool swap_axes_ = false;
   bool of_texts_ = false;
+  bool guesses_ = false, told_guess_ = false;  // the encoding of texts
 };
 
 [[noreturn]] void refuseEmpty(const std::string& source, std::uint64_t points) {

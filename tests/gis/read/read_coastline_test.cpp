@@ -7,6 +7,7 @@
 #include <ogrsf_frmts.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -371,6 +372,34 @@ TEST_F(ReadCoastline, Archives) {
   }
   EXPECT_EQ(readCoastline({path("two.zip") + "/b.geojson"}, report).features.size(), 1u);
   EXPECT_THROW(readCoastline({path("two.zip")}, report), InputError);
+}
+
+// A .dbf of an old program, which does not say its encoding.
+TEST_F(ReadCoastline, TextsWithoutAnEncodingBecomeUtf8) {
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("ESRI Shapefile");
+  {
+    const std::unique_ptr<GDALDataset> made(driver->Create(path("old.shp").c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    const char* const raw[] = {"ENCODING=", nullptr};
+    OGRLayer* const layer = made->CreateLayer("old", nullptr, wkbPolygon, const_cast<char**>(raw));
+    OGRFieldDefn name("name", OFTString);
+    ASSERT_EQ(layer->CreateField(&name), OGRERR_NONE);
+    for (const char* const text : {"M\xfcggelsee", "plain", "\x8cuvre"}) {
+      OGRFeature feature(layer->GetLayerDefn());
+      OGRGeometry* shape = nullptr;
+      OGRGeometryFactory::createFromWkt("POLYGON((0 0,1 0,1 1,0 0))", nullptr, &shape);
+      feature.SetGeometryDirectly(shape);
+      feature.SetField("name", text);
+      ASSERT_EQ(layer->CreateFeature(&feature), OGRERR_NONE);
+    }
+  }
+  std::filesystem::remove(path("old.cpg"));
+  ReadReport report;
+  const Coastline read = readCoastline({path("old.shp")}, report);
+  ASSERT_EQ(read.features.size(), 3u);
+  const std::vector<std::string> names{"Müggelsee", "plain", "Œuvre"};
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(read.features[i].attributes.front().second, names[i]);
+  const auto saysEncoding = [](const std::string& text) { return text.find("Windows-1252") != text.npos; };
+  EXPECT_EQ(std::ranges::count_if(report.warnings, saysEncoding), 1);
 }
 
 TEST_F(ReadCoastline, LayersOfArchives) {
