@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstdint>
 #include <cstring>
 
@@ -13,9 +14,45 @@ namespace {
 
 constexpr int kDepth = 4;  // folders within folders; there is one, of files that are replaced
 
+// A descriptor set aside, or -1; taken by one of several threads, or by a handler of a signal.
+int g_spare = -1;
+
+int openFolder(const char* path) {
+  constexpr int kFlags = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+  const int folder = open(path, kFlags);
+  if (folder >= 0 || (errno != EMFILE && errno != ENFILE)) return folder;
+  const int spare = __atomic_exchange_n(&g_spare, -1, __ATOMIC_ACQ_REL);
+  if (spare < 0) return -1;
+  close(spare);
+  return open(path, kFlags);
+}
+
+// A path that grows without memory being asked for; empty once it is too long.
+class Path {
+ public:
+  explicit Path(const char* path) { append(path); }
+
+  const char* text() const { return text_; }
+  std::size_t size() const { return std::strlen(text_); }
+  void cutTo(std::size_t size) { text_[size] = '\0'; }
+  bool enter(const char* name) { return append("/") && append(name); }
+
+ private:
+  bool append(const char* more) {
+    const std::size_t before = size(), length = std::strlen(more);
+    if (before + length >= sizeof text_) return false;
+    std::memcpy(text_ + before, more, length + 1);
+    return true;
+  }
+
+  char text_[PATH_MAX] = {};
+};
+
+// Removes what lies in a folder, but for folders that are not empty: `left` is the name of one of these, or empty.
 // Entries are read as the system gives them: the C library would ask for memory.
-bool removeIn(int above, const char* name, int depth) {
-  const int folder = openat(above, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+bool removeEntries(const char* path, char (&left)[NAME_MAX + 1]) {
+  left[0] = '\0';
+  const int folder = openFolder(path);
   if (folder < 0) return errno == ENOENT;
   struct Entry {
     std::uint64_t number;
@@ -30,15 +67,41 @@ bool removeIn(int above, const char* name, int depth) {
       const Entry& entry = *reinterpret_cast<const Entry*>(entries + at);
       at += entry.size;
       if (std::strcmp(entry.name, ".") == 0 || std::strcmp(entry.name, "..") == 0) continue;
-      if (unlinkat(folder, entry.name, 0) != 0 && depth > 0) removeIn(folder, entry.name, depth - 1);
+      if (unlinkat(folder, entry.name, 0) == 0 || unlinkat(folder, entry.name, AT_REMOVEDIR) == 0) continue;
+      if (errno == ENOTEMPTY || errno == EEXIST) std::strncpy(left, entry.name, NAME_MAX);
     }
   }
   close(folder);
-  return unlinkat(above, name, AT_REMOVEDIR) == 0 || errno == ENOENT;
+  return true;
+}
+
+// One folder is open at a time: there may be no more descriptors.
+bool removeIn(Path& path, int depth) {
+  constexpr int kMostFolders = 1000;  // others may be making them all the time
+  char left[NAME_MAX + 1] = {};
+  bool goes_on = true;
+  for (int i = 0; i < kMostFolders && goes_on; ++i) {
+    if (!removeEntries(path.text(), left)) return false;
+    goes_on = false;
+    const std::size_t here = path.size();
+    if (left[0] != '\0' && depth > 0 && path.enter(left)) goes_on = removeIn(path, depth - 1);
+    path.cutTo(here);
+  }
+  return rmdir(path.text()) == 0 || errno == ENOENT;
 }
 
 }  // namespace
 
-bool removeFolder(const char* path) noexcept { return removeIn(AT_FDCWD, path, kDepth); }
+void keepSpareDescriptor() noexcept {
+  if (__atomic_load_n(&g_spare, __ATOMIC_ACQUIRE) >= 0) return;
+  const int made = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int before = __atomic_exchange_n(&g_spare, made, __ATOMIC_ACQ_REL);
+  if (before >= 0) close(before);
+}
+
+bool removeFolder(const char* path) noexcept {
+  Path all(path);
+  return all.size() == std::strlen(path) && removeIn(all, kDepth);
+}
 
 }  // namespace coastmesh

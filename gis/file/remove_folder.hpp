@@ -6,4 +6,7 @@ namespace coastmesh {
 // exists.
 bool removeFolder(const char* path) noexcept;
 
+// Keeps a descriptor aside, if there is one, that `removeFolder` uses where the process has no other left.
+void keepSpareDescriptor() noexcept;
+
 }  // namespace coastmesh

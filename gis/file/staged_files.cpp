@@ -162,6 +162,7 @@ StagedFiles::StagedFiles(std::string path, OutputFiles files, bool overwrite)
   pattern += target.filename();
   pattern += ".part-XXXXXX";
   std::string name = pattern.string();
+  keepSpareDescriptor();
   if (::mkdtemp(name.data()) == nullptr) failToWrite(target, std::strerror(errno));
   staging_folder_ = name;
 }

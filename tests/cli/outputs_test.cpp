@@ -52,6 +52,23 @@ TEST_F(Outputs, NeverReplaceAFileThatAnyOptionReads) {
   expectRefused({"convert", other, "--bathymetry", input, "-o", file("x.2dm"), "-o", input}, "--bathymetry");
 }
 
+// However few files may be open, what is begun goes again.
+TEST_F(Outputs, LeaveNothingWhereDescriptorsLack) {
+  const std::string input = lake();
+  for (const char* const ending : {".gpkg", ".nc", ".14", ".shp", ".geojson", ".vtu"}) {
+    for (int most = 4; most <= 10; ++most) {
+      const std::string limit = "ulimit -n " + std::to_string(most) + "; exec \"$0\" ";
+      const ProgramRun run =
+          runShell(limit + "mesh '" + input + "' -o '" + file("a" + std::string(ending)) + "' --quiet --overwrite");
+      for (const std::string& name : names())
+        EXPECT_FALSE(name.starts_with('.')) << name << " of " << ending << " with " << most;
+      if (run.code != 0) {
+        EXPECT_NE(run.errors, "") << ending << " with " << most;
+      }
+    }
+  }
+}
+
 TEST_F(Outputs, NeverReplaceAnInputThroughLinks) {
   const std::string input = lake();
   std::filesystem::create_symlink(input, file("link.geojson"));
