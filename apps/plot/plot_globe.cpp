@@ -12,6 +12,7 @@
 
 #include "apps/plot/globe_chart.hpp"
 #include "apps/plot/plot_canvas.hpp"
+#include "apps/plot/plot_lines.hpp"
 #include "apps/plot/plot_style.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
@@ -284,14 +285,17 @@ class GlobePlot {
       }
     }
     for (const auto& [level, shore] : by_width) canvas_.strokeLines(shore, kShorePx * level / 8.0, kShore);
-    Lines open, lines;
-    for (const Boundary& boundary : grid_.boundaries)
-      if (boundary.role == BoundaryRole::Open)
-        for (const auto& [a, b] : edgesOf(boundary)) addEdge(a, b, open);
+    Lines borders;
     for (const GridLine& line : grid_.lines)
-      for (const auto& [a, b] : edgesOf(line)) addEdge(a, b, lines);
-    canvas_.strokeLines(lines, kShorePx, kShore);
-    canvas_.strokeLines(open, kRolePx, kOpen);
+      if (line.kind == LineKind::RegionBorder)
+        for (const auto& [a, b] : edgesOf(line)) addEdge(a, b, borders);
+    canvas_.strokeLines(borders, kShorePx, kShore);
+    for (const PlotLines& kind : colouredLines(grid_)) {
+      if (kind.kind == PlotLineKind::Island) continue;  // on the globe they are shores
+      Lines lines;
+      for (const auto& [a, b] : kind.edges) addEdge(a, b, lines);
+      canvas_.strokeLines(lines, kind.width_px, kind.color);
+    }
   }
 
   void drawLegend() {

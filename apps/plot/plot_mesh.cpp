@@ -13,6 +13,7 @@
 #include "apps/job/grid_pieces.hpp"
 #include "apps/plot/mesh_shape.hpp"
 #include "apps/plot/plot_canvas.hpp"
+#include "apps/plot/plot_lines.hpp"
 #include "apps/plot/plot_style.hpp"
 #include "core/quality.hpp"
 #include "gis/error.hpp"
@@ -114,7 +115,8 @@ class MeshPlot {
         piece_(piece),
         mesh_(piece.mesh),
         options_(options),
-        canvas_(path, window.low, window.high, static_cast<double>(options.size_px), kStripPx) {
+        canvas_(path, window.low, window.high, static_cast<double>(options.size_px), kStripPx),
+        lines_(colouredLines(grid)) {
     pixels_.reserve(mesh_.points.size());
     for (const Point& p : mesh_.points) pixels_.push_back(canvas_.toPixel(p));
     centre_ = {(window.low.x + window.high.x) / 2, (window.low.y + window.high.y) / 2};
@@ -132,7 +134,7 @@ class MeshPlot {
     if (options_.degrees) drawDegrees();
     if (many) canvas_.endPixels();
     drawShore();
-    drawRoles();
+    drawLines();
     markBad();
     canvas_.unclip();
     drawScaleBar();
@@ -331,32 +333,18 @@ class MeshPlot {
     for (const auto& [level, lines] : by_width) canvas_.strokeLines(lines, kShorePx * level / 8.0, kShore);
   }
 
-  // Open boundaries always, islands where the picture tells boundaries apart by colour: where there is an open one.
-  void drawRoles() {
-    const auto has_role = [this](BoundaryRole role) {
-      return std::ranges::any_of(grid_.boundaries, [role](const Boundary& b) { return b.role == role; });
-    };
-    if (!has_role(BoundaryRole::Open)) return;
-    drawRole(BoundaryRole::Island, kRolePx / 2, kIsland);
-    drawRole(BoundaryRole::Open, kRolePx, kOpen);
-    shows_roles_ = true;
-  }
-
-  void drawRole(BoundaryRole role, double width, const Color& color) {
-    std::vector<std::array<Point, 2>> lines;
-    for (const Boundary& boundary : grid_.boundaries) {
-      if (boundary.role != role) continue;
-      for (std::size_t i = 0; i < boundary.nodes.size(); ++i) {
-        const bool last = i + 1 == boundary.nodes.size();
-        if (last && !boundary.closed) break;
+  void drawLines() {
+    for (const PlotLines& kind : lines_) {
+      std::vector<std::array<Point, 2>> shown;
+      for (const auto& [a, b] : kind.edges) {
         const auto at = [this](std::uint32_t node) {
           return canvas_.toPixel(piece_.projection.forward(grid_.nodes[node]));
         };
-        const std::array<Point, 2> line{at(boundary.nodes[i]), at(boundary.nodes[last ? 0 : i + 1])};
-        if (canvas_.showsAny(line.data(), 2)) lines.push_back(line);
+        const std::array<Point, 2> line{at(a), at(b)};
+        if (canvas_.showsAny(line.data(), 2)) shown.push_back(line);
       }
+      canvas_.strokeLines(shown, kind.width_px, kind.color);
     }
-    canvas_.strokeLines(lines, width, color);
   }
 
   // The shore of a lake or an island of a few pixels is thin, lest ink be all that is seen of it.
@@ -392,15 +380,33 @@ class MeshPlot {
     canvas_.text({12.0, y + 18.0}, lengthText(length, grid_.crs.isPlane()), 13.0, kInk);
   }
 
-  void drawRoleLegend() {
-    double x = 0.32 * canvas_.width();
-    const double y = canvas_.mapHeight() + 20.0;
-    for (const auto& [name, color] :
-         {std::pair{"open", kOpen}, std::pair{"island", kIsland}, std::pair{"land", kShore}}) {
+  // Land is told from islands where there is an open boundary.
+  void drawLineLegend() {
+    std::vector<std::pair<std::string, Color>> entries;
+    for (const PlotLines& kind : lines_) {
+      if (kind.kind == PlotLineKind::Island) continue;
+      entries.emplace_back(kind.name, kind.color);
+      if (kind.kind == PlotLineKind::Open) entries.insert(entries.end(), {{"island", kIsland}, {"land", kShore}});
+    }
+    constexpr double kEntryPx = 75.0, kRowPx = 16.0;
+    const double left = 0.32 * canvas_.width(), right = canvas_.width() - (showsRamp() ? kRampPx : 0.0);
+    double x = left, y = canvas_.mapHeight() + 20.0;
+    bool may_wrap = !options_.degrees;  // their legend is the second row
+    for (const auto& [name, color] : entries) {
+      if (x > left && x + kEntryPx > right) {
+        if (!std::exchange(may_wrap, false)) break;  // no room for it
+        x = left, y += kRowPx;
+      }
       canvas_.strokeLine({x, y}, {x + 18.0, y}, kRolePx, color);
       canvas_.text({x + 22.0, y + 4.0}, name, 13.0, kInk);
-      x += 75.0;
+      x += kEntryPx;
     }
+  }
+
+  bool showsRamp() const {
+    constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep,
+                                    PlotColor::Quality};
+    return std::ranges::count(kWithScale, options_.color) > 0;
   }
 
   void drawDegreeLegend() {
@@ -414,11 +420,9 @@ class MeshPlot {
   }
 
   void drawLegend() {
-    if (shows_roles_) drawRoleLegend();
+    drawLineLegend();
     if (options_.degrees) drawDegreeLegend();
-    constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep,
-                                    PlotColor::Quality};
-    if (std::ranges::count(kWithScale, options_.color) == 0) return;
+    if (!showsRamp()) return;
     std::string low = "0\u00b0";
     std::string high = "60\u00b0 smallest angle";
     if (options_.color == PlotColor::Quality) {
@@ -470,7 +474,7 @@ class MeshPlot {
   double least_step_s_ = 0.0;  // of the triangles shown
   double most_step_s_ = 0.0;
   std::vector<std::uint32_t> parts_;  // one a triangle, where parts are shown
-  bool shows_roles_ = false;
+  std::vector<PlotLines> lines_;
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "apps/plot/mesh_shape.hpp"
 #include "apps/plot/page_arrays.hpp"
 #include "apps/plot/page_parts.hpp"
+#include "apps/plot/plot_lines.hpp"
 #include "apps/plot/plot_style.hpp"
 #include "core/quality.hpp"
 #include "gis/crs/crs.hpp"
@@ -164,7 +165,7 @@ void addLines(PageData& data, const Grid& grid, const TriMesh& linked) {
   for (const BoundaryRole role : {BoundaryRole::Land, BoundaryRole::Island, BoundaryRole::River, BoundaryRole::Open})
     for (const Boundary& boundary : grid.boundaries)
       if (boundary.role == role)
-        for (const auto& [a, b] : edgesOf(boundary)) put(std::string(toString(role)), a, b);
+        for (const auto& [a, b] : edgesOf(boundary)) put(isWeir(boundary) ? "weir" : std::string(toString(role)), a, b);
   data.facts["lines"] = Json::array();
   for (const auto& [kind, nodes] : kinds) {
     const std::string name = "line_" + std::to_string(data.facts["lines"].size());

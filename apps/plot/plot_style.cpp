@@ -33,8 +33,8 @@ Color featureColor(std::size_t feature) {
 
 void drawRamp(PlotCanvas& canvas, Color (*color_at)(double), const std::string& low, const std::string& high) {
   constexpr int kSteps = 60;
-  constexpr double kStep = 3.0;
-  const double left = canvas.width() - kSteps * kStep - 12.0, top = canvas.mapHeight() + 12.0;
+  constexpr double kStep = (kRampPx - 12.0) / kSteps;
+  const double left = canvas.width() - kRampPx, top = canvas.mapHeight() + 12.0;
   if (left < canvas.width() / 2) return;  // no room for it beside what else stands there
   for (int i = 0; i < kSteps; ++i)
     canvas.fillRectangle({left + i * kStep, top}, kStep + 0.5, 10.0, color_at((i + 0.5) / kSteps));

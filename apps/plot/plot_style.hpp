@@ -19,10 +19,14 @@ inline constexpr Color kPaper{1.0, 1.0, 1.0};
 inline constexpr Color kInk{0.15, 0.15, 0.15};
 inline constexpr Color kOpen{0.84, 0.15, 0.56};
 inline constexpr Color kIsland{0.65, 0.45, 0.04};
+inline constexpr Color kRiver{0.00, 0.47, 0.75};
+inline constexpr Color kWeir{0.75, 0.27, 0.08};
+inline constexpr Color kLine{0.43, 0.20, 0.59};
 inline constexpr Color kUnknown{0.80, 0.80, 0.80};
 
 inline constexpr double kStripPx = 44.0;     // below the map: scale bar and legend
-inline constexpr double kRolePx = 2.2;       // of open boundaries
+inline constexpr double kRampPx = 192.0;     // of a scale of colours, to the right edge
+inline constexpr double kRolePx = 2.2;       // of open boundaries, rivers and weirs
 inline constexpr double kEdgeShare = 0.075;  // an edge's width over its length, up to the widest
 inline constexpr double kWidestEdgePx = 0.8;
 inline constexpr double kShorePx = 1.1;

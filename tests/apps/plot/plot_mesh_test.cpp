@@ -167,6 +167,25 @@ TEST_F(PlotMesh, OpenBoundariesShow) {
   EXPECT_GT(colors(grid, PlotColor::None, 200).size(), without.size());
 }
 
+// Rivers, weirs and lines in the mesh, each in its colour.
+TEST_F(PlotMesh, RiversWeirsAndLinesShow) {
+  const Grid bare = board(4);
+  Grid grid = bare;
+  grid.boundaries = {{BoundaryRole::River, false, {16, 17, 18}}};
+  grid.lines = {{LineKind::Weir, "", false, {6, 7, 8}}, {LineKind::Constraint, "", false, {11, 12, 13}}};
+  constexpr std::uint32_t kRiverColor = 0x0078bf, kWeirColor = 0xbf4514, kLineColor = 0x6e3396;
+  const auto shown = [&](const Grid& drawn) {
+    const std::set<std::uint32_t> all = colors(drawn, PlotColor::None, 400);
+    return std::array{holds(all, kRiverColor), holds(all, kWeirColor), holds(all, kLineColor)};
+  };
+  EXPECT_EQ(shown(bare), (std::array{false, false, false}));
+  EXPECT_EQ(shown(grid), (std::array{true, true, true}));
+  // Of a file of ADCIRC's a weir is a boundary.
+  grid = bare;
+  grid.boundaries = {{BoundaryRole::Land, false, {6, 7, 8}, 24, {11, 12, 13}, false, {1, 1, 1, 1, 1, 1}}};
+  EXPECT_EQ(shown(grid), (std::array{false, true, false}));
+}
+
 TEST_F(PlotMesh, VeryManyTrianglesMakeASmallVectorDrawing) {
   PlotOptions options;
   options.color = PlotColor::Size;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "gis/error.hpp"
 
@@ -81,6 +82,18 @@ TEST_F(PlotPage, SaysWhatItShows) {
   EXPECT_EQ(facts["colors"], (Json{"none", "angle", "quality", "size", "region"}));
   EXPECT_EQ(facts["view"]["half"], (Json{1.0, 0.5}));
   EXPECT_EQ(facts["lines"], (Json{{{"kind", "shore"}, {"array", "line_0"}}}));
+}
+
+TEST_F(PlotPage, RiversWeirsAndLinesAreToldApart) {
+  Grid grid = square();
+  grid.boundaries = {{BoundaryRole::River, false, {0, 1}},
+                     {BoundaryRole::Land, false, {1, 2}, 24, {3, 0}, false, {1, 1}},
+                     {BoundaryRole::Land, false, {2, 3, 0}}};
+  grid.lines = {{LineKind::Constraint, "", false, {0, 2}}};
+  std::vector<std::string> kinds;
+  const Json facts = factsOf(pageOf(grid, {}));
+  for (const Json& line : facts["lines"]) kinds.push_back(line["kind"]);
+  EXPECT_EQ(kinds, (std::vector<std::string>{"constraint", "weir", "land", "river"}));
 }
 
 }  // namespace
