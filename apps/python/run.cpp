@@ -215,6 +215,7 @@ MeshResult runFromPython(const py::dict& keywords, std::vector<std::string> file
     }
   }();
   inWords.apply(done);
+  if (done.regions == 0 && done.refusals.empty()) throw InputError(inWords(done.last_unwanted));
   if (geojson) usage.job.input.files = {MemoryFile::kName};
   std::ranges::move(warningsOf(done), std::back_inserter(warnings));
   inWords.apply(warnings);

@@ -25,7 +25,7 @@ pybind11::list refusalsOf(const MeshResult& result);
 // that is not None. `keywords` are options: see setFromKeywords; messages name them so. The work is done on threads of
 // its own, without Python's lock; `progress(phase, share)` is called, and signals are handled, in the caller's thread.
 // What either raises ends the run and is raised again. Throws OptionError, InputError. A result without a triangle says
-// in `refusals` why.
+// in `refusals` why; where nothing was to be meshed that is an InputError.
 MeshResult runFromPython(const pybind11::dict& keywords, std::vector<std::string> files,
                          std::optional<std::string> text, const pybind11::object& graph,
                          const pybind11::object& progress);

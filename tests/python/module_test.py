@@ -202,6 +202,12 @@ class OptionsTest(unittest.TestCase):
             self.assertIn(said, str(caught.exception))
             self.assertNotIn("--", str(caught.exception))
 
+    def test_why_there_is_nothing_to_mesh(self):
+        with self.assertRaises(coastmesh.InputError) as caught:
+            coastmesh.mesh(POLYGON, bbox=(-1, -1, 1, 1), water_at=(8, 8))
+        self.assertIn("water_at 8.000000,8.000000: lies outside", str(caught.exception))
+        self.assertEqual(caught.exception.refusals, [])
+
     def test_a_column_of_the_input_says_its_boundaries(self):
         with tempfile.TemporaryDirectory() as folder:
             lake = os.path.join(folder, "lake.geojson")
