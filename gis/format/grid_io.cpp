@@ -11,6 +11,7 @@
 #include "gis/for_count.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_layers.hpp"
+#include "gis/format/read_ogr_grid.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 
@@ -44,6 +45,17 @@ const GridFormat* formatByEnding(const std::string& path) {
     }
   }
   return found;
+}
+
+// Those with the ending of `path` that are told by what a file holds.
+std::vector<const GridFormat*> formatsToldByContent(const std::string& path) {
+  const std::string ending = inSmallLetters(std::filesystem::path(path).extension().string());
+  std::vector<const GridFormat*> told;
+  for (const GridFormat& format : gridFormats()) {
+    const auto isOf = [&](std::string_view known) { return !ending.empty() && known.ends_with(ending); };
+    if (functionsOf(format).holds != nullptr && std::ranges::any_of(format.endings, isOf)) told.push_back(&format);
+  }
+  return told;
 }
 
 std::string endingList(bool GridFormat::*able) {
@@ -126,19 +138,29 @@ OutputFiles filesOf(const GridFormat& format, const std::string& path) {
 
 // Programs give different formats the same ending (.msh, .nc): the one that the file holds.
 const GridFormat* gridFormatOf(const std::string& path) {
-  const std::string ending = inSmallLetters(std::filesystem::path(path).extension().string());
-  for (const GridFormat& format : gridFormats()) {
-    const auto isOf = [&](std::string_view known) { return !ending.empty() && known.ends_with(ending); };
-    const auto holds = functionsOf(format).holds;
-    if (holds != nullptr && std::ranges::any_of(format.endings, isOf) && holds(path)) return &format;
-  }
+  for (const GridFormat* const format : formatsToldByContent(path))
+    if (functionsOf(*format).holds(path)) return format;
   return formatByEnding(path);
 }
+
+namespace {
+
+// What comes through a pipe can be read only once, from its beginning to its end.
+void requireNoPipe(const std::string& path) {
+  std::error_code error;
+  const GridFormat* const format = formatByEnding(path);
+  if (format == nullptr || !std::filesystem::is_fifo(path, error)) return;
+  if (formatsToldByContent(path).empty() && functionsOf(*format).read != readOgrGrid) return;
+  throw InputError("'" + path + "' is a pipe; meshes of this format cannot be read from one, but from files");
+}
+
+}  // namespace
 
 Grid readGrid(const std::string& path, const Crs& unsaid) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError("there is no file '" + path + "'");
   if (std::filesystem::is_directory(path, error)) throw InputError("'" + path + "' is a folder, no mesh");
+  requireNoPipe(path);
   const GridFormat* const format = gridFormatOf(path);
   if (format == nullptr || !format->readable)
     throw InputError("cannot read '" + path + "' as a mesh; known endings are " + endingList(&GridFormat::readable));

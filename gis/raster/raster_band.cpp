@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -68,6 +69,9 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   const OgrErrors errors;
   if (GDALGetCacheMax64() > kCacheBytes) GDALSetCacheMax64(kCacheBytes);
   Dataset& raster = *dataset_;
+  std::error_code error;
+  if (std::filesystem::is_fifo(name, error))
+    throw InputError("'" + name + "' is a pipe; rasters cannot be read from one, but from files");
   raster.dataset = GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR);
   if (raster.dataset == nullptr) throw InputError("cannot read '" + name + "' as a raster: " + errors.text());
   if (raster.dataset->GetRasterCount() == 0)

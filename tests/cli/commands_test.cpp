@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cctype>
 #include <filesystem>
@@ -201,6 +202,39 @@ TEST_F(Commands, PlotDraws) {
   EXPECT_TRUE(page.starts_with("<!doctype html>"));
   EXPECT_TRUE(page.ends_with("</html>\n"));
   EXPECT_EQ(page.find("{{"), std::string::npos);
+}
+
+// Nobody writes to it: what opens it would wait for ever.
+TEST_F(Commands, PipesThatNoFormatReadsAreRefused) {
+  for (const char* const name : {"p.nc", "p.msh", "p.gpkg", "p.fgb"}) {
+    ASSERT_EQ(mkfifo(file(name).c_str(), 0600), 0);
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"check", file(name)},
+                                                      {"plot", file(name), "-o", file("a.svg")},
+                                                      {"convert", file(name), "-o", file("a.2dm")}}) {
+      const ProgramRun run = runProgram(arguments);
+      EXPECT_EQ(run.code, 3) << name;
+      EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+      EXPECT_NE(run.errors.find(std::string(name) + "' is a pipe"), std::string::npos) << run.errors;
+    }
+  }
+  EXPECT_NE(runProgram({"info", file("p.nc")}).errors.find("is a pipe"), std::string::npos);
+  for (const char* const option : {"--bathymetry", "--size-raster"}) {
+    const ProgramRun run =
+        runProgram({"mesh", lake(), option, file("p.nc"), "--size-max", "900", "-o", file("a.14"), "--quiet"});
+    EXPECT_EQ(run.code, 3) << option;
+    EXPECT_NE(run.errors.find("p.nc' is a pipe"), std::string::npos) << run.errors;
+  }
+}
+
+// What is read from its beginning to its end may come through one.
+TEST_F(Commands, PipesThatFormatsReadAreRead) {
+  ASSERT_EQ(runProgram({"mesh", lake(), "-o", file("m.14"), "--quiet"}).code, 0);
+  for (const auto& [pipe, from] : {std::pair{"p.14", file("m.14")}, {"p.geojson", lake()}}) {
+    ASSERT_EQ(mkfifo(file(pipe).c_str(), 0600), 0);
+    const ProgramRun run = runShell("(cat '" + from + "' > '" + file(pipe) + "' &) ; \"$0\" info '" + file(pipe) + "'");
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_NE(run.output, "");
+  }
 }
 
 }  // namespace
