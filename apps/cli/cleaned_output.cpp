@@ -195,22 +195,26 @@ VectorLayer vertexLayer(const std::vector<Domain>& domains) {
 
 }  // namespace
 
-VectorLayer editLayer(std::span<const Edit> edits, const ReadReport& read) {
+VectorLayer editLayer(std::span<const Edit> edits, const std::function<std::string(std::uint32_t)>& source_of,
+                      const ReadReport& read) {
   const auto less = [](const EarlierEdit& a, const EarlierEdit& b) {
-    return std::tie(a.kind, a.place.x, a.place.y, a.fid) < std::tie(b.kind, b.place.x, b.place.y, b.fid);
+    return std::tie(a.kind, a.place.x, a.place.y, a.fid, a.source) <
+           std::tie(b.kind, b.place.x, b.place.y, b.fid, b.source);
   };
   std::vector<EarlierEdit> before = read.edits, now, all;
   for (const Edit& edit : edits) {
     // These change nothing: what there is of them in a cleaned file was reported when it was cleaned.
     if (read.cleaned && (edit.kind == EditKind::TouchingRing || edit.kind == EditKind::MisplacedRing)) continue;
-    now.push_back({std::string(toString(edit.kind)), edit.place, edit.fid});
+    now.push_back({std::string(toString(edit.kind)), edit.place, edit.fid, source_of(edit.feature)});
   }
   std::ranges::sort(before, less);
   std::ranges::sort(now, less);
   std::ranges::set_union(before, now, std::back_inserter(all), less);
-  VectorLayer layer{
-      kEditLayer, VectorLayer::Kind::Points, {{"kind", std::string()}, {"fid_of_feature", std::int64_t{}}}, {}};
-  for (const EarlierEdit& edit : all) layer.shapes.push_back({{edit.place}, {edit.kind, edit.fid}});
+  VectorLayer layer{kEditLayer,
+                    VectorLayer::Kind::Points,
+                    {{"kind", std::string()}, {"fid_of_feature", std::int64_t{}}, {"source", std::string()}},
+                    {}};
+  for (const EarlierEdit& edit : all) layer.shapes.push_back({{edit.place}, {edit.kind, edit.fid, edit.source}});
   return layer;
 }
 
@@ -218,8 +222,10 @@ std::vector<VectorLayer> cleanedLayers(const std::vector<Domain>& domains, const
                                        const Coastline& coastline, const ReadReport& read, const BoundaryTypes& types) {
   const std::vector<PslgEdge> edges = sortedEdges(domains, types);
   const Numbers numbers(edges, coastline);
-  std::vector<VectorLayer> layers{pslgLayer(edges, numbers, coastline, !types.empty()), editLayer(report.edits, read),
-                                  featureLayer(numbers, coastline), attributeLayer(numbers, coastline)};
+  const auto source_of = [&coastline](std::uint32_t f) { return coastline.features[f].source; };
+  std::vector<VectorLayer> layers{pslgLayer(edges, numbers, coastline, !types.empty()),
+                                  editLayer(report.edits, source_of, read), featureLayer(numbers, coastline),
+                                  attributeLayer(numbers, coastline)};
   for (VectorLayer& layer : std::vector{vertexLayer(domains), regionLayer(numbers, coastline)})
     if (!layer.shapes.empty()) layers.push_back(std::move(layer));
   return layers;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,7 +17,9 @@ namespace coastmesh {
 using BoundaryTypes = std::vector<std::vector<std::string>>;
 
 // What was changed, now or when the file was cleaned before, as points: the same edit found again counts once.
-VectorLayer editLayer(std::span<const Edit> edits, const ReadReport& read);
+// `source_of` says where a feature of the coastline was read.
+VectorLayer editLayer(std::span<const Edit> edits, const std::function<std::string(std::uint32_t)>& source_of,
+                      const ReadReport& read);
 
 // Cleaned domains as layers that `readCleaned` makes the same domains of, with all that is known of their features: see
 // gis/read/cleaned_layers.hpp. Edges come in the order of their places.

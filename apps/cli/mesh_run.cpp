@@ -168,8 +168,8 @@ void declareRunOutputs(OptionTable& table, MeshRunUsage& usage) {
   table.output({"--report", "Report"}, usage.report, {.standard_output = true},
                "write a report as JSON; - prints it instead of the summary");
   table.output({"--edits", "Changes to the input"}, usage.edits, {},
-               "write the changes made by cleaning and --coast follow, as points with kind and feature: a .gpkg, "
-               ".geojson or .fgb");
+               "write the changes made by cleaning and --coast follow, as points with kind, feature and source: a "
+               ".gpkg, .geojson or .fgb");
   table.section(Section::Run);
   table.choice({"--progress", "Progress display"}, usage.progress, {"auto", "bar", "log", "json", "none"},
                "progress on stderr: a bar, or a line every ten seconds (auto: a bar on a terminal, otherwise lines); "
@@ -275,9 +275,10 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
       result.log.append(recorder.finish("write"));
     });
   }
+  const auto source_of = [&result](std::uint32_t feature) { return result.edited.at(feature); };
   if (edits != nullptr && any)
     edits->make([&](const std::string& path) {
-      writeVectorLayers(path, result.crs, {editLayer(result.edit_places, result.read)});
+      writeVectorLayers(path, result.crs, {editLayer(result.edit_places, source_of, result.read)});
     });
   const int code = (any ? result.complete() : result.refusals.empty()) ? kExitDone : kExitShort;
   for (StagedFiles* const file : shard_files) file->write(shard.file(code));

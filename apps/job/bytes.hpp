@@ -40,8 +40,8 @@ auto partsOf(auto& refusal) requires std::is_same_v<std::remove_cvref_t<decltype
   return std::tie(source, fids, reason, place, over_budget, lacks_memory);
 }
 auto partsOf(auto& edit) requires std::is_same_v<std::remove_cvref_t<decltype(edit)>, Edit> {
-  auto& [kind, place, fid] = edit;
-  return std::tie(kind, place, fid);
+  auto& [kind, place, fid, feature] = edit;
+  return std::tie(kind, place, fid, feature);
 }
 auto partsOf(auto& shortfall) requires std::is_same_v<std::remove_cvref_t<decltype(shortfall)>, Shortfall> {
   auto& [count, places] = shortfall;

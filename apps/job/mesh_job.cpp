@@ -93,6 +93,8 @@ void addRefusal(const JobInput& input, std::size_t group, GroupResult&& part, Me
 void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, MeshJobResult& result,
               Stage& small_groups) {
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += part.edits[kind];
+  for (const Edit& edit : part.edit_places)
+    result.edited.try_emplace(edit.feature, input.coastline().features[edit.feature].source);
   std::ranges::move(part.edit_places, std::back_inserter(result.edit_places));
   result.seconds.clean += part.clean_s;
   result.estimated_vertices += part.estimated_vertices;

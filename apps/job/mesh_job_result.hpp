@@ -80,6 +80,7 @@ struct MeshJobResult {
   Crs crs;
   std::array<std::uint64_t, kEditKinds> edits{};
   std::vector<Edit> edit_places;                     // where the job keeps them: of cleaning, and of following sizes
+  std::map<std::uint32_t, std::string> edited;       // the features of these, and their sources
   std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
   std::string first_projection;                      // of the first region, with its parameters
   std::string first_projection_reason;

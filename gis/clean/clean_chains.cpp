@@ -46,7 +46,7 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
       if (by_lines) break;
       if (land && area && !feature.clipped && !polygon.outer.empty() &&
           area->of(polygon.outer) < options.min_island_area_m2) {
-        report.add(EditKind::SmallIsland, polygon.outer.front(), feature.fid);
+        report.add(EditKind::SmallIsland, polygon.outer.front(), coastline, member);
         continue;
       }
       if (!polygon.outer.empty()) chains.push_back({Role::Outer, index, polygon.outer});
@@ -54,7 +54,7 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
         if (hole.empty()) continue;
         if (area && feature.use == FeatureUse::Area && !feature.clipped &&
             area->of(hole) < options.min_island_area_m2) {
-          report.add(EditKind::SmallIsland, hole.front(), feature.fid);
+          report.add(EditKind::SmallIsland, hole.front(), coastline, member);
         } else {
           chains.push_back({Role::Hole, index, hole});
         }
@@ -81,7 +81,7 @@ void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, do
   const double widest = coastline.crs.geographic ? 180 : kNoLimit;
   for (const Touch& touch : insertTouchingPoints(touching, tolerance, widest, loop)) {
     if (coastline.features[chains[touch.chain].feature].use == FeatureUse::Frame) continue;
-    report.add(EditKind::OverlappingEdge, touch.place, coastline.features[chains[touch.chain].feature].fid);
+    report.add(EditKind::OverlappingEdge, touch.place, coastline, chains[touch.chain].feature);
   }
 }
 
@@ -368,31 +368,30 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
       if (at + kAhead < plane.size()) maker.prefetch(plane[at + kAhead]);
       const VertexId v = maker.make(requirePlace(plane[at++], point, feature, projection), point, snapped);
       const bool repeated = !made.walk.empty() && made.walk.back() == v;
-      if (reported && (snapped || repeated)) report.add(EditKind::RepeatedPoint, point, feature.fid);
+      if (reported && (snapped || repeated)) report.add(EditKind::RepeatedPoint, point, coastline, chain.feature);
       if (!repeated) made.walk.push_back(v);
     }
     while (closed && made.walk.size() > 1 && made.walk.front() == made.walk.back()) {
-      if (reported && !snapped) report.add(EditKind::RepeatedPoint, chain.points.back(), feature.fid);
+      if (reported && !snapped) report.add(EditKind::RepeatedPoint, chain.points.back(), coastline, chain.feature);
       made.walk.pop_back();
     }
     if (closed) {
       made.walk = withoutSpikes(made.walk, [&](VertexId v) {
-        if (reported) report.add(EditKind::Spike, result.vertices.input[v], feature.fid);
+        if (reported) report.add(EditKind::Spike, result.vertices.input[v], coastline, chain.feature);
       });
     }
     if (closed && made.walk.size() > 3 && traceOnce(made.walk) && reported)
-      report.add(EditKind::RepeatedRing, result.vertices.input[made.walk.front()], feature.fid);
+      report.add(EditKind::RepeatedRing, result.vertices.input[made.walk.front()], coastline, chain.feature);
     if (made.walk.size() < (closed ? 3u : chain.role == CleanChain::Role::Point ? 1u : 2u)) {
-      if (reported) report.add(EditKind::DegenerateRing, chain.points.front(), feature.fid);
+      if (reported) report.add(EditKind::DegenerateRing, chain.points.front(), coastline, chain.feature);
       continue;
     }
     std::vector<Point>().swap(chain.points);
     result.chains.push_back(std::move(made));
   }
   dropRepeatedRings(result.chains, [&](const CleanChain& ring) {
-    const Feature& feature = coastline.features[ring.feature];
-    if (feature.use != FeatureUse::Frame)
-      report.add(EditKind::RepeatedRing, result.vertices.input[ring.walk.front()], feature.fid);
+    if (coastline.features[ring.feature].use != FeatureUse::Frame)
+      report.add(EditKind::RepeatedRing, result.vertices.input[ring.walk.front()], coastline, ring.feature);
   });
   result.vertices.is_new.assign(result.vertices.plane.size(), 0);
   result.resolution =

@@ -163,8 +163,8 @@ class Labeller {
       const RegionId left = label(map_.faceOf(2 * e)), right = label(map_.faceOf(2 * e + 1));
       if (left == right || left == rest_ || right == rest_) continue;
       sets.unite(numberOf(left), numberOf(right));
-      report_.add(EditKind::DissolvedEdge, inputOf(ends_[e].first),
-                  fidOf(static_cast<std::uint32_t>(std::max(left, right))));
+      report_.add(EditKind::DissolvedEdge, inputOf(ends_[e].first), coastline_,
+                  static_cast<std::size_t>(std::max(left, right)));
       traces.insert(traces.end(), {ends_[e].first, ends_[e].second});
     }
     for (std::uint32_t i = 0; i < features.size(); ++i) {
@@ -279,7 +279,7 @@ class Labeller {
       const auto star = map_.leaving(v);
       const std::uint32_t face = star.empty() ? locator.faceAt(chains_.vertices.plane[v]) : map_.faceOf(star.front());
       if (label(face) == kOutside) {
-        report_.add(EditKind::OutsideWater, inputOf(v), fidOf(chain.feature));
+        report_.add(EditKind::OutsideWater, inputOf(v), coastline_, chain.feature);
         continue;
       }
       used[v] = 1;
@@ -295,7 +295,7 @@ class Labeller {
       bool first = true;
       for (const std::uint32_t feature : holders_[face]) {
         if (useOf(feature) != FeatureUse::Area || std::exchange(first, false)) continue;
-        report_.add(EditKind::FeaturesOverlap, placeIn(face), fidOf(feature));
+        report_.add(EditKind::FeaturesOverlap, placeIn(face), coastline_, feature);
       }
     }
     warnOfNested();
@@ -352,7 +352,7 @@ class Labeller {
         const std::uint32_t inner = map_.faceOf(upward == inner_is_left ? 2 * e : 2 * e + 1);
         const bool filled = holds(inner, featureOf(use));
         if (filled == (roleOf(use) == CleanChain::Role::Outer)) continue;
-        report_.add(EditKind::MisplacedRing, inputOf(use.a), fidOf(featureOf(use)));
+        report_.add(EditKind::MisplacedRing, inputOf(use.a), coastline_, featureOf(use));
       }
     }
   }

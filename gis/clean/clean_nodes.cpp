@@ -83,9 +83,6 @@ class Noder {
     return isLine(use) ? static_cast<int>(coastline_.features[featureOf(use)].use) : -1;
   }
   bool ofFrame(const EdgeUse& use) const { return coastline_.features[featureOf(use)].use == FeatureUse::Frame; }
-  std::int64_t fidOf(std::uint32_t edge) const {
-    return coastline_.features[featureOf(uses_[edges_[edge].first_use])].fid;
-  }
 
   void addUses(std::uint32_t c) {
     const CleanChain& chain = chains_.chains[c];
@@ -123,7 +120,7 @@ class Noder {
           ++same;
         if (isLine(use) || same % 2 == 1) uses_[kept++] = use;
         if (reported && same > 1 && !onSeam(low, high) && !ofFrame(use)) {
-          report_.add(EditKind::OverlappingEdge, chains_.vertices.input[low], coastline_.features[featureOf(use)].fid);
+          report_.add(EditKind::OverlappingEdge, chains_.vertices.input[low], coastline_, featureOf(use));
         }
       }
       if (kept > first) edges_.push_back({low, high, first, kept});
@@ -236,7 +233,8 @@ class Noder {
   void reportSplits() {
     for (const Split& split : splits_) {
       if (ofFrame(uses_[edges_[split.edge].first_use])) continue;
-      report_.add(EditKind::OverlappingEdge, chains_.vertices.input[split.vertex], fidOf(split.edge));
+      report_.add(EditKind::OverlappingEdge, chains_.vertices.input[split.vertex], coastline_,
+                  featureOf(uses_[edges_[split.edge].first_use]));
     }
   }
 
@@ -269,8 +267,8 @@ class Noder {
     }
     if (!reported || ofFrame(uses_[e.first_use]) || ofFrame(uses_[f.first_use])) return;
     const std::uint32_t first = featureOf(uses_[e.first_use]), second = featureOf(uses_[f.first_use]);
-    report_.add(first == second ? EditKind::SelfCrossing : EditKind::FeaturesCross, place,
-                coastline_.features[std::max(first, second)].fid);
+    report_.add(first == second ? EditKind::SelfCrossing : EditKind::FeaturesCross, place, coastline_,
+                std::max(first, second));
   }
 
   // Makes every split edge a chain through the vertices found on it. What is new is active in the next round.

@@ -28,9 +28,7 @@ std::vector<std::uint32_t> outsideSectors(std::size_t vertices, const std::vecto
   return sectors;
 }
 
-std::int64_t fidBeside(const Segment& s, const Coastline& coastline) {
-  return coastline.features[static_cast<std::size_t>(std::max(s.left, s.right))].fid;
-}
+std::size_t featureBeside(const Segment& s) { return static_cast<std::size_t>(std::max(s.left, s.right)); }
 
 // The angle from vp counter-clockwise to vq, in (0, 2 pi).
 double angleBetween(const Point& v, const Point& p, const Point& q) {
@@ -113,11 +111,11 @@ class PinchOpener {
     std::size_t left = 0;
     for (const VertexId v : pinched) {
       const Segment& beside = segments_[at_[v].front()];
-      const std::int64_t fid = fidBeside(beside, coastline_);
+      const std::size_t feature = featureBeside(beside);
       if (open(v)) {
-        report_.add(EditKind::OpenedPinch, vertices_.input[v], fid);
+        report_.add(EditKind::OpenedPinch, vertices_.input[v], coastline_, feature);
       } else {
-        report_.add(EditKind::TouchingRing, vertices_.input[v], fid);
+        report_.add(EditKind::TouchingRing, vertices_.input[v], coastline_, feature);
         ++left;
       }
     }
@@ -496,7 +494,7 @@ void reportPinches(const CleanVertices& vertices, const std::vector<Segment>& se
     for (const VertexId v : {s.a, s.b}) {
       if (sectors[v] < 2 || vertices.is_new[v]) continue;
       sectors[v] = 0;
-      report.add(EditKind::TouchingRing, vertices.input[v], fidBeside(s, coastline));
+      report.add(EditKind::TouchingRing, vertices.input[v], coastline, featureBeside(s));
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/point.hpp"
+#include "gis/coast/coastline.hpp"
 
 namespace coastmesh {
 
@@ -43,6 +44,7 @@ struct Edit {
   EditKind kind;
   Point place;  // in the input's CRS
   std::int64_t fid = 0;
+  std::uint32_t feature = 0;  // of the coastline: fids of several sources are alike
 };
 
 struct CleanReport {
@@ -51,8 +53,8 @@ struct CleanReport {
   std::vector<std::string> warnings;  // those of them that cost more than users may expect
   std::array<std::uint64_t, kEditKinds> counts{};
 
-  void add(EditKind kind, const Point& place, std::int64_t fid) {
-    edits.push_back({kind, place, fid});
+  void add(EditKind kind, const Point& place, const Coastline& coastline, std::size_t feature) {
+    edits.push_back({kind, place, coastline.features[feature].fid, static_cast<std::uint32_t>(feature)});
     ++counts[static_cast<std::size_t>(kind)];
   }
   void append(CleanReport&& more) {

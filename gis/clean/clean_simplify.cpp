@@ -252,7 +252,7 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
   Simplifier simplifier(vertices, edges, resolution, tolerance);
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
-    report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline.features[feature].fid);
+    report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline, feature);
   });
 }
 
@@ -295,7 +295,7 @@ std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdg
   });
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
-    report.add(EditKind::DissolvedEdge, vertices.input[v], coastline.features[feature].fid);
+    report.add(EditKind::DissolvedEdge, vertices.input[v], coastline, feature);
   });
 }
 

@@ -80,7 +80,7 @@ struct EditLog {
     if (chains.source[v] != kNone) addInput(kind, domain.input_points[chains.source[v]], chains.leaving[v].left);
   }
   void addInput(EditKind kind, const Point& input, RegionId water) const {
-    report.add(kind, input, coastline.features[static_cast<std::size_t>(water)].fid);
+    report.add(kind, input, coastline, static_cast<std::size_t>(water));
   }
 };
 

@@ -183,9 +183,11 @@ void takeRegions(OGRLayer* layer, const ShapeReader& shapes, Cleaned& cleaned) {
 
 void takeEdits(OGRLayer* layer, const ShapeReader& shapes) {
   if (!layer || !hasFields(*layer, {"kind", "fid_of_feature"})) return;
+  const bool has_source = hasFields(*layer, {"source"});
   forEachRow(layer, [&](const OGRFeature& row) {
     for (const Point& p : shapes.shapeOf(row, wkbPoint).points)
-      shapes.report().edits.push_back({textOf(row, "kind"), p, wholeOf(row, "fid_of_feature")});
+      shapes.report().edits.push_back(
+          {textOf(row, "kind"), p, wholeOf(row, "fid_of_feature"), has_source ? textOf(row, "source") : ""});
   });
 }
 

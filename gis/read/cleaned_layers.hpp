@@ -10,7 +10,7 @@ namespace coastmesh {
 // boundary (what the boundary is there), where that was given.
 inline constexpr const char* kPslgLayer = "pslg";
 inline constexpr const char* kBoundaryField = "boundary";
-inline constexpr const char* kEditLayer = "edits";            // points: kind, fid_of_feature
+inline constexpr const char* kEditLayer = "edits";            // points: kind, fid_of_feature, source
 inline constexpr const char* kVertexLayer = "vertices";       // points that no edge has: region, number
 inline constexpr const char* kFeatureLayer = "features";      // no shapes: id, fid_of_feature, source
 inline constexpr const char* kAttributeLayer = "attributes";  // no shapes: feature_id, name, value, in their order

@@ -13,6 +13,7 @@ struct EarlierEdit {
   std::string kind;
   Point place;
   std::int64_t fid = 0;
+  std::string source{};  // of the feature; empty in files of earlier versions
 };
 
 struct ReadReport {

@@ -307,6 +307,28 @@ TEST_F(MeshRun, PolygonsInPolygonsAreWarnedOf) {
   EXPECT_EQ(last, "5 more warnings of other features are not shown");
 }
 
+// Features of several files have the same numbers.
+TEST_F(MeshRun, EditsNameTheSourceOfTheirFeature) {
+  const auto bowTie = [&](const std::string& name, double lon) {
+    return write(name, geoJsonPolygons({{{{lon, 0}, {lon + 0.4, 0.4}, {lon + 0.4, 0}, {lon, 0.4}}}}));
+  };
+  const std::string west = bowTie("west.geojson", 0), east = bowTie("east.geojson", 1);
+  ASSERT_EQ(runProgram({"mesh", west, east, "-o", file("a.2dm"), "--edits", file("edits.geojson"), "--quiet"}).code, 0);
+  ASSERT_EQ(runProgram({"clean", west, east, "-o", file("cleaned.gpkg"), "--quiet"}).code, 0);
+  ASSERT_EQ(
+      runProgram({"mesh", file("cleaned.gpkg"), "-o", file("b.2dm"), "--edits", file("again.geojson"), "--quiet"}).code,
+      0);
+  for (const std::string layer : {"edits.geojson", "again.geojson"}) {
+    const Json edits = Json::parse(readText(file(layer)))["features"];
+    ASSERT_EQ(edits.size(), 2u) << layer;
+    for (const Json& edit : edits) {
+      const double lon = edit["geometry"]["coordinates"][0];
+      EXPECT_EQ(edit["properties"]["kind"], "self-crossing");
+      EXPECT_EQ(edit["properties"]["source"], lon < 1 ? west : east);
+    }
+  }
+}
+
 TEST_F(MeshRun, AFilterThatHoldsForNothingIsNamed) {
   const ProgramRun run = runProgram({"mesh", lake(), "--where", "fid = 77", "-o", file("a.2dm")});
   EXPECT_EQ(run.code, 3);
