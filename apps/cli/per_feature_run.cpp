@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -228,6 +229,7 @@ class Maker {
         outcome.state = FeatureState::Refused;
         outcome.reason = result.refusals.empty() ? result.last_unwanted : result.refusals.front().reason;
       } else {
+        noteBoundaries(result.finish.boundaries);
         outcome.warnings = warningsOf(result);
         write(outcome, result);
         outcome.state = result.complete() ? FeatureState::Made : FeatureState::Short;
@@ -242,7 +244,32 @@ class Maker {
     return true;
   }
 
+  // Warnings for those files of boundary types that say nothing of any feature that was meshed.
+  std::vector<std::string> idleBoundaries() const {
+    std::vector<std::string> warnings;
+    for (const auto& [file, idle] : idle_boundaries_)
+      if (idle.features == meshed_) warnings.push_back(idle.warning);
+    return warnings;
+  }
+
  private:
+  struct IdleFile {
+    std::size_t features = 0;  // of which it says nothing
+    std::string warning;
+  };
+
+  // Most of the others lie beside a feature.
+  void noteBoundaries(BoundaryReport& boundaries) {
+    const std::lock_guard lock(mutex_);
+    ++meshed_;
+    for (std::size_t i = 0; i < boundaries.idle_files.size(); ++i) {
+      IdleFile& idle = idle_boundaries_[boundaries.idle_files[i]];
+      ++idle.features;
+      idle.warning = boundaries.warnings[i];
+    }
+    boundaries.warnings.clear();
+  }
+
   // One feature at a time: libraries of formats, and the partitioner, are not for several threads. Nothing in here
   // shares out work, or a thread might begin another feature while it holds the lock.
   void write(FeatureOutcome& outcome, MeshJobResult& result) {
@@ -269,6 +296,8 @@ class Maker {
   Shares& shares_;
   std::function<bool()> cancelled_;
   std::mutex mutex_;
+  std::size_t meshed_ = 0;
+  std::map<std::size_t, IdleFile> idle_boundaries_;
 };
 
 void warnOf(const std::vector<FeatureOutcome>& features, Run& run) {
@@ -360,6 +389,9 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
   std::vector<FeatureOutcome> features;
   for (Planned& one : planned) features.push_back(std::move(one.outcome));
   for (const std::string& warning : read.warnings) run.warn(warning);
+  // Other runs have the other features.
+  const bool all = shardOf(usage.shard).second == 1 && order.size() == features.size();
+  for (const std::string& warning : all ? maker.idleBoundaries() : std::vector<std::string>{}) run.warn(warning);
   warnOf(features, run);
   seconds.total = whole.seconds();
   report.writeReport(perFeatureReport(job.input.files, read, coastline.crs, features, run.warnings, seconds, threads));

@@ -96,6 +96,8 @@ Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRul
   Coastline coastline =
       readCoastline(sourcesOf(options), options.filter, report,
                     [&](const std::vector<RawLayer>& layers) { boundaries.addInput(layers, options.boundary_column); });
+  if (!options.boundary_column.empty() && !options.may_lack_column)
+    boundaries.requireInputColumn(options.boundary_column);
   if (options.crs == "plane") forgetImpossibleCrs(coastline, report);
   return coastline;
 }

@@ -30,6 +30,7 @@ struct InputOptions {
   std::shared_ptr<const Coastline> ready{};  // instead of files: features read by `readInput`
   ReadFilter filter{};                       // what of the files is read
   std::string boundary_column{};             // their column of boundary types; empty: only what `clean` kept counts
+  bool may_lack_column = false;              // since other files have the column
   FrameOptions frame{};                      // the limits of the domain besides the shores
   std::string clip{};                        // a file of polygons that limit it, instead of `frame.box`; empty: none
   std::vector<std::string> constraints{};    // files of lines and points that become edges and vertices

@@ -112,6 +112,7 @@ void settle(MeshUsage& usage) {
   const BoundaryOptions& boundaries = usage.job.finish.boundaries;
   // Beside a plane graph, which has no columns, that of the files alone is meant.
   if (boundaries.files.empty() || !isPlaneGraph(usage.job.input)) usage.job.input.boundary_column = boundaries.column;
+  usage.job.input.may_lack_column = !boundaries.files.empty();
   usage.job.mesh.one_piece = !usage.cut;
   usage.job.parallel.threads = static_cast<int>(usage.threads);
 }

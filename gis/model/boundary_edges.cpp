@@ -85,11 +85,13 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
   apply(options.of_input);
   const std::vector<BoundaryRules> of_files = options.of_files ? *options.of_files : readBoundaryFiles(options);
   for (std::size_t file = 0; file < of_files.size(); ++file)
-    if (!apply(of_files[file]))
+    if (!apply(of_files[file])) {
+      report.idle_files.push_back(file);
       report.warnings.push_back(options.files[file] +
                                 ": says nothing of the mesh's boundary: no edge of it has its middle in one of the "
                                 "polygons, or runs along one of the lines within a fifth of its length (polygons "
                                 "open no islands)");
+    }
   report.edges_by_file = static_cast<std::size_t>(std::ranges::count(said, true));
   if (options.opensByDepth()) {
     if (at.z.empty()) throw InputError("to open boundaries by their depth takes depths; give --bathymetry");

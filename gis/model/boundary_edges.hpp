@@ -30,10 +30,11 @@ struct BoundaryOptions {
 };
 
 struct BoundaryReport {
-  std::size_t edges_by_file = 0;   // edges of the boundary, by a file
-  std::size_t edges_by_depth = 0;  // edges opened by their depth
-  std::size_t merged = 0;          // boundaries that were too short
-  std::vector<std::string> warnings;
+  std::size_t edges_by_file = 0;        // edges of the boundary, by a file
+  std::size_t edges_by_depth = 0;       // edges opened by their depth
+  std::size_t merged = 0;               // boundaries that were too short
+  std::vector<std::size_t> idle_files;  // of `files`: those that say nothing of the mesh's boundary
+  std::vector<std::string> warnings;    // one for each of these
 };
 
 // A boundary, of a mesh or of a domain to be meshed, edge by edge: loop after loop, each closed.

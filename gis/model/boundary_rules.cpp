@@ -40,6 +40,34 @@ std::optional<std::string> typeOf(const Feature& feature, const std::string& col
   return std::nullopt;
 }
 
+bool isOfTypes(const RawLayer& layer) { return layer.use == FeatureUse::Boundary; }
+
+// Those of tables, and what features of a cleaned file have kept.
+std::set<std::string> columnsOf(const std::vector<RawLayer>& layers) {
+  std::set<std::string> columns;
+  for (const RawLayer& layer : layers) {
+    columns.insert(layer.columns.begin(), layer.columns.end());
+    for (const auto* const features : {&layer.features, &layer.line_features})
+      for (const Feature& feature : *features)
+        for (const auto& [name, value] : feature.attributes) columns.insert(name);
+  }
+  return columns;
+}
+
+bool hasColumn(const std::set<std::string>& columns, const std::string& wanted) {
+  return std::ranges::any_of(columns, [&](const std::string& name) { return lowerCase(name) == lowerCase(wanted); });
+}
+
+std::string inWords(const std::set<std::string>& columns) {
+  if (columns.empty()) return "there are no columns";
+  constexpr std::size_t kShown = 20;
+  std::string text = columns.size() == 1 ? "there is only" : "there are";
+  std::size_t shown = 0;
+  for (const std::string& name : columns)
+    if (shown++ < kShown) text += (shown == 1 ? " " : ", ") + name;
+  return columns.size() > kShown ? text + " and " + std::to_string(columns.size() - kShown) + " more" : text;
+}
+
 // Even-odd over one ring: whether a ray from `p` eastwards crosses it an odd number of times.
 bool crossesOddly(const Ring& ring, const Point& p) {
   bool odd = false;
@@ -226,14 +254,26 @@ BoundaryRules BoundaryRules::ofFile(const std::string& path, const std::string& 
 }
 
 void BoundaryRules::addInput(const std::vector<RawLayer>& layers, const std::string& column) {
+  if (!column.empty()) {
+    columns_of_input_.merge(columnsOf(layers));
+    input_is_typed_ = input_is_typed_ || std::ranges::any_of(layers, isOfTypes);
+  }
   add(layers, column, false);
 }
 
+void BoundaryRules::requireInputColumn(const std::string& column) const {
+  if (!input_is_typed_ && !hasColumn(columns_of_input_, column))
+    throw InputError("no input has the column \"" + column + "\" of boundary types; " + inWords(columns_of_input_));
+}
+
 void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& column, bool all_have_it) {
-  const auto isOfTypes = [](const RawLayer& layer) { return layer.use == FeatureUse::Boundary; };
   // What a cleaned file says of its boundary edge by edge counts alone.
   const bool edge_by_edge = std::ranges::any_of(layers, isOfTypes);
   if (!edge_by_edge && !all_have_it && column.empty()) return;
+  if (const std::set<std::string> columns = columnsOf(layers);
+      !edge_by_edge && all_have_it && !column.empty() && !layers.empty() && !hasColumn(columns, column))
+    throw InputError(layers.front().source + ": has no column \"" + column + "\" of boundary types; " +
+                     inWords(columns));
   for (const RawLayer& raw : layers) {
     if (edge_by_edge && !isOfTypes(raw)) continue;
     const auto layer = std::make_shared<Layer>(raw);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,17 @@ std::string textOfKind(const BoundaryKind& kind);
 class BoundaryRules {
  public:
   // Those of a file, all of whose features have a type in `column` (empty: the first named type, role, boundary, ibtype
-  // or kind). Throws InputError.
+  // or kind). Throws InputError, with the columns that there are if it has none of that name.
   static BoundaryRules ofFile(const std::string& path, const std::string& column);
 
   // Adds those of one input, as it was read: features with a type in `column`, whose polygons define their own shore.
   // Of a file that `coastmesh clean` wrote with boundary types these alone count, for any column, even without one.
   // Throws InputError.
   void addInput(const std::vector<RawLayer>& layers, const std::string& column);
+
+  // To be called after all inputs were added. Throws InputError, with the columns that there are, if none of them has
+  // `column` or boundary types of its own.
+  void requireInputColumn(const std::string& column) const;
 
   bool empty() const { return layers_.empty(); }
 
@@ -50,6 +55,8 @@ class BoundaryRules {
   void add(const std::vector<RawLayer>& layers, const std::string& column, bool all_have_it);
 
   std::vector<std::shared_ptr<const Layer>> layers_;  // in their order; a later one takes precedence
+  std::set<std::string> columns_of_input_;
+  bool input_is_typed_ = false;  // a cleaned file defines its own boundary
 };
 
 }  // namespace coastmesh

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -146,6 +147,53 @@ TEST_F(BoundaryTypes, AnUnknownTypeIsRefusedBeforeMeshing) {
     EXPECT_THAT(run.errors, HasSubstr("\"reed\" is not a type of boundary"));
     EXPECT_THAT(run.output, Not(HasSubstr("refine")));
   }
+}
+
+TEST_F(BoundaryTypes, AColumnThatIsNotThereIsRefusedWithThoseThatAre) {
+  const std::string input = put("lake.geojson", Json::array({lakeAt(5, {{"Name", "lake"}, {"shore", nullptr}})}));
+  const std::string types = put("types.geojson", Json::array({lakeAt(5, {{"side", "open"}})}));
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"mesh", input, "-o", file("a.nc")},
+                                                  {"mesh", input, "-o", file("a-{}.nc"), "--per-feature"},
+                                                  {"clean", input, "-o", file("a.gpkg")}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--boundary-column", "sohre", "--quiet"});
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 3);
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr("no input has the column \"sohre\" of boundary types; there are Name, shore"));
+  }
+  // One without a value anywhere is there, for any case of its letters.
+  done({"mesh", input, "-o", file("a.nc"), "--boundary-column", "SHORE", "--quiet"});
+  // Beside files of boundary types it may be theirs alone, but has to be there.
+  const std::vector<std::string> options{"mesh",    input,          "-o",  file("b.nc"),
+                                         "--quiet", "--boundaries", types, "--boundary-column"};
+  std::vector<std::string> side = options, none = options;
+  side.emplace_back("side");
+  none.emplace_back("shore");
+  done(side);
+  none.emplace_back("--overwrite");
+  const ProgramRun run = runProgram(none);
+  EXPECT_EQ(run.code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("types.geojson: has no column \"shore\" of boundary types; there is only side"));
+}
+
+TEST_F(BoundaryTypes, FilesThatConcernNoFeatureAreNamedOnce) {
+  Json lakes = Json::array();
+  for (int i = 0; i < 4; ++i) lakes.push_back(lakeAt(5 + i, Json::object()));
+  const std::string input = put("lakes.geojson", lakes);
+  const std::string one = put("one.geojson", Json::array({westOf(7, {{"type", "river"}})}));
+  const std::string none = put("none.geojson", Json::array({westOf(20, {{"type", "river"}})}));
+  const std::vector<std::string> options{"mesh", input, "--per-feature",      "--boundaries", one, "--boundaries",
+                                         none,   "-o",  file("lake-{}.gpkg"), "--quiet"};
+  const ProgramRun run = runProgram(options);
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(std::ranges::count(run.errors, '\n'), 1) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("warning: " + none + ": says nothing of the mesh's boundary"));
+  EXPECT_EQ(rolesIn("lake-2.gpkg").count("river"), 1u);
+  // A share of the features says nothing of the others.
+  std::vector<std::string> share = options;
+  share.insert(share.end(), {"--shard", "1/2", "--overwrite"});
+  EXPECT_EQ(runProgram(share).errors, "");
 }
 
 TEST_F(BoundaryTypes, EachFeatureHasItsOwnForAnyNumberOfThreads) {
