@@ -93,18 +93,21 @@ std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, Progr
 }
 
 // The exit code of the run that made what is there already; none where that is not all.
-std::optional<int> doneBefore(const MeshRunUsage& usage, const Run& run, const GivenOptions& given) {
+std::optional<int> doneBefore(const MeshRunUsage& usage, Run& run, const GivenOptions& given) {
   int code = kExitDone;
   for (const OptionTable::NamedOutput& output : run.options.outputs()) {
-    std::error_code error;
-    if (!std::filesystem::exists(output.path, error)) return std::nullopt;
+    if (!isMade(output.path)) return std::nullopt;
     if (!isShardFile(output.path)) continue;
-    const ShardHeader header = readShardHeader(output.path);
+    const std::optional<ShardHeader> header = headerOfWholeShard(output.path);
+    if (!header) {
+      run.warn("'" + output.path + "' is damaged, or not whole: it is made again");
+      return std::nullopt;
+    }
     const auto [shard, shards] = shardOf(usage.shard);
-    if (header.options != given || header.shard != shard || header.shards != shards)
+    if (header->options != given || header->shard != shard || header->shards != shards)
       throw OptionError("'" + output.path + "' exists, but belongs to another run: give another name, or --overwrite");
-    if (header.left > 0) return std::nullopt;  // there may be more memory now
-    code = header.exit_code;
+    if (header->left > 0) return std::nullopt;  // there may be more memory now
+    code = header->exit_code;
   }
   return code;
 }

@@ -91,13 +91,6 @@ Box boxOf(const Feature& feature) {
   return box;
 }
 
-bool areThere(const std::vector<std::string>& paths) {
-  return std::ranges::all_of(paths, [](const std::string& path) {
-    std::error_code error;
-    return fs::exists(path, error);
-  });
-}
-
 // Those of this run's shard, in the input's order, named.
 std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline, const Run& run) {
   std::vector<const Feature*> features;
@@ -127,7 +120,7 @@ std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline,
       one.outcome.outputs.push_back(path);
       files.push_back({"--output", path, filesOf(gridFormatFor(path, usage.format), path)});
     }
-    if (usage.skip_existing && !usage.overwrite && areThere(one.outcome.outputs))
+    if (usage.skip_existing && !usage.overwrite && std::ranges::all_of(one.outcome.outputs, isMade))
       one.outcome.state = FeatureState::Skipped;
     planned.push_back(std::move(one));
   }
@@ -137,7 +130,8 @@ std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline,
   if (!usage.overwrite && !usage.skip_existing)
     for (const OptionTable::NamedOutput& output : files)
       for (const std::string& file : output.files.targets)
-        if (areThere({file})) throw OutputError("'" + file + "' exists; give --overwrite, or --skip-existing to go on");
+        if (std::error_code error; fs::exists(file, error))
+          throw OutputError("'" + file + "' exists; give --overwrite, or --skip-existing to go on");
   return planned;
 }
 

@@ -171,6 +171,13 @@ void requireOutputsApart(const std::vector<OptionTable::NamedOutput>& outputs,
   }
 }
 
+bool isMade(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!exists(status)) return false;
+  return !is_regular_file(status) || std::filesystem::file_size(path, error) > 0;
+}
+
 RunOutputs::~RunOutputs() {
   grids_.clear();
   files_.clear();

@@ -26,6 +26,9 @@ void requireOutputsApart(const std::vector<OptionTable::NamedOutput>& outputs,
 // from (the tiles of a VRT), and those that belong to one of them (a shapefile's .dbf), as far as they are there.
 std::vector<std::string> filesReadBy(const std::string& name);
 
+// Whether an output exists, for --skip-existing. An empty file is what a full disk left of one.
+bool isMade(const std::string& path);
+
 // All outputs of a run: none comes into place before all are written, and then all do or none.
 class RunOutputs {
  public:

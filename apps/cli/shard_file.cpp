@@ -24,7 +24,7 @@ constexpr std::string_view kMagic = "coastmesh shard\n";
 constexpr const char* kEnding = ".shard";
 constexpr std::uint64_t kMostNamed = 20;  // of shards that are missing
 
-// Thrown by readers of a file's beginning.
+// Thrown by readers of a file that may be cut short.
 struct EndsTooEarly : InputError {
   using InputError::InputError;
 };
@@ -45,11 +45,15 @@ std::string contentsOf(const std::string& path, std::size_t most) {
   return bytes;
 }
 
+[[noreturn]] void refuseOtherKind(const std::string& path) {
+  throw InputError("'" + path + "' was not written by mesh --shard");
+}
+
 template <typename Error>
 ShardHeader readHeader(BasicByteReader<Error>& reader, const std::string& path) {
   std::string magic(kMagic.size(), ' ');
   for (char& c : magic) reader.pass(c);
-  if (magic != kMagic) throw InputError("'" + path + "' was not written by mesh --shard");
+  if (magic != kMagic) refuseOtherKind(path);
   ShardHeader header;
   reader.pass(header.version);
   if (header.version != COASTMESH_VERSION)
@@ -65,12 +69,14 @@ std::uint64_t checksumOf(std::string_view bytes) {
   return hash.value();
 }
 
+constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
+
 // What is before the checksum. What is read behind it is not looked at by value: a damaged node may be no node.
 std::string_view unsealed(const std::string& bytes, const std::string& path) {
   std::uint64_t sum = 0;
-  if (bytes.size() < sizeof sum) throw InputError("'" + path + "' ends too early");
-  const std::string_view content = std::string_view(bytes).substr(0, bytes.size() - sizeof sum);
-  std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
+  if (bytes.size() < kSumBytes) throw InputError("'" + path + "' ends too early");
+  const std::string_view content = std::string_view(bytes).substr(0, bytes.size() - kSumBytes);
+  std::memcpy(&sum, bytes.data() + content.size(), kSumBytes);
   if (sum != checksumOf(content)) throw InputError("'" + path + "' is damaged, or not whole: make it again");
   return content;
 }
@@ -104,18 +110,48 @@ GivenOptions givenOptions(const OptionTable& table, const OptionTable& of_job) {
   return options;
 }
 
-ShardHeader readShardHeader(const std::string& path) {
+namespace {
+
+// None where the file ends within it.
+std::optional<ShardHeader> headerOf(const std::string& path) {
   // Enough for most; thousands of inputs with long names need more.
   constexpr std::size_t kAtFirst = 1 << 20, kGrowth = 8;
   for (std::size_t most = kAtFirst;; most *= kGrowth) {
     const std::string bytes = contentsOf(path, most);
+    if (!kMagic.starts_with(bytes.substr(0, kMagic.size()))) refuseOtherKind(path);
     BasicByteReader<EndsTooEarly> reader(bytes, "'" + path + "'");
     try {
       return readHeader(reader, path);
     } catch (const EndsTooEarly&) {
-      if (bytes.size() < most) throw;
+      if (bytes.size() < most) return std::nullopt;
     }
   }
+}
+
+// Whether the file ends with the checksum of what comes before; it may be larger than the memory.
+bool isSealedFile(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size < kSumBytes) return false;
+  std::ifstream file(path, std::ios::binary);
+  constexpr std::uintmax_t kPiece = 1 << 20;
+  std::string piece;
+  ByteHash hash;
+  for (std::uintmax_t left = size - kSumBytes; left > 0; left -= piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min(left, kPiece)));
+    if (!file.read(piece.data(), static_cast<std::streamsize>(piece.size()))) return false;
+    hash.add(piece);
+  }
+  std::uint64_t sum = 0;
+  file.read(reinterpret_cast<char*>(&sum), kSumBytes);
+  return file && sum == hash.value();
+}
+
+}  // namespace
+
+std::optional<ShardHeader> headerOfWholeShard(const std::string& path) {
+  std::optional<ShardHeader> header = headerOf(path);
+  return header && isSealedFile(path) ? header : std::nullopt;
 }
 
 ShardWriter::ShardWriter(GivenOptions options, std::uint32_t shard, std::uint32_t shards) {

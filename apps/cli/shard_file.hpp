@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,8 +44,9 @@ struct ShardHeader {
 // `bytes` with a checksum behind them, as the file of a shard ends.
 std::string sealedShard(std::string bytes);
 
-// Throws InputError for what is no shard file of this version. The checksum is not looked at.
-ShardHeader readShardHeader(const std::string& path);
+// Of a file that is whole, by its checksum; none for one that is damaged or cut short. Throws InputError for what is no
+// shard file of this version.
+std::optional<ShardHeader> headerOfWholeShard(const std::string& path);
 
 // Takes the groups of a run as they are made.
 class ShardWriter {

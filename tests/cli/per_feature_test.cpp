@@ -163,6 +163,10 @@ TEST_F(PerFeature, WhatIsThereStaysAndIsGoneOnWith) {
   EXPECT_THAT(on.output, HasSubstr("1 of 4 features meshed, 3 were there already"));
   EXPECT_TRUE(readText(file("1.nc")) == first);
   EXPECT_EQ(readText(file("2.nc")), "precious");
+  // A full disk left no more of it.
+  write("1.nc", "");
+  EXPECT_EQ(mesh(input, {"-o", file("{}.nc"), "-o", file("{}.2dm"), "--skip-existing", "--quiet"}).code, 0);
+  EXPECT_TRUE(readText(file("1.nc")) == first);
   ASSERT_EQ(mesh(input, {"-o", file("{}.nc"), "-o", file("{}.2dm"), "--overwrite", "--quiet"}).code, 0);
   EXPECT_NE(readText(file("2.nc")), "precious");
 }

@@ -152,6 +152,40 @@ TEST_F(Shard, IsNotMadeTwice) {
   expectRefused(words({}), 4, "exists already");
 }
 
+// Of a full disk, or of a version that wrote it in place.
+TEST_F(Shard, ThatIsDamagedIsMadeAgain) {
+  const std::string input = lakes();
+  const std::vector<std::string> words{"mesh", input, "--shard", "2/3", "-o", shardFile(2), "--skip-existing"};
+  const int code = runProgram(words).code;
+  const auto expectWhole = [&] {
+    const ProgramRun run = runProgram(words);
+    EXPECT_EQ(run.code, code);
+    EXPECT_EQ(run.errors, "");
+    EXPECT_THAT(run.output, HasSubstr("exist already"));
+  };
+  expectWhole();
+  const std::string whole = readText(shardFile(2));
+  std::string flipped = whole;
+  flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
+  for (const std::string& damaged : {whole.substr(0, whole.size() - 1), whole.substr(0, whole.size() / 2),
+                                     whole.substr(0, 40), whole.substr(0, 7), flipped}) {
+    writeText(shardFile(2), damaged);
+    const ProgramRun run = runProgram(words);
+    EXPECT_EQ(run.code, code) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr("s2.shard' is damaged, or not whole: it is made again"));
+    expectWhole();
+  }
+  writeText(shardFile(2), "");
+  EXPECT_EQ(runProgram(words).code, code);
+  expectWhole();
+  // What never was a shard stays.
+  for (const std::string other : {"precious", "{}", "coastmesh is"}) {
+    writeText(shardFile(2), other);
+    expectRefused(words, 3, "was not written by mesh --shard");
+    EXPECT_EQ(readText(shardFile(2)), other);
+  }
+}
+
 // Killed in the middle of its work, it leaves nothing that could be taken for a shard, and is made by the same line.
 TEST_F(Shard, KilledIsRunAgain) {
   const std::string input = lakes();
