@@ -335,15 +335,9 @@ std::optional<double> JobInput::area(std::size_t group) const {
   return geodesicArea(coastline_, groups_[group]);
 }
 
-std::optional<double> JobInput::area(std::size_t group, const Domain& domain, const ItemLoop& loop) const {
+std::optional<double> JobInput::area(const Domain& domain, const ItemLoop& loop) const {
   if (poly_) return std::nullopt;
-  if (domain.closed()) return geodesicArea(domain, coastline_.crs);
-  const auto plain = [&](std::size_t member) {
-    const FeatureUse use = coastline_.features[member].use;
-    return use != FeatureUse::Frame && use != FeatureUse::Coast;
-  };
-  if (std::ranges::all_of(groups_[group], plain)) return geodesicArea(coastline_, groups_[group], loop);
-  return geodesicArea(domain, coastline_.crs);
+  return geodesicArea(domain, coastline_.crs, loop);
 }
 
 }  // namespace coastmesh

@@ -86,10 +86,12 @@ class JobInput {
   // Projects and cleans a group. Throws InputError if nothing of it can be meshed. May be called from several threads
   // at once. Throws NothingWanted for one outside the frame or separate from the requested water.
   Domain domain(std::size_t group, CleanReport& report, const ItemLoop& loop = inOrder) const;
-  // Square metres on the ellipsoid; none for a .poly, whose inside depends on its holes.
+  // Square metres on the ellipsoid, the sum of its rings as they are; none for a .poly, whose inside depends on its
+  // holes.
   std::optional<double> area(std::size_t group) const;
-  // The same for what was made of a group, which frames and coasts may reduce.
-  std::optional<double> area(std::size_t group, const Domain& domain, const ItemLoop& loop = inOrder) const;
+  // Of what was made of a group: what cleaning drops, and frames and coasts cut off, does not count, and what overlaps
+  // counts once.
+  std::optional<double> area(const Domain& domain, const ItemLoop& loop = inOrder) const;
 
  private:
   void requireReadyGraph(const std::string& name);

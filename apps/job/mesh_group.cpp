@@ -315,7 +315,7 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   result.projection_reason = domain.projection.reason();
   result.surface = task.input.surfaceOf(domain.projection);
   std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain);
-  result.input_area_m2 = task.input.area(task.group, domain, loop);
+  result.input_area_m2 = task.input.area(domain, loop);
   result.clean_s = stopwatch.seconds();
   result.log.append(recorder.finish("clean"));
   return domain;

@@ -6,6 +6,7 @@
 #include <GeographicLib/PolygonArea.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -126,62 +127,93 @@ namespace {
 // tell.
 class AreaSum {
  public:
-  explicit AreaSum(const Crs& crs) : edges_(crs.semi_major_m, crs.flattening) {}
+  explicit AreaSum(const EdgeArea& edges) : edges_(edges) {}
 
-  void add(const LonLat& from, const LonLat& to) {
+  void add(const EdgeArea::Vertex& from, const EdgeArea::Vertex& to) {
     using GeographicLib::Math;
     constexpr double kWidest = 90, kHighest = 89;  // degrees
     double area = 0, unused = 0;
-    if (std::abs(from.lon - to.lon) < kWidest && std::max(std::abs(from.lat), std::abs(to.lat)) < kHighest) {
-      area = edges_.under(edges_.at(from), edges_.at(to));
+    if (std::abs(from.lon_deg - to.lon_deg) < kWidest &&
+        std::max(std::abs(from.lat_deg), std::abs(to.lat_deg)) < kHighest) {
+      area = edges_.under(from, to);
     } else {
-      edges_.geodesic().GenInverse(from.lat, from.lon, to.lat, to.lon, GeographicLib::Geodesic::AREA, unused, unused,
-                                   unused, unused, unused, unused, area);
+      edges_.geodesic().GenInverse(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg, GeographicLib::Geodesic::AREA,
+                                   unused, unused, unused, unused, unused, unused, area);
     }
     sum_ -= area;
-    const double step = Math::AngDiff(from.lon, to.lon);
-    const bool west_before = Math::AngNormalize(from.lon) < 0, west_after = Math::AngNormalize(to.lon) < 0;
+    const double step = Math::AngDiff(from.lon_deg, to.lon_deg);
+    const bool west_before = Math::AngNormalize(from.lon_deg) < 0, west_after = Math::AngNormalize(to.lon_deg) < 0;
     // Only where the meridian of 0 degrees is crossed, not the one of 180.
     if ((step > 0 && west_before && !west_after) || (step < 0 && !west_before && west_after)) odd_ = !odd_;
   }
+  void add(const AreaSum& other) {
+    const double sum = other.sum_();
+    sum_ += sum;
+    sum_ += other.sum_(-sum);  // what rounding left of it
+    odd_ = odd_ != other.odd_;
+  }
 
-  double area() const {
+  // Slivers between geodesics may be less than nothing: what would be more than `most()` is one of these.
+  template <typename Most>
+  double area(const Most& most) const {
     const double globe = edges_.geodesic().EllipsoidArea();
     const double area = std::fmod(sum_() + (odd_ ? globe / 2 : 0), globe);
-    return area < 0 ? area + globe : area;
+    return area >= 0 || area + globe > most() ? std::abs(area) : area + globe;
   }
 
  private:
-  EdgeArea edges_;
+  const EdgeArea& edges_;
   GeographicLib::Accumulator<double> sum_;
   bool odd_ = false;
 };
 
-}  // namespace
+// The ends of a segment between inside and outside, with the inside to the left; none for others.
+std::optional<std::pair<VertexId, VertexId>> borderOf(const Segment& s) {
+  if ((s.left >= 0) == (s.right >= 0)) return std::nullopt;
+  return s.left >= 0 ? std::pair(s.a, s.b) : std::pair(s.b, s.a);
+}
 
-double geodesicArea(const Domain& domain, const Crs& crs) {
-  if (domain.closed()) return GeographicLib::Geodesic(crs.semi_major_m, crs.flattening).EllipsoidArea();
-  const std::vector<Point>& points = domain.input_points;
-  std::optional<GeographicMap> to_geographic;
-  std::vector<LonLat> places;
-  if (!crs.isPlane()) {
-    to_geographic.emplace(crs);
-    places.reserve(points.size());
-    for (const Point& p : points) places.push_back(to_geographic->forward(p));
-  }
+double planeArea(const Domain& domain, const std::vector<Point>& points) {
   double twice = 0;
-  AreaSum sum(crs);
   for (const Segment& s : domain.pslg.segments) {
-    if ((s.left >= 0) == (s.right >= 0)) continue;
-    const VertexId from = s.left >= 0 ? s.a : s.b, to = s.left >= 0 ? s.b : s.a;
-    if (!crs.isPlane()) {
-      sum.add(places[from], places[to]);
-      continue;
-    }
-    const Point &a = points[from], &b = points[to], &o = points.front();
+    const auto border = borderOf(s);
+    if (!border) continue;
+    const Point &a = points[border->first], &b = points[border->second], &o = points.front();
     twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
   }
-  return crs.isPlane() ? twice / 2 : sum.area();
+  return std::abs(twice) / 2;
+}
+
+// More than a domain has on the ground, by its area in the working plane.
+double mostArea(const Domain& domain) {
+  constexpr double kDegree = 112e3, kCare = 2.0;  // metres; an identity's units are those of the input
+  double least = domain.projection.isIdentity() ? 1 / kDegree : domain.projection.scaleAt({});
+  for (const Point& p : domain.pslg.points)
+    if (!domain.projection.isIdentity()) least = std::min(least, domain.projection.scaleAt(p));
+  return kCare * planeArea(domain, domain.pslg.points) / (least * least);
+}
+
+}  // namespace
+
+double geodesicArea(const Domain& domain, const Crs& crs, const ItemLoop& loop) {
+  const EdgeArea edges(crs.semi_major_m, crs.flattening);
+  if (domain.closed()) return edges.geodesic().EllipsoidArea();
+  if (crs.isPlane()) return planeArea(domain, domain.input_points);
+  const std::vector<Point>& points = domain.input_points;
+  const std::vector<Segment>& segments = domain.pslg.segments;
+  const GeographicMap to_geographic(crs);
+  std::vector<EdgeArea::Vertex> vertices(points.size());
+  forEachByStretches(loop, points.size(),
+                     [&](std::size_t i) { vertices[i] = edges.at(to_geographic.forward(points[i])); });
+  AreaSum sum(edges);
+  const auto sumOf = [&](std::size_t first, std::size_t last) {
+    auto part = std::make_unique<AreaSum>(edges);
+    for (std::size_t i = first; i < last; ++i)
+      if (const auto border = borderOf(segments[i])) part->add(vertices[border->first], vertices[border->second]);
+    return part;
+  };
+  for (const auto& part : overStretches(loop, segments.size(), sumOf)) sum.add(*part);
+  return sum.area([&domain] { return mostArea(domain); });
 }
 
 }  // namespace coastmesh

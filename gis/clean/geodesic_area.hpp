@@ -28,11 +28,12 @@ class RingArea {
   EdgeArea edges_;
 };
 
-// Area of the group's polygons without holes, on the ellipsoid (or in the plane), in square metres, edges geodesic.
+// Area of the group's polygons without holes, on the ellipsoid (or in the plane), in square metres, edges geodesic: the
+// sum of all rings as they are, so that what overlaps counts twice.
 double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members,
                     const ItemLoop& loop = inOrder);
 
-// Area that the domain's labels cover, as above.
-double geodesicArea(const Domain& domain, const Crs& crs);
+// Area that the domain's labels cover, as above: each place counts once, whatever the rings of the input repeat.
+double geodesicArea(const Domain& domain, const Crs& crs, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

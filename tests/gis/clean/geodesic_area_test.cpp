@@ -35,6 +35,20 @@ TEST(GeodesicArea, HolesAreTakenOutAndMembersSummed) {
   EXPECT_NEAR(geodesicArea(coastline, {0, 1, 2}), geodesicArea(coastline, {0}) + geodesicArea(coastline, {1}), 1);
 }
 
+// Slivers that geodesics turn the other way round.
+TEST(GeodesicArea, OfNoDomainIsAllOfTheGlobe) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    const Point a{170.0 * anywhere(random), 80.0 * anywhere(random)}, step{1e-3 * anywhere(random), 1e-3};
+    Domain domain;
+    domain.input_points = {a, {a.x + step.x, a.y + step.y}, {a.x + 0.5 * step.x, a.y + 0.5 * step.y}};
+    domain.pslg.points = domain.input_points;
+    for (VertexId v = 0; v < 3; ++v) domain.pslg.segments.push_back({v, (v + 1) % 3, 0, 0, kOutside});
+    EXPECT_LT(geodesicArea(domain, wgs84()), 1.0) << i;
+  }
+}
+
 TEST(GeodesicArea, LongitudesMayRunPast180OrJumpThere) {
   const double expected = areaOf(square(-2, -17, 4));
   EXPECT_NEAR(areaOf(square(178, -17, 4)), expected, 1);
