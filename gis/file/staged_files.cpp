@@ -233,14 +233,14 @@ template <typename Moves>
 void StagedFiles::move(Moves& moves) const {
   const fs::path staging(staging_folder_), folder = folderOf(path_), backups = staging / kBackupFolder;
   std::error_code error;
-  const std::vector<fs::path> staged = filesIn(staging);
+  const std::vector<fs::path> staged = filesIn(staging);  // sorted: a solver's partition has two files a process
   fs::create_directory(backups, error);
   if (error) failToWrite(path_, error.message());
   std::vector<fs::path> old(files_.targets.begin(), files_.targets.end());
   old.insert(old.end(), files_.stale.begin(), files_.stale.end());
   if (!files_.prj.empty() && !std::ranges::count(old, fs::path(files_.prj))) old.emplace_back(files_.prj);
   for (const fs::path& file : old) {
-    const bool replaced = std::ranges::count(staged, staging / file.filename()) > 0;
+    const bool replaced = std::ranges::binary_search(staged, staging / file.filename());
     if (!replaced && !kept_.contains(file.string()) && !moves.placed(folder / file.filename()))
       moves.remove(folder / file.filename(), backups / file.filename());
   }
