@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "core/metric.hpp"
@@ -19,6 +20,10 @@ constexpr int kMostSteps = 40;
 // From one place to the next along the shore, in radii of the circle there.
 constexpr double kStep = 0.5;
 constexpr double kMostPlaces = 1e6;  // on one segment
+// From one circle to the next round a cape's point: 1.5 percent wider than the strait at most. Where the shore turns by
+// less, the circles of its segments are as narrow.
+constexpr double kFanStep = toRadians(20.0);
+constexpr double kLeastFan = toRadians(10.0);
 // Vertices of equilateral triangles with edges of length 1, on an area of 1.
 const double kVerticesPerArea = 2.0 / std::sqrt(3.0);
 
@@ -87,63 +92,160 @@ Circle shrink(const Shores& shores, const Point& at, const Point& normal, double
   return circle;
 }
 
+// One end of a segment, seen from its vertex.
+struct End {
+  VertexId vertex;
+  double angle;  // of the direction to the other end, in radians
+  bool water;    // to the left of that direction
+  bool shore;
+};
+
+// The directions in which water lies before a cape's point: across the segments that meet there, and all between.
+struct Fan {
+  VertexId vertex;
+  double from, span;  // radians, counter-clockwise
+};
+
+std::vector<Fan> capesOf(const Pslg& pslg, bool labelled) {
+  std::vector<End> ends;
+  ends.reserve(2 * pslg.segments.size());
+  for (const Segment& s : pslg.segments) {
+    const Point d = pslg.points[s.b] - pslg.points[s.a];
+    const bool shore = s.tag != kOpenTag;
+    ends.push_back({s.a, std::atan2(d.y, d.x), !labelled || s.left >= 0, shore});
+    ends.push_back({s.b, std::atan2(-d.y, -d.x), !labelled || s.right >= 0, shore});
+  }
+  std::ranges::sort(
+      ends, [](const End& a, const End& b) { return a.vertex != b.vertex ? a.vertex < b.vertex : a.angle < b.angle; });
+  std::vector<Fan> fans;
+  for (std::size_t first = 0, end = 0; first < ends.size(); first = end) {
+    while (end < ends.size() && ends[end].vertex == ends[first].vertex) ++end;
+    for (std::size_t i = first; i < end; ++i) {
+      const End &right = ends[i], &left = ends[i + 1 < end ? i + 1 : first];
+      const double turn = left.angle - right.angle + (i + 1 < end ? 0.0 : 2.0 * std::numbers::pi);
+      const double span = turn - std::numbers::pi;
+      if (span < kLeastFan || !right.water || !(right.shore && left.shore)) continue;
+      fans.push_back({right.vertex, right.angle + 0.5 * std::numbers::pi, span});
+    }
+  }
+  return fans;
+}
+
+// Finds the circles of a domain's shores, until there are more than allowed.
+class ChannelSearch {
+ public:
+  ChannelSearch(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
+                const std::function<double(const Point&)>& scale, const ChannelRoom& room, const Surface& surface)
+      : pslg_(pslg),
+        shores_(pslg),
+        elements_(elements),
+        rate_(rate),
+        least_m_(least_m),
+        most_m_(most_m),
+        scale_(scale),
+        room_(room),
+        curved_(surface.isCurved()) {
+    for (const Point& p : pslg.points) extent_ = std::max(extent_, distance(p, pslg.points.front()));
+  }
+
+  ChannelLines run() {
+    const bool labelled =
+        std::ranges::any_of(pslg_.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
+    // The narrowest places first: they lie before capes.
+    for (const Fan& fan : capesOf(pslg_, labelled)) {
+      if (isTooMuch()) break;
+      roundCape(fan);
+    }
+    const double at_capes = found_.vertices;
+    double whole = 0.0;
+    for (const Segment& s : pslg_.segments) {
+      if (s.tag == kOpenTag) continue;
+      const Point &a = pslg_.points[s.a], &b = pslg_.points[s.b];
+      whole += distance(a, b) * (labelled ? (s.left >= 0) + (s.right >= 0) : 2);
+      if (isTooMuch()) continue;
+      const Point d = (1.0 / distance(a, b)) * (b - a);
+      // Water on the left, on the right; where nothing says, on both.
+      if (!labelled || s.left >= 0) alongSide(a, b, {-d.y, d.x});
+      if (!labelled || s.right >= 0) alongSide(b, a, {d.y, -d.x});
+    }
+    found_.complete = !isTooMuch();
+    if (!found_.complete && walked_ > 0.0) {
+      found_.vertices = at_capes + (found_.vertices - at_capes) * (whole / walked_);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  bool isTooMuch() const {
+    return found_.vertices > room_.vertices || static_cast<double>(found_.lines.size()) > room_.lines;
+  }
+
+  // What is wider is left out; where the scale changes over a circle only its own says how wide it is.
+  double largestAt(double local) const {
+    return std::min(extent_, (curved_ ? 2.0 : 1.0) * 0.5 * elements_ * most_m_ * local);
+  }
+
+  double leastStep(double local) const { return kStep * 0.5 * elements_ * least_m_ * local; }
+
+  // The circle at a place of the shore, towards `normal`, where the scale is `local`; `step` says how far it is from
+  // the next one. Returns its radius.
+  template <typename Step>
+  double across(const Point& at, const Point& normal, double local, Step&& step) {
+    const Circle circle = shrink(shores_, at, normal, largestAt(local));
+    if (!circle.other) return circle.radius;
+    const Point centre = at + circle.radius * normal;
+    const Point to_at = at - centre, to_other = *circle.other - centre;
+    const double cosine = dot(to_at, to_other) / std::sqrt(squaredLength(to_at) * squaredLength(to_other));
+    const double scale_there = curved_ ? scale_(centre) : local;
+    const double size = std::max(least_m_, 2.0 * circle.radius / scale_there / elements_);
+    if (!(cosine < kCosApart && size < most_m_)) return circle.radius;
+    found_.lines.push_back({at, *circle.other, size, rate_});
+    // Half of the channel's width along the step to the next place; where that is less, the shore itself.
+    const double edge = size * scale_there, length = step(circle.radius);
+    found_.vertices += std::max(kVerticesPerArea * length * circle.radius / edge / edge, 0.5 * length / edge);
+    return circle.radius;
+  }
+
+  void alongSide(const Point& a, const Point& b, const Point& normal) {
+    const double length = distance(a, b), local = scale_(midpoint(a, b));
+    const double least_step = std::max(leastStep(local), length / kMostPlaces);
+    double along = std::min(0.5 * length, 0.5 * least_step);
+    while (along < length && !isTooMuch()) {
+      const double radius = across(a + (along / length) * (b - a), normal, local,
+                                   [&](double r) { return std::min(length - along, std::max(least_step, kStep * r)); });
+      along += std::max(least_step, kStep * radius);
+    }
+    walked_ += std::min(along, length);
+  }
+
+  // As water of a sector counts: there is no shore between two circles.
+  void roundCape(const Fan& fan) {
+    const Point& at = pslg_.points[fan.vertex];
+    const double local = scale_(at);
+    const double count = std::ceil(fan.span / kFanStep), turn = fan.span / count;
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+      const double angle = fan.from + (i + 0.5) * turn;
+      across(at, {std::cos(angle), std::sin(angle)}, local, [&](double radius) { return 0.5 * turn * radius; });
+    }
+  }
+
+  const Pslg& pslg_;
+  Shores shores_;
+  double elements_, rate_, least_m_, most_m_;
+  const std::function<double(const Point&)>& scale_;
+  ChannelRoom room_;
+  bool curved_;
+  double extent_ = 0.0;
+  double walked_ = 0.0;  // of the shores' length
+  ChannelLines found_;
+};
+
 }  // namespace
 
 ChannelLines channelLines(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
                           const std::function<double(const Point&)>& scale, const ChannelRoom& room,
                           const Surface& surface) {
-  const Shores shores(pslg);
-  const bool labelled =
-      std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
-  double extent = 0.0;
-  for (const Point& p : pslg.points) extent = std::max(extent, distance(p, pslg.points.front()));
-  ChannelLines found;
-  double walked = 0.0;  // of the shores' length
-  const auto isTooMuch = [&] {
-    return found.vertices > room.vertices || static_cast<double>(found.lines.size()) > room.lines;
-  };
-  const auto alongSide = [&](const Point& a, const Point& b, const Point& normal) {
-    const double length = distance(a, b), local = scale(midpoint(a, b));
-    const double least_step = std::max(kStep * 0.5 * elements * least_m * local, length / kMostPlaces);
-    // What is wider is left out; where the scale changes over a circle only its own says how wide it is.
-    const double with_room = surface.isCurved() ? 2.0 : 1.0;
-    const double largest = std::min(extent, with_room * 0.5 * elements * most_m * local);
-    double along = std::min(0.5 * length, 0.5 * least_step);
-    while (along < length && !isTooMuch()) {
-      const Point at = a + (along / length) * (b - a);
-      const Circle circle = shrink(shores, at, normal, largest);
-      if (circle.other) {
-        const Point centre = at + circle.radius * normal;
-        const Point to_at = at - centre, to_other = *circle.other - centre;
-        const double cosine = dot(to_at, to_other) / std::sqrt(squaredLength(to_at) * squaredLength(to_other));
-        const double scale_there = surface.isCurved() ? scale(centre) : local;
-        const double size = std::max(least_m, 2.0 * circle.radius / scale_there / elements);
-        if (cosine < kCosApart && size < most_m) {
-          found.lines.push_back({at, *circle.other, size, rate});
-          // Half of the channel's width along the step to the next place; where that is less, the shore itself.
-          const double step = std::min(length - along, std::max(least_step, kStep * circle.radius));
-          const double edge = size * scale_there;
-          found.vertices += std::max(kVerticesPerArea * step * circle.radius / edge / edge, 0.5 * step / edge);
-        }
-      }
-      along += std::max(least_step, kStep * circle.radius);
-    }
-    walked += std::min(along, length);
-  };
-  double whole = 0.0;
-  for (const Segment& s : pslg.segments) {
-    if (s.tag == kOpenTag) continue;
-    const Point &a = pslg.points[s.a], &b = pslg.points[s.b];
-    whole += distance(a, b) * (labelled ? (s.left >= 0) + (s.right >= 0) : 2);
-    if (isTooMuch()) continue;
-    const Point d = (1.0 / distance(a, b)) * (b - a);
-    // Water on the left, on the right; where nothing says, on both.
-    if (!labelled || s.left >= 0) alongSide(a, b, {-d.y, d.x});
-    if (!labelled || s.right >= 0) alongSide(b, a, {d.y, -d.x});
-  }
-  found.complete = !isTooMuch();
-  if (!found.complete) found.vertices *= whole / walked;
-  return found;
+  return ChannelSearch(pslg, elements, rate, least_m, most_m, scale, room, surface).run();
 }
 
 }  // namespace coastmesh

@@ -81,6 +81,37 @@ TEST(ChannelLines, BendsOfOneShoreAreNone) {
   for (const SizedLine& line : channelLines(pslg, 1.0, 0.2, 0.01, 100.0, one).lines) EXPECT_GT(line.size_m, 5.0);
 }
 
+// Two triangles of land, in an ocean, whose points are 1 apart; `angle` at the points, in degrees.
+Pslg twoCapes(double angle) {
+  const double half = 20.0 * std::tan(toRadians(0.5 * angle));
+  Pslg pslg;
+  pslg.points = {{-100.0, -50.0}, {100.0, -50.0}, {100.0, 50.0}, {-100.0, 50.0}, {0.0, -0.5},
+                 {half, -20.5},   {-half, -20.5}, {0.0, 0.5},    {-half, 20.5},  {half, 20.5}};
+  for (VertexId i = 0; i < 4; ++i) pslg.segments.push_back({i, (i + 1) % 4, kOpenTag, 0, kOutside});
+  for (const VertexId first : {4, 7})
+    for (VertexId i = 0; i < 3; ++i) pslg.segments.push_back({first + i, first + (i + 1) % 3, 0, 0, kOutside});
+  return pslg;
+}
+
+// Their sides lead away from the strait at once: no circle that touches a side is as narrow.
+TEST(ChannelLines, TwoCapesAreAsFarApartAsTheirPoints) {
+  for (const double angle : {1.0, 40.0, 90.0, 120.0, 160.0}) {
+    double least = kInfinity;
+    for (const SizedLine& line : channelLines(twoCapes(angle), 4.0, 0.2, 0.01, 100.0, one).lines) {
+      least = std::min(least, line.size_m);
+      EXPECT_TRUE(line.size_m >= 0.5 || std::abs(line.a.x) < 4.0) << angle;
+    }
+    EXPECT_NEAR(least, 0.25, 0.005) << angle;
+  }
+}
+
+TEST(ChannelLines, OpenWaterBesideOneCapeIsNone) {
+  Pslg pslg = twoCapes(60.0);
+  pslg.segments.resize(7);
+  pslg.points.resize(7);
+  EXPECT_TRUE(channelLines(pslg, 4.0, 0.2, 0.01, 100.0, one).lines.empty());
+}
+
 TEST(ComposedSizes, ShoreDistanceInThePlane) {
   SizeOptions options;
   options.shore_m = 0.05;
