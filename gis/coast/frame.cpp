@@ -10,6 +10,7 @@
 #include "gis/coast/clip_chains.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/turned_rings.hpp"
+#include "gis/coast/unite_frames.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -409,17 +410,21 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   }
   if (!framed) return report;
   refuseOddFrames(coastline);
+  uniteFrames(coastline);
   for (Feature& feature : coastline.features) {
     if (feature.use == FeatureUse::Frame) cutLongEdges(feature, coastline.crs.geographic);
   }
-  clipToFrame(coastline, turnOf(boundsOf(coastline, false)), report);
+  const Box given = boundsOf(coastline, false);
+  clipToFrame(coastline, turnOf(given), report);
   if (!options.water_at) chooseUses(coastline, options, report);
   for (const FeatureUse use : {FeatureUse::Area, FeatureUse::Land, FeatureUse::Coast}) {
     if (any(coastline, use)) return report;
   }
   const Feature& frame = *std::ranges::find(coastline.features, FeatureUse::Frame, &Feature::use);
-  throw InputError(frame.source + ": nothing of the input lies in it; the order is west, south, east, north, in " +
-                   nameOf(coastline.crs));
+  std::string reason = frame.source + ": nothing of the input lies in it";
+  if (!coastline.framed_by_box) reason += ", which reaches over " + inWords(boundsOf(coastline, true));
+  if (!given.empty()) reason += "; the input reaches over " + inWords(given);
+  throw InputError(reason + " (west, south, east, north, in " + nameOf(coastline.crs) + ")");
 }
 
 }  // namespace coastmesh

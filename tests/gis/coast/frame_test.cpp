@@ -106,6 +106,40 @@ TEST(Frame, InsideOfPolygons) {
   EXPECT_DOUBLE_EQ(frame(coastlineOf({polygonFeature(1, square(-50, -50, 100))}), boxOf(0, 0, 10, 10)).area(), 100);
 }
 
+Feature frameFeature(std::int64_t fid, Ring ring) {
+  Feature feature = polygonFeature(fid, std::move(ring));
+  feature.use = FeatureUse::Frame;
+  return feature;
+}
+
+// Frames that overlap, that touch along a side, and one apart: their sides inside of the water are no edges.
+TEST(Frame, SeveralAreOne) {
+  const Framed framed = frame(coastlineOf({polygonFeature(1, square(2, 2, 3)), frameFeature(11, square(0, 0, 10)),
+                                           frameFeature(12, square(8, 4, 10)), frameFeature(13, square(-10, 0, 10)),
+                                           frameFeature(14, square(40, 0, 1)), frameFeature(15, square(-30, 0, 5))}),
+                              {DomainSide::Outside, {}, {}});
+  EXPECT_NEAR(framed.area(), 100 - 9 + 100 - 2 * 6 + 100 + 1 + 25, 1e-9);
+  EXPECT_NEAR(framed.openLength(), 40 + 40 - 2 * (2 + 6) + 40 - 2 * 10 + 4 + 20, 1e-9);
+  for (const Domain& domain : framed.domains)
+    for (const Segment& s : domain.pslg.segments) EXPECT_TRUE(s.left < 0 || s.right < 0);
+  EXPECT_EQ(std::ranges::count(framed.coastline.features, FeatureUse::Frame, &Feature::use), 3);
+}
+
+// A frame in the hole of another, which it fills, and two that cross themselves where they meet.
+TEST(Frame, SeveralWithHolesAndCrossings) {
+  Feature with_hole = frameFeature(11, square(0, 0, 10));
+  with_hole.polygons[0].holes.push_back(square(4, 4, 2));
+  const Coastline filled =
+      coastlineOf({polygonFeature(1, square(1, 1, 2)), with_hole, frameFeature(12, square(4, 4, 2))});
+  const Framed whole = frame(filled, {DomainSide::Outside, {}, {}});
+  EXPECT_NEAR(whole.area(), 100 - 4, 1e-9);
+  for (const Segment& s : whole.domains.at(0).pslg.segments) EXPECT_TRUE(s.left < 0 || s.right < 0);
+  const Coastline crossing =
+      coastlineOf({polygonFeature(1, square(1, 4, 2)), frameFeature(11, {{0, 0}, {10, 10}, {10, 0}, {0, 10}}),
+                   frameFeature(12, {{10, 0}, {20, 0}, {20, 10}, {10, 10}})});
+  EXPECT_NEAR(frame(crossing, {DomainSide::Outside, {}, {}}).area(), 50 - 4 + 100, 1e-9);
+}
+
 TEST(Frame, WaterLiesToTheRightOfACoast) {
   const std::vector<Point> north{{4, -3}, {4, 5}, {3, 13}}, south(north.rbegin(), north.rend());
   const double east = 10 * 10 - (4 * 5 + (4 + 3.375) / 2 * 5);  // the line crosses y = 10 at x = 3.375
@@ -172,6 +206,12 @@ TEST(Frame, OddBoxesAreRefused) {
   EXPECT_NE(refusalOf(in_plane, boxOf(10, 0, 0, 10)).find("the west has to lie below"), std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(0, 0, 10, 100)).find("degrees"), std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(20, 20, 30, 30)).find("nothing of the input lies in it"), std::string::npos);
+  Coastline clipped = lake;
+  clipped.features.push_back(frameFeature(9, square(20, 20, 1)));
+  const std::string beyond = refusalOf(clipped, {});
+  EXPECT_NE(beyond.find("nothing of the input lies in it, which reaches over 20,20,21,21"), std::string::npos)
+      << beyond;
+  EXPECT_EQ(beyond.find("--bbox"), std::string::npos) << beyond;
   FrameOptions outside;
   outside.side = DomainSide::Outside;
   EXPECT_NE(refusalOf(lake, outside).find("--bbox"), std::string::npos);

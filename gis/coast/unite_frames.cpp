@@ -1,0 +1,155 @@
+#include "gis/coast/unite_frames.hpp"
+
+#include <ogr_api.h>
+#include <ogr_geometry.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gis/coast/feature_bounds.hpp"
+#include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
+#include "gis/geometry/box_tree.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+using Shape = std::unique_ptr<OGRGeometry>;
+
+std::unique_ptr<OGRLinearRing> ringOf(const Ring& points) {
+  auto ring = std::make_unique<OGRLinearRing>();
+  for (const Point& p : points) ring->addPoint(p.x, p.y);
+  ring->closeRings();
+  return ring;
+}
+
+Ring pointsOf(const OGRLinearRing& ring) {
+  Ring points;
+  for (int i = 0; i + 1 < ring.getNumPoints(); ++i) points.push_back({ring.getX(i), ring.getY(i)});
+  return points;
+}
+
+// Its polygons as they are, valid or not. REQUIRES: each has an outer ring.
+Shape shapeOf(const Feature& feature) {
+  auto shape = std::make_unique<OGRMultiPolygon>();
+  for (const Polygon& polygon : feature.polygons) {
+    OGRPolygon made;
+    made.addRingDirectly(ringOf(polygon.outer).release());
+    for (const Ring& hole : polygon.holes) made.addRingDirectly(ringOf(hole).release());
+    shape->addGeometry(&made);
+  }
+  return shape;
+}
+
+void addPolygons(const OGRGeometry& shape, std::vector<const OGRPolygon*>& found) {
+  if (wkbFlatten(shape.getGeometryType()) == wkbPolygon) {
+    found.push_back(shape.toPolygon());
+  } else if (OGR_GT_IsSubClassOf(shape.getGeometryType(), wkbGeometryCollection)) {
+    for (const OGRGeometry* part : shape.toGeometryCollection()) addPolygons(*part, found);
+  }
+}
+
+std::vector<const OGRPolygon*> polygonsOf(const OGRGeometry& shape) {
+  std::vector<const OGRPolygon*> found;
+  addPolygons(shape, found);
+  return found;
+}
+
+Polygon fromOgr(const OGRPolygon& polygon) {
+  Polygon made;
+  made.outer = pointsOf(*polygon.getExteriorRing());
+  for (int i = 0; i < polygon.getNumInteriorRings(); ++i) made.holes.push_back(pointsOf(*polygon.getInteriorRing(i)));
+  return made;
+}
+
+// A point inside of it; none where GEOS fails. OGRPolygon::PointOnSurface fails always in GDAL 3.6.
+Shape insideOf(const OGRPolygon& polygon) {
+  OGRGeometryH handle = OGRGeometry::ToHandle(const_cast<OGRPolygon*>(&polygon));  // which it does not change
+  return Shape(OGRGeometry::FromHandle(OGR_G_PointOnSurface(handle)));
+}
+
+Box boxOf(const OGREnvelope& envelope) { return {envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY}; }
+
+}  // namespace
+
+void uniteFrames(Coastline& coastline) {
+  std::vector<Feature*> frames;
+  std::vector<Box> boxes;
+  for (Feature& feature : coastline.features) {
+    const bool whole = std::ranges::none_of(feature.polygons, [](const Polygon& p) { return p.outer.empty(); });
+    if (feature.use != FeatureUse::Frame || feature.polygons.empty() || !whole) continue;
+    frames.push_back(&feature);
+    boxes.push_back(boundsOf(feature));
+  }
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  std::vector<Feature*> meeting;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    std::size_t met = 0;  // itself too
+    tree.visit(boxes[i], [&](std::uint32_t) { ++met; });
+    if (met > 1) meeting.push_back(frames[i]);
+  }
+  if (meeting.empty()) return;
+
+  const OgrErrors errors;
+  const auto require = [&](const Shape& shape, const Feature& feature) -> const OGRGeometry& {
+    if (shape) return *shape;
+    throw InputError(feature.source + ": its polygons cannot be united" +
+                     (errors.text().empty() ? "" : " (" + errors.text() + ")") + ": unite them first, to one feature");
+  };
+  std::vector<Shape> valid;
+  OGRMultiPolygon all;
+  for (const Feature* frame : meeting) {
+    valid.emplace_back(shapeOf(*frame)->MakeValid());
+    for (const OGRPolygon* polygon : polygonsOf(require(valid.back(), *frame))) all.addGeometry(polygon);
+  }
+  const Shape united(all.UnionCascaded());
+  const std::vector<const OGRPolygon*> parts = polygonsOf(require(united, *meeting.front()));
+  // The part that each polygon went into: by a place inside of it, which lies in one.
+  std::vector<Box> part_boxes;
+  for (const OGRPolygon* part : parts) {
+    OGREnvelope box;
+    part->getEnvelope(&box);
+    part_boxes.push_back(boxOf(box));
+  }
+  const BoxTree part_tree(part_boxes, BoxTree::Order::Hilbert);
+  std::vector<std::vector<std::size_t>> parts_of(meeting.size());
+  for (std::size_t f = 0; f < meeting.size(); ++f) {
+    for (const OGRPolygon* polygon : polygonsOf(*valid[f])) {
+      const Shape inside = insideOf(*polygon);
+      OGREnvelope place;
+      require(inside, *meeting[f]).getEnvelope(&place);
+      part_tree.visit(boxOf(place), [&](std::uint32_t p) {
+        if (parts[p]->Intersects(inside.get())) parts_of[f].push_back(p);
+      });
+    }
+  }
+  // Features that share a part are one, by the first of them.
+  std::vector<std::size_t> first_of(parts.size(), meeting.size());
+  std::vector<std::size_t> count_of(parts.size(), 0);
+  for (std::size_t f = 0; f < meeting.size(); ++f) {
+    std::ranges::sort(parts_of[f]);
+    parts_of[f].erase(std::unique(parts_of[f].begin(), parts_of[f].end()), parts_of[f].end());
+    for (const std::size_t p : parts_of[f]) {
+      first_of[p] = std::min(first_of[p], f);
+      ++count_of[p];
+    }
+  }
+  for (std::size_t f = 0; f < meeting.size(); ++f) {
+    const bool shared = std::ranges::any_of(parts_of[f], [&](std::size_t p) { return count_of[p] > 1; });
+    if (!shared) continue;  // its rings keep their bits
+    meeting[f]->polygons.clear();
+    for (const std::size_t p : parts_of[f])
+      if (first_of[p] == f) meeting[f]->polygons.push_back(fromOgr(*parts[p]));
+  }
+  std::erase_if(coastline.features, [](const Feature& feature) {
+    return feature.use == FeatureUse::Frame && feature.polygons.empty() && feature.lines.empty();
+  });
+}
+
+}  // namespace coastmesh
