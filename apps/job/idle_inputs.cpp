@@ -100,6 +100,22 @@ std::vector<std::string> idleFiles(const Coastline& coastline, FeatureUse use, c
   return idle;
 }
 
+bool holdsPolygons(const Coastline& coastline, FeatureUse use, const std::string& file) {
+  return std::ranges::any_of(coastline.features, [&](const Feature& feature) {
+    return feature.use == use && !feature.polygons.empty() && isFrom(feature, file);
+  });
+}
+
+// True iff it holds polygons, and nothing else.
+bool holdsOnlyPolygons(const Coastline& coastline, FeatureUse use, const std::string& file) {
+  if (use == FeatureUse::Region || !holdsPolygons(coastline, use, file)) return false;
+  return std::ranges::none_of(coastline.features, [&](const Feature& feature) {
+    return feature.use == use && !(feature.lines.empty() && feature.points.empty()) && isFrom(feature, file);
+  });
+}
+
+constexpr const char* kCrsRight = "; is its CRS right?";
+
 }  // namespace
 
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,
@@ -127,8 +143,17 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
   const auto addIdle = [&](const std::string& option, const std::vector<std::string>& files, FeatureUse use,
                            const std::string& text) {
     for (const std::string& file : idleFiles(coastline, use, files, grid))
-      all.push_back(option + " " + file + ": " + text + "; is its CRS right?");
+      if (!holdsOnlyPolygons(coastline, use, file)) all.push_back(option + " " + file + ": " + text + kCrsRight);
   };
+  const auto addPolygons = [&](const std::string& option, const std::vector<std::string>& files, FeatureUse use,
+                               const std::string& kept) {
+    for (const std::string& file : files)
+      if (holdsPolygons(coastline, use, file))
+        all.push_back(option + " " + file + ": its polygons are left out: only " + kept +
+                      " count; --regions takes polygons, whose borders become edges");
+  };
+  addPolygons("--constraints", job.input.constraints, FeatureUse::Constraint, "lines and points");
+  addPolygons("--weirs", job.input.weirs, FeatureUse::Weir, "lines");
   addIdle("--constraints", job.input.constraints, FeatureUse::Constraint, "nothing of it lies in the water");
   addIdle("--weirs", job.input.weirs, FeatureUse::Weir, "no line of it lies in the water");
   addIdle("--regions", job.input.regions, FeatureUse::Region, "no polygon of it holds any of the mesh");

@@ -69,6 +69,24 @@ TEST_F(IdleInputs, OfLinesAndRegionsOutsideTheWaterAreWarnedOf) {
               HasSubstr("island.geojson: nothing of it lies in the water"));
 }
 
+// They lie in the water, in the right CRS.
+TEST_F(IdleInputs, PolygonsAmongLinesAreWarnedOfAsSuch) {
+  const std::string polygon =
+      R"({"type":"Polygon","coordinates":[[[-87.8,47.7],[-87.6,47.7],[-87.7,47.8],[-87.8,47.7]]]})";
+  const std::string line = R"({"type":"LineString","coordinates":[[-87.8,47.65],[-87.6,47.65]]})";
+  const std::string both =
+      write("both.geojson", R"({"type":"FeatureCollection","features":[)"
+                            R"({"type":"Feature","properties":{},"geometry":)" +
+                                polygon + R"(},{"type":"Feature","properties":{},"geometry":)" + line + "}]}");
+  for (const std::string option : {"--constraints", "--weirs"}) {
+    for (const std::string& path : {feature("polygon.geojson", polygon), both}) {
+      const std::string text = warningsWith(option, path);
+      EXPECT_THAT(text, HasSubstr(option + " " + path + ": its polygons are left out"));
+      EXPECT_THAT(text, Not(HasSubstr("CRS")));
+    }
+  }
+}
+
 TEST_F(IdleInputs, OfPassagesAndBarriersElsewhereAreWarnedOf) {
   const std::string near =
       feature("near.geojson", R"({"type":"LineString","coordinates":[[-87.8,47.7],[-87.6,47.7]]})");
