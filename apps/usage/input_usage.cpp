@@ -73,17 +73,18 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
           [&frame, &options] {
             const bool unframed =
                 frame.side == DomainSide::Ocean || frame.side == DomainSide::Land || frame.side == DomainSide::Globe;
-            return unframed || frame.box || !options.clip.empty();
+            return unframed || frame.box || !options.clip.empty() || frame.water_at;
           },
           "without --bbox or --clip")
-      .ignoredWith({"--water-at"});
+      // Water outside of land is what --water-at meshes anyway.
+      .needs([&frame] { return !frame.water_at || frame.side == DomainSide::Outside; }, "with --water-at");
   table.numbers(
       {"--bbox", "Bounding box"}, "W,S,E,N", false,
       [&frame](const std::vector<double>& sides) { return storeBox(sides, frame.box); },
       "mesh only within this box, in the input's CRS; its sides become open boundaries; a box with E less than W "
       "crosses the antimeridian");
   table.text({"--clip", "Clip to polygons"}, options.clip, kVectorFile,
-             "mesh only within these polygons; their sides become open boundaries");
+             "mesh only within these polygons, united; their sides become open boundaries");
   table.numbers(
       {"--water-at", "Point in the water"}, "LON,LAT", false,
       [&frame](const std::vector<double>& place) { return storePlace(place, frame.water_at); },

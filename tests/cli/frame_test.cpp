@@ -132,5 +132,18 @@ TEST_F(Frame, ShortPiecesOfOpenBoundaryGo) {
   EXPECT_EQ(read(file("sea.14")).open.size(), 1u);
 }
 
+// "outside" says what --water-at does, "inside" something else.
+TEST_F(Frame, WaterAtAPlaceIsOutsideOfLand) {
+  const std::string lake = write("lake.geojson", geoJsonPolygons({{{{1, 61}, {2, 61}, {2, 62}, {1, 62}, {1, 61}}}}));
+  const auto errorsWith = [&](const std::string& side) {
+    const ProgramRun run = runProgram({"mesh", lake, "--domain", side, "--water-at", "1.5,61.5", "--size", "20000",
+                                       "-o", file("a.nc"), "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.errors;
+  };
+  EXPECT_THAT(errorsWith("outside"), Not(HasSubstr("--domain")));
+  EXPECT_THAT(errorsWith("inside"), HasSubstr("--domain has no effect with --water-at"));
+}
+
 }  // namespace
 }  // namespace coastmesh::test
