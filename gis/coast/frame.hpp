@@ -35,11 +35,11 @@ struct FrameReport {
 };
 
 // Sets the uses of the features of `coastline`: polygons become land, or lines coasts, as the options say; a box
-// becomes a feature of use Frame, like those read as a frame, of which those that meet are united. Features completely outside the frame are left out, and
-// parts far outside are cut off at some distance, so that the working plane need not show them: nothing within the
-// frame changes. For a whole globe the last feature becomes what no other contains. Throws OptionError: a box without
-// width or height. Throws InputError: a side without a frame, a box that is invalid in the input's CRS, a frame without
-// any input.
+// becomes a feature of use Frame, like those read as a frame, of which those that meet are united. Features completely
+// outside the frame are left out, and parts far outside are cut off at some distance, so that the working plane need
+// not show them: nothing within the frame changes. For a whole globe the last feature becomes what no other contains.
+// Throws OptionError: a box without width or height. Throws InputError: a side without a frame, a box that is invalid
+// in the input's CRS, a frame without any input.
 FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options);
 
 }  // namespace coastmesh
