@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <tuple>
 
+#include "apps/job/mark_regions.hpp"
 #include "apps/job/places.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "core/delaunay.hpp"
@@ -23,7 +23,6 @@
 #include "gis/error.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "gis/format/poly_io.hpp"
-#include "gis/geometry/chain_index.hpp"
 #include "gis/model/make_grid.hpp"
 #include "gis/projection/smooth_table.hpp"
 #include "gis/size/globe_start.hpp"
@@ -192,48 +191,6 @@ void requireSound(const MeshedRegion& region, const Domain& domain, std::span<co
                 pointText(domain.projection.inverse(defect.place)) + "; " + dumpRegion(domain.pslg, digestOf(mesh)));
 }
 
-// Triangles in a region belong to a part of their feature that says so. Borders of regions are edges of the mesh, so
-// that each triangle lies in one as a whole; of several regions the first counts.
-void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
-                 TriMesh& mesh, Coastline& names) {
-  std::vector<std::pair<std::size_t, ChainIndex>> regions;
-  for (const std::size_t member : members) {
-    const Feature& feature = coastline.features[member];
-    if (feature.use != FeatureUse::Region) continue;
-    ChainIndex index(ChainIndex::Kind::Rings);
-    const auto add = [&](Ring ring) {
-      for (Point& p : ring) p = projection.forward(p);
-      index.add(ring);
-    };
-    for (const Polygon& polygon : feature.polygons) {
-      add(polygon.outer);
-      for (const Ring& hole : polygon.holes) add(hole);
-    }
-    index.build();
-    if (index.edgeCount() > 0) regions.emplace_back(member, std::move(index));
-  }
-  std::map<std::pair<RegionId, std::size_t>, RegionId> parts;
-  for (std::size_t t = 0; t < mesh.triangles.size() && !regions.empty(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t].v;
-    const Point centre{(mesh.points[a].x + mesh.points[b].x + mesh.points[c].x) / 3,
-                       (mesh.points[a].y + mesh.points[b].y + mesh.points[c].y) / 3};
-    const auto holds = [&](const auto& region) {
-      return region.second.bounds().contains(Box::of(centre, centre)) &&
-             region.second.locate(centre) == Location::Inside;
-    };
-    const auto region = std::ranges::find_if(regions, holds);
-    if (region == regions.end()) continue;
-    const auto [part, made] =
-        parts.try_emplace({mesh.regions[t], region->first}, static_cast<RegionId>(names.features.size()));
-    if (made) {
-      Feature name = names.features[static_cast<std::size_t>(mesh.regions[t])];
-      name.region = regionNameOf(coastline.features[region->first]);
-      names.features.push_back(std::move(name));
-    }
-    mesh.regions[t] = part->second;
-  }
-}
-
 // The group's part of the grid, for which the mesh is used up: no more memory is ever taken than while both are there.
 // It is given its own features alone, so that the work does not grow with the square of their number.
 Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh mesh, std::vector<double> size_m,
@@ -262,7 +219,7 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
         mesh.regions[t] = member;
       }
     });
-    markRegions(input.coastline(), members, domain.projection, mesh, names);
+    markRegions(input.coastline(), members, domain.projection, mesh, names, loop);
   }
   const MeshedDomain part{&domain, &mesh, size_m.empty() ? nullptr : &size_m, ground.empty() ? nullptr : &ground,
                           [&mesh] { freeMemoryOf(mesh.triangles); }};

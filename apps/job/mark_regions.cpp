@@ -1,0 +1,84 @@
+#include "apps/job/mark_regions.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "gis/coast/feature_names.hpp"
+#include "gis/geometry/box_tree.hpp"
+#include "gis/geometry/chain_index.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+constexpr std::uint32_t kNoRegion = std::numeric_limits<std::uint32_t>::max();
+
+struct MemberRegion {
+  std::size_t member;
+  ChainIndex rings;
+};
+
+std::vector<MemberRegion> regionsOf(const Coastline& coastline, const std::vector<std::size_t>& members,
+                                    const Projection& projection) {
+  std::vector<MemberRegion> regions;
+  for (const std::size_t member : members) {
+    const Feature& feature = coastline.features[member];
+    if (feature.use != FeatureUse::Region) continue;
+    ChainIndex rings(ChainIndex::Kind::Rings);
+    const auto add = [&](Ring ring) {
+      for (Point& p : ring) p = projection.forward(p);
+      rings.add(ring);
+    };
+    for (const Polygon& polygon : feature.polygons) {
+      add(polygon.outer);
+      for (const Ring& hole : polygon.holes) add(hole);
+    }
+    rings.build();
+    if (rings.edgeCount() > 0) regions.push_back({member, std::move(rings)});
+  }
+  return regions;
+}
+
+// For each triangle the first region that holds it, or kNoRegion. A tree finds those whose boxes do: there may be as
+// many regions as triangles.
+std::vector<std::uint32_t> regionOfTriangles(const std::vector<MemberRegion>& regions, const TriMesh& mesh,
+                                             const ItemLoop& loop) {
+  std::vector<Box> boxes;
+  for (const MemberRegion& region : regions) boxes.push_back(region.rings.bounds());
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  std::vector<std::uint32_t> region_of(mesh.triangles.size(), kNoRegion);
+  forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t].v;
+    const Point centre{(mesh.points[a].x + mesh.points[b].x + mesh.points[c].x) / 3,
+                       (mesh.points[a].y + mesh.points[b].y + mesh.points[c].y) / 3};
+    tree.visit(Box::of(centre, centre), [&](std::uint32_t r) {
+      if (r < region_of[t] && regions[r].rings.locate(centre) == Location::Inside) region_of[t] = r;
+    });
+  });
+  return region_of;
+}
+
+}  // namespace
+
+void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
+                 TriMesh& mesh, Coastline& names, const ItemLoop& loop) {
+  const std::vector<MemberRegion> regions = regionsOf(coastline, members, projection);
+  if (regions.empty()) return;
+  const std::vector<std::uint32_t> region_of = regionOfTriangles(regions, mesh, loop);
+  std::map<std::pair<RegionId, std::uint32_t>, RegionId> parts;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (region_of[t] == kNoRegion) continue;
+    const auto [part, made] =
+        parts.try_emplace({mesh.regions[t], region_of[t]}, static_cast<RegionId>(names.features.size()));
+    if (made) {
+      Feature name = names.features[static_cast<std::size_t>(mesh.regions[t])];
+      name.region = regionNameOf(coastline.features[regions[region_of[t]].member]);
+      names.features.push_back(std::move(name));
+    }
+    mesh.regions[t] = part->second;
+  }
+}
+
+}  // namespace coastmesh
