@@ -38,7 +38,7 @@ int runConvert(const ConvertUsage& usage, Run& run) {
     report = finishGrid(grid, usage.finish, control, recorder.loop("finish", control));
   });
   for (const std::string& warning : report.warnings()) run.warn(warning);
-  if (const std::string warning = outputs.depthWarning(grid); !warning.empty()) run.warn(warning);
+  for (const std::string& warning : outputs.numberWarnings(grid)) run.warn(warning);
   for (const std::string& warning : outputs.lossWarnings(grid, LossesOf::Grid)) run.warn(warning);
   withThreads({}, [&] {
     Recorder recorder;

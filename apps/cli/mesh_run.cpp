@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -79,7 +80,7 @@ std::string summaryOf(const MeshRunUsage& usage, const MeshJob& job, const MeshJ
 std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, ProgressDisplay& display, Run& run,
                                     const ItemLoop& loop) {
   std::vector<std::string> warnings = outputs.lossWarnings(grid, LossesOf::Input);
-  if (const std::string warning = outputs.depthWarning(grid); !warning.empty()) warnings.push_back(warning);
+  std::ranges::move(outputs.numberWarnings(grid), std::back_inserter(warnings));
   if (!warnings.empty()) display.clear();
   for (const std::string& warning : warnings) run.warn(warning);
   for (std::size_t i = 0; i < outputs.grids(); ++i) {

@@ -275,8 +275,8 @@ class Maker {
     outputs.addGrids(outcome.outputs, usage_.format);
     const std::vector<std::string> losses = outputs.lossWarnings(result.grid, LossesOf::Input);
     outcome.warnings.insert(outcome.warnings.end(), losses.begin(), losses.end());
-    if (const std::string warning = outputs.depthWarning(result.grid); !warning.empty())
-      outcome.warnings.push_back(warning);
+    const std::vector<std::string> numbers = outputs.numberWarnings(result.grid);
+    outcome.warnings.insert(outcome.warnings.end(), numbers.begin(), numbers.end());
     for (std::size_t g = 0; g < outputs.grids(); ++g) outputs.writeGrid(g, result.grid, inOrder);
     outputs.commitAndGoOn();
   }

@@ -199,6 +199,7 @@ void RunOutputs::addGrids(const std::vector<std::string>& paths, const std::stri
     grids_.back().protect(inputs_);
     formats_.push_back(&known);
     if (known.says_depth) depth_paths_.push_back(path);
+    if (known.lengths_in_metres) metre_paths_.push_back(path);
     guard(grids_.back().files());
   }
 }
@@ -227,9 +228,16 @@ void RunOutputs::writeReport(const std::string& text) {
   if (report_to_stdout_) report_text_ = text;
 }
 
-std::string RunOutputs::depthWarning(const Grid& grid) const {
-  if (!grid.z.empty() || depth_paths_.empty()) return {};
-  return "the mesh has no depths: '" + depth_paths_.front() + "' says 0 everywhere; give --bathymetry";
+std::vector<std::string> RunOutputs::numberWarnings(const Grid& grid) const {
+  std::vector<std::string> warnings;
+  if (grid.z.empty() && !depth_paths_.empty())
+    warnings.push_back("the mesh has no depths: '" + depth_paths_.front() + "' says 0 everywhere; give --bathymetry");
+  const Crs& crs = grid.crs;
+  if (!metre_paths_.empty() && !crs.isPlane() && !crs.geographic && metresPerUnit(crs) != 1.0)
+    warnings.push_back("'" + metre_paths_.front() + "' has x and y in the unit of " + nameOf(crs) + ", " + unitOf(crs) +
+                       ", as the input has them, and depths in metres, but models read all of them as metres: "
+                       "reproject the input to a CRS in metres (ogr2ogr -t_srs), and mesh that");
+  return warnings;
 }
 
 std::vector<std::string> RunOutputs::lossWarnings(const Grid& grid, LossesOf of) const {

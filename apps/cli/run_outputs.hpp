@@ -49,8 +49,9 @@ class RunOutputs {
   std::size_t grids() const { return grids_.size(); }
   void writeGrid(std::size_t index, const Grid& grid, const ItemLoop& loop) { grids_[index].write(grid, loop); }
   void writeReport(const std::string& text);
-  // Empty, or a warning: an output says depths, and the grid has none.
-  std::string depthWarning(const Grid& grid) const;
+  // Warnings where outputs hold numbers that models take for something else: depths of 0 where the grid has none,
+  // coordinates in other units than metres.
+  std::vector<std::string> numberWarnings(const Grid& grid) const;
   // A warning for each output that cannot hold all of the grid.
   std::vector<std::string> lossWarnings(const Grid& grid, LossesOf of) const;
 
@@ -74,6 +75,7 @@ class RunOutputs {
   bool report_to_stdout_ = false;
   std::string report_text_;
   std::vector<std::string> depth_paths_;        // of formats that say a depth at each node
+  std::vector<std::string> metre_paths_;        // of formats whose coordinates are read as metres
   std::vector<std::filesystem::path> guarded_;  // to be released without asking for memory
 };
 

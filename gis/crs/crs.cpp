@@ -85,6 +85,13 @@ double metresPerUnit(const Crs& crs) {
   return crs.geographic ? crs.semi_major_m * std::numbers::pi / 180.0 : toOgr(crs).GetLinearUnits();
 }
 
+std::string unitOf(const Crs& crs) {
+  const char* name = nullptr;
+  const double metres = toOgr(crs).GetLinearUnits(&name);
+  if (metres == 1.0) return "metre";
+  return name ? name : "unnamed unit";
+}
+
 std::string nameOf(const Crs& crs) {
   if (crs.isPlane()) return "plane";
   if (!crs.authority.empty()) return crs.authority;

@@ -20,6 +20,9 @@ bool sameCrs(const Crs& a, const Crs& b);
 // plane.
 double metresPerUnit(const Crs& crs);
 
+// The unit of a projected CRS: "metre", "US survey foot". REQUIRES: neither a plane nor geographic.
+std::string unitOf(const Crs& crs);
+
 // For messages: "EPSG:32616", else the CRS's own name, else "plane".
 std::string nameOf(const Crs& crs);
 

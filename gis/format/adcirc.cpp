@@ -36,7 +36,8 @@ FormatRecord adcircFormat() {
            true,
            {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs},
            true,
-           NodePlaces::OneTurn},
+           NodePlaces::OneTurn,
+           true},
           {writeAdcirc, readAdcirc, withPrjBeside}};
 }
 

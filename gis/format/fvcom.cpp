@@ -182,7 +182,8 @@ FormatRecord fvcomFormat() {
            true,
            {},
            true,
-           NodePlaces::OneTurn},
+           NodePlaces::OneTurn,
+           true},
           {writeFvcom, readFvcom, files}};
 }
 

@@ -25,6 +25,8 @@ struct GridFormat {
   GridParts holds;          // the parts of a grid that its files hold and its reader restores
   bool says_depth = false;  // every file of it has a depth at each node: 0 if the grid has none
   NodePlaces places = NodePlaces::AsTheyAre;
+  // Models read it and take lengths for metres, and it does not say their unit.
+  bool lengths_in_metres = false;
   bool beside_grid = false;  // not a grid, but an additional file for a solver: the parts that `holds` names
 };
 

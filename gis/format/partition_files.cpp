@@ -39,6 +39,7 @@ FormatRecord schismPartitionFormat() {
            {GridPart::Partition},
            false,
            NodePlaces::AsTheyAre,
+           false,
            true},
           {writeSchismPartition, nullptr, nullptr}};
 }
@@ -52,6 +53,7 @@ FormatRecord adcircPartitionFormat() {
            {GridPart::NodePartition},
            false,
            NodePlaces::AsTheyAre,
+           false,
            true},
           {writeAdcircPartition, nullptr, nullptr}};
 }

@@ -58,7 +58,8 @@ FormatRecord schismFormat() {
            true,
            {GridPart::Title},
            true,
-           NodePlaces::OneTurn},
+           NodePlaces::OneTurn,
+           true},
           {writeSchism, readSchism, files}};
 }
 

@@ -241,7 +241,8 @@ FormatRecord sms2dmFormat() {
            true,
            {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers},
            false,
-           NodePlaces::OneTurn},
+           NodePlaces::OneTurn,
+           true},
           {write2dm, read2dm, withPrjBeside}};
 }
 

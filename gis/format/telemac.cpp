@@ -236,7 +236,8 @@ FormatRecord telemacFormat() {
            true,
            {GridPart::Title, GridPart::Rivers},
            true,
-           NodePlaces::OneTurn},
+           NodePlaces::OneTurn,
+           true},
           {writeTelemac, readTelemac, files}};
 }
 

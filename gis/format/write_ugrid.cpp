@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <string_view>
 #include <type_traits>
 
-#include "gis/crs/ogr_support.hpp"
 #include "gis/file/cf_grid_mapping.hpp"
 #include "gis/file/netcdf_file.hpp"
 #include "gis/format/grid_formats.hpp"
@@ -51,11 +51,15 @@ int defineCrs(NetcdfWriter& file, const Crs& crs) {
   return variable;
 }
 
+// As UDUNITS, which CF conventions require, reads it: names of other standards mean something else there, or nothing.
 std::string lengthUnit(const Crs& crs) {
-  if (crs.isPlane()) return "m";
-  const char* name = nullptr;
-  const double metres = toOgr(crs).GetLinearUnits(&name);
-  return metres == 1.0 || name == nullptr ? "m" : name;
+  const double metres = metresPerUnit(crs);
+  if (metres == 1.0) return "m";
+  if (metres == 0.3048) return "foot";
+  if (std::abs(metres * 3937.0 / 1200.0 - 1.0) < 1e-12) return "US_survey_foot";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g m", metres);
+  return text;
 }
 
 // The file while it is written: a variable is defined together with what will stand in it, which NetCDF takes only once

@@ -106,9 +106,16 @@ Grid readWw3(const std::string& path, const Crs& unsaid) {
 }  // namespace
 
 FormatRecord ww3Format() {
-  return {
-      {"ww3", {"_ww3.msh"}, "Gmsh 2 for WAVEWATCH III, depth positive down", true, true, {}, true, NodePlaces::OneTurn},
-      {writeWw3, readWw3, withPrjBeside}};
+  return {{"ww3",
+           {"_ww3.msh"},
+           "Gmsh 2 for WAVEWATCH III, depth positive down",
+           true,
+           true,
+           {},
+           true,
+           NodePlaces::OneTurn,
+           true},
+          {writeWw3, readWw3, withPrjBeside}};
 }
 
 }  // namespace coastmesh

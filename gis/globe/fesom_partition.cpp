@@ -367,6 +367,7 @@ FormatRecord fesomPartitionFormat() {
            {GridPart::NodePartition},
            false,
            NodePlaces::AsTheyAre,
+           false,
            true},
           {writeFesomPartition, nullptr, filesOfPartition}};
 }

@@ -6,9 +6,10 @@
 
 namespace coastmesh {
 
-// Sizes for users who give none: a size at the shore for which a mesh of about 30,000 vertices is expected, 20 elements
-// of the largest size across the domain. Both are rounded, to be written as options; the other `options` (wavelengths,
-// time step, gradation) are unchanged. Throws like `makeSizeFunction`.
+// Sizes for users who give none: a size at the shore for which a mesh of 18,000 to 50,000 vertices is expected, 20
+// elements of the largest size across the domain. Both are rounded, to be written as options. Elements per wavelength
+// become fewer where the shore's size does not decide; the other `options` (time step, gradation) are unchanged. Throws
+// like `makeSizeFunction`.
 SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
                         const ItemLoop& loop);
 

@@ -383,6 +383,34 @@ TEST_F(Coordinates, ErrorsAreOneLine) {
   }
 }
 
+// Models read metres. Layers carry the CRS, and UGRID says units, as UDUNITS knows them.
+TEST_F(Coordinates, InOtherUnitsThanMetresAreWarnedOfForModels) {
+  const auto lakeIn = [&](int epsg) {
+    return write("lake" + std::to_string(epsg) + ".geojson",
+                 R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::)" +
+                     std::to_string(epsg) +
+                     R"("}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":)"
+                     R"([[[980000,190000],[990000,190000],[990000,200000],[980000,200000],[980000,190000]]]}}]})");
+  };
+  const auto errorsWith = [&](int epsg, const std::vector<std::string>& outputs) {
+    std::vector<std::string> arguments{"mesh", lakeIn(epsg), "--size", "500", "--overwrite"};
+    for (const std::string& output : outputs) arguments.insert(arguments.end(), {"-o", file(output)});
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.errors;
+  };
+  for (const std::string model : {"a.14", "a.gr3", "a.slf", "a_grd.dat", "a.2dm", "a_ww3.msh"}) {
+    const std::string text = errorsWith(2263, {model, "b.2dm"});
+    EXPECT_NE(text.find(model + "' has x and y in the unit of EPSG:2263, US survey foot"), std::string::npos) << text;
+    EXPECT_EQ(text.find("has x and y"), text.rfind("has x and y")) << text;
+    EXPECT_EQ(errorsWith(32618, {model}).find("has x and y"), std::string::npos);
+  }
+  EXPECT_EQ(errorsWith(2263, {"a.gpkg", "a.nc", "a.vtu"}), "");
+  EXPECT_NE(readText(file("a.nc")).find("US_survey_foot"), std::string::npos);
+  const ProgramRun run = runProgram({"convert", file("a.nc"), "-o", file("a.2dm"), "--overwrite"});
+  EXPECT_NE(run.errors.find("EPSG:2263"), std::string::npos) << run.errors;
+}
+
 }  // namespace
 
 }  // namespace coastmesh::test
