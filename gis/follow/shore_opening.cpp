@@ -99,7 +99,7 @@ class Opening {
     for (TriId t = 0; t < is_narrow.size(); ++t) {
       if (isLand(t)) continue;
       is_narrow[t] = t_.width[t] < narrowest && (usesOf(t) & kInWater) == 0 && !allOpen(t) &&
-                     !isAt(passages_, t, kPassage * t_.size[t]);
+                     (!isAt(passages_, t, kPassage * t_.size[t]) || isAt(barriers_, t, kPassage * t_.size[t]));
       any_wide = any_wide || is_narrow[t] == 0;
     }
     const auto narrow = [&](TriId t) { return is_narrow[t] != 0; };
