@@ -17,9 +17,12 @@
 #include "core/metric.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/check_target.hpp"
+#include "gis/model/node_meets.hpp"
+#include "gis/model/triangle_overlaps.hpp"
 
 namespace coastmesh {
 
@@ -86,6 +89,34 @@ DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
   return row;
 }
 
+// Where triangles meet and do not hang together. Nodes are among what is looked for for a model; both shores of a weir
+// may be at one place.
+std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes) {
+  std::vector<DefectRow> rows;
+  std::vector<EdgeConflict> conflicts;
+  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
+  for (const auto& [t, other] : triangleOverlaps(grid, mesh))
+    rows.push_back({std::string(toString(TargetDefectKind::Overlap)),
+                    {},
+                    middleOf(grid, t),
+                    t,
+                    -1,
+                    0.0,
+                    "with triangle " + std::to_string(other + 1)});
+  if (!with_nodes) return rows;
+  std::vector<bool> of_weir(grid.nodes.size(), false);
+  for (const Boundary& boundary : grid.boundaries)
+    for (std::size_t i = 0; i < boundary.back_nodes.size(); ++i)
+      of_weir[boundary.nodes[i]] = of_weir[boundary.back_nodes[i]] = true;
+  const auto add = [&](TargetDefectKind kind, const std::vector<std::uint32_t>& nodes) {
+    for (const std::uint32_t node : nodes)
+      if (!of_weir[node]) rows.push_back({std::string(toString(kind)), {}, grid.nodes[node], -1, node, 0.0, {}});
+  };
+  add(TargetDefectKind::RepeatedNode, repeatedNodes(grid));
+  add(TargetDefectKind::HangingNode, hangingNodes(grid, mesh));
+  return rows;
+}
+
 bool isDefect(const DefectRow& row) { return !row.advice; }
 
 void printDefects(const CheckUsage& usage, const Grid& grid, const BoundCounts& bounds,
@@ -132,11 +163,13 @@ std::vector<DefectRow> targetRows(Grid& grid, const std::vector<Target>& targets
   std::vector<DefectRow> rows;
   if (targets.empty()) return rows;
   const GridFormat* const format = gridFormatOf(usage.mesh.path);
+  TargetCheckOptions check = usage.target_check;
+  check.overlaps = false;  // reported for any model
   std::optional<TurnedNodes> turned;
   if (format != nullptr && format->places != NodePlaces::OneTurn) turned.emplace(grid);
   for (const Target target : targets) {
     interrupt.check();
-    for (const TargetDefect& defect : checkTarget(grid, target, usage.target_check)) {
+    for (const TargetDefect& defect : checkTarget(grid, target, check)) {
       DefectRow& row = rows.emplace_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
       if (turned) row.place = turned->putBack(row.place);
     }
@@ -165,6 +198,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
       input.files.empty() ? checkGrid(grid, options) : checkGridAgainst(grid, JobInput(input), options);
   std::vector<DefectRow> rows;
   for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
+  for (DefectRow& row : meetingRows(grid, targets.empty())) rows.push_back(std::move(row));
   for (DefectRow& row : targetRows(grid, targets, usage, interrupt)) rows.push_back(std::move(row));
   if (!targets.empty())
     for (const ApartWater& water : apartWaters(grid)) rows.push_back(rowOf(water, grid));

@@ -9,7 +9,6 @@
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
-#include "gis/geometry/box_tree.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
@@ -18,18 +17,21 @@
 #include "gis/grid/on_sphere.hpp"
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/flow_links.hpp"
+#include "gis/model/node_meets.hpp"
 #include "gis/model/target_limits.hpp"
 #include "gis/model/time_step.hpp"
+#include "gis/model/triangle_overlaps.hpp"
 
 namespace coastmesh {
 namespace {
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
-    "wrong count",    "broken edge",     "clockwise",       "unused node", "repeated node",  "hanging node",
-    "pinched node",   "orphan cell",     "unknown depth",   "dry opening", "no boundary",    "stray boundary",
-    "boundary twice", "boundary turned", "looped boundary", "wrong shore", "two open edges", "open and solid edge",
-    "one neighbour",  "lone wall",       "valence",         "large angle", "not orthogonal", "small flow link",
-    "courant",        "round the globe"};
+    "wrong count",     "broken edge",    "clockwise",      "overlapping triangles", "unused node",
+    "repeated node",   "hanging node",   "pinched node",   "orphan cell",           "unknown depth",
+    "dry opening",     "no boundary",    "stray boundary", "boundary twice",        "boundary turned",
+    "looped boundary", "wrong shore",    "two open edges", "open and solid edge",   "one neighbour",
+    "lone wall",       "valence",        "large angle",    "not orthogonal",        "small flow link",
+    "courant",         "round the globe"};
 
 // The Courant number is that of long waves. SWAN computes none, FESOM2 and MPAS-Ocean step them apart.
 bool isOfLongWaves(Target target) {
@@ -91,7 +93,9 @@ class TargetCheck {
     if (mindsJumps(target_) && grid_.crs.geographic) checkJumps();
     checkTriangles();
     checkNodes();
-    checkHangingNodes();
+    for (const std::uint32_t node : hangingNodes(grid_, mesh_))
+      add(TargetDefectKind::HangingNode, grid_.nodes[node], -1, node);
+    if (options_.overlaps) checkOverlaps();
     if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
     if (mindsDryOpenings(target_)) checkOpenings();
     if (target_ == Target::Fvcom) checkOpenCells();
@@ -169,13 +173,15 @@ class TargetCheck {
           (target_ == Target::Fesom && cells[node] > kFesomMostCells);
       if (refused) add(TargetDefectKind::Valence, place, -1, node, cells[node]);
     }
-    std::vector<std::uint32_t> order(grid_.nodes.size());
-    for (std::uint32_t node = 0; node < order.size(); ++node) order[node] = node;
-    std::ranges::stable_sort(order,
-                             [&](std::uint32_t a, std::uint32_t b) { return lexLess(grid_.nodes[a], grid_.nodes[b]); });
-    for (std::size_t i = 1; i < order.size(); ++i)
-      if (grid_.nodes[order[i]] == grid_.nodes[order[i - 1]])
-        add(TargetDefectKind::RepeatedNode, grid_.nodes[order[i]], -1, order[i]);
+    for (const std::uint32_t again : repeatedNodes(grid_))
+      add(TargetDefectKind::RepeatedNode, grid_.nodes[again], -1, again);
+  }
+
+  void checkOverlaps() {
+    for (const TriangleOverlap& overlap : triangleOverlaps(grid_, mesh_)) {
+      add(TargetDefectKind::Overlap, middle(overlap.triangle), overlap.triangle);
+      defects_.back().text = "with triangle " + std::to_string(overlap.other + 1);
+    }
   }
 
   std::vector<NodePair> boundaryEdges() const {
@@ -185,35 +191,6 @@ class TargetCheck {
         if (mesh_.triangles[t].adj[i] == kNone)
           edges.push_back({mesh_.origin(edgeRef(t, i)), mesh_.target(edgeRef(t, i))});
     return edges;
-  }
-
-  void checkHangingNodes() {
-    constexpr double kOnEdge = 1e-7;  // of the edge's length
-    const std::vector<NodePair> edges = boundaryEdges();
-    std::vector<Box> boxes;
-    std::vector<std::uint32_t> nodes;
-    for (const auto& [a, b] : edges) {
-      boxes.push_back(Box::of(grid_.nodes[a], grid_.nodes[b]));
-      nodes.push_back(a);
-    }
-    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-    std::ranges::sort(nodes);
-    const auto repeated = std::ranges::unique(nodes);
-    nodes.erase(repeated.begin(), repeated.end());
-    for (const std::uint32_t node : nodes) {
-      const Point& p = grid_.nodes[node];
-      bool hangs = false;
-      tree.visit(Box::of(p, p), [&](std::uint32_t e) {
-        const Point &a = grid_.nodes[edges[e][0]], &b = grid_.nodes[edges[e][1]];
-        if (edges[e][0] == node || edges[e][1] == node || p == a || p == b) return;
-        const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-        if (grid_.crs.geographic && std::abs(dx) > 180) return;  // across the antimeridian, not all round the globe
-        const double off = std::abs(dx * (p.y - a.y) - dy * (p.x - a.x)) / square;
-        const double along = (dx * (p.x - a.x) + dy * (p.y - a.y)) / square;
-        hangs = hangs || (off < kOnEdge && along > 0.0 && along < 1.0);
-      });
-      if (hangs) add(TargetDefectKind::HangingNode, p, -1, node);
-    }
   }
 
   // ADCIRC and SCHISM read segments of nodes.

@@ -15,6 +15,7 @@ enum class TargetDefectKind {
   WrongCount,      // a file is inconsistent with itself
   BrokenEdge,      // an edge of three triangles, or of two with different orientation
   Clockwise,       // a triangle that is clockwise, or has no area
+  Overlap,         // a triangle that overlaps others
   UnusedNode,      // a node without triangles
   RepeatedNode,    // two nodes at the same place
   HangingNode,     // a node on an edge of a triangle, but not one of its corners
@@ -39,7 +40,7 @@ enum class TargetDefectKind {
   Courant,         // a triangle whose Courant number is out of range for the time step
   RoundTheGlobe,   // a triangle whose longitudes jump at ±180, for a model that takes differences of them as they are
 };
-inline constexpr std::size_t kTargetDefectKinds = 26;
+inline constexpr std::size_t kTargetDefectKinds = 27;
 std::string_view toString(TargetDefectKind kind);
 
 struct TargetDefect {
@@ -49,12 +50,13 @@ struct TargetDefect {
   std::int64_t node = -1;      // the same
   double value =
       0.0;  // degrees, metres above the water, triangles round a node, a cosine, a share (`FlowLink`), a Courant number
-  std::string text;     // of WrongCount
+  std::string text;     // of WrongCount, and of Overlap
   bool advice = false;  // the model runs, but not as well as it could
 };
 
 struct TargetCheckOptions {
   double time_step_s = 0.0;  // seconds; 0: Courant numbers are not checked
+  bool overlaps = true;      // look for triangles that overlap
 };
 
 // All defects that make the model reject the grid, by kind, Courant numbers starting with the worst (measured as in

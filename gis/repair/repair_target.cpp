@@ -6,8 +6,10 @@
 #include "core/quality.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
+#include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/grid/one_turn.hpp"
+#include "gis/model/triangle_overlaps.hpp"
 #include "gis/repair/repair_boundaries.hpp"
 #include "gis/repair/repair_depths.hpp"
 #include "gis/repair/repair_pinches.hpp"
@@ -23,10 +25,23 @@ constexpr int kRelaxRounds = 12;
 std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
   std::vector<FoundDefect> found;
   for (const Target target : targets)
-    for (TargetDefect& defect : checkTarget(grid, target))
+    for (TargetDefect& defect : checkTarget(grid, target, {.overlaps = false}))
       if (!defect.advice) found.push_back({target, std::move(defect)});
   if (options.time_step_s > 0.0 && !grid.z.empty())
     for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s)) found.push_back({{}, std::move(defect)});
+  return found;
+}
+
+// No repair parts triangles that overlap, so that they are looked for apart, not in each round.
+std::vector<FoundDefect> findOverlaps(const Grid& grid, std::span<const Target> targets) {
+  std::vector<FoundDefect> found;
+  if (targets.empty()) return found;
+  std::vector<EdgeConflict> conflicts;
+  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
+  const std::vector<TriangleOverlap> overlaps = triangleOverlaps(grid, mesh);
+  for (const Target target : targets)
+    for (const auto& [t, other] : overlaps)
+      found.push_back({target, {TargetDefectKind::Overlap, middleOf(grid, t), t, -1, 0.0, {}}});
   return found;
 }
 
@@ -104,6 +119,7 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::LoopedBoundary:
     case TargetDefectKind::WrongShore:
     case TargetDefectKind::BrokenEdge:
+    case TargetDefectKind::Overlap:
     case TargetDefectKind::RepeatedNode:
     case TargetDefectKind::HangingNode:
     case TargetDefectKind::UnknownDepth:
@@ -180,11 +196,19 @@ void relax(RepairState& state) {
   }
 }
 
+void reportLeft(std::vector<FoundDefect> defects, RepairReport& report) {
+  for (FoundDefect& found : defects)
+    if (found.target) report.left.emplace_back(*found.target, std::move(found.defect));
+}
+
 RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
                              RepairMemory* memory) {
   RepairState state{grid, targets, options};
   std::vector<FoundDefect> defects = findDefects(grid, targets, options);
-  if (defects.empty()) return {};
+  if (defects.empty()) {
+    reportLeft(findOverlaps(grid, targets), state.report);
+    return std::move(state.report);
+  }
   requireNoWeirs(grid);
   startRepairs(state, memory);
   state.links.kinds = takeBoundaryKinds(grid);
@@ -195,8 +219,8 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
   }
   requireTriangles(grid, targets);
   relax(state);
-  for (FoundDefect& found : defects)
-    if (found.target) state.report.left.emplace_back(*found.target, std::move(found.defect));
+  reportLeft(std::move(defects), state.report);
+  reportLeft(findOverlaps(grid, targets), state.report);
   if (keepsBoundaries(state) && std::ranges::count(state.changed, true) > 0) rebuildBoundaries(state);
   if (memory != nullptr) *memory = memoryOf(state);
   measureChanged(grid, state.changed);

@@ -1,0 +1,149 @@
+#include "gis/model/triangle_overlaps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gis/geometry/box_tree.hpp"
+#include "gis/grid/on_sphere.hpp"
+
+namespace coastmesh {
+namespace {
+
+// Of the longest side: what coordinates of a file leave of nodes on a side, and of the sides of two pieces.
+constexpr double kRounding = 1e-6;
+// A side that is straight in one plane bends in others, by the square of its length over the Earth's radius, or less.
+constexpr double kBend = 0.25;
+constexpr double kEarthRadius = 6.4e6;  // metres
+
+using Corners = std::array<SphereVector, 3>;
+
+// Places in space: on the unit sphere, or in the plane z = 0.
+class Places {
+ public:
+  explicit Places(const Grid& grid) : grid_(grid), on_sphere_(grid.crs.geographic) {
+    places_.reserve(grid.nodes.size());
+    for (const Point& p : grid.nodes)
+      places_.push_back(on_sphere_ ? onSphere(asLonLat(p)) : SphereVector{p.x, p.y, 0.0});
+    if (!grid.crs.isPlane()) bend_ = on_sphere_ ? kBend : kBend / kEarthRadius;
+  }
+
+  Corners of(std::uint32_t t) const {
+    const auto& [a, b, c] = grid_.triangles[t];
+    return {places_[a], places_[b], places_[c]};
+  }
+
+  bool isCounterClockwise(const Corners& p) const { return dot(leftOf(p[0], p[1]), minus(p[2], p[0])) > 0.0; }
+
+  // How far the interiors reach into one another along the way that parts them soonest is more than allowed.
+  bool overlap(const Corners& a, const Corners& b) const {
+    const double longest = std::max(longestSide(a), longestSide(b));
+    const double allowed = longest * std::max(kRounding, bend_ * longest);
+    return !isParted(a, b, allowed) && !isParted(b, a, allowed);
+  }
+
+ private:
+  // Square to the side, towards its left; as long as it.
+  SphereVector leftOf(const SphereVector& from, const SphereVector& to) const {
+    return cross(on_sphere_ ? from : SphereVector{0.0, 0.0, 1.0}, minus(to, from));
+  }
+
+  static double longestSide(const Corners& p) {
+    double square = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SphereVector side = minus(p[(i + 1) % 3], p[i]);
+      square = std::max(square, dot(side, side));
+    }
+    return std::sqrt(square);
+  }
+
+  // Whether all of `b` lies beyond a side of `a`.
+  bool isParted(const Corners& a, const Corners& b, double allowed) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SphereVector left = leftOf(a[i], a[(i + 1) % 3]);
+      const double limit = allowed * std::sqrt(dot(left, left));
+      const auto isBeyond = [&](const SphereVector& corner) { return dot(left, minus(corner, a[i])) <= limit; };
+      if (std::ranges::all_of(b, isBeyond)) return true;
+    }
+    return false;
+  }
+
+  const Grid& grid_;
+  const bool on_sphere_;
+  double bend_ = 0.0;
+  std::vector<SphereVector> places_;
+};
+
+// The longitudes and latitudes of a triangle whose sides are great circles; those of its first corner are within ±180.
+Box boxOnSphere(const Grid& grid, std::uint32_t t) {
+  constexpr double kWide = 60.0;     // degrees: sides this long may pass near a pole
+  constexpr double kSagitta = 2e-3;  // degrees of latitude for the square of degrees of longitude
+  const auto& corners = grid.triangles[t];
+  std::array<Point, 3> p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = grid.nodes[corners[i]];
+  const double first = std::remainder(p[0].x, 360.0);
+  const double turn = std::remainder(p[1].x - p[0].x, 360.0) + std::remainder(p[2].x - p[1].x, 360.0) +
+                      std::remainder(p[0].x - p[2].x, 360.0);
+  const bool at_pole = std::ranges::any_of(p, [](const Point& corner) { return std::abs(corner.y) > 90.0 - 1e-9; });
+  Box box;
+  for (const Point& corner : p) box.add(Point{first + std::remainder(corner.x - p[0].x, 360.0), corner.y});
+  const double width = box.xmax - box.xmin;
+  const bool round = std::abs(turn) > 1.0 || at_pole;
+  if (round || width > kWide) {
+    if (box.ymax > 0.0) box.ymax = 90.0;
+    if (box.ymin < 0.0) box.ymin = -90.0;
+  } else {
+    const double pad = kSagitta * width * width;
+    box.ymin -= pad;
+    box.ymax += pad;
+  }
+  if (round) box.xmin = -180.0, box.xmax = 180.0;
+  return box;
+}
+
+Box boxOf(const Grid& grid, std::uint32_t t) {
+  if (grid.crs.geographic) return boxOnSphere(grid, t);
+  Box box;
+  for (const std::uint32_t node : grid.triangles[t]) box.add(grid.nodes[node]);
+  return box;
+}
+
+Box shifted(const Box& box, double east) { return {box.xmin + east, box.ymin, box.xmax + east, box.ymax}; }
+
+}  // namespace
+
+std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& mesh) {
+  const auto count = static_cast<std::uint32_t>(grid.triangles.size());
+  const Places places(grid);
+  std::vector<bool> stands(count);
+  for (std::uint32_t t = 0; t < count; ++t) stands[t] = places.isCounterClockwise(places.of(t));
+  const auto isLoose = [&](EdgeRef twin) { return twin == kNone || !stands[triOf(twin)]; };
+  std::vector<Box> boxes;
+  std::vector<std::uint32_t> owner;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (!stands[t] || !std::ranges::any_of(mesh.triangles[t].adj, isLoose)) continue;
+    const Box box = boxOf(grid, t);
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (turn != 0.0 && !grid.crs.geographic) continue;
+      boxes.push_back(shifted(box, turn));
+      owner.push_back(t);
+    }
+  }
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  std::vector<TriangleOverlap> found;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (!stands[t]) continue;
+    const Box box = boxOf(grid, t);
+    const Corners corners = places.of(t);
+    bool overlaps = false;
+    tree.descend([&](const Box& node, std::size_t, std::size_t) { return !overlaps && node.meets(box); },
+                 [&](std::uint32_t k) {
+                   if (owner[k] == t || !places.overlap(corners, places.of(owner[k]))) return;
+                   overlaps = true;
+                   found.push_back({t, owner[k]});
+                 });
+  }
+  return found;
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,66 @@
+// What `check` says of meshes of other programs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Check : public ProgramTest {
+ protected:
+  // A fort.14 of squares of 1 km without boundaries, one sheet for each of `origins`.
+  std::string sheets(const std::string& name, const std::vector<std::pair<double, double>>& origins,
+                     double depth) const {
+    constexpr int kSide = 4, kNodes = (kSide + 1) * (kSide + 1);
+    std::string nodes, triangles;
+    int node = 0, triangle = 0;
+    for (std::size_t sheet = 0; sheet < origins.size(); ++sheet) {
+      char line[100];
+      for (int j = 0; j <= kSide; ++j) {
+        for (int i = 0; i <= kSide; ++i) {
+          std::snprintf(line, sizeof line, "%d %.1f %.1f %g\n", ++node, origins[sheet].first + 1000.0 * i,
+                        origins[sheet].second + 1000.0 * j, depth);
+          nodes += line;
+        }
+      }
+      for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < kSide; ++i) {
+          const int a = static_cast<int>(sheet) * kNodes + j * (kSide + 1) + i + 1, d = a + kSide + 1;
+          std::snprintf(line, sizeof line, "%d 3 %d %d %d\n", ++triangle, a, a + 1, d + 1);
+          triangles += line;
+          std::snprintf(line, sizeof line, "%d 3 %d %d %d\n", ++triangle, a, d + 1, d);
+          triangles += line;
+        }
+      }
+    }
+    return write(name, "sheets\n" + std::to_string(triangle) + " " + std::to_string(node) + "\n" + nodes + triangles +
+                           "0\n0\n0\n0\n");
+  }
+};
+
+TEST_F(Check, SheetsOverOneAnother) {
+  const std::string one = sheets("one.14", {{0, 0}}, 10.0), two = sheets("two.14", {{0, 0}, {1500, 1500}}, 10.0);
+  EXPECT_EQ(runProgram({"check", one}).code, 0);
+  const ProgramRun plain = runProgram({"check", two});
+  EXPECT_EQ(plain.code, 1);
+  EXPECT_THAT(plain.output, AllOf(HasSubstr("overlapping triangles: "), HasSubstr(", with triangle ")));
+  EXPECT_EQ(runProgram({"convert", two, "-o", file("out.14"), "--target", "adcirc"}).code, 1);
+}
+
+TEST_F(Check, NodesThatDoNotHangTogether) {
+  const ProgramRun hanging = runProgram({"check", sheets("hanging.14", {{0, 0}, {4000, 500}}, 10.0)});
+  EXPECT_EQ(hanging.code, 1);
+  EXPECT_THAT(hanging.output, HasSubstr("hanging node: 8"));
+  const ProgramRun seam = runProgram({"check", sheets("seam.14", {{0, 0}, {4000, 0}}, 10.0)});
+  EXPECT_EQ(seam.code, 1);
+  EXPECT_THAT(seam.output, HasSubstr("repeated node: 5"));
+}
+
+}  // namespace
+}  // namespace coastmesh::test
