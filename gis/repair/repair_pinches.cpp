@@ -7,7 +7,6 @@
 #include <functional>
 #include <set>
 
-#include "core/predicates.hpp"
 #include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
@@ -86,16 +85,6 @@ void takeOutOrphan(RepairState& state, const FoundDefect& found) {
   const GridCorners& v = state.grid.triangles[t];
   for (unsigned i = 0; i < 3; ++i) state.links.kinds.erase(edgeKey(v[i], v[next3(i)]));
   addRepair(state, found, state.grid.nodes[v[0]], "triangle removed");
-}
-
-void turnClockwise(RepairState& state, const FoundDefect& found) {
-  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
-  GridCorners& corners = state.grid.triangles[t];
-  const std::vector<Point> p = localPlane(state.grid, corners);
-  if (orient2d(p[0], p[1], p[2]) == 0) return;
-  std::swap(corners[1], corners[2]);
-  state.disturbed[t] = true;
-  addRepair(state, found, state.grid.nodes[corners[0]], "triangle turned");
 }
 
 }  // namespace coastmesh

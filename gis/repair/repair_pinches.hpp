@@ -13,7 +13,4 @@ void doublePinchedNode(RepairState& state, const FoundDefect& found);
 // A triangle without a neighbour; the last one is kept.
 void takeOutOrphan(RepairState& state, const FoundDefect& found);
 
-// A triangle that is clockwise; one without area is kept.
-void turnClockwise(RepairState& state, const FoundDefect& found);
-
 }  // namespace coastmesh

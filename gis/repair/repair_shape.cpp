@@ -5,6 +5,9 @@
 #include <set>
 #include <string_view>
 
+#include "core/predicates.hpp"
+#include "core/quality.hpp"
+#include "gis/grid/local_plane.hpp"
 #include "gis/repair/repair_search.hpp"
 
 namespace coastmesh {
@@ -146,7 +149,52 @@ void takeOutNode(RepairState& state, std::uint32_t node, const FoundDefect& foun
   addRepair(state, found, found.defect.place, "node removed");
 }
 
+// The smallest angle round an inner node put at `place`; 0 or less where a triangle is turned. Degrees.
+double leastAngleRound(const Grid& grid, std::span<const std::uint32_t> ring, const Point& place) {
+  double least = 180.0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    std::array<Point, 3> p{place, grid.nodes[ring[k]], grid.nodes[ring[(k + 1) % ring.size()]]};
+    flattenLocally(grid.crs, p);
+    if (orient2d(p[0], p[1], p[2]) <= 0) return 0.0;
+    least = std::min(least, leastAngleDeg(p[0], p[1], p[2]));
+  }
+  return least;
+}
+
+// The move of an inner node that leaves the largest of these angles, more than `least`.
+std::optional<PatchEdit> bestUnfolding(const RepairView& view, std::uint32_t node, double& least) {
+  constexpr std::size_t kMostNeighbours = 16;
+  std::optional<PatchEdit> best;
+  const std::vector<std::uint32_t> ring = ringRound(view, node);
+  if (ring.size() > kMostNeighbours || !fixedNeighbours(view, node).empty()) return best;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    for (std::size_t j = i + 2; j < ring.size(); ++j) {
+      PatchEdit edit = moveOf(view, node, ring[i], ring[j], 1.0);
+      const double angle = leastAngleRound(view.grid, ring, edit.place);
+      if (angle <= least) continue;
+      least = angle;
+      best = std::move(edit);
+    }
+  }
+  return best;
+}
+
 }  // namespace
+
+void unfoldTriangle(RepairState& state, const FoundDefect& found) {
+  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
+  if (state.hopeless_triangles[t]) return;
+  const auto patch = untouchedPatch(state, roundOf(state, t));
+  if (!patch) return;
+  std::optional<PatchEdit> best;
+  double least = 0.0;
+  for (const std::uint32_t node : state.grid.triangles[t]) {
+    if (state.links.on_boundary[node]) continue;
+    if (std::optional<PatchEdit> edit = bestUnfolding(state.view(), node, least)) best = std::move(edit);
+  }
+  if (best) applyRepair(state, *patch, *best, found);
+  state.hopeless_triangles[t] = !best;
+}
 
 void reshapeTriangle(RepairState& state, const FoundDefect& found) {
   const auto t = static_cast<std::uint32_t>(found.defect.triangle);

@@ -16,6 +16,10 @@ void lengthenFlowLink(RepairState& state, const FoundDefect& found);
 // step.
 void lengthenEdges(RepairState& state, const FoundDefect& found);
 
+// A clockwise triangle that lies over its neighbours: one of its nodes is where it should not be. A node that nothing
+// holds is moved to the middle between two of its neighbours from where all triangles round it are counter-clockwise.
+void unfoldTriangle(RepairState& state, const FoundDefect& found);
+
 // Whether the triangle's smallest angle can be increased.
 bool relaxTriangle(RepairState& state, std::uint32_t t);
 

@@ -15,6 +15,7 @@
 #include "gis/repair/repair_pinches.hpp"
 #include "gis/repair/repair_shape.hpp"
 #include "gis/repair/repair_state.hpp"
+#include "gis/repair/repair_winding.hpp"
 
 namespace coastmesh {
 namespace {
@@ -90,8 +91,6 @@ void mend(RepairState& state, const FoundDefect& found) {
       return addRepair(state, found, found.defect.place, "counted anew: " + found.defect.text);
     case TargetDefectKind::UnusedNode:  // goes when the round ends
       return addRepair(state, found, found.defect.place, "node removed");
-    case TargetDefectKind::Clockwise:
-      return turnClockwise(state, found);
     case TargetDefectKind::PinchedNode:
       return doublePinchedNode(state, found);
     case TargetDefectKind::OrphanCell:
@@ -112,6 +111,7 @@ void mend(RepairState& state, const FoundDefect& found) {
       return mendValence(state, found);
     case TargetDefectKind::Courant:
       return lengthenEdges(state, found);
+    case TargetDefectKind::Clockwise:  // before all others
     case TargetDefectKind::NoBoundary:
     case TargetDefectKind::StrayBoundary:
     case TargetDefectKind::BoundaryTwice:
@@ -137,7 +137,9 @@ bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool
   startRound(state);
   const std::size_t repairs_before = state.report.repairs.size();
   std::vector<FoundDefect> of_boundaries;
-  for (const FoundDefect& found : withoutRepeats(defects)) {
+  const std::vector<FoundDefect> once = withoutRepeats(defects);
+  mendClockwise(state, once);
+  for (const FoundDefect& found : once) {
     if (isOfBoundaries(found.defect.kind)) of_boundaries.push_back(found);
     mend(state, found);
   }
@@ -210,6 +212,7 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
     return std::move(state.report);
   }
   requireNoWeirs(grid);
+  if (dropCopies(state, defects)) defects = findDefects(grid, targets, options);
   startRepairs(state, memory);
   state.links.kinds = takeBoundaryKinds(grid);
   bool again = true, boundaries_done = false;
