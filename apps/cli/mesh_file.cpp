@@ -29,6 +29,7 @@ Grid readMeshFile(const MeshFile& file, Run& run) {
   const Crs assumed = file.crs.empty() ? Crs{} : parseAssumed(file.crs);
   Grid grid = readGrid(file.path, assumed);
   if (grid.triangles.empty()) throw InputError("'" + file.path + "' holds no triangle");
+  if (const std::string remark = remarkOnGrid(file.path); !remark.empty()) run.warn(remark);
   if (!file.crs.empty() && !sameCrs(grid.crs, assumed)) warnOfCrs(file, "'" + file.path + "' says its CRS", run);
   return grid;
 }

@@ -12,6 +12,7 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_layers.hpp"
 #include "gis/format/read_ogr_grid.hpp"
+#include "gis/format/read_ugrid.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 
@@ -168,6 +169,11 @@ Grid readGrid(const std::string& path, const Crs& unsaid) {
   keepLinesInside(grid);
   requirePlaces(grid.nodes, grid.crs, path);
   return grid;
+}
+
+std::string remarkOnGrid(const std::string& path) {
+  const GridFormat* const format = gridFormatOf(path);
+  return format != nullptr && format->name == "ugrid" ? depthRemark(path) : std::string();
 }
 
 }  // namespace coastmesh

@@ -52,4 +52,7 @@ const GridFormat* gridFormatOf(const std::string& path);
 // InputError.
 Grid readGrid(const std::string& path, const Crs& unsaid = {});
 
+// What to say of a file that `readGrid` has read, where it had to choose; empty where it had not. Throws InputError.
+std::string remarkOnGrid(const std::string& path);
+
 }  // namespace coastmesh

@@ -216,11 +216,47 @@ class FeatureTable {
 
 struct LayerTriangle {
   std::array<Point, 3> corners;
+  std::array<double, 3> z{};   // of the corners; NaN where the file has none
   bool has_corners = false;    // three, and no more; one that is cut (`MapCutter`) may have others
   std::vector<Point> outline;  // all its points
   std::optional<std::array<std::int64_t, 3>> node_ids;  // counter-clockwise
   std::int64_t feature = 0;
 };
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// A triangle's third coordinates.
+std::array<double, 3> cornerHeights(const OGRFeature& feature) {
+  std::array<double, 3> z{kUnknown, kUnknown, kUnknown};
+  const OGRGeometry* geometry = feature.GetGeometryRef();
+  if (!geometry->Is3D()) return z;
+  if (wkbFlatten(geometry->getGeometryType()) == wkbMultiPolygon)
+    geometry = geometry->toMultiPolygon()->getGeometryRef(0);
+  const OGRLinearRing& ring = *geometry->toPolygon()->getExteriorRing();
+  for (int i = 0; i < 3; ++i) z[static_cast<std::size_t>(i)] = ring.getZ(i);
+  return z;
+}
+
+// The nodes' z as that of all corners there; unknown where these differ. None where all are 0, as programs write what
+// has no height. REQUIRES: the triangles are as given, not turned yet.
+std::vector<double> heightsAt(const std::vector<LayerTriangle>& given, const Grid& grid) {
+  std::vector<double> z(grid.nodes.size(), kUnknown);
+  std::vector<bool> differs(z.size(), false);
+  bool any = false;
+  for (std::size_t t = 0; t < given.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t node = grid.triangles[t][i];
+      const double here = given[t].z[i];
+      if (std::isnan(here)) continue;
+      any = any || here != 0.0;
+      differs[node] = differs[node] || (!std::isnan(z[node]) && z[node] != here);
+      z[node] = here;
+    }
+  }
+  for (std::size_t node = 0; node < z.size(); ++node)
+    if (differs[node]) z[node] = kUnknown;
+  return any ? z : std::vector<double>();
+}
 
 // The nodes that a triangle names, where they have its corners: somebody may have edited the layers.
 std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& triangle, const std::vector<Point>& nodes,
@@ -266,6 +302,8 @@ void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<st
       index.add(from.corners[i], triangle[i]);
     }
   }
+  // A layer of nodes has depths of its own, or says that there are none.
+  if (ids.empty()) grid.z = heightsAt(given, grid);
   windTriangles(grid.nodes, grid.crs, wound, grid.triangles);
 }
 
@@ -284,7 +322,10 @@ void readTriangles(LayerReader& reader, const std::string& path, const std::vect
     const auto says = [&](int field) { return field >= 0 && feature->IsFieldSetAndNotNull(field); };
     const auto parts = partsOf(*feature, reader);
     triangle.has_corners = parts.size() == 1 && parts[0].size() == 3;
-    if (triangle.has_corners) std::ranges::copy(parts[0], triangle.corners.begin());
+    if (triangle.has_corners) {
+      std::ranges::copy(parts[0], triangle.corners.begin());
+      triangle.z = cornerHeights(*feature);
+    }
     triangle.outline = pointsOf(parts);
     const bool is_named = std::ranges::all_of(node_fields, says);
     if (!triangle.has_corners && !is_named)

@@ -1,10 +1,12 @@
 #include "gis/format/read_ugrid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 #include "gis/error.hpp"
 #include "gis/file/netcdf_file.hpp"
@@ -119,16 +121,74 @@ void readTriangles(const NetcdfReader& file, const std::string& mesh, Grid& grid
   }
 }
 
-void readElevation(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
+struct DepthVariable {
+  std::string name;
+  bool down = false;  // depths, positive down; else elevations
+};
+
+using namespace std::string_view_literals;
+
+constexpr std::array kAltitudes{"altitude"sv, "surface_altitude"sv, "bedrock_altitude"sv};
+constexpr std::array kDepths{"depth"sv, "depth_below_geoid"sv};  // besides sea_floor_depth...
+
+// Small letters, without the name of the mesh in front.
+constexpr std::array kElevationNames{"node_z"sv, "netnode_z"sv, "z"sv, "bed_level"sv, "bedlevel"sv, "elevation"sv};
+constexpr std::array kDepthNames{"depth"sv, "h"sv, "bathymetry"sv, "node_depth"sv};
+
+std::string bareName(const std::string& name, const std::string& mesh) {
+  std::string bare = name.starts_with(mesh + "_") ? name.substr(mesh.size() + 1) : name;
+  std::ranges::transform(bare, bare.begin(), [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return bare;
+}
+
+enum class Rank { Altitude, Depth, ElevationName, DepthName, None };
+
+Rank rankOf(const NetcdfReader& file, const std::string& name, const std::string& mesh) {
+  const std::string standard = file.text(name, "standard_name");
+  if (std::ranges::count(kAltitudes, standard) > 0) return Rank::Altitude;
+  if (standard.starts_with("sea_floor_depth") || std::ranges::count(kDepths, standard) > 0) return Rank::Depth;
+  if (!standard.empty()) return Rank::None;
+  const std::string bare = bareName(name, mesh);
+  if (std::ranges::count(kElevationNames, bare) > 0) return Rank::ElevationName;
+  return std::ranges::count(kDepthNames, bare) > 0 ? Rank::DepthName : Rank::None;
+}
+
+// The variables with depths or elevations of the bed at the nodes, the best known first: with the standard_name of an
+// altitude, then that of a depth of the sea floor, then without any but with a name that models give it (FVCOM's `h`,
+// SCHISM's `depth`, D-Flow FM's `mesh2d_node_z`). An attribute `positive` says the direction before names do.
+std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::string& mesh, const std::string& x) {
+  std::vector<std::pair<Rank, DepthVariable>> found;
+  const std::vector<std::string> at_nodes = file.dimensionsOf(x);
+  const auto isOrUnsaid = [&](const std::string& name, const char* attribute, const std::string& value) {
+    const std::string said = file.text(name, attribute);
+    return said.empty() || said == value;
+  };
   for (const std::string& name : file.variables()) {
-    if (file.text(name, "mesh") != mesh || file.text(name, "location") != "node") continue;
-    if (file.text(name, "standard_name") != "altitude") continue;
-    if (file.shape(name) != std::vector{grid.nodes.size()}) continue;
-    grid.z = file.doubles(name);
-    const auto fill = file.number(name, "_FillValue");
-    const double sign = file.text(name, "positive") == "down" ? -1.0 : 1.0;
-    for (double& z : grid.z) z = fill && z == *fill ? std::numeric_limits<double>::quiet_NaN() : sign * z;
-    return;
+    if (file.dimensionsOf(name) != at_nodes || !isOrUnsaid(name, "mesh", mesh) || !isOrUnsaid(name, "location", "node"))
+      continue;
+    const Rank rank = rankOf(file, name, mesh);
+    if (rank == Rank::None) continue;
+    const bool depth = rank == Rank::Depth || rank == Rank::DepthName;
+    const std::string positive = file.text(name, "positive");
+    found.push_back({rank, {name, positive.empty() ? depth : positive == "down"}});
+  }
+  std::ranges::stable_sort(found, {}, [](const auto& of) { return of.first; });
+  std::vector<DepthVariable> variables;
+  for (auto& [rank, variable] : found) variables.push_back(std::move(variable));
+  return variables;
+}
+
+void readElevation(const NetcdfReader& file, const std::string& mesh, const std::string& x, Grid& grid) {
+  const std::vector<DepthVariable> known = depthVariables(file, mesh, x);
+  if (known.empty()) return;
+  const auto& [name, down] = known.front();
+  grid.z = file.doubles(name);
+  std::vector<double> unknown;
+  for (const char* attribute : {"_FillValue", "missing_value"})
+    if (const auto value = file.number(name, attribute)) unknown.push_back(*value);
+  for (double& z : grid.z) {
+    const bool is_known = std::isfinite(z) && std::ranges::count(unknown, z) == 0;
+    z = is_known ? (down ? 0.0 - z : z) : std::numeric_limits<double>::quiet_NaN();
   }
 }
 
@@ -202,6 +262,16 @@ void readLines(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
 
 }  // namespace
 
+std::string depthRemark(const std::string& path) {
+  const NetcdfReader file(path);
+  const std::string mesh = findMesh(file);
+  const std::vector<DepthVariable> known = depthVariables(file, mesh, coordinateNames(file, mesh).first);
+  if (known.size() < 2) return {};
+  std::string others;
+  for (std::size_t i = 1; i < known.size(); ++i) others += (i > 1 ? ", \"" : "\"") + known[i].name + "\"";
+  return "'" + path + "': depths are taken from \"" + known.front().name + "\", not from " + others;
+}
+
 Grid readUgrid(const std::string& path, const Crs& unsaid) {
   const NetcdfReader file(path);
   const std::string mesh = findMesh(file);
@@ -210,7 +280,7 @@ Grid readUgrid(const std::string& path, const Crs& unsaid) {
   const auto [x, y] = coordinateNames(file, mesh);
   readNodes(file, x, y, grid);
   readTriangles(file, mesh, grid);
-  readElevation(file, mesh, grid);
+  readElevation(file, mesh, x, grid);
   if (const std::string name = mesh + "_node_size";
       file.hasVariable(name) && file.shape(name) == std::vector{grid.nodes.size()})
     grid.size_m = file.doubles(name);

@@ -5,6 +5,7 @@
 #include <netcdf.h>
 #include <ogrsf_frmts.h>
 
+#include <cmath>
 #include <memory>
 
 #include "gis/error.hpp"
@@ -162,6 +163,26 @@ TEST_F(ReadGrid, GisLayersOfOtherPrograms) {
               HasSubstr("no layer of polygons"));
 }
 
+// Third coordinates of corners: a node has that of all corners there, or none where they differ.
+TEST_F(ReadGrid, GisLayersWithHeights) {
+  const std::string head = R"({"type":"FeatureCollection","features":[)";
+  const auto feature = [](const std::string& ring) {
+    return R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[)" + ring + "]]}}";
+  };
+  const std::string first = feature("[0,0,-5],[1,0,-6],[1,1,-7],[0,0,-5]");
+  const auto read = [&](const std::string& second) {
+    return readGrid(put("tin.geojson", head + first + "," + second + "]}"));
+  };
+  const Grid alike = read(feature("[0,0,-5],[0,1,-8],[1,1,-7],[0,0,-5]"));
+  EXPECT_EQ(alike.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(alike.z, (std::vector<double>{-5, -6, -7, -8}));
+  const Grid differing = read(feature("[0,0,-5],[0,1,-8],[1,1,-9],[0,0,-5]"));
+  EXPECT_TRUE(std::isnan(differing.z.at(2)));
+  EXPECT_EQ(differing.z.at(0), -5);
+  const Grid flat = readGrid(put("flat.geojson", head + feature("[0,0,0],[1,0,0],[1,1,0],[0,0,0]") + "]}"));
+  EXPECT_TRUE(flat.z.empty());
+}
+
 // OGR has no ring of an empty polygon.
 TEST_F(ReadGrid, EmptyPartsOfGisLayersAreRefused) {
   GDALAllRegister();
@@ -194,10 +215,15 @@ TEST_F(ReadGrid, EmptyPartsOfGisLayersAreRefused) {
               AllOf(HasSubstr("layer \"boundaries\", feature 1"), HasSubstr("not a line")));
 }
 
+// A variable at the nodes of a UGRID file; attributes that are empty are left out. Its values are 1, 2, 3 and 4.
+struct NodeVariable {
+  std::string name, standard_name, positive, location = "node";
+};
+
 // A UGRID file as others write it: names of their own, from 0, transposed, depth down, quads only in the columns.
 class Ugrid {
  public:
-  Ugrid(const std::string& path, bool quad) {
+  Ugrid(const std::string& path, bool quad, const std::vector<NodeVariable>& depths = {{"depth", "altitude", "down"}}) {
     nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_);
     int nodes = 0, faces = 0, corners = 0;
     nc_def_dim(id_, "n", 4, &nodes);
@@ -213,11 +239,14 @@ class Ugrid {
     const int lat = variable("lat", NC_FLOAT, {nodes}), lon = variable("lon", NC_DOUBLE, {nodes});
     text(lat, "standard_name", "latitude");
     text(lon, "standard_name", "longitude");
-    const int depth = variable("depth", NC_DOUBLE, {nodes});
-    text(depth, "standard_name", "altitude");
-    text(depth, "mesh", "Topology");
-    text(depth, "location", "node");
-    text(depth, "positive", "down");
+    std::vector<int> depth_ids;
+    for (const auto& [name, standard_name, positive, location] : depths) {
+      depth_ids.push_back(variable(name.c_str(), NC_DOUBLE, {nodes}));
+      if (!standard_name.empty()) text(depth_ids.back(), "standard_name", standard_name);
+      if (!location.empty()) text(depth_ids.back(), "mesh", "Topology");
+      if (!location.empty()) text(depth_ids.back(), "location", location);
+      if (!positive.empty()) text(depth_ids.back(), "positive", positive);
+    }
     const int conn = variable("conn", NC_INT64, {corners, faces});
     nc_put_att_int(id_, conn, "start_index", NC_INT, 1, &start);
     const long long no_node = fill;
@@ -226,7 +255,7 @@ class Ugrid {
     const double y[] = {50, 50, 51, 51}, x[] = {5, 6, 6, 5}, z[] = {1, 2, 3, 4};
     nc_put_var_double(id_, lat, y);
     nc_put_var_double(id_, lon, x);
-    nc_put_var_double(id_, depth, z);
+    for (const int depth : depth_ids) nc_put_var_double(id_, depth, z);
     const int columns[] = {0, 0, 1, 2, 2, 3, -1, quad ? 1 : -1};
     nc_put_var_int(id_, conn, columns);
     nc_close(id_);
@@ -252,6 +281,39 @@ TEST_F(ReadGrid, UgridOfOtherPrograms) {
   EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(grid.z, (std::vector<double>{-1, -2, -3, -4}));
   EXPECT_EQ(grid.crs.authority, "EPSG:4326");
+}
+
+TEST_F(ReadGrid, UgridDepthsOfModels) {
+  const std::vector<double> down{-1, -2, -3, -4}, up{1, 2, 3, 4}, none;
+  const std::vector<std::pair<NodeVariable, std::vector<double>>> cases{
+      {{"Mesh2_depth", "sea_floor_depth_below_geoid", "down"}, down},
+      {{"h", "sea_floor_depth_below_geoid", "", ""}, down},  // FVCOM
+      {{"zb", "sea_floor_depth_below_mean_sea_level", ""}, down},
+      {{"zb", "sea_floor_depth_below_reference_ellipsoid", "up"}, up},
+      {{"zb", "bedrock_altitude", ""}, up},
+      {{"zb", "surface_altitude", "up"}, up},
+      {{"depth", "", ""}, down},  // SCHISM
+      {{"z", "depth", ""}, down},
+      {{"Topology_node_z", "", ""}, up},  // D-Flow FM
+      {{"NetNode_z", "", "up"}, up},
+      {{"Bathymetry", "", "down"}, down},
+      {{"salinity", "", ""}, none},
+      {{"depth", "sea_water_temperature", ""}, none},
+      {{"depth", "sea_floor_depth_below_geoid", "down", "face"}, none},
+  };
+  for (const auto& [variable, z] : cases) {
+    const Ugrid file(folder_ / "depth.nc", false, {variable});
+    EXPECT_EQ(readGrid(folder_ / "depth.nc").z, z) << variable.name << ", " << variable.standard_name;
+    EXPECT_EQ(remarkOnGrid(folder_ / "depth.nc"), "");
+  }
+}
+
+// The standard name counts before names, an altitude before a depth; what else would do is named.
+TEST_F(ReadGrid, UgridWithSeveralDepths) {
+  const Ugrid file(folder_ / "depths.nc", false, {{"depth", ""}, {"h", "sea_floor_depth", ""}, {"zb", "altitude", ""}});
+  EXPECT_EQ(readGrid(folder_ / "depths.nc").z, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_THAT(remarkOnGrid(folder_ / "depths.nc"),
+              AllOf(HasSubstr("depths.nc"), HasSubstr("from \"zb\", not from \"h\", \"depth\"")));
 }
 
 TEST_F(ReadGrid, UgridWithQuadsIsRefused) {
