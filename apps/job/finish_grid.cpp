@@ -36,7 +36,9 @@ std::vector<std::string> FinishReport::warnings() const {
 FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control, const ItemLoop& loop) {
   FinishReport report;
   const std::vector<Target> targets = targetsNamed(options.targets);
-  if (!grid.triangles.empty()) report.depth = setDepths(grid, options.depth, control, loop);
+  DepthOptions depth = options.depth;
+  depth.keep_known = hasDepths(grid);
+  if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, control, loop);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
   report.mended = !targets.empty() || options.repair.time_step_s > 0.0;
   RepairMemory memory;
@@ -49,7 +51,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   bool changed = !std::ranges::all_of(report.repairs.repairs, ofDepths);
   for (int round = 0; round < kRounds && changed && !options.depth.files.empty(); ++round) {
     const std::vector<std::string> warnings = std::move(report.depth.warnings);
-    report.depth = setDepths(grid, options.depth, control, loop);
+    report.depth = setDepths(grid, depth, control, loop);
     report.depth.warnings = warnings;
     std::erase_if(report.repairs.repairs, ofDepths);
     RepairReport again = repairForTargets(grid, targets, options.repair, &memory);

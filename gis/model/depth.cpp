@@ -113,6 +113,17 @@ double shareWithout(const Grid& grid) {
   return all > 0.0 ? without / all : 0.0;
 }
 
+// Unknown z become those of `before`, one a node or empty. Returns the number of nodes for which there is one.
+std::size_t keepFrom(const std::vector<double>& before, std::vector<double>& z) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (!std::isnan(z[i]) || std::isnan(before[i])) continue;
+    z[i] = before[i];
+    ++kept;
+  }
+  return kept;
+}
+
 // What to report of nodes for which no raster has a value; empty where they are few and lie in little of the mesh.
 std::string gapWarning(const Grid& grid, const DepthOptions& options) {
   const auto isUnknown = [](double z) { return std::isnan(z); };
@@ -150,19 +161,28 @@ void measure(const Grid& grid, DepthReport& report) {
 
 }  // namespace
 
+bool hasDepths(const Grid& grid) {
+  return std::ranges::any_of(grid.z, [](double z) { return !std::isnan(z) && z != 0.0; });
+}
+
 DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control, const ItemLoop& loop) {
   DepthReport report;
   if (options.files.empty()) return report;
+  const std::vector<double> before = options.keep_known ? std::move(grid.z) : std::vector<double>();
   ValueSearch search(grid, options, loop, report);
   for (std::size_t file = 0; file < options.files.size(); ++file) search.take(file, control);
   grid.z = search.finish();
   for (double& z : grid.z) z = (options.positive_down ? 0.0 - z : z) - options.water_level_m;
+  report.kept = keepFrom(before, grid.z);
   const std::size_t known = std::accumulate(report.nodes_of_file.begin(), report.nodes_of_file.end(), std::size_t{0});
   if (known == 0) {
     report.warnings.emplace_back("no raster has a value anywhere in the mesh; is its CRS right?");
   } else if (std::string warning = gapWarning(grid, options); !warning.empty()) {
     report.warnings.push_back(std::move(warning));
   }
+  if (report.kept > 0)
+    report.warnings.push_back("no raster has a value for " + std::to_string(report.kept) + " of " +
+                              std::to_string(grid.nodes.size()) + " nodes, which keep the depths of the mesh");
   if (options.fill == DepthFill::Neighbours) report.filled = fillFromNeighbours(grid, loop);
   if (options.fill == DepthFill::Nearest) report.filled = fillFromNearest(grid, loop);
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));

@@ -35,6 +35,7 @@ struct DepthOptions {
   double water_level_m = 0.0;  // metres: height of the still water above the rasters' zero
   double min_depth_m = -std::numeric_limits<double>::infinity();  // metres: shallower nodes are lowered to this
   DepthFill fill = DepthFill::Neighbours;
+  bool keep_known = false;  // nodes for which no raster has a value keep the z that they have, instead of being filled
   const PixelReaders* readers = nullptr;  // readers of the rasters for bilinear depths; null: the caller
 };
 
@@ -42,6 +43,7 @@ struct DepthReport {
   std::vector<std::size_t> nodes_of_file;  // for each file: nodes that took their depth from it
   std::size_t averaged = 0;                // of these, over their triangles
   std::size_t partial = 0;                 // of these, from pixels some of which have no value
+  std::size_t kept = 0;                    // nodes without a value in any raster that kept what they had
   std::size_t filled = 0;                  // nodes without a value in any raster, filled from others
   std::size_t unknown = 0;                 // nodes left without a value
   std::size_t lowered = 0;                 // to the minimum depth
@@ -50,6 +52,9 @@ struct DepthReport {
   double greatest_m = 0.0;
   std::vector<std::string> warnings;
 };
+
+// Whether the nodes' z says anything: formats that have to name a depth name 0 where there is none.
+bool hasDepths(const Grid& grid);
 
 // Sets the grid's z from rasters in any CRS, read block by block, with constant memory. A raster without a CRS is
 // assumed to be in the grid's. Throws InputError, Cancelled.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "gis/error.hpp"
 #include "gis/projection/projection.hpp"
@@ -15,6 +16,7 @@
 namespace coastmesh {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::kNoValue;
@@ -59,6 +61,37 @@ TEST_F(Depth, BilinearIsExactOnAPlane) {
     EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 1e-9);
   EXPECT_THAT(report.nodes_of_file, ElementsAre(grid.nodes.size()));
   EXPECT_EQ(report.filled + report.unknown + report.partial, 0u);
+}
+
+// The raster covers the west of the mesh.
+TEST_F(Depth, NodesBesideTheRasterKeepWhatTheyHave) {
+  const std::string file = raster("dem.tif", "EPSG:4326", {10, 40, 9.0, 53.0, 0.1}, slope);
+  Grid grid = squares("EPSG:4326", {9.23, 50.07}, 0.31, 7, 5);
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) grid.z.push_back(-1000.0 - static_cast<double>(i));
+  grid.z[7] = std::numeric_limits<double>::quiet_NaN();  // in the east: to be filled
+  const std::vector<double> before = grid.z;
+  const DepthReport report = setDepths(grid, {.files = {file}, .keep_known = true});
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    if (grid.nodes[i].x < 9.95) EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 1e-9);
+    if (grid.nodes[i].x < 10.0 || i == 7) continue;
+    EXPECT_EQ(grid.z[i], before[i]);
+    ++kept;
+  }
+  EXPECT_EQ(report.kept, kept);
+  EXPECT_EQ(report.filled, 1u);
+  EXPECT_THAT(report.warnings, Contains(HasSubstr(std::to_string(kept) + " of 48 nodes, which keep the depths")));
+}
+
+TEST_F(Depth, ZeroEverywhereIsNoDepth) {
+  Grid grid = squares("EPSG:4326", {9.23, 50.07}, 0.31, 2, 2);
+  EXPECT_FALSE(hasDepths(grid));
+  grid.z.assign(grid.nodes.size(), 0.0);
+  EXPECT_FALSE(hasDepths(grid));
+  grid.z[3] = 0.5;
+  EXPECT_TRUE(hasDepths(grid));
+  grid.z.assign(grid.nodes.size(), std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(hasDepths(grid));
 }
 
 // Three tiles of the raster, two of them with enough nodes for a reader of their own; a part of it has no value, where
