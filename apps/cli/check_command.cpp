@@ -15,6 +15,7 @@
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
 #include "core/metric.hpp"
+#include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/grid/ground_orientation.hpp"
@@ -178,6 +179,12 @@ std::vector<DefectRow> targetRows(Grid& grid, const std::vector<Target>& targets
   return rows;
 }
 
+void requireDepths(const Grid& grid, const CheckUsage& usage) {
+  if (usage.target_check.time_step_s <= 0.0 || std::ranges::any_of(grid.z, [](double z) { return z < 0.0; })) return;
+  throw InputError("--time-step needs depths: no node of '" + usage.mesh.path +
+                   "' is known to be below the water; 'coastmesh convert --bathymetry' gives it depths");
+}
+
 int runCheck(const CheckUsage& usage, Run& run) {
   Interrupt& interrupt = run.interrupt;
   RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
@@ -188,6 +195,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
   }
   const std::vector<Target> targets = targetsNamed(usage.targets);
   Grid grid = readMeshFile(usage.mesh, run);
+  requireDepths(grid, usage);
   interrupt.check();
   GridCheckOptions options = usage.check;
   if (!usage.input.files.empty()) options.delaunay = true;

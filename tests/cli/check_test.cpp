@@ -62,5 +62,15 @@ TEST_F(Check, NodesThatDoNotHangTogether) {
   EXPECT_THAT(seam.output, HasSubstr("repeated node: 5"));
 }
 
+TEST_F(Check, TimeStepsNeedDepths) {
+  for (const double depth : {0.0, -3.0}) {
+    const ProgramRun run = runProgram({"check", sheets("dry.14", {{0, 0}}, depth), "--time-step", "10"});
+    EXPECT_EQ(run.code, 3);
+    EXPECT_TRUE(isOneErrorLine(run.errors));
+    EXPECT_THAT(run.errors, AllOf(HasSubstr("--time-step needs depths"), HasSubstr("dry.14")));
+  }
+  EXPECT_EQ(runProgram({"check", sheets("wet.14", {{0, 0}}, 10.0), "--time-step", "10"}).code, 0);
+}
+
 }  // namespace
 }  // namespace coastmesh::test
