@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "gis/file/prj_file.hpp"
@@ -85,12 +86,13 @@ void writePhysicalNames(TextWriter& file, const Grid& grid, const Layout& layout
   file << "$EndPhysicalNames\n";
 }
 
-void writeNodeData(TextWriter& file, const Grid& grid, const ItemLoop& loop) {
+// In the order in which the nodes were written: readers there are take the values for it, and leave the tags unread.
+void writeNodeData(TextWriter& file, const Grid& grid, const std::vector<std::uint32_t>& order, const ItemLoop& loop) {
   if (grid.z.empty()) return;
   const auto known = std::ranges::count_if(grid.z, [](double z) { return !std::isnan(z); });
   file << "$NodeData\n1\n\"z\"\n1\n0\n3\n0\n1\n" << known << '\n';
-  file.rows(loop, grid.z.size(), [&](TextBlock& text, std::size_t i) {
-    if (!std::isnan(grid.z[i])) text << i + 1 << ' ' << grid.z[i] << '\n';
+  file.rows(loop, order.size(), [&](TextBlock& text, std::size_t i) {
+    if (const double z = grid.z[order[i]]; !std::isnan(z)) text << order[i] + 1 << ' ' << z << '\n';
   });
   file << "$EndNodeData\n";
 }
@@ -276,9 +278,9 @@ void writePartitionedEntities(TextWriter& file, const Grid& grid, const Layout& 
   file << "$EndPartitionedEntities\n";
 }
 
-// Every node in the first block that it lies on, curves before surfaces.
-void writeNodes(TextWriter& file, const Grid& grid, const std::vector<NodePair>& lines,
-                const std::vector<Block>& blocks, const ItemLoop& loop) {
+// Every node in the first block that it lies on, curves before surfaces; returns their order.
+std::vector<std::uint32_t> writeNodes(TextWriter& file, const Grid& grid, const std::vector<NodePair>& lines,
+                                      const std::vector<Block>& blocks, const ItemLoop& loop) {
   std::vector<std::vector<std::uint32_t>> nodes_of(blocks.size());
   std::vector<bool> placed(grid.nodes.size(), false);
   const auto place = [&](std::size_t block, std::uint32_t node) {
@@ -298,11 +300,14 @@ void writeNodes(TextWriter& file, const Grid& grid, const std::vector<NodePair>&
   }
   for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) place(first_surface, node);
   const auto filled = std::ranges::count_if(nodes_of, [](const auto& nodes) { return !nodes.empty(); });
+  std::vector<std::uint32_t> order;
+  order.reserve(grid.nodes.size());
   file << "$Nodes\n" << filled << ' ' << grid.nodes.size() << " 1 " << grid.nodes.size() << '\n';
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::vector<std::uint32_t>& nodes = nodes_of[b];
     if (nodes.empty()) continue;
     std::ranges::sort(nodes);
+    order.insert(order.end(), nodes.begin(), nodes.end());
     file << blocks[b].dimension << ' ' << blocks[b].tag << " 0 " << nodes.size() << '\n';
     file.rows(loop, nodes.size(), [&](TextBlock& text, std::size_t i) { text << nodes[i] + 1 << '\n'; });
     file.rows(loop, nodes.size(), [&](TextBlock& text, std::size_t i) {
@@ -310,6 +315,7 @@ void writeNodes(TextWriter& file, const Grid& grid, const std::vector<NodePair>&
     });
   }
   file << "$EndNodes\n";
+  return order;
 }
 
 void writeElements(TextWriter& file, const Grid& grid, const std::vector<NodePair>& lines,
@@ -349,9 +355,9 @@ void writeGmsh(const Grid& grid, const std::string& path, const ItemLoop& loop) 
   const std::vector<NodePair> lines = linesOf(layout);
   const std::vector<Block> blocks = blocksOf(grid, layout);
   writePartitionedEntities(file, grid, layout, lines, blocks);
-  writeNodes(file, grid, lines, blocks, loop);
+  const std::vector<std::uint32_t> order = writeNodes(file, grid, lines, blocks, loop);
   writeElements(file, grid, lines, blocks, loop);
-  writeNodeData(file, grid, loop);
+  writeNodeData(file, grid, order, loop);
   file.close();
   writePrjBeside(path, grid.crs);
 }
@@ -378,7 +384,9 @@ void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop
          << c + 1 << '\n';
   });
   file << "$EndElements\n";
-  writeNodeData(file, grid, loop);
+  std::vector<std::uint32_t> order(grid.nodes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  writeNodeData(file, grid, order, loop);
   file.close();
   writePrjBeside(path, grid.crs);
 }

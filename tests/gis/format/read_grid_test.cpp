@@ -6,7 +6,9 @@
 #include <ogrsf_frmts.h>
 
 #include <cmath>
+#include <fstream>
 #include <memory>
+#include <sstream>
 
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
@@ -107,6 +109,32 @@ TEST_F(ReadGrid, GmshWithDepthsAsThirdCoordinate) {
   std::string text = kSquare22;
   text.replace(text.find("1 0 0 0\n2 1"), 7, "1 0 0 -5");
   EXPECT_EQ(readGrid(put("bay.msh", text)).z, (std::vector<double>{-5, 0, 0, 0}));
+}
+
+// Readers there are take $NodeData in the order of $Nodes.
+TEST_F(ReadGrid, GmshHasNodeDataInTheOrderOfNodes) {
+  const Grid grid = testing::sampleGrid({}, {1000.0, 2000.0}, 50.0);
+  for (const char* name : {"a.msh", "a_22.msh"}) {
+    StagedOutput output(folder_ / name, gridFormatFor(name), false);
+    output.write(grid);
+    output.commit();
+    std::ifstream file(folder_ / name);
+    std::vector<std::size_t> nodes, data;
+    std::string line, section;
+    while (std::getline(file, line)) {
+      if (line.starts_with("$")) section = line;
+      std::istringstream words(line);
+      std::vector<double> numbers;
+      for (double number = 0; words >> number;) numbers.push_back(number);
+      const bool old = std::string_view(name).ends_with("_22.msh");
+      if (section == "$Nodes" && numbers.size() == (old ? 4 : 1) && (old || numbers[0] > 0))
+        nodes.push_back(static_cast<std::size_t>(numbers[0]));
+      if (section == "$NodeData" && numbers.size() == 2) data.push_back(static_cast<std::size_t>(numbers[0]));
+    }
+    EXPECT_EQ(nodes.size(), grid.nodes.size());
+    EXPECT_EQ(data, nodes) << name;
+    EXPECT_EQ(readGrid(folder_ / name).z, grid.z);
+  }
 }
 
 TEST_F(ReadGrid, GmshErrors) {
