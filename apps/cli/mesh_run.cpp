@@ -29,6 +29,7 @@
 #include "cluster/ranks_started.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/read/open_source.hpp"
 #include "parallel/recorder.hpp"
@@ -73,6 +74,24 @@ std::string summaryOf(const MeshRunUsage& usage, const MeshJob& job, const MeshJ
   for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
   if (!usage.edits.empty()) text += "wrote " + usage.edits + "\n";
   if (!usage.report.empty()) text += "wrote " + usage.report + "\n";
+  return text;
+}
+
+// Why the mesh is short of what was asked, in a line: all that a quiet run says of it.
+std::string shortfallOf(const MeshJobResult& result) {
+  std::string text;
+  const auto add = [&text](const std::string& reason) { text += (text.empty() ? "" : "; ") + reason; };
+  const auto counted = [](std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + forCount(count, one, many);
+  };
+  if (result.short_of.count > 0)
+    add(counted(result.short_of.count, " triangle misses", " triangles miss") + " the bounds on angles or lengths");
+  if (result.turned > 0) add(counted(result.turned, " triangle is", " triangles are") + " not counter-clockwise");
+  if (result.refine.budget_reached) add("the budget of points is used up");
+  if (!result.refusals.empty()) add(counted(result.refusals.size(), " group", " groups") + " of features left out");
+  const std::size_t left = result.finish.repairs.left.size();
+  if (left > 0) add(counted(left, " defect", " defects") + " for models could not be repaired");
+  if (!result.step.held()) add("the time step is not held");
   return text;
 }
 
@@ -312,6 +331,8 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   display.show("done", 1.0);
   display.clear();
   std::fputs(summary.c_str(), stdout);
+  if (code == kExitShort && usage.quiet)
+    std::fprintf(stderr, "coastmesh: short of what was asked: %s\n", shortfallOf(result).c_str());
   return code;
 }
 

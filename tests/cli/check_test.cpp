@@ -72,5 +72,15 @@ TEST_F(Check, TimeStepsNeedDepths) {
   EXPECT_EQ(runProgram({"check", sheets("wet.14", {{0, 0}}, 10.0), "--time-step", "10"}).code, 0);
 }
 
+// A run that falls short says so, however quiet it is to be.
+TEST_F(Check, QuietMeshesSayThatTheyFallShort) {
+  const std::vector<std::string> command{"mesh",    lake(),           "-o", file("m.nc"), "--min-angle", "40",
+                                         "--quiet", "--max-vertices", "60"};
+  const ProgramRun run = runProgram(command);
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.output, "");
+  EXPECT_THAT(run.errors, HasSubstr("short of what was asked: "));
+}
+
 }  // namespace
 }  // namespace coastmesh::test
