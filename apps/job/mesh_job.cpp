@@ -437,7 +437,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   result.log.append(recorder.finish("grid"));
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
-                   job.mesh.refine.min_angle_deg};
+                   job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg};
   if (finish.any()) {
     const Stopwatch finishing;
     RunControl inner{control.cancelled, {}};
@@ -456,7 +456,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     std::ranges::move(warningsOfIdleInputs(job, sizes, input.coastline(), result.grid),
                       std::back_inserter(result.read.warnings));
   findTurned(result, loop);
-  result.step = measureOutcome(result.grid, job.sizes, loop);
+  result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal);
   result.rasters_read = rasters.use();
   result.log.append(recorder.finish("grid"));
   result.seconds.total = whole.seconds();

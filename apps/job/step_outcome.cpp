@@ -20,7 +20,7 @@ std::string amount(const char* format, double number) {
 
 // How many there are of each cause, and what helps.
 template <typename Short>
-std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes) {
+std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes, QualityGoal goal) {
   std::array<std::size_t, kShortCauses> counts{};
   for (const Short& one : found) ++counts[static_cast<std::size_t>(one.cause)];
   const bool follows = sizes.coast == CoastDetail::Follow;
@@ -29,7 +29,10 @@ std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes
               : "at edges of the shore, which --coast follow makes as long as the sizes",
       follows ? "where water is narrow, which a larger --channel-min closes"
               : "where water is narrow, which --coast follow closes",
-      "elsewhere, where larger sizes, a larger --size-max or a smaller --min-angle help"};
+      goal == QualityGoal::Centred
+          ? "elsewhere, where --quality centred, which may make no angle above 90 degrees, takes shorter edges: larger "
+            "sizes, a smaller --min-angle or another --quality help"
+          : "elsewhere, where larger sizes, a larger --size-max or a smaller --min-angle help"};
   std::string text;
   for (std::size_t cause = 0; cause < kShortCauses; ++cause)
     if (counts[cause] > 0) text += (text.empty() ? "" : "; ") + std::to_string(counts[cause]) + " " + texts[cause];
@@ -46,7 +49,7 @@ std::string missedText(const StepOutcome& outcome, const SizeOptions& sizes) {
          " times it (exit code 1)";
 }
 
-std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOptions& sizes) {
+std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOptions& sizes, QualityGoal goal) {
   const std::vector<ShortStep>& below_step = outcome.below_step;
   const std::vector<ShortEdge>& below_least = outcome.below_least;
   std::vector<std::string> all;
@@ -55,20 +58,20 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
     all.push_back("--time-step " + amount("%g", sizes.time_step_s) + " at --courant " + amount("%g", sizes.courant) +
                   " does not hold in " + std::to_string(below_step.size()) +
                   forCount(below_step.size(), " triangle, at ", " triangles, the worst at ") + pointText(worst.place) +
-                  amount(" with %.3g s: ", worst.step_s * sizes.courant) + causesText(below_step, sizes));
+                  amount(" with %.3g s: ", worst.step_s * sizes.courant) + causesText(below_step, sizes, goal));
   }
   if (!below_least.empty()) {
     all.push_back("edges shorter than " + amount("%g", StepOutcome::kUsualShare) + " times --size-min " +
                   amount("%g", sizes.least_m) + ": " + std::to_string(below_least.size()) + missedText(outcome, sizes) +
                   ", the shortest of " + amount("%.4g m at ", below_least.front().length_m) +
-                  pointText(below_least.front().place) + ": " + causesText(below_least, sizes));
+                  pointText(below_least.front().place) + ": " + causesText(below_least, sizes, goal));
   }
   return all;
 }
 
 }  // namespace
 
-StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop) {
+StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop, QualityGoal goal) {
   StepOutcome outcome;
   outcome.step = measureStep(grid, loop);
   if (sizes.time_step_s > 0.0) outcome.below_step = stepsBelow(grid, sizes.time_step_s, sizes.courant, loop);
@@ -76,7 +79,7 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
     outcome.below_least = edgesBelow(grid, StepOutcome::kUsualShare * sizes.least_m, loop);
   outcome.least_missed = sizes.coast == CoastDetail::Follow && !outcome.below_least.empty() &&
                          outcome.below_least.front().length_m < StepOutcome::kShareOfLeast * sizes.least_m;
-  outcome.warnings = warningsOf(outcome, sizes);
+  outcome.warnings = warningsOf(outcome, sizes, goal);
   return outcome;
 }
 

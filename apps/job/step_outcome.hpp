@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/refine/refine_options.hpp"
 #include "gis/model/time_step.hpp"
 #include "gis/size/size_source.hpp"
 
@@ -24,7 +25,9 @@ struct StepOutcome {
   bool held() const { return below_step.empty() && !least_missed; }
 };
 
-StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop);
+// `goal` is that of the optimiser, which may have needed short edges.
+StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop,
+                           QualityGoal goal = QualityGoal::Shape);
 
 // A line for users: the shortest edge and the time step, with their places.
 std::string stepText(const StepReport& step, bool plane);

@@ -10,6 +10,8 @@ struct RepairOptions {
   bool shore_moves = false;  // nodes of the shore may slide along it, and be removed
   // Degrees: the minimum angle of the mesh, which repairs should keep; 0: unknown.
   double min_angle_deg = 0.0;
+  // Degrees: the maximum angle, which repairs for the time step keep: models may need what other repairs mend.
+  double max_angle_deg = 180.0;
 };
 
 // What repairs learned about a grid, which saves later ones attempts that would fail again.

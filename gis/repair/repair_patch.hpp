@@ -41,6 +41,7 @@ struct StepBound {
   double least_angle_deg = 0.0;  // for that no smaller angles are made
   // By triangle: lengths on the ground over those of the plane that is flat there.
   std::span<const double> metres_per_unit{};
+  double largest_angle_deg = 180.0;  // for that no larger angles are made
 };
 
 // What a search for repairs looks at.

@@ -168,7 +168,9 @@ int triangleDefects(const EditedView& edited, const GridCorners& v, std::uint32_
   return defects + (neighbours == 0);
 }
 
-double smallestAngle(const std::array<Point, 3>& p) { return std::ranges::min(anglesDeg(p[0], p[1], p[2])); }
+std::ranges::minmax_result<double> anglesOf(const std::array<Point, 3>& p) {
+  return std::ranges::minmax(anglesDeg(p[0], p[1], p[2]));
+}
 
 // Of a triangle as it is; none where it is clockwise, or without area.
 std::optional<TriangleScore> scoreTriangle(const RepairView& view, std::uint32_t t) {
@@ -176,7 +178,8 @@ std::optional<TriangleScore> scoreTriangle(const RepairView& view, std::uint32_t
   const GridCorners& v = view.grid.triangles[t];
   const auto p = now.planeOf(v);
   if (!isUpright(now, v, p)) return std::nullopt;
-  return TriangleScore{triangleDefects(now, v, t, p), smallestAngle(p)};
+  const auto [least, largest] = anglesOf(p);
+  return TriangleScore{triangleDefects(now, v, t, p), least, largest};
 }
 
 // As the triangle is now.
@@ -324,6 +327,7 @@ std::optional<EditScore> scoreAbove(const RepairView& view, const Patch& patch, 
     const auto& old = scoreBefore(view, scale, t);
     score.defects -= old ? old->defects : 0;
     score.replaced_angle = std::min(score.replaced_angle, old ? old->min_angle : 0.0);
+    score.replaced_largest = std::max(score.replaced_largest, old ? old->max_angle : 180.0);
   }
   const auto kept = std::ranges::find_if(scale.angles, isKept, &std::pair<double, std::uint32_t>::second);
   if (kept != scale.angles.end()) score.min_angle = std::min(score.min_angle, kept->first);
@@ -347,7 +351,9 @@ std::optional<EditScore> scoreAbove(const RepairView& view, const Patch& patch, 
     if (!mayReach()) return std::nullopt;
   }
   for (const std::array<Point, 3>& p : shapes) {
-    score.made_angle = std::min(score.made_angle, smallestAngle(p));
+    const auto [least, largest] = anglesOf(p);
+    score.made_angle = std::min(score.made_angle, least);
+    score.made_largest = std::max(score.made_largest, largest);
     score.min_angle = std::min(score.min_angle, score.made_angle);
     if (!mayReach()) return std::nullopt;
   }

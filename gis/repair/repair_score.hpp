@@ -18,6 +18,7 @@ struct EditScore {
   double min_angle = 0.0;  // degrees, of the whole patch
   // Degrees, of the triangles that the edit makes, and of those that they take the place of.
   double made_angle = 180.0, replaced_angle = 180.0;
+  double made_largest = 0.0, replaced_largest = 0.0;  // their largest
 
   // How many of these the smallest angle reaches.
   int grade() const {
@@ -36,7 +37,7 @@ inline constexpr int kTurnedOver = std::numeric_limits<int>::max();
 
 struct TriangleScore {
   int defects = 0;
-  double min_angle = 0.0;  // degrees
+  double min_angle = 0.0, max_angle = 180.0;  // degrees
 };
 
 // What is measured once, so that an edit costs what it changes.
@@ -51,12 +52,14 @@ PatchScale scaleOf(const RepairView& view, const Patch& patch);
 
 // What an edit has to reach to be of use.
 struct ScoreBar {
-  int defects = kTurnedOver;        // fewer than these
-  double least_angle_deg = 0.0;     // no smaller angles made, unless what they take the place of has smaller ones
-  const EditScore* best = nullptr;  // better than this
+  int defects = kTurnedOver;         // fewer than these
+  double least_angle_deg = 0.0;      // no smaller angles made, unless what they take the place of has smaller ones
+  const EditScore* best = nullptr;   // better than this
+  double largest_angle_deg = 180.0;  // no larger angles made, unless what they take the place of has larger ones
 
   bool isReachedBy(const EditScore& score) const {
-    return score.made_angle >= std::min(least_angle_deg, score.replaced_angle) && score.defects < defects &&
+    return score.made_angle >= std::min(least_angle_deg, score.replaced_angle) &&
+           score.made_largest <= std::max(largest_angle_deg, score.replaced_largest) && score.defects < defects &&
            (best == nullptr || score.betterThan(*best));
   }
 };

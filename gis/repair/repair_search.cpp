@@ -14,16 +14,18 @@ bool keepsShores(const RepairView& view, const PatchEdit& edit) {
 // The best of what is offered that is better than the patch as it is; the first of those as good.
 class Contest {
  public:
-  // Triangles with a smaller angle than `least_angle_deg` are made only of such.
-  Contest(const RepairView& view, const Patch& patch, double least_angle_deg = 0.0)
+  // Triangles with a smaller angle than `least_angle_deg`, or a larger one than `largest_angle_deg`, are made only of
+  // such.
+  Contest(const RepairView& view, const Patch& patch, double least_angle_deg = 0.0, double largest_angle_deg = 180.0)
       : view_(view),
         patch_(patch),
         scale_(scaleOf(view, patch)),
         now_(scoreOf(scale_)),
-        least_angle_deg_(least_angle_deg) {}
+        least_angle_deg_(least_angle_deg),
+        largest_angle_deg_(largest_angle_deg) {}
 
   void offer(const PatchEdit& edit) {
-    const ScoreBar bar{now_.defects, least_angle_deg_, best_ ? &score_ : nullptr};
+    const ScoreBar bar{now_.defects, least_angle_deg_, best_ ? &score_ : nullptr, largest_angle_deg_};
     const std::optional<EditScore> score = scoreAbove(view_, patch_, scale_, edit, bar);
     if (!score || !keepsShores(view_, edit)) return;
     score_ = *score;
@@ -39,7 +41,7 @@ class Contest {
   const Patch& patch_;
   const PatchScale scale_;
   const EditScore now_;
-  const double least_angle_deg_;
+  const double least_angle_deg_, largest_angle_deg_;
   EditScore score_;
   std::optional<PatchEdit> best_;
 };
@@ -84,7 +86,7 @@ std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const s
 std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
                                          std::span<const std::uint32_t> movable, const Patch& patch) {
   const GridCorners& v = view.grid.triangles[t];
-  Contest contest(view, patch, view.step.least_angle_deg);
+  Contest contest(view, patch, view.step.least_angle_deg, view.step.largest_angle_deg);
   for (const std::uint32_t node : movable) offerMoves(contest, view, node);
   for (unsigned i = 0; i < 3; ++i) {
     for (const auto& [gone, kept] : {std::pair(v[i], v[next3(i)]), std::pair(v[next3(i)], v[i])})
@@ -109,7 +111,8 @@ std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, s
     const bool changes_it = std::ranges::count(edit.removed, t) > 0 ||
                             std::ranges::any_of(edit.triangles, [t](const EditedTriangle& e) { return e.slot == t; });
     if (!changes_it) return;
-    const std::optional<EditScore> score = scoreAbove(view, patch, scale, edit, {.defects = 1});
+    const std::optional<EditScore> score =
+        scoreAbove(view, patch, scale, edit, {.defects = 1, .largest_angle_deg = view.step.largest_angle_deg});
     if (!score || score->made_angle <= std::max(most, score->replaced_angle + kBetterDeg)) return;
     if (!keepsShores(view, edit)) return;
     most = score->made_angle;

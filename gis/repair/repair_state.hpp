@@ -35,7 +35,8 @@ struct RepairState {
 
   RepairView view() const {
     // A shore that stays as it is seldom lets the step hold everywhere: then angles are not given for it.
-    const StepBound step{options.time_step_s, options.shore_moves ? 20.0 : options.min_angle_deg, metres_per_unit};
+    const StepBound step{options.time_step_s, options.shore_moves ? 20.0 : options.min_angle_deg, metres_per_unit,
+                         options.max_angle_deg};
     return {grid, links, targets, smallest_angle, on_sphere, step, shores ? &*shores : nullptr};
   }
   bool isTaken(std::uint32_t t) const { return touched[t] || dead[t]; }

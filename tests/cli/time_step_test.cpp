@@ -105,6 +105,21 @@ class TimeStep : public ProgramTest {
   }
 };
 
+// What mends a time step may not make an obtuse triangle then, and what stays is said.
+TEST_F(TimeStep, RepairsKeepCircumcentresInside) {
+  const std::vector<std::string> options{"mesh",         raggedSea(),  "--bathymetry", raggedBed(),
+                                         "--size-shore", "800",        "--size-max",   "4000",
+                                         "--time-step",  "24",         "--quality",    "centred",
+                                         "-o",           file("a.nc"), "--report",     file("r.json")};
+  const ProgramRun run = runProgram(options);
+  EXPECT_EQ(run.code, 1);
+  const Json report = Json::parse(readText(file("r.json")));
+  EXPECT_GT(report.at("repairs").at("done").size(), 10u);
+  EXPECT_GT(report.at("step").at("asked").at("missed"), 0);
+  EXPECT_EQ(report.at("refine").at("unresolved").at("count"), 0);
+  EXPECT_THAT(run.errors, HasSubstr("--quality centred, which may make no angle above 90 degrees"));
+}
+
 TEST_F(TimeStep, IsSaidInSummaryReportAndInfo) {
   const ProgramRun without = mesh({"--size", "2000"});
   EXPECT_THAT(without.output, HasSubstr("without depths there is no time step"));
