@@ -294,6 +294,16 @@ std::unique_ptr<SizeFunction> globeSizes(const GroupTask& task, const Domain& do
   return std::make_unique<ConstantSize>(length);
 }
 
+// Where it is so much of the water that the sizes there may surprise.
+void noteFilledWater(const FilledWater& filled, const SizeOptions& wanted, GroupResult& result) {
+  constexpr double kLittle = 0.01;
+  if (!(filled.area_m2 > kLittle * result.input_area_m2.value_or(0.0))) return;
+  result.notes.push_back(
+      "no raster has a depth for about " + amount("%.3g", filled.area_m2 / 1e6) +
+      " km2 of the water, most of it near " + pointText(filled.place) + ": sizes there follow from " +
+      (wanted.gaps == GapFill::Nearest ? "the nearest depths" : "depths interpolated across it") + ", as nodes do");
+}
+
 // The sizes of a domain, which is made as coarse as they are where that is asked for; null where none are.
 std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, GroupResult& result) {
   const auto& [job, input, sizes, group, room, control] = task;
@@ -340,6 +350,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
   }
+  noteFilledWater(sized.filled, wanted, result);
   VertexDemand& demand = sized.demand;
   demand.vertices += verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * most - demand.vertices),
                                         domain.projection.surface());

@@ -137,6 +137,9 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
 
 void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may_choose, SizeOptions& sizes) {
   sizes.bathymetry = depths.files;
+  sizes.gaps = depths.fill == DepthFill::None      ? GapFill::None
+               : depths.fill == DepthFill::Nearest ? GapFill::Nearest
+                                                   : GapFill::Mean;
   sizes.depth.positive_down = depths.positive_down;
   sizes.depth.water_level_m = depths.water_level_m;
   sizes.depth.least_depth_m = std::max(sizes.depth.least_depth_m, depths.min_depth_m);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "gis/geometry/membrane.hpp"
 #include "gis/geometry/neighbours.hpp"
 
 namespace coastmesh {
@@ -42,97 +42,33 @@ double distance(const Grid& grid, std::uint32_t a, std::uint32_t b) {
   return std::hypot(std::remainder(p.x - q.x, 360.0) * scale, p.y - q.y);
 }
 
-// Values at nodes, each the mean of its neighbours', by conjugate gradients from what is there. It takes about as many
-// steps as a gap is wide, in edges.
-class MeanOfNeighbours {
- public:
-  // `nodes` are to be changed, and all of their neighbours have a value.
-  MeanOfNeighbours(Grid& grid, const Neighbours& neighbours, std::vector<std::uint32_t> nodes, const ItemLoop& loop)
-      : grid_(grid), nodes_(std::move(nodes)), loop_(loop) {
-    std::ranges::sort(nodes_);
-    std::vector<std::uint32_t> number(grid.nodes.size(), kNone);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) number[nodes_[i]] = static_cast<std::uint32_t>(i);
-    begin_.push_back(0);
-    for (const std::uint32_t node : nodes_) {
-      double fixed = 0.0;
-      for (const std::uint32_t next : neighbours.of(node)) {
-        if (number[next] != kNone) {
-          inner_.push_back(number[next]);
-          continue;
-        }
-        fixed += grid.z[next];
-        low_ = std::min(low_, grid.z[next]);
-        high_ = std::max(high_, grid.z[next]);
+// Sets `nodes` to the means of their neighbours, all of which have a value.
+void settleNodes(Grid& grid, const Neighbours& neighbours, std::vector<std::uint32_t> nodes, const ItemLoop& loop) {
+  std::ranges::sort(nodes);
+  std::vector<std::uint32_t> number(grid.nodes.size(), kNone);
+  for (std::size_t i = 0; i < nodes.size(); ++i) number[nodes[i]] = static_cast<std::uint32_t>(i);
+  Membrane membrane;
+  std::vector<double> values;
+  for (const std::uint32_t node : nodes) {
+    double fixed = 0.0;
+    for (const std::uint32_t next : neighbours.of(node)) {
+      if (number[next] != kNone) {
+        membrane.neighbour.push_back(number[next]);
+        continue;
       }
-      fixed_.push_back(fixed);
-      degree_.push_back(static_cast<double>(neighbours.of(node).size()));
-      begin_.push_back(inner_.size());
-      value_.push_back(grid.z[node]);
+      fixed += grid.z[next];
+      membrane.low = std::min(membrane.low, grid.z[next]);
+      membrane.high = std::max(membrane.high, grid.z[next]);
     }
+    membrane.fixed.push_back(fixed);
+    membrane.degree.push_back(static_cast<double>(neighbours.of(node).size()));
+    membrane.begin.push_back(membrane.neighbour.size());
+    values.push_back(grid.z[node]);
   }
-
-  void run() {
-    constexpr int kMostSteps = 1000;
-    constexpr double kClose = 1e-5, kRounding = 1e-12;  // to the mean, of the range of the values around, and of them
-    const double close = kClose * (high_ - low_) + kRounding * std::max(std::abs(low_), std::abs(high_));
-    const std::size_t count = nodes_.size();
-    std::vector<double> rest(count), way(count), image(count);
-    apply(value_, image);
-    forEachByStretches(loop_, count, [&](std::size_t i) {
-      rest[i] = fixed_[i] - image[i];
-      way[i] = rest[i] / degree_[i];
-    });
-    double size = sumOf([&](std::size_t i) { return rest[i] * rest[i] / degree_[i]; });
-    for (int step = 0; step < kMostSteps && farthest(rest) > close; ++step) {
-      apply(way, image);
-      const double length = size / sumOf([&](std::size_t i) { return way[i] * image[i]; });
-      forEachByStretches(loop_, count, [&](std::size_t i) {
-        value_[i] += length * way[i];
-        rest[i] -= length * image[i];
-      });
-      const double left = sumOf([&](std::size_t i) { return rest[i] * rest[i] / degree_[i]; });
-      forEachByStretches(loop_, count, [&](std::size_t i) { way[i] = rest[i] / degree_[i] + left / size * way[i]; });
-      size = left;
-    }
-    for (std::size_t i = 0; i < count; ++i) grid_.z[nodes_[i]] = std::clamp(value_[i], low_, high_);
-  }
-
- private:
-  void apply(const std::vector<double>& values, std::vector<double>& to) const {
-    forEachByStretches(loop_, values.size(), [&](std::size_t i) {
-      double sum = degree_[i] * values[i];
-      for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) sum -= values[inner_[k]];
-      to[i] = sum;
-    });
-  }
-  // The same for any number of threads.
-  template <typename Term>
-  double sumOf(const Term& term) const {
-    double all = 0.0;
-    for (const double part : overStretches(loop_, nodes_.size(), [&](std::size_t first, std::size_t last) {
-           double sum = 0.0;
-           for (std::size_t i = first; i < last; ++i) sum += term(i);
-           return sum;
-         }))
-      all += part;
-    return all;
-  }
-  double farthest(const std::vector<double>& rest) const {
-    double most = 0.0;
-    for (std::size_t i = 0; i < rest.size(); ++i) most = std::max(most, std::abs(rest[i]) / degree_[i]);
-    return most;
-  }
-
-  Grid& grid_;
-  std::vector<std::uint32_t> nodes_;
-  const ItemLoop& loop_;
-  // For each of the nodes: its neighbours among them, from begin_[i] on, by their places in `nodes_`; the sum of the
-  // values of the others; the number of all; its value.
-  std::vector<std::size_t> begin_;
-  std::vector<std::uint32_t> inner_;
-  std::vector<double> fixed_, degree_, value_;
-  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
-};
+  membrane.weight.assign(membrane.neighbour.size(), 1.0);
+  settle(membrane, values, loop);
+  for (std::size_t i = 0; i < nodes.size(); ++i) grid.z[nodes[i]] = values[i];
+}
 
 }  // namespace
 
@@ -171,7 +107,7 @@ std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop) {
     all.insert(all.end(), done.begin(), done.end());
   }
   const std::size_t filled = all.size();
-  if (filled > 0) MeanOfNeighbours(grid, neighbours, std::move(all), loop).run();
+  if (filled > 0) settleNodes(grid, neighbours, std::move(all), loop);
   return filled;
 }
 

@@ -154,4 +154,60 @@ TileRule courantRule(double time_step_s, double courant, const DepthRules& rules
           }};
 }
 
+double depthOfStep(double size_m, double time_step_s, double courant) {
+  const double speed = size_m * courant / time_step_s;
+  return speed * speed / kGravity;
+}
+
+FilledField::FilledField(std::unique_ptr<SizeField> known, std::shared_ptr<const DepthGaps> gaps, const SizeRule& rule)
+    : known_(std::move(known)), gaps_(std::move(gaps)), rule_(rule), least_(known_->least()) {
+  least_ = std::min(least_, sizeOf(gaps_->least()));
+  if (rule_.kind == SizeRule::Kind::Depths)
+    for (const DepthBand& band : rule_.depths.bands) least_ = std::min(least_, band.size_m);
+}
+
+// As the rules of tiles have it.
+double FilledField::sizeOf(double depth_m) const {
+  const DepthRules& rules = rule_.depths;
+  const double depth = std::max(depth_m, rules.least_depth_m);
+  // Nodes get their depths along the edges of the mesh: not quite the same.
+  constexpr double kMargin = 1.1;
+  if (rule_.kind == SizeRule::Kind::Step) return kMargin * longWaveSpeed(depth) * rule_.time_step_s / rule_.courant;
+  double size = std::numeric_limits<double>::infinity();
+  if (rules.wave_elements > 0.0) size = wavelengthOf(rules.period_s, depth) / rules.wave_elements;
+  for (const DepthBand& band : rules.bands)
+    if (depth_m >= band.from_m && depth_m < band.to_m) size = std::min(size, band.size_m);
+  return size;
+}
+
+void FilledField::sample(std::span<const Point> places, std::span<double> sizes) const {
+  known_->sample(places, sizes);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (std::isfinite(sizes[i])) continue;
+    const double depth = gaps_->at(places[i]);
+    if (!std::isnan(depth)) sizes[i] = sizeOf(depth);
+  }
+}
+
+void FilledField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
+  known_->bound(boxes, ranges);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    SizeRange& range = ranges[i];
+    if (std::isfinite(range.high)) continue;
+    const DepthGaps::Range depths = gaps_->within(boxes[i]);
+    if (!std::isfinite(depths.least_m)) continue;
+    // Sizes grow with the depth, but for those of bands.
+    const bool is_gap = depths.all && range.low == std::numeric_limits<double>::infinity();
+    range.low = std::min(range.low, sizeOf(depths.least_m));
+    double high = sizeOf(depths.most_m);
+    for (const DepthBand& band : rule_.depths.bands) {
+      if (rule_.kind == SizeRule::Kind::Step || band.to_m <= depths.least_m || band.from_m > depths.most_m) continue;
+      range.low = std::min(range.low, band.size_m);
+      if (band.from_m <= depths.least_m && band.to_m > depths.most_m) continue;
+      high = std::numeric_limits<double>::infinity();  // within it in a part of the box
+    }
+    if (is_gap) range.high = high;
+  }
+}
+
 }  // namespace coastmesh

@@ -10,6 +10,7 @@
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 #include "gis/error.hpp"
+#include "gis/long_wave.hpp"
 #include "gis/projection/scale_table.hpp"
 #include "gis/size/guide_lines.hpp"
 #include "gis/size/read_frames.hpp"
@@ -240,6 +241,67 @@ std::string askingOfDepths(const DepthRules& rules) {
   return options;
 }
 
+// Sizes from depths; null where none are asked for.
+struct DepthSizes {
+  std::unique_ptr<SizeField> asked, step;
+  FilledWater filled;
+};
+
+DepthSizes sizesOfDepths(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain, const Box& square,
+                         const SizeBox& root, const DomainMask& mask, double others_least_m,
+                         const std::function<double(const Point&)>& scale, const ItemLoop& loop) {
+  DepthSizes sizes;
+  const DepthRules& rules = options.depth;
+  const bool has_step = options.time_step_s > 0.0;
+  // Slopes of depths that nobody measured ask for nothing. On a whole globe land is meshed as well, without depths of
+  // water.
+  const bool fills = options.gaps != GapFill::None && !domain.closed() &&
+                     (has_step || rules.wave_elements > 0.0 || !rules.bands.empty());
+  const SizeRule asked{SizeRule::Kind::Depths, rules, 0.0, 0.0};
+  const SizeRule step{SizeRule::Kind::Step, rules, options.time_step_s, kShortestOfSize * options.courant};
+  // Nothing asks for less at the edges of gaps; where nothing says how much that is, squares have to end somewhere.
+  constexpr double kFinest = 1e-4;
+  double least_m = others_least_m, deepest_m = rules.least_depth_m;
+  for (const DepthBand& band : rules.bands) {
+    least_m = std::min(least_m, band.size_m);
+    deepest_m = std::max(deepest_m, std::isfinite(band.to_m) ? band.to_m : band.from_m);
+  }
+  least_m = std::max(
+      {std::isfinite(least_m) ? least_m : 0.0, options.least_m, kFinest * 2.0 * root.half / scale(root.centre)});
+  // Whose sizes tell depths, about as fine as elements are: steps that are that long for the wave, or for the bands.
+  const double long_step_s =
+      rules.wave_elements > 0.0 ? rules.period_s / rules.wave_elements : least_m / longWaveSpeed(deepest_m);
+  const SizeRule telling = has_step ? step : SizeRule{SizeRule::Kind::Step, rules, long_step_s, 1.0};
+  // Depths are read once for all that follows from them.
+  std::vector<SizeRule> of_depths;
+  if (rules.any()) of_depths.push_back(asked);
+  if (has_step) of_depths.push_back(step);
+  // Where bands ask for sizes, that there is none may mean a depth beside them.
+  const bool by_parts = fills && !has_step && !(rules.wave_elements > 0.0);
+  if (by_parts) of_depths.push_back(telling);
+  if (of_depths.empty()) return sizes;
+  const auto read = [&](const std::vector<SizeRule>& which) {
+    return rasterFields(inputs.bathymetry, inputs, domain.projection, square, which, loop);
+  };
+  std::vector<std::unique_ptr<SizeField>> fields = read(of_depths);
+  std::shared_ptr<DepthGaps> gaps;
+  if (fills) gaps = std::make_shared<DepthGaps>(*fields.back(), mask, root, least_m, scale, loop);
+  if (gaps && gaps->any()) {
+    std::unique_ptr<SizeField> again;
+    if (!has_step && !by_parts) again = std::move(read({telling}).front());
+    const SizeField& known = again ? *again : *fields.back();
+    gaps->fill(
+        known, [&](double size_m) { return depthOfStep(size_m, telling.time_step_s, telling.courant); }, options.gaps,
+        loop);
+    sizes.filled = {gaps->area(), domain.projection.inverse(gaps->place())};
+    for (std::size_t f = 0; f < of_depths.size(); ++f)
+      fields[f] = std::make_unique<FilledField>(std::move(fields[f]), gaps, of_depths[f]);
+  }
+  if (rules.any()) sizes.asked = std::move(fields.front());
+  if (has_step) sizes.step = std::move(fields.back());
+  return sizes;
+}
+
 // Where in the cell that asks for the most the size is the least.
 VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, const Projection& projection) {
   constexpr int kProbes = 8;
@@ -287,7 +349,8 @@ DomainSizes sizesByShore(const SizeOptions& options, const Pslg& shore, const st
                                             Box::of(square.centre - corner, square.centre + corner)),
           {},
           rate,
-          at_shore};
+          at_shore,
+          {}};
 }
 
 Pslg boundaryOf(const Box& box) {
@@ -380,16 +443,10 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   if (!inputs.rasters.empty())
     source.add("--size-raster",
                std::move(rasterFields(inputs.rasters, inputs, projection, square, {SizeRule{}}, loop).front()));
-  // Depths are read once for all that follows from them.
-  std::vector<SizeRule> of_depths;
-  if (options.depth.any()) of_depths.push_back({SizeRule::Kind::Depths, options.depth, 0.0, 0.0});
-  if (options.time_step_s > 0.0)
-    of_depths.push_back({SizeRule::Kind::Step, options.depth, options.time_step_s, kShortestOfSize * options.courant});
-  std::vector<std::unique_ptr<SizeField>> by_depth;
-  if (!of_depths.empty()) by_depth = rasterFields(inputs.bathymetry, inputs, projection, square, of_depths, loop);
-  if (options.depth.any()) source.add(askingOfDepths(options.depth), std::move(by_depth.front()));
-  if (options.time_step_s > 0.0) {
-    auto floor = std::make_unique<SizeFloor>(std::move(by_depth.back()), options.gradation,
+  DepthSizes depths = sizesOfDepths(options, inputs, domain, square, root, mask, source.leastWanted(), scale, loop);
+  if (depths.asked) source.add(askingOfDepths(options.depth), std::move(depths.asked));
+  if (depths.step) {
+    auto floor = std::make_unique<SizeFloor>(std::move(depths.step), options.gradation,
                                              source.leastWanted() / kShoreFloor, scale, root, mask, loop, surface);
     if (options.coast == CoastDetail::Follow)
       floor->raiseNear(
@@ -438,7 +495,9 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
                   size->least() / measure(middle), reach_m);
     throw InputError(text);
   }
-  return {std::move(size), std::move(demand)};
+  DomainSizes sizes{std::move(size), std::move(demand)};
+  sizes.filled = depths.filled;
+  return sizes;
 }
 
 }  // namespace coastmesh

@@ -14,6 +14,7 @@
 #include "gis/follow/follow_options.hpp"
 #include "gis/follow/shore_guides.hpp"
 #include "gis/raster/raster_band.hpp"
+#include "gis/size/depth_gaps.hpp"
 #include "gis/size/size_depth.hpp"
 #include "gis/size/size_features.hpp"
 #include "gis/size/size_field.hpp"
@@ -39,8 +40,9 @@ struct SizeOptions {
   std::vector<std::string> rasters{};     // of sizes, in metres; the first that covers a place is used
   std::vector<std::string> bathymetry{};  // the first that covers a place is used
   DepthRules depth{};
-  double time_step_s = 0.0;  // 0: not used
-  double courant = 1.0;      // above 0
+  GapFill gaps = GapFill::Mean;  // what of them is used where `bathymetry` has none
+  double time_step_s = 0.0;      // 0: not used
+  double courant = 1.0;          // above 0
 
   CoastDetail coast = CoastDetail::Keep;            // Follow: the shore is generalised to the elements beside it
   FollowOptions follow{};                           // how
@@ -81,6 +83,12 @@ struct VertexDemand {
   bool map_too_large = false;  // a fine enough map of the sizes is impossible
 };
 
+// The water for which no raster has a depth, and whose sizes follow from depths around it.
+struct FilledWater {
+  double area_m2 = 0.0;  // 0: none
+  Point place;           // in the input's CRS
+};
+
 // They require more than there is room for.
 struct TooManyVertices : std::runtime_error {
   explicit TooManyVertices(VertexDemand d);
@@ -101,6 +109,7 @@ struct DomainSizes {
   // If the distance from the shore alone determines sizes and there is no map: their growth with it, and the size at
   // the shore, in metres on the ground. Otherwise NaN.
   double rate = std::numeric_limits<double>::quiet_NaN(), shore_m = rate;
+  FilledWater filled{};
 };
 
 // The sizes of a domain: the minimum that any of the options requests, within the bounds, not below what the time step

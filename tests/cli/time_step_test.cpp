@@ -42,6 +42,20 @@ class TimeStep : public ProgramTest {
     }
     return write("bed.asc", text);
   }
+  // From 10 m in the south to 500 m; nothing is known of the middle.
+  std::string bedWithGap() const {
+    std::string text = "ncols 140\nnrows 100\nxllcorner -5000\nyllcorner -5000\ncellsize 500\nNODATA_value -9999\n";
+    for (int j = 0; j < 100; ++j) {
+      const double y = 50000.0 - 500.0 * j - 5250.0;
+      for (int i = 0; i < 140; ++i) {
+        const double x = 500.0 * i - 4750.0;
+        const bool unknown = x > 15000.0 && x < 45000.0 && y > 5000.0 && y < 35000.0;
+        text += std::to_string(unknown ? -9999.0 : -10.0 - 490.0 * std::clamp(y / 40000.0, 0.0, 1.0)) + " ";
+      }
+      text += "\n";
+    }
+    return write("gap.asc", text);
+  }
   // A sea of 120 by 60 km with a ragged coast in the south, and a bed that falls to 305 m from the coast on.
   std::string raggedSea() const {
     std::string ring;
@@ -118,6 +132,25 @@ TEST_F(TimeStep, RepairsKeepCircumcentresInside) {
   EXPECT_GT(report.at("step").at("asked").at("missed"), 0);
   EXPECT_EQ(report.at("refine").at("unresolved").at("count"), 0);
   EXPECT_THAT(run.errors, HasSubstr("--quality centred, which may make no angle above 90 degrees"));
+}
+
+// Nodes get depths there, for which sizes have to be large enough too.
+TEST_F(TimeStep, HoldsWhereNoRasterHasADepth) {
+  const std::vector<std::string> options{"--bathymetry", bedWithGap(), "--size", "400", "--time-step", "15"};
+  ProgramRun run = mesh(options);
+  EXPECT_EQ(run.code, 0) << run.errors;
+  const Json report = Json::parse(readText(file("r.json")));
+  EXPECT_GT(report.at("depth").at("filled"), 500);
+  EXPECT_EQ(report.at("step").at("asked").at("missed"), 0);
+  EXPECT_LE(report.at("repairs").at("done").size(), 5u);
+  EXPECT_THAT(run.output, HasSubstr("no raster has a depth for about "));
+  EXPECT_THAT(run.output, HasSubstr("km2 of the water"));
+  // The same bytes for any number of threads.
+  const std::string one = readText(file("bay.2dm"));
+  std::vector<std::string> threads = options;
+  threads.insert(threads.end(), {"--threads", "3"});
+  EXPECT_EQ(mesh(threads).code, 0);
+  EXPECT_TRUE(readText(file("bay.2dm")) == one);
 }
 
 TEST_F(TimeStep, IsSaidInSummaryReportAndInfo) {
