@@ -399,7 +399,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   if (control.progress) control.progress("read", 0.0);
   Recorder reading;
   const JobInput input(job.input, reading.loop("read", RunControl{control.cancelled, {}}));
-  requireUnmirrored(input.coastline(), job.input);
+  if (!job.input.ready) requireUnmirrored(input.coastline(), job.input);
   result.read = input.report();
   result.read.notes.insert(result.read.notes.begin(), job.notes.begin(), job.notes.end());
   result.crs = input.coastline().crs;
