@@ -142,6 +142,29 @@ std::string gapWarning(const Grid& grid, const DepthOptions& options) {
          "; give another --bathymetry that covers them";
 }
 
+// The deepest place of the sea is 10.9 km deep, the highest mountain 8.8 km high. What is beyond are numbers that stand
+// for no value, in a raster that does not say so; empty where there are none.
+std::string impossibleWarning(const Grid& grid, const DepthOptions& options) {
+  constexpr double kDeepest = -12'000.0, kHighest = 9'000.0;
+  const auto isImpossible = [](double z) { return z < kDeepest || z > kHighest; };
+  const auto count = std::ranges::count_if(grid.z, isImpossible);
+  if (count == 0 || grid.crs.isPlane()) return {};
+  const auto worst = std::ranges::max_element(grid.z, [](double a, double b) {
+    const auto size = [](double z) { return std::isnan(z) ? 0.0 : std::abs(z); };
+    return size(a) < size(b);
+  });
+  const double raised = *worst + options.water_level_m, value = options.positive_down ? 0.0 - raised : raised;
+  char texts[2][120];
+  std::snprintf(texts[0], sizeof texts[0], "%td of %zu nodes have depths that do not occur on Earth, such as %.10g m",
+                count, grid.nodes.size(), 0.0 - *worst);
+  std::snprintf(texts[1], sizeof texts[1], "gdal_translate -a_nodata %.10g", value);
+  const Point& place = grid.nodes[static_cast<std::size_t>(worst - grid.z.begin())];
+  return texts[0] + (" at (" + roughPlaceInWords(place)) +
+         "): where a raster has such a value for places without one, "
+         "it has to say so (" +
+         texts[1] + "); nodes near to one lie between it and depths";
+}
+
 void measure(const Grid& grid, DepthReport& report) {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const double z : grid.z) {
@@ -183,6 +206,8 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   if (report.kept > 0)
     report.warnings.push_back("no raster has a value for " + std::to_string(report.kept) + " of " +
                               std::to_string(grid.nodes.size()) + " nodes, which keep the depths of the mesh");
+  if (std::string warning = impossibleWarning(grid, options); !warning.empty())
+    report.warnings.push_back(std::move(warning));
   if (options.fill == DepthFill::Neighbours) report.filled = fillFromNeighbours(grid, loop);
   if (options.fill == DepthFill::Nearest) report.filled = fillFromNearest(grid, loop);
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));

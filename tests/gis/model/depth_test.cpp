@@ -94,6 +94,24 @@ TEST_F(Depth, ZeroEverywhereIsNoDepth) {
   EXPECT_FALSE(hasDepths(grid));
 }
 
+// A value that stands for none, and the raster does not say so.
+TEST_F(Depth, ThatEarthDoesNotHaveAreWarnedOf) {
+  const auto warningsOf = [&](double value, bool positive_down) {
+    Grid grid = squares("EPSG:4326", {10.03, 50.07}, 0.31, 7, 5);
+    const auto odd = [&](double x, double y) { return std::hypot(x - 11.0, y - 51.0) < 0.3 ? value : -20.0; };
+    DepthOptions options{{raster("dem.tif", "EPSG:4326", {40, 40, 9.0, 53.0, 0.1}, odd)}, DepthMethod::Bilinear};
+    options.positive_down = positive_down;
+    std::string all;
+    for (const std::string& warning : setDepths(grid, options).warnings) all += warning;
+    return all;
+  };
+  EXPECT_NE(warningsOf(-32767.0, false).find("gdal_translate -a_nodata -32767)"), std::string::npos);
+  EXPECT_NE(warningsOf(-32767.0, false).find("such as 32767 m at ("), std::string::npos);
+  EXPECT_NE(warningsOf(99999.0, true).find("gdal_translate -a_nodata 99999)"), std::string::npos);
+  EXPECT_EQ(warningsOf(-10900.0, false), "");
+  EXPECT_EQ(warningsOf(8848.0, false), "");
+}
+
 // Three tiles of the raster, two of them with enough nodes for a reader of their own; a part of it has no value, where
 // depths are those of other nodes.
 TEST_F(Depth, SameInAnyOrder) {
