@@ -70,7 +70,11 @@ std::string reasonOf(const std::vector<Refusal>& refusals) {
 
 std::string summaryOf(const MeshRunUsage& usage, const MeshJob& job, const MeshJobResult& result) {
   std::string text = meshSummary(job, result);
-  for (const std::string& note : result.read.notes) text += note + "\n";
+  constexpr std::size_t kNotesShown = 20;  // thousands of lakes have notes each
+  const std::vector<std::string>& notes = result.read.notes;
+  for (std::size_t i = 0; i < std::min(kNotesShown, notes.size()); ++i) text += notes[i] + "\n";
+  if (notes.size() > kNotesShown)
+    text += std::to_string(notes.size() - kNotesShown) + " more notes, which the report lists\n";
   for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
   if (!usage.edits.empty()) text += "wrote " + usage.edits + "\n";
   if (!usage.report.empty()) text += "wrote " + usage.report + "\n";

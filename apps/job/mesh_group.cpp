@@ -334,6 +334,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     sized = makeSizes(domain, SizeAccuracy::Fine);
   } else {
     FollowOptions follow = job.sizes.follow;
+    follow.of_land = job.input.frame.side == DomainSide::Land;
     if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Modelled;
     const ShoreGuides guides{projected(sizes.passages, domain.projection),
                              projected(sizes.barriers, domain.projection)};

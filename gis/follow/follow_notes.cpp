@@ -37,7 +37,7 @@ std::string areaText(double area_m2, double whole_m2, const Projection& projecti
 }
 
 // The largest of them, what is between them and the others, and which options change that.
-std::string namesOf(const std::vector<ApartWater>& waters, double area, const Projection& projection) {
+std::string namesOf(const std::vector<ApartWater>& waters, double area, bool of_land, const Projection& projection) {
   std::string names;
   std::size_t named = 0;
   for (const auto& [water, way] : waters) {
@@ -45,8 +45,8 @@ std::string namesOf(const std::vector<ApartWater>& waters, double area, const Pr
     names += named++ == 0 ? "" : "; ";
     names += areaText(water.area, area, projection) + " at " + placeText(water.inside.front(), projection);
     if (water.at_open) names += ", which has an open boundary";
-    names += way.exists ? ", behind water " + lengthText(way.width_m, projection) + " wide at " +
-                              placeText(way.place, projection)
+    names += way.exists ? (of_land ? ", behind land " : ", behind water ") + lengthText(way.width_m, projection) +
+                              " wide at " + placeText(way.place, projection)
                         : ", without a connection in the data";
   }
   if (std::ranges::any_of(waters, [](const ApartWater& apart) { return apart.way.exists; }))
@@ -64,20 +64,20 @@ std::string noteOn(const FollowNotes& notes, const FollowOptions& options, const
   const std::vector<ApartWater>& waters = notes.cut_off;
   const bool none_kept_open = options.keep == KeepWater::Modelled &&
                               std::ranges::any_of(waters, [](const ApartWater& w) { return w.water.at_open; });
-  std::string note = areaText(areaOf(waters), notes.area, projection) + " of the water " +
-                     (options.keep == KeepWater::All ? "is meshed apart" : "is left out") + ", " +
-                     std::to_string(waters.size()) + forCount(waters.size(), " water", " waters") +
-                     " without a connection to the " +
-                     (options.keep == KeepWater::Largest || none_kept_open ? "largest" : "others") + ": the largest " +
-                     namesOf(waters, notes.area, projection);
+  std::string note =
+      areaText(areaOf(waters), notes.area, projection) + (options.of_land ? " of the land " : " of the water ") +
+      (options.keep == KeepWater::All ? "is meshed apart" : "is left out") + ", " + std::to_string(waters.size()) +
+      (options.of_land ? forCount(waters.size(), " piece", " pieces") : forCount(waters.size(), " water", " waters")) +
+      " without a connection to the " + (options.keep == KeepWater::Largest || none_kept_open ? "largest" : "others") +
+      ": the largest " + namesOf(waters, notes.area, options.of_land, projection);
   if (options.keep != KeepWater::All) note += "; --keep-water all keeps them as they are";
   return note;
 }
 
-std::string noteOnApart(const FollowNotes& notes, const Projection& projection) {
-  return "the water is meshed in " + std::to_string(notes.apart.size() + 1) +
-         " parts without a connection: besides the largest " + namesOf(notes.apart, notes.area, projection) +
-         "; --keep-water largest leaves them out";
+std::string noteOnApart(const FollowNotes& notes, const FollowOptions& options, const Projection& projection) {
+  return std::string(options.of_land ? "the land" : "the water") + " is meshed in " +
+         std::to_string(notes.apart.size() + 1) + " parts without a connection: besides the largest " +
+         namesOf(notes.apart, notes.area, options.of_land, projection) + "; --keep-water largest leaves them out";
 }
 
 std::string noteOn(const std::vector<JoinedWater>& joined, double area, const Projection& projection) {
@@ -170,7 +170,7 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
     std::ranges::stable_sort(notes.apart, std::ranges::greater{}, areaOfWater);
     double closed = 0.0;
     for (const ApartWater& apart : notes.apart) closed += apart.way.exists ? apart.water.area : 0.0;
-    (closed > kWarned * notes.area ? report.warnings : texts).push_back(noteOnApart(notes, projection));
+    (closed > kWarned * notes.area ? report.warnings : texts).push_back(noteOnApart(notes, options, projection));
   }
   if (notes.cut_off.empty()) return;
   std::ranges::stable_sort(notes.cut_off, std::ranges::greater{}, areaOfWater);

@@ -14,6 +14,7 @@ struct FollowOptions {
   // Water that is the only connection of others, at least this wide, is widened to `channel_min` instead of closed.
   double strait_min = 0.4;
   KeepWater keep = KeepWater::All;
+  bool of_land = false;  // land is meshed: notes speak of it, not of water
 };
 
 }  // namespace coastmesh
