@@ -338,7 +338,8 @@ TEST_F(ReadGrid, UgridDepthsOfModels) {
 
 // The standard name counts before names, an altitude before a depth; what else would do is named.
 TEST_F(ReadGrid, UgridWithSeveralDepths) {
-  const Ugrid file(folder_ / "depths.nc", false, {{"depth", ""}, {"h", "sea_floor_depth", ""}, {"zb", "altitude", ""}});
+  const Ugrid file(folder_ / "depths.nc", false,
+                   {{"depth", "", ""}, {"h", "sea_floor_depth", ""}, {"zb", "altitude", ""}});
   EXPECT_EQ(readGrid(folder_ / "depths.nc").z, (std::vector<double>{1, 2, 3, 4}));
   EXPECT_THAT(remarkOnGrid(folder_ / "depths.nc"),
               AllOf(HasSubstr("depths.nc"), HasSubstr("from \"zb\", not from \"h\", \"depth\"")));
