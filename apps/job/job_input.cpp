@@ -175,7 +175,7 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   report_.beyond_frame = framed.beyond_frame;
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
   if (working) chosen_ = Projection::to(coastline_.crs, *working);
-  groups_ = groupFeatures(coastline_, loop);
+  groups_ = groupFeatures(coastline_, snapDistance(), loop);
   bendEdges();
 }
 
@@ -318,11 +318,15 @@ SurfaceKind JobInput::surfaceOf(const Projection& projection) const {
   return options_.surface.kind == SurfaceKind::Sphere ? SurfaceKind::Sphere : SurfaceKind::Ellipsoid;
 }
 
+SnapDistance JobInput::snapDistance() const {
+  const bool in_plane = options_.crs == "plane" || coastline_.crs.isPlane();
+  return {in_plane && !options_.snap_in_plane ? 0.0 : options_.snap_m, in_plane};
+}
+
 Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& loop) const {
   if (poly_) return {.pslg = *poly_, .input_points = poly_->points, .resolution = resolutionOf(poly_->points)};
-  const bool in_plane = options_.crs == "plane" || coastline_.crs.isPlane();
   CleanOptions clean;
-  clean.snap_m = in_plane && !options_.snap_in_plane ? 0.0 : options_.snap_m;
+  clean.snap_m = snapDistance().length;
   clean.simplify_m = options_.simplify_m;
   clean.min_island_area_m2 = options_.min_island_area_m2;
   clean.dissolve = options_.dissolve;

@@ -9,6 +9,7 @@
 #include "gis/clean/clean.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/frame.hpp"
+#include "gis/coast/snap_reach.hpp"
 #include "gis/model/boundary_rules.hpp"
 #include "gis/projection/projection.hpp"
 #include "gis/read/read_coastline.hpp"
@@ -98,6 +99,7 @@ class JobInput {
   void readPolyFile(const std::string& path);
   void requireSurface();
   void bendEdges();
+  SnapDistance snapDistance() const;
   void takePlaneGraph(Pslg pslg, const std::string& source);
 
   InputOptions options_;

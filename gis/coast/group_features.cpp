@@ -46,14 +46,17 @@ struct FeatureIndex {
   }
 };
 
-// True iff an edge of `a` and one of `b` share a point.
-bool edgesMeet(const ChainIndex& a, const ChainIndex& b) {
+// True iff an edge of `a` and one of `b` share a point, or are within reach of one another.
+bool edgesMeet(const ChainIndex& a, const ChainIndex& b, const SnapReach& reach) {
   bool meet = false;
-  const Box common = b.bounds();
-  a.visit(common, [&](std::uint32_t i) {
+  const auto meetsOrNear = [&](const Point& p, const Point& q, const Point& r, const Point& s) {
+    return segmentsMeet(p, q, r, s) || (!reach.isNothing() && reach.holds(p, q, r, s));
+  };
+  a.visit(reach.around(b.bounds()), [&](std::uint32_t i) {
     if (meet) return;
     const Point &p = a.start(i), &q = a.end(i);
-    b.visit(Box::of(p, q), [&](std::uint32_t j) { meet = meet || segmentsMeet(p, q, b.start(j), b.end(j)); });
+    b.visit(reach.around(Box::of(p, q)),
+            [&](std::uint32_t j) { meet = meet || meetsOrNear(p, q, b.start(j), b.end(j)); });
   });
   return meet;
 }
@@ -71,10 +74,11 @@ bool liesIn(const ChainIndex& chains, const ChainIndex& rings) {
   return lies;
 }
 
-// True iff `small` and `large` touch, cross, or one holds a part of the other.
-bool belongTogether(const FeatureIndex& small, const FeatureIndex& large) {
+// True iff `small` and `large` touch, nearly so, cross, or one holds a part of the other.
+bool belongTogether(const FeatureIndex& small, const FeatureIndex& large, const SnapReach& reach) {
   Box box = small.rings.bounds();
   box.add(small.lines.bounds());
+  box = reach.around(box);
   bool near = false;
   const auto found = [&](std::uint32_t) { near = true; };
   large.rings.visit(box, found);
@@ -85,8 +89,8 @@ bool belongTogether(const FeatureIndex& small, const FeatureIndex& large) {
     // A ring of one point has no edges: nothing is known to belong to it.
     return any.chainCount() > 0 && large.rings.locate(any.chainStart(0)) == Location::Inside;
   }
-  return edgesMeet(small.rings, large.rings) || edgesMeet(small.rings, large.lines) ||
-         edgesMeet(small.lines, large.rings) || edgesMeet(small.lines, large.lines) ||
+  return edgesMeet(small.rings, large.rings, reach) || edgesMeet(small.rings, large.lines, reach) ||
+         edgesMeet(small.lines, large.rings, reach) || edgesMeet(small.lines, large.lines, reach) ||
          liesIn(small.rings, large.rings) || liesIn(small.lines, large.rings) || liesIn(large.rings, small.rings) ||
          liesIn(large.lines, small.rings);
 }
@@ -166,7 +170,7 @@ bool framedWhole(const Feature& frame, const Box& box) {
 }
 
 // Frames, constraints and regions join each group that their extent meets, in whichever turn round the globe.
-void addGuests(const Coastline& coastline, const std::vector<Box>& boxes,
+void addGuests(const Coastline& coastline, const std::vector<Box>& boxes, const SnapReach& reach,
                std::vector<std::vector<std::size_t>>& groups) {
   if (std::ranges::none_of(coastline.features, isGuest)) return;
   std::vector<Box> extents(groups.size());
@@ -187,7 +191,7 @@ void addGuests(const Coastline& coastline, const std::vector<Box>& boxes,
     }
     for (const double turn : {0.0, -360.0, 360.0}) {
       if (turn != 0 && !coastline.crs.geographic) continue;
-      Box box = boxes[f];
+      Box box = reach.around(boxes[f]);
       box.xmin += turn;
       box.xmax += turn;
       tree.visit(box, join);
@@ -221,8 +225,8 @@ struct Pair {
 // pairs that others have united meanwhile need not be looked at.
 class Uniting {
  public:
-  Uniting(const std::vector<Feature>& features, const ItemLoop& loop, UnionFind& sets)
-      : features_(features), loop_(loop), sets_(sets), kept_(features.size()) {}
+  Uniting(const std::vector<Feature>& features, const SnapReach& reach, const ItemLoop& loop, UnionFind& sets)
+      : features_(features), reach_(reach), loop_(loop), sets_(sets), kept_(features.size()) {}
 
   void unite(const std::vector<Pair>& pairs) {
     keepLarge(pairs);
@@ -278,10 +282,11 @@ class Uniting {
     const FeatureIndex& a = indexOf(pair.a, made_a);
     const FeatureIndex& b = indexOf(pair.b, made_b);
     const bool a_smaller = a.edgeCount() <= b.edgeCount();
-    return coastmesh::belongTogether(a_smaller ? a : b, a_smaller ? b : a);
+    return coastmesh::belongTogether(a_smaller ? a : b, a_smaller ? b : a, reach_);
   }
 
   const std::vector<Feature>& features_;
+  const SnapReach& reach_;
   const ItemLoop& loop_;
   UnionFind& sets_;
   std::vector<std::unique_ptr<FeatureIndex>> kept_;
@@ -289,7 +294,8 @@ class Uniting {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline, const ItemLoop& loop) {
+std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline, const SnapDistance& snap,
+                                                    const ItemLoop& loop) {
   const auto& features = coastline.features;
   std::vector<Box> boxes(features.size());
   forEachByStretches(loop, features.size(), [&](std::size_t i) { boxes[i] = boundsOf(features[i]); });
@@ -299,13 +305,14 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline, 
     return {all};
   }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  const SnapReach reach(features.size() > 1 ? snap : SnapDistance{}, coastline.crs, tree.bounds());
   UnionFind sets(features.size());
-  Uniting(features, loop, sets)
+  Uniting(features, reach, loop, sets)
       .unite(joined(overStretches(loop, features.size(), [&](std::size_t first, std::size_t last) {
         std::vector<Pair> pairs;
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
           if (isGuest(features[i])) continue;
-          tree.visit(boxes[i], [&](std::uint32_t j) {
+          tree.visit(reach.around(boxes[i]), [&](std::uint32_t j) {
             if (j > i && !isGuest(features[j])) pairs.push_back({i, j});
           });
         }
@@ -313,7 +320,7 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline, 
       })));
   uniteAcrossCut(coastline, boxes, sets);
   std::vector<std::vector<std::size_t>> groups = setsOf(sets, coastline);
-  addGuests(coastline, boxes, groups);
+  addGuests(coastline, boxes, reach, groups);
   return groups;
 }
 

@@ -175,6 +175,24 @@ TEST_F(Coordinates, ACrsThatShowsAWideInputInOnePieceIsTaken) {
   }
 }
 
+// What lies within the snap distance becomes one, whichever features it is of.
+TEST_F(Coordinates, FeaturesASmallGapApartAreSnapped) {
+  const double gap = 1e-9;  // degrees: a tenth of a millimetre
+  const std::string sheets =
+      write("sheets.geojson", geoJsonPolygons({{{{10, 50}, {10.1, 50}, {10.1, 50.1}, {10, 50.1}}},
+                                               {{{10.1 + gap, 50}, {10.2, 50}, {10.2, 50.1}, {10.1 + gap, 50.1}}}}));
+  const auto piecesOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"mesh", sheets, "-o", file("m.nc"), "--overwrite", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramRun run = runProgram(words);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return infoOf(file("m.nc"))["pieces"].get<int>();
+  };
+  EXPECT_EQ(piecesOf({}), 1);
+  EXPECT_EQ(piecesOf({"--dissolve", "--snap", "1"}), 1);
+  EXPECT_EQ(piecesOf({"--snap", "0"}), 2);
+}
+
 TEST_F(Coordinates, OceanAndLandAreTheTwoSidesOfAllCoasts) {
   const std::string land =
       write("land.geojson",

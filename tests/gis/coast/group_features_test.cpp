@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "gis/crs/crs.hpp"
 #include "gis/geometry/chain_index.hpp"
 #include "gis/read/read_coastline.hpp"
 #include "tests/support/gis_shapes.hpp"
@@ -74,6 +75,48 @@ TEST(GroupFeatures, WhatACutAlongAMeridianPartsBelongsTogether) {
   EXPECT_EQ(groupFeatures(coastlineOf(halves, wgs84())), (Groups{{0, 1, 4}, {2}, {3}}));
   // In a plane there is no such thing.
   EXPECT_EQ(group(halves).size(), 5u);
+}
+
+// Points and edges of both become one when they are cleaned together, and only then.
+TEST(GroupFeatures, WhatSnappingMayMergeBelongsTogether) {
+  const auto groupsOf = [](double gap, const SnapDistance& snap) {
+    return groupFeatures(coastlineOf({polygonFeature(0, square(0, 0, 1)), polygonFeature(1, square(1 + gap, 0, 1))}),
+                         snap)
+        .size();
+  };
+  EXPECT_EQ(groupsOf(1e-4, {}), 2u);
+  EXPECT_EQ(groupsOf(1e-4, {1e-3}), 1u);
+  EXPECT_EQ(groupsOf(1e-2, {1e-3}), 2u);
+  // A vertex that comes near the middle of an edge.
+  EXPECT_EQ(
+      groupFeatures(coastlineOf({polygonFeature(0, square(0, 0, 3)), polygonFeature(1, {{3.01, 1}, {5, 0}, {5, 2}})}),
+                    {0.1}),
+      (Groups{{0, 1}}));
+  // A line beside a shore, and one in a hole beside the shore of that.
+  EXPECT_EQ(groupFeatures(coastlineOf({polygonFeature(0, square(0, 0, 9), {square(2, 2, 4)}),
+                                       lineFeature(1, {{9.01, 1}, {12, 1}}), lineFeature(2, {{3, 3}, {5.99, 3}}),
+                                       lineFeature(3, {{3, 4}, {5.8, 4}})}),
+                          {0.1}),
+            (Groups{{0, 1, 2}, {3}}));
+}
+
+TEST(GroupFeatures, SnapsByMetresOnTheGround) {
+  const double degree = 111319.49;
+  const auto groupsOf = [](const Ring& a, const Ring& b, const Crs& crs, const SnapDistance& snap) {
+    return groupFeatures(coastlineOf({polygonFeature(0, a), polygonFeature(1, b)}, crs), snap).size();
+  };
+  // 9 and 15 m at 60 degrees north, where a degree of longitude is half as long.
+  for (const double metres : {9.0, 15.0})
+    EXPECT_EQ(groupsOf(square(0, 59, 1), square(1 + 2 * metres / degree, 59.5, 0.5), wgs84(), {10.0}),
+              metres < 10 ? 1u : 2u);
+  // Apart by as many units, and at the pole by nothing that has a length.
+  EXPECT_EQ(groupsOf(square(0, 59, 1), square(1.001, 59, 1), wgs84(), {0.01, true}), 1u);
+  EXPECT_EQ(groupsOf({{0, 80}, {10, 80}, {5, 90}}, {{50, 80}, {60, 80}, {55, 89.99999}}, wgs84(), {10.0}), 1u);
+  // Mercator's metres at 60 degrees north are half a metre long.
+  const Crs mercator = parseCrs("EPSG:3857");
+  for (const double metres : {9.0, 15.0})
+    EXPECT_EQ(groupsOf(square(0, 8.3997e6, 1000), square(1000 + 2 * metres, 8.3997e6, 1000), mercator, {10.0}),
+              metres < 10 ? 1u : 2u);
 }
 
 // Every vertex and edge against every other.

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "core/point.hpp"
+#include "gis/crs/crs.hpp"
+#include "gis/crs/geographic_map.hpp"
+#include "gis/geometry/box.hpp"
+
+namespace coastmesh {
+
+// How near points come before cleaning merges them.
+struct SnapDistance {
+  double length = 0.0;    // metres on the ground, or units of the coordinates; 0 or more
+  bool in_plane = false;  // the coordinates are taken as they are, whatever their CRS
+};
+
+// Tells which edges cleaning may merge, by their places in the input's CRS. Tells of somewhat more, since the working
+// plane is not known: what it merges is at most a few percent further apart. Usable from several threads at once.
+class SnapReach {
+ public:
+  // For coordinates in `extent`. Throws InputError if PROJ has no transformation to longitudes and latitudes.
+  SnapReach(const SnapDistance& snap, const Crs& crs, const Box& extent);
+
+  bool isNothing() const { return length_ <= 0.0; }
+  // A box that holds all that is within reach of `box`.
+  Box around(const Box& box) const;
+  // True iff an end of one of the segments ab and cd is within reach of the other segment.
+  bool holds(const Point& a, const Point& b, const Point& c, const Point& d) const;
+
+ private:
+  bool isNear(const Point& p, const Point& a, const Point& b) const;
+
+  double length_ = 0.0;      // on the ground
+  double units_ = 0.0;       // the same in the CRS at a scale of 1; for degrees at the equator
+  double most_units_ = 0.0;  // the same where the CRS has its largest scale
+  double semi_major_m_ = 0.0, flattening_ = 0.0;
+  bool geographic_ = false;
+  std::optional<GeographicMap> map_;  // none for a plane
+};
+
+}  // namespace coastmesh
