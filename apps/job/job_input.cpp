@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "apps/job/places.hpp"
+#include "apps/job/working_plane.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/group_features.hpp"
 #include "gis/crs/geodesy.hpp"
@@ -19,14 +20,6 @@ namespace coastmesh {
 namespace {
 
 bool isPolyFile(const std::string& path) { return std::filesystem::path(path).extension() == ".poly"; }
-
-Crs parseWorkingCrs(const std::string& text) {
-  try {
-    return parseCrs(text);
-  } catch (const InputError& error) {
-    throw OptionError(std::string("--crs: ") + error.what());
-  }
-}
 
 std::string nameOfUnframed(DomainSide side) {
   return side == DomainSide::Ocean ? "ocean" : side == DomainSide::Land ? "land" : "globe";
@@ -174,7 +167,11 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   FrameReport framed = frameCoastline(coastline_, options_.frame);
   report_.beyond_frame = framed.beyond_frame;
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
-  if (working) chosen_ = Projection::to(coastline_.crs, *working);
+  if (working) {
+    chosen_ = Projection::to(coastline_.crs, *working);
+    const std::string distorts = judgeWorkingPlane(coastline_, *working, *chosen_);
+    if (!distorts.empty()) report_.warnings.push_back(distorts);
+  }
   groups_ = groupFeatures(coastline_, snapDistance(), loop);
   bendEdges();
 }
