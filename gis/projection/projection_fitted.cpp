@@ -18,10 +18,32 @@ namespace coastmesh {
 
 namespace {
 
+// A turn round the globe in coordinates of a projected CRS, such as Mercator's, that go on past its edge.
+struct Turn {
+  double width = 0;   // 0: they do not
+  double middle = 0;  // of the coordinates of the input
+};
+
+// Of an input that extends from `west` to `east`, two of its points: beyond the edge they come back a turn away.
+Turn turnOf(const Point& west, const Point& east, const GeographicMap& to_geographic) {
+  Turn turn;
+  for (const Point& p : {west, east}) {
+    const Point back = to_geographic.inverse(to_geographic.forward(p));
+    const double apart = std::abs(back.x - p.x);
+    constexpr double kRounding = 1e-9;  // and what ways there and back miss one another by, in a large CRS
+    const double size = std::max(std::abs(p.x), std::abs(back.x));
+    if (!(apart > size) || !(std::abs(back.y - p.y) <= kRounding * size)) continue;
+    if (std::abs(back.x + p.x) <= kRounding * size) continue;  // on the edge, which has two ends
+    if (turn.width == 0 || apart < turn.width) turn.width = apart;
+  }
+  turn.middle = west.x + (east.x - west.x) / 2;
+  return turn;
+}
+
 class Fitted final : public ProjectionMap {
  public:
-  Fitted(GeographicMap to_geographic, FittedMap fitted, double middle_longitude)
-      : to_geographic_(std::move(to_geographic)), map_(std::move(fitted.map)), middle_(middle_longitude) {
+  Fitted(GeographicMap to_geographic, FittedMap fitted, double middle_longitude, const Turn& turn)
+      : to_geographic_(std::move(to_geographic)), map_(std::move(fitted.map)), middle_(middle_longitude), turn_(turn) {
     if (fitted.is_surface) surface_ = map_->sphere();
     description = std::move(fitted.description);
     reason = std::move(fitted.reason);
@@ -48,13 +70,16 @@ class Fitted final : public ProjectionMap {
   Point asInput(LonLat place) const {
     if (place.lon < middle_ - 180) place.lon += 360;
     if (place.lon > middle_ + 180) place.lon -= 360;
-    return to_geographic_.inverse(place);
+    Point input = to_geographic_.inverse(place);
+    if (turn_.width > 0) input.x -= turn_.width * std::round((input.x - turn_.middle) / turn_.width);
+    return input;
   }
 
   GeographicMap to_geographic_;
   std::unique_ptr<ConformalMap> map_;
   Surface surface_;
   double middle_;
+  Turn turn_;
 };
 
 bool hasFramedWater(const Coastline& coastline, const std::vector<std::size_t>& members) {
@@ -102,6 +127,7 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
   std::vector<RingGroup> groups(1);  // the frame and lines of the coast; then one a feature
   const Feature* last = nullptr;
   double west = std::numeric_limits<double>::infinity(), east = -west;
+  Point first_of_input{west, 0}, last_of_input{east, 0};  // by x
   std::size_t count = 0;
   forEachChain(coastline, members,
                [&](const Feature&, const std::vector<Point>& chain, bool) { count += chain.size(); });
@@ -112,6 +138,8 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
       if (!isOnEarth(place)) refuse(feature, input, coastline.crs);
       west = std::min(west, place.lon);
       east = std::max(east, place.lon);
+      if (input.x < first_of_input.x) first_of_input = input;
+      if (input.x > last_of_input.x) last_of_input = input;
       places.push_back(place);
     }
     if (!is_ring || (coastline.rest && feature.use != FeatureUse::Area)) return;
@@ -144,7 +172,9 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
   FittedMap map = places.empty()   ? mapOfEmptyGlobe(ellipsoid)
                   : coastline.rest ? fitMap(places, groups, ellipsoid, SurfaceKind::Ellipsoid)
                                    : fitMap(places, groups, ellipsoid, kind);
-  return std::make_shared<Fitted>(to_geographic, std::move(map), middle);
+  const Turn turn =
+      to_geographic.isIdentity() || places.empty() ? Turn{} : turnOf(first_of_input, last_of_input, to_geographic);
+  return std::make_shared<Fitted>(to_geographic, std::move(map), middle, turn);
 }
 
 }  // namespace

@@ -204,6 +204,36 @@ TEST_F(Coordinates, ACrsThatDistortsShapesIsToldOrRefused) {
   }
 }
 
+// Mercator's metres go on past the end of the longitudes, as the input's do.
+TEST_F(Coordinates, MetresGoOnPastTheAntimeridian) {
+  for (const double turn : {0.0, -40075016.685578488}) {
+    std::string text = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:3857"}},)";
+    std::ostringstream corners;
+    corners.precision(17);
+    const double west = 19e6 + turn, east = 21e6 + turn;
+    corners << '[' << west << ",6e6],[" << east << ",6e6],[" << east << ",7e6],[" << west << ",7e6],[" << west
+            << ",6e6]";
+    text += R"("features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[)" +
+            corners.str() + "]]}}]}";
+    const std::string input = write("lake.geojson", text);
+    const ProgramRun run =
+        runProgram({"mesh", input, "-o", file("m.2dm"), "--size", "100000", "--overwrite", "--quiet"});
+    ASSERT_EQ(run.code, 0) << run.errors;
+    EXPECT_EQ(run.errors, "");
+    std::istringstream lines(readText(file("m.2dm")));
+    std::size_t nodes = 0;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string word;
+      double number, x, y;
+      if (!(words >> word >> number >> x >> y) || word != "ND") continue;
+      ++nodes;
+      EXPECT_TRUE(x >= west - 1e-6 && x <= east + 1e-6) << line;
+    }
+    EXPECT_GT(nodes, 50u);
+  }
+}
+
 // What lies within the snap distance becomes one, whichever features it is of.
 TEST_F(Coordinates, FeaturesASmallGapApartAreSnapped) {
   const double gap = 1e-9;  // degrees: a tenth of a millimetre
