@@ -134,6 +134,7 @@ Point CrsMap::inverse(const Point& p) const {
 
 OGRSpatialReference geographicBase(const Crs& crs) {
   const OGRSpatialReference srs = toOgr(crs);
+  const OgrErrors kept_from_the_user;
   const std::unique_ptr<OGRSpatialReference> base(srs.CloneGeogCS());
   if (!base) throw InputError("the CRS " + nameOf(crs) + " has no longitudes and latitudes");
   OGRSpatialReference result(*base);

@@ -27,6 +27,14 @@ std::string lowerCase(std::string text) {
 
 constexpr std::array kColumns{"type", "role", "boundary", "ibtype", "kind"};
 
+// "type, role, boundary, ibtype or kind"
+std::string namesOfColumns() {
+  std::string names;
+  for (std::size_t i = 0; i < kColumns.size(); ++i)
+    names += std::string(i == 0 ? "" : i + 1 < kColumns.size() ? ", " : " or ") + kColumns[i];
+  return names;
+}
+
 // The feature's type as text; none where it has no such column, or nothing in it.
 std::optional<std::string> typeOf(const Feature& feature, const std::string& column) {
   const auto find = [&](const std::string& name) -> std::optional<std::string> {
@@ -283,7 +291,7 @@ void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& 
       if (text) return kindOfText(*text, what);
       if (all_have_it)
         throw InputError(what + ": has no type of boundary in " +
-                         (column.empty() ? "a column called type or role" : "the column \"" + column + "\""));
+                         (column.empty() ? "a column called " + namesOfColumns() : "the column \"" + column + "\""));
       return std::nullopt;
     };
     for (const Feature& feature : raw.features) {

@@ -110,6 +110,17 @@ TEST_F(BoundaryTypes, TheFilterIsNotForFilesOfBoundaries) {
   EXPECT_EQ(roles.count("open"), 0u);
 }
 
+// All the names that --help lists are looked for.
+TEST_F(BoundaryTypes, AFileWithoutTypesIsRefusedWithTheColumnsLookedFor) {
+  const std::string input = lakeWithLine();
+  const std::string types = put("types.geojson", Json::array({westOf(5, {{"ib", 22}})}));
+  const ProgramRun run = runProgram({"mesh", input, "-o", file("a.gpkg"), "--boundaries", types, "--quiet"});
+  EXPECT_EQ(run.code, 3);
+  const std::string columns = "type, role, boundary, ibtype or kind";
+  EXPECT_NE(run.errors.find("has no type of boundary in a column called " + columns), std::string::npos) << run.errors;
+  EXPECT_NE(runProgram({"mesh", "--help"}).output.find(columns), std::string::npos);
+}
+
 // It can be read only once.
 TEST_F(BoundaryTypes, StandardInputAndPipesDefineThemToo) {
   lakeWithLine();

@@ -252,6 +252,18 @@ TEST_F(Coordinates, FeaturesASmallGapApartAreSnapped) {
   EXPECT_EQ(piecesOf({"--snap", "0"}), 2);
 }
 
+// GDAL's own words about it stay inside.
+TEST_F(Coordinates, HeightsAloneAreRefusedInOneLine) {
+  const std::string input = write(
+      "heights.geojson",
+      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:5711"}},"features":[{"type":)"
+      R"("Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]]]}}]})");
+  const ProgramRun run = runProgram({"mesh", input, "-o", file("m.nc")});
+  EXPECT_EQ(run.code, 3) << run.errors;
+  EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+  EXPECT_NE(run.errors.find("EPSG:5711 has no longitudes and latitudes"), std::string::npos) << run.errors;
+}
+
 TEST_F(Coordinates, OceanAndLandAreTheTwoSidesOfAllCoasts) {
   const std::string land =
       write("land.geojson",
