@@ -10,7 +10,6 @@
 #include <sstream>
 #include <tuple>
 
-#include "apps/job/mark_regions.hpp"
 #include "apps/job/places.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "core/delaunay.hpp"
@@ -24,6 +23,7 @@
 #include "gis/follow/coast_follow.hpp"
 #include "gis/format/poly_io.hpp"
 #include "gis/model/make_grid.hpp"
+#include "gis/model/mark_regions.hpp"
 #include "gis/projection/smooth_table.hpp"
 #include "gis/size/globe_start.hpp"
 #include "gis/size/guide_lines.hpp"

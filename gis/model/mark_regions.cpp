@@ -1,4 +1,4 @@
-#include "apps/job/mark_regions.hpp"
+#include "gis/model/mark_regions.hpp"
 
 #include <algorithm>
 #include <limits>
