@@ -139,6 +139,8 @@ bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool
   std::vector<FoundDefect> of_boundaries;
   const std::vector<FoundDefect> once = withoutRepeats(defects);
   mendClockwise(state, once);
+  // Edges that hang together by now were loose when the other defects were found: these are looked for again.
+  if (state.report.repairs.size() > repairs_before) return true;
   for (const FoundDefect& found : once) {
     if (isOfBoundaries(found.defect.kind)) of_boundaries.push_back(found);
     mend(state, found);

@@ -75,7 +75,7 @@ TEST_F(Check, TimeStepsNeedDepths) {
 // A run that falls short says so, however quiet it is to be.
 TEST_F(Check, QuietMeshesSayThatTheyFallShort) {
   const std::vector<std::string> command{"mesh",    lake(),           "-o", file("m.nc"), "--min-angle", "40",
-                                         "--quiet", "--max-vertices", "60"};
+                                         "--quiet", "--max-vertices", "14"};
   const ProgramRun run = runProgram(command);
   EXPECT_EQ(run.code, 1);
   EXPECT_EQ(run.output, "");
