@@ -91,7 +91,6 @@ void DepthGaps::build(const SizeField& known, const DomainMask& mask, double lea
       // The mask's squares may be much larger than land is wide; shares are exact.
       const double share = is_gap ? mask.share(box) : 1.0;
       const bool on_shore = share < kAllWater && box.half > kFinestShore * root_.half;
-      if (share <= 0.0 || (share < 1.0 - kAllWater && !on_shore)) continue;
       const bool divide = 2.0 * box.half > finest && (!is_gap || gap_levels < kMoreLevels || on_shore);
       if (divide && nodes_.size() + 4 <= kMostNodes) {
         nodes_[number] = {static_cast<std::uint32_t>(nodes_.size()), Kind::Below};
@@ -105,8 +104,9 @@ void DepthGaps::build(const SizeField& known, const DomainMask& mask, double lea
       Leaf& leaf = leaves_.emplace_back();
       leaf.box = box;
       leaf.gap = is_gap;
+      leaf.dry = share < 1.0 - kAllWater;
       leaf.scale = scale;
-      gap_leaves_ += is_gap ? 1 : 0;
+      gap_leaves_ += is_gap && !leaf.dry ? 1 : 0;
     }
     level = std::move(next);
   }
@@ -335,11 +335,35 @@ void DepthGaps::setGradients(const std::vector<Side>& sides) {
   }
 }
 
+// Squares at a shore with a corner in the water.
+void DepthGaps::fillDry(const std::vector<Side>& sides) {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::pair<std::uint32_t, double>> found;
+    for (std::size_t first = 0, i = 0; first < sides.size(); first = i) {
+      const std::uint32_t leaf = sides[first].leaf;
+      double sum = 0.0, weights = 0.0;
+      for (; i < sides.size() && sides[i].leaf == leaf; ++i) {
+        const double depth = sides[i].other == kNone ? sides[i].depth_m : leaves_[sides[i].other].depth_m;
+        if (std::isnan(depth)) continue;
+        sum += sides[i].weight * depth;
+        weights += sides[i].weight;
+      }
+      if (leaves_[leaf].dry && std::isnan(leaves_[leaf].depth_m) && weights > 0.0)
+        found.emplace_back(leaf, sum / weights);
+    }
+    for (const auto& [leaf, depth] : found)
+      leaves_[leaf].depth_m = leaves_[leaf].least_m = leaves_[leaf].most_m = depth;
+  }
+}
+
 void DepthGaps::fill(const SizeField& known, const std::function<double(double)>& depth_of, GapFill fill,
                      const ItemLoop& loop) {
   fillParts(known, depth_of, loop);
-  std::vector<Side> met = sides();
-  fixSides(known, depth_of, met, loop);
+  std::vector<Side> all = sides(), met;
+  fixSides(known, depth_of, all, loop);
+  for (const Side& side : all)
+    if (!leaves_[side.leaf].dry && (side.other == kNone || !leaves_[side.other].dry)) met.push_back(side);
   if (fill == GapFill::Nearest) {
     fillFromNearest(met);
     for (Leaf& leaf : leaves_) leaf.least_m = leaf.most_m = leaf.depth_m;
@@ -347,6 +371,7 @@ void DepthGaps::fill(const SizeField& known, const std::function<double(double)>
     fillByMean(met, loop);
     setGradients(met);
   }
+  fillDry(all);
   for (const Leaf& leaf : leaves_)
     if (!std::isnan(leaf.depth_m)) least_m_ = std::min(least_m_, leaf.least_m);
 }

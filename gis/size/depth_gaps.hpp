@@ -62,6 +62,7 @@ class DepthGaps {
   struct Leaf {
     SizeBox box;
     bool gap = false;  // otherwise known in part
+    bool dry = false;  // hardly any water: it has the depth of its neighbours, and joins none
     double depth_m = std::numeric_limits<double>::quiet_NaN();
     Point gradient;  // metres per plane length
     double least_m = 0.0, most_m = 0.0;
@@ -78,6 +79,7 @@ class DepthGaps {
                 const ItemLoop& loop) const;
   void fillByMean(const std::vector<Side>& sides, const ItemLoop& loop);
   void fillFromNearest(const std::vector<Side>& sides);
+  void fillDry(const std::vector<Side>& sides);
   void setGradients(const std::vector<Side>& sides);
   // Calls `visit(node, box)` for leaves that meet a rectangle.
   template <typename Visit>
