@@ -9,7 +9,7 @@
 #include "gis/clean/clean.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/frame.hpp"
-#include "gis/coast/snap_reach.hpp"
+#include "gis/coast/snap_distance.hpp"
 #include "gis/model/boundary_rules.hpp"
 #include "gis/projection/projection.hpp"
 #include "gis/read/read_coastline.hpp"

@@ -9,10 +9,9 @@ namespace coastmesh {
 
 namespace {
 
-// Ratios of the scales along and across. Below the first, angles on the ground differ by up to half a degree: Web
-// Mercator, conformal on a sphere but not on the ellipsoid, reaches 1.007. At the second they differ by up to 13
-// degrees: a third of the smallest angle asked for.
-constexpr double kWorthTelling = 1.01, kUseless = 1.25;
+// A ratio of the scales along and across. Below it, angles on the ground differ by up to half a degree: Web Mercator,
+// conformal on a sphere but not on the ellipsoid, reaches 1.007.
+constexpr double kWorthTelling = 1.01;
 
 std::string inDigits(const char* format, double value) {
   char text[40];
@@ -23,35 +22,22 @@ std::string inDigits(const char* format, double value) {
 }  // namespace
 
 Crs parseWorkingCrs(const std::string& text) {
-  const Crs crs = [&text] {
-    try {
-      return parseCrs(text);
-    } catch (const InputError& error) {
-      throw OptionError(std::string("--crs: ") + error.what());
-    }
-  }();
-  if (crs.geographic)
-    throw OptionError("--crs: " + nameOf(crs) +
-                      " has longitudes and latitudes, which are no plane to work in: leave out --crs, and the mesh has "
-                      "the coordinates of the input; for longitudes and latitudes, bring the input to them first "
-                      "(ogr2ogr -t_srs " +
-                      nameOf(crs) + ")");
-  return crs;
+  try {
+    return parseCrs(text);
+  } catch (const InputError& error) {
+    throw OptionError(std::string("--crs: ") + error.what());
+  }
 }
 
 std::string judgeWorkingPlane(const Coastline& coastline, const Crs& working, const Projection& chosen) {
   if (working.isPlane() || coastline.crs.isPlane()) return {};
   const Distortion largest = largestDistortion(coastline, working, chosen);
   if (!(largest.ratio > kWorthTelling)) return {};
-  const std::string what = nameOf(working) + " distorts shapes: at " + std::to_string(largest.place.x) + ", " +
-                           std::to_string(largest.place.y) + " lengths differ by " +
-                           inDigits("%.3g", 100.0 * (largest.ratio - 1.0)) +
-                           " % with their direction, and angles by up to " + inDigits("%.2g", largest.degrees) +
-                           " degrees from those on the ground";
-  const std::string instead = ": leave out --crs, for a conformal plane that is fitted, or give a conformal CRS";
-  if (largest.ratio > kUseless)
-    throw OptionError("--crs: " + what + ", more than the 25 % at which meshes are still of use" + instead);
-  return "--crs: " + what + ", whatever --min-angle says" + instead;
+  return "--crs: " + nameOf(working) + " distorts shapes: at " + std::to_string(largest.place.x) + ", " +
+         std::to_string(largest.place.y) + " lengths differ by " + inDigits("%.3g", 100.0 * (largest.ratio - 1.0)) +
+         " % with their direction, and angles by up to " + inDigits("%.2g", largest.degrees) +
+         " degrees from those on the ground, whatever --min-angle says: leave out --crs, for a conformal plane that is "
+         "fitted, or give a conformal CRS";
 }
 
 }  // namespace coastmesh

@@ -8,12 +8,11 @@
 
 namespace coastmesh {
 
-// The CRS that `--crs` names. Throws OptionError if it is unknown, or has longitudes and latitudes, which are no plane
-// to work in.
+// The CRS that `--crs` names. Throws OptionError if it is unknown.
 Crs parseWorkingCrs(const std::string& text);
 
 // A warning if the plane distorts shapes in the domain, empty if it is all but conformal there; `chosen` leads into the
-// plane. Throws OptionError where a mesh would be useless on the ground.
+// plane.
 std::string judgeWorkingPlane(const Coastline& coastline, const Crs& working, const Projection& chosen);
 
 }  // namespace coastmesh

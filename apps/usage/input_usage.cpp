@@ -118,10 +118,9 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
   table.number({"--min-island-area", "Smallest island"}, options.min_island_area_m2, "M2", kNotNegative,
                "fill islands smaller than this");
   table.section(Section::Input);
-  table.text(
-      {"--crs", "Working plane"}, options.crs, "CRS",
-      "auto fits a conformal projection, plane uses coordinates as they are; or a projected CRS that PROJ knows: "
-      "if it distorts shapes, angles on the ground differ; above 25 % it is refused");
+  table.text({"--crs", "Working plane"}, options.crs, "CRS",
+             "auto fits a conformal projection, plane uses coordinates as they are; or any CRS that PROJ knows: if it "
+             "distorts shapes, angles on the ground differ, and a warning says by how much");
 }
 
 void declareSurface(OptionTable& table, SurfaceChoice& surface) {

@@ -6,6 +6,7 @@
 
 #include "core/hilbert.hpp"
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/snap_reach.hpp"
 #include "gis/geometry/chain_index.hpp"
 #include "gis/geometry/union_find.hpp"
 

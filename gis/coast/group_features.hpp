@@ -5,7 +5,7 @@
 
 #include "core/item_loop.hpp"
 #include "gis/coast/coastline.hpp"
-#include "gis/coast/snap_reach.hpp"
+#include "gis/coast/snap_distance.hpp"
 
 namespace coastmesh {
 

@@ -3,17 +3,12 @@
 #include <optional>
 
 #include "core/point.hpp"
+#include "gis/coast/snap_distance.hpp"
 #include "gis/crs/crs.hpp"
 #include "gis/crs/geographic_map.hpp"
 #include "gis/geometry/box.hpp"
 
 namespace coastmesh {
-
-// How near points come before cleaning merges them.
-struct SnapDistance {
-  double length = 0.0;    // metres on the ground, or units of the coordinates; 0 or more
-  bool in_plane = false;  // the coordinates are taken as they are, whatever their CRS
-};
 
 // Tells which edges cleaning may merge, by their places in the input's CRS. Tells of somewhat more, since the working
 // plane is not known: what it merges is at most a few percent further apart. Usable from several threads at once.

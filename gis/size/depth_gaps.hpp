@@ -8,16 +8,10 @@
 #include "core/item_loop.hpp"
 #include "core/size/size_box.hpp"
 #include "gis/size/domain_mask.hpp"
+#include "gis/size/gap_fill.hpp"
 #include "gis/size/size_field.hpp"
 
 namespace coastmesh {
-
-// What stands for depths where no raster has one: as nodes get them, see `DepthFill`.
-enum class GapFill {
-  Mean,     // a membrane between the depths around
-  Nearest,  // the depth that is nearest through water
-  None,     // nothing: only what is around counts, as far as it is graded
-};
 
 // Depths of water for which no raster has any. A quadtree finds it: squares without a depth, the largest of which lie
 // in the middle of a gap and the smallest at its edge, and which are neighbours through water alone: land parts them

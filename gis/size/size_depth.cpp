@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gis/long_wave.hpp"
+#include "gis/size/depth_gaps.hpp"
 
 namespace coastmesh {
 

@@ -3,11 +3,12 @@
 #include <memory>
 #include <span>
 
-#include "gis/size/depth_gaps.hpp"
 #include "gis/size/size_field.hpp"
 #include "gis/size/size_rule.hpp"
 
 namespace coastmesh {
+
+class DepthGaps;
 
 // Length in metres of a wave of `period_s` seconds in water of that depth: g T² / (2 pi) tanh(2 pi d / L), linear
 // waves.

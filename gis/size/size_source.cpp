@@ -12,6 +12,7 @@
 #include "gis/error.hpp"
 #include "gis/long_wave.hpp"
 #include "gis/projection/scale_table.hpp"
+#include "gis/size/depth_gaps.hpp"
 #include "gis/size/guide_lines.hpp"
 #include "gis/size/read_frames.hpp"
 #include "gis/size/size_channel.hpp"

@@ -68,7 +68,7 @@ TEST_F(Interrupted, ByACrash) {
 // runs in the background: that stays, and the others stop it still.
 TEST_F(Interrupted, NotByWhatIsIgnored) {
   const std::string run = "\"$0\" mesh '" + lake() + "' -o '" + file("out.gpkg") +
-                          "' --size-max 1 --progress json > '" + file("log") + "' & until grep -q refine '" +
+                          "' --size-max 1 --progress json > '" + file("log") + "' & until grep -qs refine '" +
                           file("log") + "'; do sleep 0.01; done\n";
   const ProgramRun stopped = runShell("trap '' HUP INT; " + run + "kill -HUP $!; kill -INT $!; sleep 1; kill -0 $! " +
                                       "|| exit 99; kill -TERM $!; wait $!");

@@ -138,7 +138,7 @@ def cases():
         "--snap": Case("100"),
         "--simplify": Case("300"),
         "--min-island-area": Case("1e9"),
-        "--crs": Case("EPSG:3857"),
+        "--crs": Case("EPSG:6933"),
         "--surface": Case("ellipsoid"),
         "--edges": Case("lonlat", input="wide.geojson"),
         "--edge-tolerance": Case("10000", extra=["--edges", "lonlat"], input="wide.geojson"),
@@ -238,7 +238,7 @@ def cases():
     convert["--min-boundary"] = Case("100000", input="framed.nc")
     convert["--target"] = Case("adcirc", input="hourglass.nc")
     clean = {**region,
-             "--crs": Case("EPSG:3857", extra=["--output", "out.poly"], because="a layer is in the input's CRS"),
+             "--crs": Case("EPSG:6933", extra=["--output", "out.poly"], because="a layer is in the input's CRS"),
              "--surface": Case("ellipsoid", extra=["--output", "out.poly"], input="wide.geojson",
                                because="a layer is in the input's CRS"),
              "--boundary-column": Case("other"),

@@ -16,6 +16,8 @@
 #include "gis/clean/domain.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/frame.hpp"
+#include "gis/coast/group_features.hpp"
+#include "gis/coast/snap_distance.hpp"
 #include "gis/crs/crs.hpp"
 #include "gis/crs/crs_definition.hpp"
 #include "gis/crs/resolution.hpp"
@@ -169,6 +171,19 @@ TEST_F(GisCoastExamples, Frame) {
   ASSERT_EQ(coastline.features.size(), 2u);
   EXPECT_EQ(coastline.features[0].use, FeatureUse::Land);
   EXPECT_EQ(coastline.features[1].use, FeatureUse::Frame);
+}
+
+// gis/coast/snap_distance.hpp: Which features are meshed together.
+TEST_F(GisCoastExamples, SnapDistance) {
+  //! [gis/coast/snap_distance.hpp]
+  Coastline coastline = squareFeature(10.0);
+  coastline.features.push_back(coastline.features[0]);
+  for (Point& p : coastline.features[1].polygons[0].outer) p.x += 10.001;  // a gap of 0.001 between the two
+  const SnapDistance snap{.length = 0.01, .in_plane = true};
+  const std::vector<std::vector<std::size_t>> groups = groupFeatures(coastline, snap);
+  //! [gis/coast/snap_distance.hpp]
+  EXPECT_EQ(groups.size(), 1u);
+  EXPECT_EQ(groupFeatures(coastline).size(), 2u);
 }
 
 // gis/crs/crs.hpp: Coordinate reference systems, from what users write.
