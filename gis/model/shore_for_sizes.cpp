@@ -56,9 +56,9 @@ class PiecedBoundary {
       : domain_(domain), crs_(crs), lengths_(lengths), search_(domain.pslg), places_(domain.input_points) {
     const TriMesh mesh = constrainedDelaunay(domain.pslg);
     const auto loops = boundaryLoops(mesh);
-    std::size_t edges = 0;
-    for (const auto& loop : loops) edges += loop.size();
-    most_ = std::clamp(kMostOfAll / static_cast<double>(std::max<std::size_t>(edges, 1)), 1.0, kMostPieces);
+    std::size_t count = 0;
+    for (const auto& loop : loops) count += loop.size();
+    most_ = std::clamp(kMostOfAll / static_cast<double>(std::max<std::size_t>(count, 1)), 1.0, kMostPieces);
     for (const auto& loop : loops) addLoop(loop);
   }
 

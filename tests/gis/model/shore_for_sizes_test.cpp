@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,6 @@ namespace coastmesh {
 namespace {
 
 using testing::planeDomain;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class ShoreForSizes : public testing::SizeFiles {
  protected:
@@ -144,7 +141,9 @@ TEST_F(ShoreForSizes, ItIsWhatTheGridsBoundaryBecomes) {
   fine.input_points = fine.pslg.points;
   domain = fine;
   const TriMesh mesh = constrainedDelaunay(fine.pslg);
-  Grid grid = makeGrid({MeshedDomain{&fine, &mesh}}, Coastline{.features = {Feature{}}});
+  Coastline coastline;
+  coastline.features.emplace_back();
+  Grid grid = makeGrid({MeshedDomain{&fine, &mesh}}, coastline);
   const auto options = of("open", "LineString", "[[1000,60],[9900,-90],[10000,3500]]");
   assignBoundaries(grid, options);
   double open = 0.0;

@@ -439,7 +439,7 @@ TEST_F(ReadCoastline, LayersOfArchives) {
     }
     return {};
   };
-  for (const std::string archive : {path("flat.zip"), path("deep.zip")}) {
+  for (const std::string& archive : {path("flat.zip"), path("deep.zip")}) {
     EXPECT_EQ(count(archive, {"lakes"}), 2u);
     EXPECT_EQ(count(archive, {"coast"}), 3u);
     EXPECT_EQ(count(archive, {"coast", "ponds"}), 4u);

@@ -320,7 +320,7 @@ TEST_F(SizeFiles, FeaturesWithSizesAreReadFromArchivesAndLayers) {
     layer(*dataset, "depths", "depth");
     layer(*dataset, "pts", "size");
   }
-  for (const std::string path : {file("p.zip"), file("two.gpkg") + "|pts", file("two.gpkg") + "|layername=pts"})
+  for (const std::string& path : {file("p.zip"), file("two.gpkg") + "|pts", file("two.gpkg") + "|layername=pts"})
     EXPECT_EQ(readSizedFeatures(path, {}, 0.2).parts.at(0).size_m, 25.0) << path;
   EXPECT_THAT([&] { readSizedFeatures(file("two.gpkg"), {}, 0.2); },
               ::testing::ThrowsMessage<InputError>(
