@@ -102,12 +102,6 @@ double mostVertices(const GroupTask& task, SurfaceKind surface) {
   return std::min(kClearlyMore * static_cast<double>(task.room.vertices), possibleVertices(task, surface));
 }
 
-std::string amount(const char* format, double number) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, number);
-  return text;
-}
-
 std::string demandText(const TooManyVertices& error, const GroupTask& task, const GroupResult& result) {
   const VertexDemand& demand = error.demand;
   const std::uint64_t allowed = task.room.vertices;

@@ -12,12 +12,6 @@ namespace coastmesh {
 
 namespace {
 
-std::string amount(const char* format, double number) {
-  char text[60];
-  std::snprintf(text, sizeof text, format, number);
-  return text;
-}
-
 // How many there are of each cause, and what helps.
 template <typename Short>
 std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes, QualityGoal goal) {

@@ -1,7 +1,6 @@
 #include "apps/job/working_plane.hpp"
 
-#include <cstdio>
-
+#include "apps/job/places.hpp"
 #include "gis/error.hpp"
 #include "gis/projection/distortion.hpp"
 
@@ -11,13 +10,7 @@ namespace {
 
 // A ratio of the scales along and across. Below it, angles on the ground differ by up to half a degree: Web Mercator,
 // conformal on a sphere but not on the ellipsoid, reaches 1.007.
-constexpr double kWorthTelling = 1.01;
-
-std::string inDigits(const char* format, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+constexpr double kWorthAWarning = 1.01;
 
 }  // namespace
 
@@ -32,10 +25,10 @@ Crs parseWorkingCrs(const std::string& text) {
 std::string judgeWorkingPlane(const Coastline& coastline, const Crs& working, const Projection& chosen) {
   if (working.isPlane() || coastline.crs.isPlane()) return {};
   const Distortion largest = largestDistortion(coastline, working, chosen);
-  if (!(largest.ratio > kWorthTelling)) return {};
-  return "--crs: " + nameOf(working) + " distorts shapes: at " + std::to_string(largest.place.x) + ", " +
-         std::to_string(largest.place.y) + " lengths differ by " + inDigits("%.3g", 100.0 * (largest.ratio - 1.0)) +
-         " % with their direction, and angles by up to " + inDigits("%.2g", largest.degrees) +
+  if (!(largest.ratio > kWorthAWarning)) return {};
+  return "--crs: " + nameOf(working) + " distorts shapes: at " + pointText(largest.place) + " lengths differ by " +
+         amount("%.3g", 100.0 * (largest.ratio - 1.0)) + " % with their direction, and angles by up to " +
+         amount("%.2g", largest.degrees) +
          " degrees from those on the ground, whatever --min-angle says: leave out --crs, for a conformal plane that is "
          "fitted, or give a conformal CRS";
 }

@@ -395,7 +395,8 @@ class MeshPlot {
     for (const auto& [name, color] : entries) {
       if (x > left && x + kEntryPx > right) {
         if (!std::exchange(may_wrap, false)) break;  // no room for it
-        x = left, y += kRowPx;
+        x = left;
+        y += kRowPx;
       }
       canvas_.strokeLine({x, y}, {x + 18.0, y}, kRolePx, color);
       canvas_.text({x + 22.0, y + 4.0}, name, 13.0, kInk);

@@ -48,7 +48,8 @@ SnapReach::SnapReach(const SnapDistance& snap, const Crs& crs, const Box& extent
   }
   length_ = kSlack * snap.length;
   geographic_ = crs.geographic;
-  semi_major_m_ = crs.semi_major_m, flattening_ = crs.flattening;
+  semi_major_m_ = crs.semi_major_m;
+  flattening_ = crs.flattening;
   map_.emplace(crs);
   const double metres_per_unit = metresPerUnit(crs);
   constexpr double kBetweenPlaces = 1.5;  // the scale between the places that are looked at
@@ -65,7 +66,8 @@ Box SnapReach::around(const Box& box) const {
   constexpr double kTurn = 360.0;
   const double cosine = std::min(cosOfLatitude(result.ymin), cosOfLatitude(result.ymax));
   const double more = most_units_ < kTurn * cosine ? most_units_ / cosine : kTurn;
-  result.xmin = box.xmin - more, result.xmax = box.xmax + more;
+  result.xmin = box.xmin - more;
+  result.xmax = box.xmax + more;
   return result;
 }
 

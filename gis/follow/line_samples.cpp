@@ -7,6 +7,7 @@
 #include "core/predicates.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/geometry/chain_index.hpp"
 
 namespace coastmesh {
 
@@ -14,15 +15,6 @@ namespace {
 
 constexpr double kStep = 0.25;        // between samples of a line, as a share of the size wanted
 constexpr double kMostSamples = 1e6;  // of a line
-
-bool isIn(const Point& x, const Point& a, const Point& b, const Point& c) {
-  return orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 && orient2d(c, a, x) >= 0;
-}
-
-bool crosses(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return orient2d(a, b, c) * orient2d(a, b, d) <= 0 && orient2d(c, d, a) * orient2d(c, d, b) <= 0 &&
-         Box::of(a, b).meets(Box::of(c, d));
-}
 
 // Land that is reached across an open boundary is none.
 void markBeyond(std::vector<std::vector<LineSample>>& lines, const ShoreTriangles& t) {
@@ -51,7 +43,7 @@ void markBeyond(std::vector<std::vector<LineSample>>& lines, const ShoreTriangle
       tree.visit(Box::of(a, b), [&](std::uint32_t item) {
         const auto& [line, wet, dry] = ends[item];
         std::vector<LineSample>& samples = lines[line];
-        if (!crosses(a, b, samples[wet].at, samples[dry].at)) return;
+        if (!segmentsMeet(a, b, samples[wet].at, samples[dry].at)) return;
         const bool forwards = dry > wet;
         for (std::size_t j = dry; j < samples.size() && !isWet(samples[j]); j += forwards ? 1 : -1)
           samples[j].beyond = true;
@@ -61,6 +53,10 @@ void markBeyond(std::vector<std::vector<LineSample>>& lines, const ShoreTriangle
 }
 
 }  // namespace
+
+bool isIn(const Point& x, const Point& a, const Point& b, const Point& c) {
+  return orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 && orient2d(c, a, x) >= 0;
+}
 
 std::vector<LineSample> samplesOf(const std::vector<Point>& line, const SizeFunction& size) {
   std::vector<LineSample> samples;

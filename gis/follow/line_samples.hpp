@@ -21,6 +21,9 @@ struct LineSample {
 
 inline bool isWet(const LineSample& sample) { return sample.water != kUnlabelled; }
 
+// Whether x lies in a triangle, or on its boundary. REQUIRES: it is counter-clockwise.
+bool isIn(const Point& x, const Point& a, const Point& b, const Point& c);
+
 // Samples of a line of these points, a quarter of the size apart.
 std::vector<LineSample> samplesOf(const std::vector<Point>& line, const SizeFunction& size);
 

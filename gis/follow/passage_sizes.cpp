@@ -11,8 +11,8 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kBeside =
-    1.0;  // elements beside the passage that have its size; further off sizes grow as the distance
+// Elements beside the passage that have its size; further off sizes grow as the distance.
+constexpr double kBeside = 1.0;
 
 }  // namespace
 

@@ -18,10 +18,6 @@ constexpr double kTooNear = 0.02;      // helpers keep so far from what is there
 constexpr double kDug = 1.0;           // land that long on a passage is told of
 constexpr double kLittleMore = 1.001;  // of the reach: rounding of helpers at it
 
-bool isIn(const Point& x, const Point& a, const Point& b, const Point& c) {
-  return orient2d(a, b, x) >= 0 && orient2d(b, c, x) >= 0 && orient2d(c, a, x) >= 0;
-}
-
 // Points that are added for a while, so that triangles end where they should.
 class Helpers {
  public:

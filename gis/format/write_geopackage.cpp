@@ -288,13 +288,20 @@ void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& 
   const MapCutter cutter(grid);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const GridLayer& layer = layers[i];
-    std::function<IndexBox(std::uint32_t)> box = [&cutter, &layer](std::uint32_t row) {
+    std::function<IndexBox(std::uint32_t)> box = [&grid, &cutter, &layer](std::uint32_t row) {
       std::vector<std::uint32_t> nodes;
       layer.shapeOf(row, nodes);
       std::vector<Point> places;
-      const bool is_polygon = layer.shape == GridLayer::Shape::Polygon;
-      for (const auto& part : is_polygon ? cutter.partsOf({nodes[0], nodes[1], nodes[2]}) : cutter.partsOfLine(nodes))
-        places.insert(places.end(), part.begin(), part.end());
+      const auto add = [&places](const auto& parts) {
+        for (const auto& part : parts) places.insert(places.end(), part.begin(), part.end());
+      };
+      if (layer.shape == GridLayer::Shape::Polygon && cutter.cuts({nodes[0], nodes[1], nodes[2]})) {
+        add(cutter.partsOf({nodes[0], nodes[1], nodes[2]}));
+      } else if (layer.shape == GridLayer::Shape::Line && cutter.cutsLine(nodes)) {
+        add(cutter.partsOfLine(nodes));
+      } else {
+        for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
+      }
       return boxOf(places);
     };
     if (const LayerRows* const rows = rows_of[i].get()) {

@@ -97,7 +97,10 @@ Box boxOnSphere(const Grid& grid, std::uint32_t t) {
     box.ymin -= pad;
     box.ymax += pad;
   }
-  if (round) box.xmin = -180.0, box.xmax = 180.0;
+  if (round) {
+    box.xmin = -180.0;
+    box.xmax = 180.0;
+  }
   return box;
 }
 

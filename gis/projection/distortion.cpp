@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/metric.hpp"
 #include "gis/crs/geographic_map.hpp"
 #include "gis/geometry/box.hpp"
 
@@ -32,8 +33,7 @@ class DistortionMeter {
     const double difference = std::hypot(x.east - y.north, x.north + y.east);
     const double large = sum + difference, small = std::abs(sum - difference);
     if (!std::isfinite(large) || !(large > 0.0)) return std::nullopt;
-    constexpr double kInDegrees = 57.29577951308232;
-    return Distortion{large / small, 2.0 * std::asin((large - small) / (large + small)) * kInDegrees, place};
+    return Distortion{large / small, toDegrees(2.0 * std::asin((large - small) / (large + small))), place};
   }
 
  private:

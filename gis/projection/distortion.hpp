@@ -15,8 +15,7 @@ struct Distortion {
 };
 
 // The largest at some thousand places on the shores, lines and frames of the domain, between the vertices of long edges
-// too. `to_crs` leads from the CRS of `coastline` to `crs`. REQUIRES: neither is
-// a plane.
+// too. `to_crs` leads from the CRS of `coastline` to `crs`. REQUIRES: neither is a plane.
 Distortion largestDistortion(const Coastline& coastline, const Crs& crs, const Projection& to_crs);
 
 }  // namespace coastmesh

@@ -59,9 +59,9 @@ class Divider {
       Point from{dot(c_.at[p] - a, b - a) / length, cross(b - a, c_.at[p] - a) / length};
       Point to{dot(c_.at[q] - a, b - a) / length, cross(b - a, c_.at[q] - a) / length};
       if (!clip(from, to, {0.0, 0.0}, {length, kNear * size})) return;
-      first.push_back(std::min(from.x, to.x)), first.push_back(std::max(from.x, to.x));
-      const double low = first[first.size() - 2], high = first.back();
-      others.push_back(low - size), others.push_back(high + size);
+      const auto [low, high] = std::minmax({from.x, to.x});
+      first.insert(first.end(), {low, high});
+      others.insert(others.end(), {low - size, high + size});
       for (double x = low + step; x < high; x += step) others.push_back(x);
     });
     if (first.empty()) return;

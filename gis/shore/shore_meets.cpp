@@ -51,7 +51,8 @@ class Meeter {
     for (const Segment& s : c_.lines) {
       for (const VertexId v : {s.a, s.b})
         if (lines[v] < 2) ++lines[v];
-      beyond_[s.a] = s.b, beyond_[s.b] = s.a;
+      beyond_[s.a] = s.b;
+      beyond_[s.b] = s.a;
     }
     std::vector<VertexId> segments;
     std::vector<Box> boxes;

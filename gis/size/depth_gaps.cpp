@@ -222,10 +222,28 @@ void DepthGaps::fixSides(const SizeField& known, const std::function<double(doub
   std::erase_if(sides, [](const Side& side) { return side.other == kNone && std::isnan(side.depth_m); });
 }
 
-void DepthGaps::fillByMean(const std::vector<Side>& sides, const ItemLoop& loop) {
+// Where the sides of each leaf begin, and the end.
+std::vector<std::size_t> DepthGaps::beginsOf(const std::vector<Side>& sides) const {
   std::vector<std::size_t> begin(leaves_.size() + 1, 0);
   for (const Side& side : sides) ++begin[side.leaf + 1];
   for (std::size_t l = 0; l < leaves_.size(); ++l) begin[l + 1] += begin[l];
+  return begin;
+}
+
+// The weighted mean of what is known across these sides; not a number where nothing is.
+double DepthGaps::meanAcross(std::span<const Side> sides) const {
+  double sum = 0.0, weights = 0.0;
+  for (const Side& side : sides) {
+    const double depth = side.other == kNone ? side.depth_m : leaves_[side.other].depth_m;
+    if (std::isnan(depth)) continue;
+    sum += side.weight * depth;
+    weights += side.weight;
+  }
+  return sum / weights;
+}
+
+void DepthGaps::fillByMean(const std::vector<Side>& sides, const ItemLoop& loop) {
+  const std::vector<std::size_t> begin = beginsOf(sides);
   // From the edges of a gap inwards: a first guess, and what is reached at all.
   std::vector<std::uint32_t> ring, all;
   std::vector<bool> waiting(leaves_.size(), false);
@@ -236,16 +254,8 @@ void DepthGaps::fillByMean(const std::vector<Side>& sides, const ItemLoop& loop)
   }
   while (!ring.empty()) {  // a leaf enters once
     std::vector<double> values;
-    for (const std::uint32_t l : ring) {
-      double sum = 0.0, weights = 0.0;
-      for (std::size_t i = begin[l]; i < begin[l + 1]; ++i) {
-        const double depth = sides[i].other == kNone ? sides[i].depth_m : leaves_[sides[i].other].depth_m;
-        if (std::isnan(depth)) continue;
-        sum += sides[i].weight * depth;
-        weights += sides[i].weight;
-      }
-      values.push_back(sum / weights);
-    }
+    for (const std::uint32_t l : ring)
+      values.push_back(meanAcross(std::span(sides).subspan(begin[l], begin[l + 1] - begin[l])));
     for (std::size_t k = 0; k < ring.size(); ++k) leaves_[ring[k]].depth_m = values[k];
     std::vector<std::uint32_t> next;
     for (const std::uint32_t l : ring) {
@@ -289,9 +299,7 @@ void DepthGaps::fillByMean(const std::vector<Side>& sides, const ItemLoop& loop)
 }
 
 void DepthGaps::fillFromNearest(const std::vector<Side>& sides) {
-  std::vector<std::size_t> begin(leaves_.size() + 1, 0);
-  for (const Side& side : sides) ++begin[side.leaf + 1];
-  for (std::size_t l = 0; l < leaves_.size(); ++l) begin[l + 1] += begin[l];
+  const std::vector<std::size_t> begin = beginsOf(sides);
   using Entry = std::tuple<double, std::uint32_t, double>;  // how far, leaf, depth
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto length = [](const Side& side) { return std::sqrt(squaredLength(side.step)); };
@@ -322,8 +330,11 @@ void DepthGaps::setGradients(const std::vector<Side>& sides) {
       if (std::isnan(change)) continue;
       leaf.least_m = std::min(leaf.least_m, other);
       leaf.most_m = std::max(leaf.most_m, other);
-      xx += weight * x * x, xy += weight * x * y, yy += weight * y * y;
-      xd += weight * x * change, yd += weight * y * change;
+      xx += weight * x * x;
+      xy += weight * x * y;
+      yy += weight * y * y;
+      xd += weight * x * change;
+      yd += weight * y * change;
     }
     // Across land nothing is known: there it is even.
     const double trace = xx + yy, determinant = xx * yy - xy * xy;
@@ -342,15 +353,10 @@ void DepthGaps::fillDry(const std::vector<Side>& sides) {
     std::vector<std::pair<std::uint32_t, double>> found;
     for (std::size_t first = 0, i = 0; first < sides.size(); first = i) {
       const std::uint32_t leaf = sides[first].leaf;
-      double sum = 0.0, weights = 0.0;
-      for (; i < sides.size() && sides[i].leaf == leaf; ++i) {
-        const double depth = sides[i].other == kNone ? sides[i].depth_m : leaves_[sides[i].other].depth_m;
-        if (std::isnan(depth)) continue;
-        sum += sides[i].weight * depth;
-        weights += sides[i].weight;
-      }
-      if (leaves_[leaf].dry && std::isnan(leaves_[leaf].depth_m) && weights > 0.0)
-        found.emplace_back(leaf, sum / weights);
+      while (i < sides.size() && sides[i].leaf == leaf) ++i;
+      if (!leaves_[leaf].dry || !std::isnan(leaves_[leaf].depth_m)) continue;
+      const double mean = meanAcross(std::span(sides).subspan(first, i - first));
+      if (!std::isnan(mean)) found.emplace_back(leaf, mean);
     }
     for (const auto& [leaf, depth] : found)
       leaves_[leaf].depth_m = leaves_[leaf].least_m = leaves_[leaf].most_m = depth;

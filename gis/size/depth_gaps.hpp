@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/item_loop.hpp"
@@ -71,6 +72,8 @@ class DepthGaps {
   std::vector<Side> sides() const;
   void fixSides(const SizeField& known, const std::function<double(double)>& depth_of, std::vector<Side>& sides,
                 const ItemLoop& loop) const;
+  std::vector<std::size_t> beginsOf(const std::vector<Side>& sides) const;
+  double meanAcross(std::span<const Side> sides) const;
   void fillByMean(const std::vector<Side>& sides, const ItemLoop& loop);
   void fillFromNearest(const std::vector<Side>& sides);
   void fillDry(const std::vector<Side>& sides);

@@ -11,6 +11,7 @@
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
+#include "tests/gis/follow/shore_distance.hpp"
 #include "tests/support/followed_coasts.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/size_figures.hpp"
@@ -18,16 +19,7 @@
 namespace coastmesh {
 namespace {
 
-double farthestFrom(const std::vector<Point>& before, const Domain& after) {
-  double farthest = 0.0;
-  for (const Point& p : before) {
-    double least = 1e300;
-    for (const Segment& s : after.pslg.segments)
-      least = std::min(least, squaredDistanceToSegment(p, after.pslg.points[s.a], after.pslg.points[s.b]));
-    farthest = std::max(farthest, std::sqrt(least));
-  }
-  return farthest;
-}
+using testing::farthestFrom;
 
 TEST(FollowSizes, CoarseWhereElementsAreLarge) {
   Domain domain;

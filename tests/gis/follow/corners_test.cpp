@@ -7,10 +7,13 @@
 
 #include "core/metric.hpp"
 #include "gis/follow/coast_follow.hpp"
+#include "tests/gis/follow/shore_distance.hpp"
 #include "tests/support/followed_coasts.hpp"
 
 namespace coastmesh {
 namespace {
+
+using testing::farthestFrom;
 
 // The ring with vertices along its sides, turned, so that no side lies along an axis.
 std::vector<Point> dense(const std::vector<Point>& ring, double step, double degrees) {
@@ -24,17 +27,6 @@ std::vector<Point> dense(const std::vector<Point>& ring, double step, double deg
   for (Point& p : points)
     p = {p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle)};
   return points;
-}
-
-double farthest(const std::vector<Point>& from, const Domain& to) {
-  double most = 0.0;
-  for (const Point& p : from) {
-    double least = 1e300;
-    for (const Segment& s : to.pslg.segments)
-      least = std::min(least, squaredDistanceToSegment(p, to.pslg.points[s.a], to.pslg.points[s.b]));
-    most = std::max(most, std::sqrt(least));
-  }
-  return most;
 }
 
 // Sizes are 1.
@@ -64,7 +56,7 @@ TEST(FollowSizes, CornersOfHarboursStayHoweverDenseTheirSidesAre) {
           addShore(domain, ring);
           CleanReport report;
           const Domain coarse = followSizes(std::move(domain), ConstantSize(1.0), {}, oneFeature(), report);
-          EXPECT_LE(farthest(ring, coarse), 0.2) << width << " wide, vertices " << step << " apart, " << degrees;
+          EXPECT_LE(farthestFrom(ring, coarse), 0.2) << width << " wide, vertices " << step << " apart, " << degrees;
           EXPECT_LT(coarse.pslg.points.size(), 200U);
           EXPECT_EQ(countOf(report, EditKind::DroppedSpit), 0U);
           EXPECT_EQ(countOf(report, EditKind::ClosedWater), 0U);

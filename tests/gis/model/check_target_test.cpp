@@ -18,70 +18,19 @@
 #include "gis/model/flow_links.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/gis/model/target_samples.hpp"
 
 namespace coastmesh {
 namespace {
 
+using testing::expectMended;
+using testing::kAll;
+using testing::Kinds;
+using testing::kindsIn;
 using testing::lattice;
+using testing::openGrid;
+using testing::soundGrid;
 using testing::TemporaryFolder;
-
-// All but FESOM2, which refuses two corners of the grid below.
-constexpr Target kAll[] = {Target::Adcirc,  Target::Schism, Target::Fvcom, Target::Telemac,
-                           Target::Dflowfm, Target::Swan,   Target::Mpas};
-
-// A sea of nearly equilateral triangles with an island; no corner has both its edges in one triangle.
-Grid soundGrid() {
-  const TriMesh mesh = lattice(
-      8, 8, [](int i, int j) { return i != 4 || j != 4; },
-      [](int i, int j) {
-        return Point{1000.0 * i - 500.0 * j, 866.0 * j};
-      });
-  Grid grid;
-  grid.nodes = mesh.points;
-  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i) grid.z.push_back(-20.0 - 0.5 * static_cast<double>(i % 7));
-  grid.boundaries = findBoundaries(mesh);
-  return grid;
-}
-
-// The southern side open.
-Grid openGrid() {
-  Grid grid = soundGrid();
-  const auto loops = boundaryLoops(grid);
-  grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t a, std::uint32_t b) {
-    return BoundaryKind{grid.nodes[a].y == 0.0 && grid.nodes[b].y == 0.0 ? BoundaryRole::Open : BoundaryRole::Land};
-  });
-  return grid;
-}
-
-std::set<TargetDefectKind> kindsIn(const Grid& grid, Target target, const TargetCheckOptions& options = {}) {
-  std::set<TargetDefectKind> kinds;
-  for (const TargetDefect& defect : checkTarget(grid, target, options)) kinds.insert(defect.kind);
-  return kinds;
-}
-
-using Kinds = std::set<TargetDefectKind>;
-
-// Mended, the grid has no defect for any of the targets, covers the same area but for `lost`, and each repair is
-// reported.
-void expectMended(Grid grid, std::vector<Target> targets, double lost = 0.0) {
-  const auto area = [](const Grid& of) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : of.triangles) {
-      const Point &p = of.nodes[a], &q = of.nodes[b], &r = of.nodes[c];
-      sum += std::abs((q.x - p.x) * (r.y - p.y) - (r.x - p.x) * (q.y - p.y)) / 2.0;
-    }
-    return sum;
-  };
-  const double before = area(grid);
-  const RepairReport report = repairForTargets(grid, targets);
-  EXPECT_TRUE(report.left.empty()) << toString(report.left.front().second.kind);
-  EXPECT_FALSE(report.repairs.empty());
-  for (const Target target : targets) EXPECT_EQ(kindsIn(grid, target), Kinds{});
-  EXPECT_NEAR(area(grid), before, lost + 1e-6 * before);
-  EXPECT_EQ(grid.z.size(), grid.nodes.size());
-  for (const double z : grid.z) EXPECT_TRUE(z <= -20.0 && z >= -23.0);
-}
 
 TEST(CheckTarget, FindsNothingInASoundGrid) {
   for (const Target target : kAll) {
@@ -97,87 +46,6 @@ TEST(CheckTarget, BrokenEdge) {
   Grid grid = soundGrid();
   grid.triangles.push_back(grid.triangles[20]);
   for (const Target target : kAll) EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::BrokenEdge));
-}
-
-TEST(CheckTarget, Clockwise) {
-  Grid grid = soundGrid();
-  for (auto& corners : grid.triangles) std::swap(corners[0], corners[1]);
-  for (const Target target : kAll) EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::Clockwise));
-  expectMended(grid, {Target::Adcirc, Target::Swan});
-}
-
-// One triangle is listed against its neighbours, which lie beside it.
-TEST(CheckTarget, ATriangleListedClockwise) {
-  Grid grid = soundGrid();
-  std::swap(grid.triangles[40][0], grid.triangles[40][1]);
-  expectMended(grid, {Target::Adcirc});
-}
-
-std::uint32_t nodeAt(const Grid& grid, const Point& place) {
-  return static_cast<std::uint32_t>(std::ranges::find(grid.nodes, place) - grid.nodes.begin());
-}
-
-// An inner node dragged over its neighbours, by little or by much: turning what is clockwise would leave sheets over
-// one another.
-TEST(CheckTarget, AFoldIsUndoneByAMoveOfTheNode) {
-  for (const Point& drag : {Point{1600.0, 300.0}, Point{2300.0, 400.0}, Point{-900.0, -900.0}, Point{9000.0, 0.0}}) {
-    Grid grid = soundGrid();
-    const std::uint32_t node = nodeAt(grid, {1000.0 * 3 - 500.0 * 2, 866.0 * 2});
-    ASSERT_LT(node, grid.nodes.size());
-    const std::size_t triangles = grid.triangles.size(), nodes = grid.nodes.size();
-    grid.nodes[node].x += drag.x;
-    grid.nodes[node].y += drag.y;
-    ASSERT_TRUE(kindsIn(grid, Target::Adcirc).contains(TargetDefectKind::Clockwise));
-    const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
-    EXPECT_TRUE(report.left.empty());
-    ASSERT_EQ(report.repairs.size(), 1u);
-    EXPECT_EQ(report.repairs[0].what, "node moved");
-    EXPECT_EQ(grid.triangles.size(), triangles);
-    EXPECT_EQ(grid.nodes.size(), nodes);
-    EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{});
-  }
-}
-
-// The shore holds its nodes.
-TEST(CheckTarget, AFoldOfTheShoreIsLeft) {
-  Grid grid = soundGrid();
-  const std::uint32_t node = nodeAt(grid, {4000.0, 0.0});
-  ASSERT_LT(node, grid.nodes.size());
-  grid.nodes[node].y = 2200.0;
-  const std::vector<GridCorners> before = grid.triangles;
-  const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
-  EXPECT_TRUE(report.repairs.empty());
-  EXPECT_EQ(grid.triangles, before);
-  EXPECT_TRUE(std::ranges::any_of(report.left,
-                                  [](const auto& left) { return left.second.kind == TargetDefectKind::Clockwise; }));
-}
-
-TEST(CheckTarget, SheetsOverOneAnotherAreLeft) {
-  Grid grid = soundGrid(), other = soundGrid();
-  for (Point& p : other.nodes) p = {p.x + 700.0, p.y + 500.0};
-  appendGrid(grid, std::move(other));
-  for (const Target target : kAll) EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::Overlap));
-  const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
-  ASSERT_FALSE(report.left.empty());
-  EXPECT_EQ(report.left.back().second.kind, TargetDefectKind::Overlap);
-}
-
-// Listed twice or three times, whichever way round: once in the end, and none of its area lost.
-TEST(CheckTarget, CopiesOfATriangleGo) {
-  for (const bool turned : {false, true}) {
-    Grid grid = soundGrid();
-    const std::vector<GridCorners> before = grid.triangles;
-    for (const std::size_t t : {20u, 20u, 0u}) {
-      GridCorners copy = grid.triangles[t];
-      if (turned) std::swap(copy[0], copy[1]);
-      grid.triangles.push_back(copy);
-    }
-    const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
-    EXPECT_TRUE(report.left.empty());
-    EXPECT_EQ(report.repairs.size(), 3u);
-    EXPECT_EQ(grid.triangles, before);
-    EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{});
-  }
 }
 
 TEST(CheckTarget, UnusedNode) {

@@ -1,0 +1,102 @@
+// Triangles that are clockwise, folded over one another or listed more than once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "gis/grid/grid_edit.hpp"
+#include "gis/repair/repair_target.hpp"
+#include "tests/gis/model/target_samples.hpp"
+
+namespace coastmesh {
+namespace {
+
+using testing::expectMended;
+using testing::kAll;
+using testing::Kinds;
+using testing::kindsIn;
+using testing::soundGrid;
+
+TEST(RepairWinding, Clockwise) {
+  Grid grid = soundGrid();
+  for (auto& corners : grid.triangles) std::swap(corners[0], corners[1]);
+  for (const Target target : kAll) EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::Clockwise));
+  expectMended(grid, {Target::Adcirc, Target::Swan});
+}
+
+// One triangle is listed against its neighbours, which lie beside it.
+TEST(RepairWinding, ATriangleListedClockwise) {
+  Grid grid = soundGrid();
+  std::swap(grid.triangles[40][0], grid.triangles[40][1]);
+  expectMended(grid, {Target::Adcirc});
+}
+
+std::uint32_t nodeAt(const Grid& grid, const Point& place) {
+  return static_cast<std::uint32_t>(std::ranges::find(grid.nodes, place) - grid.nodes.begin());
+}
+
+// An inner node dragged over its neighbours, by little or by much: turning what is clockwise would leave sheets over
+// one another.
+TEST(RepairWinding, AFoldIsUndoneByAMoveOfTheNode) {
+  for (const Point& drag : {Point{1600.0, 300.0}, Point{2300.0, 400.0}, Point{-900.0, -900.0}, Point{9000.0, 0.0}}) {
+    Grid grid = soundGrid();
+    const std::uint32_t node = nodeAt(grid, {1000.0 * 3 - 500.0 * 2, 866.0 * 2});
+    ASSERT_LT(node, grid.nodes.size());
+    const std::size_t triangles = grid.triangles.size(), nodes = grid.nodes.size();
+    grid.nodes[node].x += drag.x;
+    grid.nodes[node].y += drag.y;
+    ASSERT_TRUE(kindsIn(grid, Target::Adcirc).contains(TargetDefectKind::Clockwise));
+    const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
+    EXPECT_TRUE(report.left.empty());
+    ASSERT_EQ(report.repairs.size(), 1u);
+    EXPECT_EQ(report.repairs[0].what, "node moved");
+    EXPECT_EQ(grid.triangles.size(), triangles);
+    EXPECT_EQ(grid.nodes.size(), nodes);
+    EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{});
+  }
+}
+
+// The shore holds its nodes.
+TEST(RepairWinding, AFoldOfTheShoreIsLeft) {
+  Grid grid = soundGrid();
+  const std::uint32_t node = nodeAt(grid, {4000.0, 0.0});
+  ASSERT_LT(node, grid.nodes.size());
+  grid.nodes[node].y = 2200.0;
+  const std::vector<GridCorners> before = grid.triangles;
+  const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
+  EXPECT_TRUE(report.repairs.empty());
+  EXPECT_EQ(grid.triangles, before);
+  EXPECT_TRUE(std::ranges::any_of(report.left,
+                                  [](const auto& left) { return left.second.kind == TargetDefectKind::Clockwise; }));
+}
+
+TEST(RepairWinding, SheetsOverOneAnotherAreLeft) {
+  Grid grid = soundGrid(), other = soundGrid();
+  for (Point& p : other.nodes) p = {p.x + 700.0, p.y + 500.0};
+  appendGrid(grid, std::move(other));
+  for (const Target target : kAll) EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::Overlap));
+  const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
+  ASSERT_FALSE(report.left.empty());
+  EXPECT_EQ(report.left.back().second.kind, TargetDefectKind::Overlap);
+}
+
+// Listed twice or three times, whichever way round: once in the end, and none of its area lost.
+TEST(RepairWinding, CopiesOfATriangleGo) {
+  for (const bool turned : {false, true}) {
+    Grid grid = soundGrid();
+    const std::vector<GridCorners> before = grid.triangles;
+    for (const std::size_t t : {20u, 20u, 0u}) {
+      GridCorners copy = grid.triangles[t];
+      if (turned) std::swap(copy[0], copy[1]);
+      grid.triangles.push_back(copy);
+    }
+    const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
+    EXPECT_TRUE(report.left.empty());
+    EXPECT_EQ(report.repairs.size(), 3u);
+    EXPECT_EQ(grid.triangles, before);
+    EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{});
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh
