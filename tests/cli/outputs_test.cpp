@@ -245,7 +245,7 @@ TEST_F(Outputs, PipesAreRead) {
 
 // What cannot be read is not taken for the end, or for nothing.
 TEST_F(Outputs, StandardInputThatCannotBeReadIsRefused) {
-  for (const std::string words : {"mesh - -o '" + file("a.2dm") + "'", std::string("info /dev/stdin")}) {
+  for (const std::string& words : {"mesh - -o '" + file("a.2dm") + "'", std::string("info /dev/stdin")}) {
     const ProgramRun run = runShell("\"$0\" " + words + " < '" + file(".") + "'");
     EXPECT_EQ(run.code, 3) << run.errors;
     EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;

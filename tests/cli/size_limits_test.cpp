@@ -133,7 +133,7 @@ TEST_F(SizeLimits, ChannelsAreWalkedNoFurtherThanTheyMayAskFor) {
 TEST_F(SizeLimits, ThreadsThatCannotBeStarted) {
   if (!kMemoryIsTheProgramsOwn) GTEST_SKIP() << "no limit can be set on memory";
   const std::string run = "\"$0\" mesh '" + lake() + "' -o '" + file("a.2dm") + "' --size-max 20 --quiet --threads ";
-  for (const std::string limited : {"ulimit -v 200000; " + run + "8", "ulimit -v 1000000; " + run + "1024"}) {
+  for (const std::string& limited : {"ulimit -v 200000; " + run + "8", "ulimit -v 1000000; " + run + "1024"}) {
     const ProgramRun refused = runShell(limited);
     if (refused.code == 0) continue;  // on a machine where threads take less
     EXPECT_EQ(refused.code, 3) << refused.errors;

@@ -73,7 +73,9 @@ TEST_F(Depth, NodesBesideTheRasterKeepWhatTheyHave) {
   const DepthReport report = setDepths(grid, {.files = {file}, .keep_known = true});
   std::size_t kept = 0;
   for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
-    if (grid.nodes[i].x < 9.95) EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 1e-9);
+    if (grid.nodes[i].x < 9.95) {
+      EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 1e-9);
+    }
     if (grid.nodes[i].x < 10.0 || i == 7) continue;
     EXPECT_EQ(grid.z[i], before[i]);
     ++kept;
