@@ -306,7 +306,7 @@ TEST_F(Checkpoint, AFailureBeforeAnythingIsKeptLeavesNoFolder) {
   // Under its other name, as a pipe of a name, and for what is read besides.
   ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
   for (const std::string& words : {std::string("/dev/stdin"), file("pipe"), lake() + " --constraints -",
-                                  lake() + " --size-features " + file("pipe")}) {
+                                   lake() + " --size-features " + file("pipe")}) {
     const ProgramRun run = runShell("\"$0\" mesh " + words + " -o " + file("x.nc") + " --checkpoint " + file("kept"));
     EXPECT_EQ(run.code, 2) << words << run.errors;
     EXPECT_THAT(run.errors, HasSubstr("other pipes")) << words;
