@@ -155,7 +155,7 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
   addPolygons("--constraints", job.input.constraints, FeatureUse::Constraint, "lines and points");
   addPolygons("--weirs", job.input.weirs, FeatureUse::Weir, "lines");
   addIdle("--constraints", job.input.constraints, FeatureUse::Constraint, "nothing of it lies in the water");
-  addIdle("--weirs", job.input.weirs, FeatureUse::Weir, "no line of it lies in the water");
+  addIdle("--weirs", job.input.weirs, FeatureUse::Weir, "no line of it lies in the water that is meshed");
   addIdle("--regions", job.input.regions, FeatureUse::Region, "no polygon of it holds any of the mesh");
   return all;
 }

@@ -18,6 +18,7 @@
 #include "gis/follow/passage_sizes.hpp"
 #include "gis/follow/shore_joins.hpp"
 #include "gis/follow/shore_settle.hpp"
+#include "gis/follow/water_lines.hpp"
 #include "gis/shore/shore_chains.hpp"
 #include "gis/shore/shore_coarsen.hpp"
 #include "gis/shore/shore_ends.hpp"
@@ -88,6 +89,19 @@ ShoreGraph takeGraph(Domain& domain) {
   ShoreGraph graph{std::move(domain.pslg), std::vector<VertexId>(domain.input_points.size())};
   std::iota(graph.source.begin(), graph.source.end(), VertexId{0});
   return graph;
+}
+
+// Of each point of the domain: whether it is asked for as a vertex.
+std::vector<char> pointsAskedFor(const Domain& domain, const Coastline& coastline) {
+  std::vector<Point> asked;
+  for (const Feature& feature : coastline.features)
+    asked.insert(asked.end(), feature.points.begin(), feature.points.end());
+  const auto isBefore = [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  std::ranges::sort(asked, isBefore);
+  std::vector<char> stays(domain.input_points.size(), 0);
+  for (std::size_t v = 0; v < stays.size() && !asked.empty(); ++v)
+    stays[v] = std::ranges::binary_search(asked, domain.input_points[v], isBefore) ? 1 : 0;
+  return stays;
 }
 
 // What the water gains where v goes to x, or straight on where x is none, is added.
@@ -175,8 +189,15 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
     thin(chains, {given, scales}, lines, options, known.thinned_m > 0.0 ? &thinned : nullptr, log, start.gained, loop);
     graph = graphOf(std::move(chains));
   }
+  // What of lines cannot be followed keeps no land; the rest is set aside, as the width of water does not depend on it.
+  LostLines lost;
+  const std::vector<char> stays = pointsAskedFor(domain, coastline);
+  returnLines(graph, takeLines(graph, stays), {given, scales}, options.channel_min, lost);
+  WaterLines in_water = takeLines(graph, stays);
+  const std::vector<VertexId> ends_of_lines = bridgeLand(graph, in_water, given);
   sampleShores(graph, given, lines, loop, even);
   start.triangles = triangulateShores(std::move(graph), given, loop, even);
+  for (const VertexId v : ends_of_lines) start.triangles.use[v] |= kAtLine;
   const PassageSizes size(given, guides.passages, start.triangles);
   const ShoreSizes sizes{size, scales};
   FollowNotes noted;
@@ -201,7 +222,10 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   }
   noteFollowing(std::move(noted), guides, options, domain.projection, report);
 
-  ShoreChains chains = chainsOf(settledGraph(std::move(opened.after), size), size, loop, even);
+  graph = settledGraph(std::move(opened.after), size);
+  returnLines(graph, std::move(in_water), sizes, options.channel_min, lost);
+  noteLostLines(lost, domain, report);
+  ShoreChains chains = chainsOf(std::move(graph), size, loop, even);
   dropSamples(chains);
   const ShoreLoss gone = [&](VertexId v) {
     log.add(EditKind::SimplifiedPoint, chains, v);

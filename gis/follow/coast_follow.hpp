@@ -31,12 +31,12 @@ Domain thinToLeast(Domain&& domain, double least_m, const FollowOptions& options
 // small water is closed (`openLand`, `openWater`), shores get segments about as long as the size (`coarsenShores`),
 // and what is still short, sharp or narrow is repaired by moving vertices by up to half the size (`mendShores`). If
 // the area of a water would differ by more than half a percent, its shores are moved by up to a tenth of the size
-// (`shiftShores`). Nothing crosses. Lines inside the water are unchanged, open boundaries keep their corners.
-// Changes go to the report, with notes on the largest waters that were cut off, the longest straits that were
-// closed, and the effect of `guides`, which are applied first. A graph without labels is labelled first, by its
-// holes. Throws BadPslg if that is impossible. Sizes are lengths on the projection's surface; shores are measured
-// in its plane, which is conformal, with the local scale. `loop` provides threads; the result does not depend on
-// it.
+// (`shiftShores`). Nothing crosses. Lines in the water end at the new shore, with segments of about the size
+// (`returnLines`); open boundaries keep their corners. Changes go to the report, with notes on the largest waters that
+// were cut off, the longest straits that were closed, lines and points that were left out, and the effect of `guides`,
+// which are applied first. A graph without labels is labelled first, by its holes. Throws BadPslg if that is
+// impossible. Sizes are lengths on the projection's surface; shores are measured in its plane, which is conformal, with
+// the local scale. `loop` provides threads; the result does not depend on it.
 Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOptions& options,
                    const Coastline& coastline, CleanReport& report, const ShoreGuides& guides = {},
                    const ItemLoop& loop = inOrder, FollowStart start = {});

@@ -5,13 +5,14 @@
 #include <functional>
 
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/segment_tags.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kNamedWaters = 3, kMostWaters = 20, kNamedStraits = 10, kNamedSpits = 5;
+constexpr std::size_t kNamedWaters = 3, kMostWaters = 20, kNamedStraits = 10, kNamedSpits = 5, kNamedPoints = 5;
 // Of all the water.
 constexpr double kLargeWater = 0.005;  // is named, though not one of the largest
 constexpr double kWarned = 0.02;       // left out or parted by closing: more than models forgive
@@ -147,6 +148,33 @@ void noteMetPoints(const MetPoints& met, const Projection& projection, CleanRepo
                          forCount(met.count, " point or end of a line", " points or ends of lines") +
                          " less than a quarter of an element off it, the farthest " +
                          lengthText(met.apart_m, projection) + " at " + placeText(met.farthest, projection));
+}
+
+void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report) {
+  constexpr double kNoted = 0.5;  // elements: of less there is no word
+  for (const auto& [tag, part] : lost.lines) {
+    if (part.elements < kNoted) continue;
+    std::string name = "a line in the water";
+    if (isLineTag(tag)) {
+      const DomainLine& line = domain.lines[lineOfTag(tag)];
+      if (line.use == FeatureUse::Region) continue;
+      name = std::string(line.use == FeatureUse::Weir ? "weir" : "constraint") +
+             (line.name.empty() ? "" : " '" + line.name + "'");
+    }
+    report.warnings.push_back(
+        name + ": " + lengthText(part.length_m, domain.projection) + " of it, at " +
+        placeText(part.first, domain.projection) +
+        ", runs through water that is closed or hardly off its shore, and is left out; --passages "
+        "keeps the water open");
+  }
+  if (lost.points.empty()) return;
+  std::string places;
+  for (std::size_t i = 0; i < std::min(kNamedPoints, lost.points.size()); ++i)
+    places += (i == 0 ? "" : ", ") + placeText(lost.points[i], domain.projection);
+  report.warnings.push_back(std::to_string(lost.points.size()) +
+                            forCount(lost.points.size(), " point lies", " points lie") +
+                            " in water that is closed, and " + forCount(lost.points.size(), "is", "are") +
+                            " left out: " + places + "; --passages keeps the water open");
 }
 
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "gis/clean/clean_report.hpp"
+#include "gis/clean/domain.hpp"
 #include "gis/follow/follow_options.hpp"
 #include "gis/follow/shore_joins.hpp"
+#include "gis/follow/water_lines.hpp"
 #include "gis/projection/projection.hpp"
 
 namespace coastmesh {
@@ -42,6 +44,9 @@ struct MetPoints {
 
 // Adds a note on them to the report, if there are any.
 void noteMetPoints(const MetPoints& met, const Projection& projection, CleanReport& report);
+
+// Adds warnings on weirs, constraints and points that have no water left.
+void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report);
 
 // Adds sentences on the largest changes to the report, with their places in the input's CRS: a warning if more of the
 // water is left out, or parted from the largest, than is acceptable for a model, otherwise notes.

@@ -197,7 +197,7 @@ class Settler {
     const std::uint8_t use = useOf(t_, v);
     const bool stays =
         (use & kLoose) == 0 || (t_.source[v] != kNone && (t_.use[v] & kLoose) != 0 && isWater(t_.home[v]));
-    t_.use[v] = use;
+    t_.use[v] = use | (t_.use[v] & kAtLine);
     if (!stays) loose_.push_back(v);
   }
 

@@ -13,8 +13,9 @@
 
 namespace coastmesh {
 
-// What a vertex lies on, as bits. What lies on no segment counts as lying in water.
-enum VertexUse : std::uint8_t { kOnShore = 1, kOnOpen = 2, kInWater = 4, kAround = 8, kLoose = 16 };
+// What a vertex lies on, as bits. What lies on no segment counts as lying in water. A vertex of the shore where a line
+// ends that was set aside is kAtLine too.
+enum VertexUse : std::uint8_t { kOnShore = 1, kOnOpen = 2, kInWater = 4, kAround = 8, kLoose = 16, kAtLine = 32 };
 
 // A graph as a constrained Delaunay triangulation of both sides of the shores, and of as much around as the domain is
 // large. Who opens land or water gives triangles other regions; `settleShores` then makes it what it would be of the
