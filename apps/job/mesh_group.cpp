@@ -342,6 +342,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     coarser.append(std::move(followed));
     std::ranges::move(coarser.notes, std::back_inserter(result.notes));
     std::ranges::move(coarser.warnings, std::back_inserter(result.warnings));
+    result.idle = std::move(coarser.idle);
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
   }

@@ -35,6 +35,7 @@ struct GroupResult {
   std::string unwanted;            // why nothing of it was requested, if so
   std::vector<std::string> notes;  // decisions of cleaning, and of following sizes
   std::vector<std::string> warnings;
+  std::vector<std::string> idle;  // as in CleanReport
 };
 
 // The limits of a group's mesh.

@@ -110,6 +110,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
     return;
   }
   ++result.regions;
+  for (const std::string& text : part.idle) ++result.idle[text];
   result.pieces += part.pieces;
   if (part.pieces > 1) {
     result.log.append(std::move(part.log));
@@ -452,9 +453,12 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     result.log.append(recorder.finish("finish"));
   }
   // A shard, or one feature of many, may well lie beside them.
-  if (job.exchange.shards <= 1 && !job.input.ready)
+  if (job.exchange.shards <= 1 && !job.input.ready) {
     std::ranges::move(warningsOfIdleInputs(job, sizes, input.coastline(), result.grid),
                       std::back_inserter(result.read.warnings));
+    for (const auto& [text, regions] : result.idle)
+      if (regions == result.regions) result.read.notes.push_back(text);
+  }
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal);
   result.rasters_read = rasters.use();

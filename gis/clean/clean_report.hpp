@@ -51,6 +51,7 @@ struct CleanReport {
   std::vector<Edit> edits;
   std::vector<std::string> notes;     // decisions where the input was ambiguous
   std::vector<std::string> warnings;  // those of them that cost more than users may expect
+  std::vector<std::string> idle;      // of what has no effect here: a note if it has none anywhere
   std::array<std::uint64_t, kEditKinds> counts{};
 
   void add(EditKind kind, const Point& place, const Coastline& coastline, std::size_t feature) {
@@ -61,6 +62,7 @@ struct CleanReport {
     edits.insert(edits.end(), more.edits.begin(), more.edits.end());
     std::ranges::move(more.notes, std::back_inserter(notes));
     std::ranges::move(more.warnings, std::back_inserter(warnings));
+    std::ranges::move(more.idle, std::back_inserter(idle));
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) counts[kind] += more.counts[kind];
   }
 };

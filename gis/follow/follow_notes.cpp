@@ -12,6 +12,7 @@ namespace coastmesh {
 
 namespace {
 
+constexpr const char* kNoEffect = " meets no water that is meshed: it has no effect";
 constexpr std::size_t kNamedWaters = 3, kMostWaters = 20, kNamedStraits = 10, kNamedSpits = 5, kNamedPoints = 5;
 // Of all the water.
 constexpr double kLargeWater = 0.005;  // is named, though not one of the largest
@@ -136,8 +137,7 @@ void notePassages(const PassageEffects& effects, const std::vector<ShoreLine>& p
     report.warnings.push_back(nameOf("passage", passages, line) + " goes on for " + lengthText(length_m, projection) +
                               " beyond the water, from " + placeText(place, projection) +
                               ", and reaches none that is meshed together with it: nothing was dug there");
-  for (const std::size_t line : effects.dry)
-    report.notes.push_back(nameOf("passage", passages, line) + " meets no water here: it has no effect");
+  for (const std::size_t line : effects.dry) report.idle.push_back(nameOf("passage", passages, line) + kNoEffect);
 }
 
 }  // namespace
@@ -183,9 +183,12 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
   notePassages(notes.passages, guides.passages, projection, report);
   for (const auto& [line, end] : notes.open_barriers) {
     const std::string name = nameOf("barrier", guides.barriers, line);
-    texts.push_back(end ? name + " ends in the water, at " + placeText(*end, projection) +
-                              ", an element or more from the shore: the water goes round it"
-                        : name + " meets no water here: it has no effect");
+    if (end) {
+      texts.push_back(name + " ends in the water, at " + placeText(*end, projection) +
+                      ", an element or more from the shore: the water goes round it");
+    } else {
+      report.idle.push_back(name + kNoEffect);
+    }
   }
   std::ranges::stable_sort(notes.joined, std::ranges::greater{}, &JoinedWater::area);
   if (!notes.joined.empty()) texts.push_back(noteOn(notes.joined, notes.area, projection));

@@ -101,6 +101,31 @@ TEST_F(IdleInputs, OfPassagesAndBarriersElsewhereAreWarnedOf) {
 }
 
 // What lies beyond the box is dropped when it is read.
+// Of several lakes a line is in one at most.
+TEST_F(IdleInputs, ALineThatMeetsNoLakeIsNotedOnce) {
+  std::string lakes = R"({"type":"FeatureCollection","features":[)";
+  for (int lake = 0; lake < 3; ++lake) {
+    const std::string west = std::to_string(10.0 + 0.1 * lake), east = std::to_string(10.05 + 0.1 * lake);
+    lakes += std::string(lake == 0 ? "" : ",") +
+             R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[)" + west + ",50],[" +
+             east + ",50],[" + east + ",50.05],[" + west + ",50.05],[" + west + ",50]]]}}";
+  }
+  const std::string file_of_lakes = write("lakes.geojson", lakes + "]}");
+  const std::string lines = write(
+      "lines.geojson",
+      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"wet"},"geometry":{"type":"LineString",)"
+      R"("coordinates":[[10.11,50.01],[10.14,50.04]]}},{"type":"Feature","properties":{"name":"dry"},"geometry":{"type":)"
+      R"("LineString","coordinates":[[10.06,50.01],[10.09,50.04]]}}]})");
+  const auto run = runProgram(
+      {"mesh", file_of_lakes, "-o", file("lakes.nc"), "--size", "500", "--coast", "follow", "--passages", lines});
+  EXPECT_EQ(run.code, 0);
+  const std::string note = "passage 'dry' meets no water that is meshed";
+  const std::string text = run.output + run.errors;
+  EXPECT_NE(text.find(note), std::string::npos) << text;
+  EXPECT_EQ(text.find(note), text.rfind(note));
+  EXPECT_EQ(text.find("passage 'wet' meets"), std::string::npos) << text;
+}
+
 TEST_F(IdleInputs, BeyondTheBoxAreWarnedOf) {
   const std::string points = feature("p.geojson", R"({"type":"Point","coordinates":[20,50]})");
   const std::string lines = feature("l.geojson", R"({"type":"LineString","coordinates":[[20,50],[21,50]]})");
