@@ -103,19 +103,26 @@ TEST_F(IdleInputs, OfPassagesAndBarriersElsewhereAreWarnedOf) {
 // What lies beyond the box is dropped when it is read.
 // Of several lakes a line is in one at most.
 TEST_F(IdleInputs, ALineThatMeetsNoLakeIsNotedOnce) {
-  std::string lakes = R"({"type":"FeatureCollection","features":[)";
-  for (int lake = 0; lake < 3; ++lake) {
-    const std::string west = std::to_string(10.0 + 0.1 * lake), east = std::to_string(10.05 + 0.1 * lake);
-    lakes += std::string(lake == 0 ? "" : ",") +
-             R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[)" + west + ",50],[" +
-             east + ",50],[" + east + ",50.05],[" + west + ",50.05],[" + west + ",50]]]}}";
+  const auto collection = [](const std::vector<std::string>& features) {
+    std::string text = R"({"type":"FeatureCollection","features":[)";
+    for (const std::string& feature : features) text += (text.back() == '[' ? "" : ",") + feature;
+    return text + "]}";
+  };
+  const auto featureOf = [](const std::string& name, const std::string& kind, const std::string& places) {
+    return R"({"type":"Feature","properties":{"name":")" + name + R"("},"geometry":{"type":")" + kind +
+           R"(","coordinates":)" + places + "}}";
+  };
+  std::vector<std::string> lakes;
+  for (const std::string tenth : {"0", "1", "2"}) {
+    const std::string west = "[10." + tenth, east = west + "5";
+    lakes.push_back(
+        featureOf("lake", "Polygon",
+                  "[[" + west + ",50]," + east + ",50]," + east + ",50.05]," + west + ",50.05]," + west + ",50]]]"));
   }
-  const std::string file_of_lakes = write("lakes.geojson", lakes + "]}");
-  const std::string lines = write(
-      "lines.geojson",
-      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"wet"},"geometry":{"type":"LineString",)"
-      R"("coordinates":[[10.11,50.01],[10.14,50.04]]}},{"type":"Feature","properties":{"name":"dry"},"geometry":{"type":)"
-      R"("LineString","coordinates":[[10.06,50.01],[10.09,50.04]]}}]})");
+  const std::string file_of_lakes = write("lakes.geojson", collection(lakes));
+  const std::string lines =
+      write("lines.geojson", collection({featureOf("wet", "LineString", "[[10.11,50.01],[10.14,50.04]]"),
+                                         featureOf("dry", "LineString", "[[10.06,50.01],[10.09,50.04]]")}));
   const auto run = runProgram(
       {"mesh", file_of_lakes, "-o", file("lakes.nc"), "--size", "500", "--coast", "follow", "--passages", lines});
   EXPECT_EQ(run.code, 0);
