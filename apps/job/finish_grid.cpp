@@ -19,6 +19,17 @@ using Json = nlohmann::ordered_json;
 std::string nameOf(Target target) { return kTargetNames[static_cast<std::size_t>(target)]; }
 std::string nameOf(const Repair& repair) { return repair.target ? nameOf(*repair.target) : "time step"; }
 
+constexpr double kMuchWater = 0.02;  // of all: more than models forgive
+
+std::string textOf(const DroppedWaters& dropped) {
+  char area[80];
+  std::snprintf(area, sizeof area, "%.3g km² (%.2g %%) of the water is", 1e-6 * dropped.area_m2, 100.0 * dropped.share);
+  return std::string(area) + " left out, " + std::to_string(dropped.waters) +
+         forCount(dropped.waters, " water", " waters") +
+         " of other features without a connection to an open boundary: the largest at " + pointText(dropped.place) +
+         "; --keep-water all keeps them";
+}
+
 }  // namespace
 
 std::vector<std::string> FinishReport::warnings() const {
@@ -30,6 +41,11 @@ std::vector<std::string> FinishReport::warnings() const {
   for (const auto& [which, count] : left)
     all.push_back("could not be repaired for " + nameOf(which.first) + ": " + std::string(toString(which.second)) +
                   ", " + std::to_string(count.first) + " in all, the first at " + pointText(count.second));
+  if (dropped.share > kMuchWater) all.push_back(textOf(dropped));
+  if (apart > 0)
+    all.push_back(std::to_string(apart) + forCount(apart, " water has", " waters have") +
+                  " no connection to an open boundary; check names their places, and --coast follow with --keep-water "
+                  "open leaves them out");
   return all;
 }
 
@@ -40,6 +56,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   depth.keep_known = hasDepths(grid);
   if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, control, loop);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
+  if (options.drop_apart) report.dropped = dropApartWaters(grid);
   report.mended = !targets.empty() || options.repair.time_step_s > 0.0;
   RepairMemory memory;
   if (!grid.triangles.empty() && report.mended)
@@ -59,6 +76,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
+  if (!targets.empty()) report.apart = apartWaters(grid).size();
   return report;
 }
 
@@ -75,6 +93,7 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
                   forCount(report.depth.filled, "node", "nodes"), report.depth.unknown, report.depth.above_water);
     text += line;
   }
+  if (report.dropped.waters > 0 && report.dropped.share <= kMuchWater) text += textOf(report.dropped) + "\n";
   constexpr std::size_t kRepairsShown = 20;
   const std::vector<Repair>& repairs = report.repairs.repairs;
   for (std::size_t i = 0; i < std::min(kRepairsShown, repairs.size()); ++i)

@@ -6,6 +6,7 @@
 #include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/model/apart_waters.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/depth.hpp"
 #include "gis/repair/repair_target.hpp"
@@ -18,6 +19,7 @@ struct FinishOptions {
   BoundaryOptions boundaries{};
   std::vector<std::string> targets{};  // names of models that the grid is repaired for
   RepairOptions repair{};
+  bool drop_apart = false;  // waters without a connection to an open boundary, if there is one
 
   bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
 };
@@ -27,6 +29,8 @@ struct FinishReport {
   BoundaryReport boundaries;
   bool mended = false;  // repairs were requested
   RepairReport repairs;
+  DroppedWaters dropped;
+  std::size_t apart = 0;  // such waters that are still there, if targets are given
 
   std::vector<std::string> warnings() const;
 };

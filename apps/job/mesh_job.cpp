@@ -439,12 +439,14 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   result.log.append(recorder.finish("grid"));
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg};
+  finish.drop_apart = job.sizes.coast == CoastDetail::Follow && !finish.targets.empty() &&
+                      (!job.sizes.keep_water_given || job.sizes.follow.keep == KeepWater::Open);
   if (finish.any()) {
     const Stopwatch finishing;
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
     result.finish = finishGrid(result.grid, finish, inner, recorder.loop("finish", RunControl{control.cancelled, {}}));
-    if (!result.finish.repairs.repairs.empty()) {
+    if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0) {
       result.short_before_repairs = result.short_of.count;
       measureAgain(job, input, merged, true, result);
       result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);

@@ -27,8 +27,11 @@ class HelpFormatter : public CLI::Formatter {
     return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode), "\n\n\n", "\n\n");
   }
   // What must be given may also stand in a file, which CLI11 does not know: to it nothing is required.
+  // And shows "FILE ..." for options that take one value each time.
   std::string make_option_opts(const CLI::Option* option) const override {
-    return CLI::Formatter::make_option_opts(option) + (required_.contains(option) ? " " + get_label("REQUIRED") : "");
+    std::string options = CLI::Formatter::make_option_opts(option);
+    if (!option->get_positional()) options = CLI::detail::find_and_replace(options, " ...", " (repeat)");
+    return options + (required_.contains(option) ? " " + get_label("REQUIRED") : "");
   }
   std::string make_option_usage(const CLI::Option* option) const override {
     const std::string usage = CLI::Formatter::make_option_usage(option);
@@ -120,12 +123,22 @@ std::vector<std::string> CommandLine::toParse(const std::vector<std::string>& ar
                                               std::vector<std::string>& warnings) const {
   std::map<std::string, std::string> present;
   std::map<std::string, const OptionTable::Entry*> named;
+  std::string argument_name;  // of which there may be several, or none
   for (const OptionTable::Entry* entry : table_->entries()) {
+    if (entry->argument && entry->multiple) argument_name = entry->name;
     if (entry->argument) continue;
     present.insert(entry->former_names.begin(), entry->former_names.end());
     for (const std::string& name : namesIn(entry->names)) named.emplace(name, entry);
   }
   std::vector<std::string> words;
+  bool any_argument = false;
+  // "--weirs a.shp b.shp": the second is no value.
+  const auto warnOfArgumentAfter = [&](const std::string& name, const OptionTable::Entry& entry, auto next) {
+    if (argument_name.empty() || !entry.multiple || !any_argument || next == arguments.end() || next->starts_with("-"))
+      return;
+    warnings.push_back(*next + " is one more " + argument_name + ": " + name +
+                       " takes one value; give the option again for each");
+  };
   for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
     if (*argument == "--") {  // only arguments follow
       words.insert(words.end(), argument, arguments.end());
@@ -143,6 +156,7 @@ std::vector<std::string> CommandLine::toParse(const std::vector<std::string>& ar
     const auto option = named.find(name);
     if (option == named.end()) {
       words.push_back(*argument);
+      any_argument = any_argument || !argument->starts_with("-");
     } else if (option->second->kind == OptionKind::Flag) {
       words.push_back(with_value ? name + (isOn(*argument, argument->substr(sign + 1)) ? "=true" : "=false") : name);
     } else {
@@ -153,6 +167,7 @@ std::vector<std::string> CommandLine::toParse(const std::vector<std::string>& ar
       } else if (argument + 1 != arguments.end()) {
         words.push_back(*++argument);
       }
+      warnOfArgumentAfter(name, *option->second, argument + 1);
     }
   }
   return words;

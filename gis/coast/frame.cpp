@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/metric.hpp"
 #include "gis/coast/clip_chains.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/turned_rings.hpp"
@@ -361,6 +362,23 @@ void setUses(Coastline& coastline, FeatureUse use) {
   }
 }
 
+double signedArea(const Ring& ring) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    twice += cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
+  return 0.5 * twice;
+}
+
+// Rings of land polygons, whose direction differs from format to format, in the direction of coastlines: with the water
+// on the right.
+void directAsCoasts(Feature& land) {
+  for (Polygon& polygon : land.polygons) {
+    if (signedArea(polygon.outer) < 0.0) std::ranges::reverse(polygon.outer);
+    for (Ring& hole : polygon.holes)
+      if (signedArea(hole) > 0.0) std::ranges::reverse(hole);
+  }
+}
+
 // What polygons and lines within a frame are.
 void chooseUses(Coastline& coastline, const FrameOptions& options, FrameReport& report) {
   bool polygons = false, open_lines = false;
@@ -374,7 +392,11 @@ void chooseUses(Coastline& coastline, const FrameOptions& options, FrameReport& 
     report.notes.push_back("meshed inside the polygons; --domain outside meshes the water that land polygons leave");
     return;
   }
-  if (open_lines) return setUses(coastline, FeatureUse::Coast);
+  if (open_lines) {
+    for (Feature& feature : coastline.features)
+      if (feature.use == FeatureUse::Area && !feature.from_lines) directAsCoasts(feature);
+    return setUses(coastline, FeatureUse::Coast);
+  }
   setUses(coastline, FeatureUse::Land);
   if (!polygons && any(coastline, FeatureUse::Land)) {
     report.notes.push_back("the lines close rings: land lies inside them, water between them and the frame");

@@ -5,11 +5,22 @@
 #include <map>
 #include <utility>
 
+#include "core/metric.hpp"
 #include "gis/geometry/union_find.hpp"
+#include "gis/grid/grid_edit.hpp"
 
 namespace coastmesh {
 
-std::vector<ApartWater> apartWaters(const Grid& grid) {
+namespace {
+
+// For each triangle whether no connection leads to an open boundary, and the first triangle of its water. Empty if
+// there is no such boundary.
+struct Apart {
+  std::vector<bool> is_apart;
+  std::vector<std::uint32_t> water;
+};
+
+Apart apartOf(const Grid& grid) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<std::pair<Edge, std::uint32_t>> edges;
   edges.reserve(3 * grid.triangles.size());
@@ -35,12 +46,51 @@ std::vector<ApartWater> apartWaters(const Grid& grid) {
     }
   }
   if (!any) return {};
-  std::map<std::uint32_t, std::size_t> apart;
-  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
-    if (!reached[waters.find(t)]) ++apart[waters.find(t)];
+  Apart apart;
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+    apart.water.push_back(waters.find(t));
+    apart.is_apart.push_back(!reached[apart.water.back()]);
+  }
+  return apart;
+}
+
+}  // namespace
+
+std::vector<ApartWater> apartWaters(const Grid& grid) {
+  const Apart apart = apartOf(grid);
+  std::map<std::uint32_t, std::size_t> counts;
+  for (std::uint32_t t = 0; t < apart.water.size(); ++t)
+    if (apart.is_apart[t]) ++counts[apart.water[t]];
   std::vector<ApartWater> found;
-  for (const auto& [first, count] : apart) found.push_back({first, count});
+  for (const auto& [first, count] : counts) found.push_back({first, count});
   return found;
+}
+
+DroppedWaters dropApartWaters(Grid& grid) {
+  constexpr double kLittle = 0.1;  // of all water: what is connected is not what is meant
+  const Apart apart = apartOf(grid);
+  DroppedWaters dropped;
+  double all = 0.0;
+  std::map<std::uint32_t, double> areas;
+  for (std::uint32_t t = 0; t < apart.water.size(); ++t) {
+    all += grid.area_m2[t];
+    if (apart.is_apart[t]) areas[apart.water[t]] += grid.area_m2[t];
+  }
+  if (areas.empty()) return dropped;
+  double largest = 0.0;
+  for (const auto& [first, area] : areas) {
+    dropped.area_m2 += area;
+    if (area <= largest) continue;
+    largest = area;
+    const auto& [a, b, c] = grid.triangles[first];
+    dropped.place = centroid(grid.nodes[a], grid.nodes[b], grid.nodes[c]);
+  }
+  dropped.share = dropped.area_m2 / all;
+  if (dropped.share > 1.0 - kLittle) return {};
+  dropped.waters = areas.size();
+  removeTriangles(grid, apart.is_apart);
+  removeUnusedNodes(grid);
+  return dropped;
 }
 
 }  // namespace coastmesh

@@ -16,4 +16,14 @@ struct ApartWater {
 // In the order of their first triangles. Water is connected through edges, not through single nodes.
 std::vector<ApartWater> apartWaters(const Grid& grid);
 
+struct DroppedWaters {
+  std::size_t waters = 0;
+  double area_m2 = 0.0, share = 0.0;  // and of all water that there was
+  Point place;                        // in the largest, in the grid's CRS
+};
+
+// Takes these waters out of the grid, but none if the others are less than a tenth of all: the largest may then be
+// among them. REQUIRES: areas are known.
+DroppedWaters dropApartWaters(Grid& grid);
+
 }  // namespace coastmesh

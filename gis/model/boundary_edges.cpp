@@ -1,6 +1,9 @@
 #include "gis/model/boundary_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
@@ -94,12 +97,24 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
     }
   report.edges_by_file = static_cast<std::size_t>(std::ranges::count(said, true));
   if (options.opensByDepth()) {
+    double deepest = -std::numeric_limits<double>::infinity();
     if (at.z.empty()) throw InputError("to open boundaries by their depth takes depths; give --bathymetry");
     for (std::size_t e = 0; e < boundary.edges.size(); ++e) {
       const auto isDeep = [&](std::uint32_t place) { return 0.0 - at.z[place] > options.open_deeper_m; };
+      if (!said[e] && boundary.outer[e])
+        deepest = std::max(deepest, std::min(0.0 - at.z[boundary.edges[e][0]], 0.0 - at.z[boundary.edges[e][1]]));
       if (said[e] || !boundary.outer[e] || !isDeep(boundary.edges[e][0]) || !isDeep(boundary.edges[e][1])) continue;
       boundary.kinds[e] = {BoundaryRole::Open};
       ++report.edges_by_depth;
+    }
+    if (report.edges_by_depth == 0) {
+      char text[120];
+      const int length =
+          std::snprintf(text, sizeof text, "--open-deeper %.6g opens no boundary", options.open_deeper_m);
+      if (std::isfinite(deepest))
+        std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), ": its deepest edge is at %.6g m",
+                      deepest);
+      report.warnings.emplace_back(text);
     }
   }
   return report;

@@ -109,7 +109,7 @@ TEST_F(CommandLineTest, OptionsThatMustBeGivenAreAskedFor) {
   const std::string help = app_.get_subcommand("knit")->help();
   EXPECT_NE(help.find("INPUT..."), std::string::npos);
   EXPECT_EQ(help.find("[INPUT..."), std::string::npos);
-  EXPECT_NE(help.find("--output FILE ... REQUIRED"), std::string::npos) << help;
+  EXPECT_NE(help.find("--output FILE (repeat) REQUIRED"), std::string::npos) << help;
 }
 
 TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
@@ -154,6 +154,22 @@ TEST_F(CommandLineTest, FormerNamesBecomeThePresentOnesWithAWarning) {
   warnings.clear();
   const Words present{"--coarsen", "--no-coarsen", "--felted", "felt", "--path", "--felt", "-o=--felt"};
   EXPECT_EQ(line_.toParse(present, warnings), present);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST_F(CommandLineTest, AnArgumentAfterTheValueOfARepeatedOptionIsPointedOut) {
+  using Words = std::vector<std::string>;
+  Words warnings;
+  for (const Words& words : {Words{"wool", "-o", "sock", "more"}, Words{"wool", "--output=sock", "more"}}) {
+    warnings.clear();
+    line_.toParse(words, warnings);
+    EXPECT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings.front().find("more is one more INPUT: -"), 0u) << warnings.front();
+  }
+  warnings.clear();
+  for (const Words& words : {Words{"-o", "sock", "wool"}, Words{"wool", "-o", "sock", "-o", "hat"},
+                             Words{"wool", "--path", "felt", "more"}, Words{"wool", "more", "-o", "sock"}})
+    line_.toParse(words, warnings);
   EXPECT_TRUE(warnings.empty());
 }
 

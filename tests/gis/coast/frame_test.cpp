@@ -153,6 +153,22 @@ TEST(Frame, WaterLiesToTheRightOfACoast) {
 }
 
 // A bay and an island: water on both sides of the land.
+// Whichever way its rings run, also among lines.
+TEST(Frame, OutsideOfPolygonsIsWaterAmongLinesToo) {
+  Ring land = square(0.4, 0.4, 0.2), lake = square(0.51, 0.51, 0.05);
+  const Feature line = coastFeature({{0.3, 0.5}, {0.5, 0.5}});
+  for (const bool turned : {false, true}) {
+    if (turned) std::ranges::reverse(land);
+    const Framed alone = frame(coastlineOf({polygonFeature(1, land)}), boxOf(0, 0, 1, 1, DomainSide::Outside));
+    const Framed sea = frame(coastlineOf({polygonFeature(1, land), line}), boxOf(0, 0, 1, 1, DomainSide::Outside));
+    EXPECT_NEAR(sea.area(), alone.area(), 1e-9 * alone.area());
+    const Framed lakes =
+        frame(coastlineOf({polygonFeature(1, land, {lake}), line}), boxOf(0, 0, 1, 1, DomainSide::Outside));
+    EXPECT_GT(lakes.area(), alone.area() * (1.0 + 0.9 * 0.05 * 0.05));
+    std::ranges::reverse(lake);
+  }
+}
+
 TEST(Frame, TwoSeasOfOneRule) {
   const std::vector<Point> west{{3, -1}, {3, 11}}, east{{6, 11}, {6, -1}};
   const Framed framed = frame(coastlineOf({coastFeature(west), coastFeature(east)}), boxOf(0, 0, 10, 10));

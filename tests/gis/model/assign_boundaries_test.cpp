@@ -149,6 +149,10 @@ TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 7u + 10u + 7u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);
   expectWholeBoundary(grid);
+  options.open_deeper_m = 1000.0;
+  const BoundaryReport none = assignBoundaries(grid, options);
+  ASSERT_EQ(none.warnings.size(), 1u);
+  EXPECT_EQ(none.warnings[0].find("--open-deeper 1000 opens no boundary: its deepest edge is at "), 0u);
   grid.z.clear();
   EXPECT_THROW(assignBoundaries(grid, options), InputError);
 }

@@ -1,0 +1,62 @@
+#include "gis/model/apart_waters.hpp"
+
+#include <gtest/gtest.h>
+
+#include "gis/grid/grid_edit.hpp"
+
+namespace coastmesh {
+namespace {
+
+// Squares of two triangles each, with these sides, side by side and apart. The first has an open boundary.
+Grid squares(const std::vector<double>& sides) {
+  Grid grid;
+  double west = 0.0;
+  for (const double side : sides) {
+    const auto first = static_cast<std::uint32_t>(grid.nodes.size());
+    for (const Point& p : {Point{west, 0}, Point{west + side, 0}, Point{west + side, side}, Point{west, side}})
+      grid.nodes.push_back(p);
+    for (const GridCorners& corners :
+         {GridCorners{first, first + 1, first + 2}, GridCorners{first, first + 2, first + 3}}) {
+      grid.triangles.push_back(corners);
+      grid.area_m2.push_back(0.5 * side * side);
+    }
+    grid.boundaries.push_back(
+        {first == 0 ? BoundaryRole::Open : BoundaryRole::Land, true, {first, first + 1, first + 2, first + 3}});
+    west += side + 1.0;
+  }
+  return grid;
+}
+
+TEST(ApartWaters, AreThoseWithoutAnOpenBoundary) {
+  const Grid grid = squares({3.0, 1.0, 2.0});
+  const std::vector<ApartWater> apart = apartWaters(grid);
+  ASSERT_EQ(apart.size(), 2u);
+  EXPECT_EQ(apart[0].triangle, 2u);
+  EXPECT_EQ(apart[1].triangles, 2u);
+  Grid closed = grid;
+  closed.boundaries[0].role = BoundaryRole::Land;
+  EXPECT_TRUE(apartWaters(closed).empty());
+  EXPECT_EQ(dropApartWaters(closed).waters, 0u);
+}
+
+TEST(ApartWaters, AreTakenOutOfTheGrid) {
+  Grid grid = squares({3.0, 1.0, 2.0});
+  const DroppedWaters dropped = dropApartWaters(grid);
+  EXPECT_EQ(dropped.waters, 2u);
+  EXPECT_DOUBLE_EQ(dropped.area_m2, 5.0);
+  EXPECT_DOUBLE_EQ(dropped.share, 5.0 / 14.0);
+  EXPECT_GT(dropped.place.x, 6.0);  // in the larger one
+  EXPECT_EQ(grid.triangles.size(), 2u);
+  EXPECT_EQ(grid.nodes.size(), 4u);
+  EXPECT_EQ(grid.boundaries.size(), 1u);
+  EXPECT_NO_THROW(requireConsistent(grid));
+}
+
+TEST(ApartWaters, StayIfTheFrameOnlyGrazesTheOthers) {
+  Grid grid = squares({1.0, 5.0});
+  EXPECT_EQ(dropApartWaters(grid).waters, 0u);
+  EXPECT_EQ(grid.triangles.size(), 4u);
+}
+
+}  // namespace
+}  // namespace coastmesh
