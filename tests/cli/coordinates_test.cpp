@@ -215,7 +215,8 @@ TEST_F(Coordinates, MetresGoOnPastTheAntimeridian) {
     const ProgramRun run =
         runProgram({"mesh", input, "-o", file("m.2dm"), "--size", "100000", "--overwrite", "--quiet"});
     ASSERT_EQ(run.code, 0) << run.errors;
-    EXPECT_EQ(run.errors, "");
+    EXPECT_NE(run.errors.find("1.57 times"), std::string::npos) << run.errors;
+    EXPECT_EQ(run.errors.find('\n'), run.errors.rfind('\n')) << run.errors;
     std::istringstream lines(readText(file("m.2dm")));
     std::size_t nodes = 0;
     for (std::string line; std::getline(lines, line);) {
@@ -494,6 +495,25 @@ TEST_F(Coordinates, InOtherUnitsThanMetresAreWarnedOfForModels) {
   EXPECT_NE(readText(file("a.nc")).find("US_survey_foot"), std::string::npos);
   const ProgramRun run = runProgram({"convert", file("a.nc"), "-o", file("a.2dm"), "--overwrite"});
   EXPECT_NE(run.errors.find("EPSG:2263"), std::string::npos) << run.errors;
+}
+
+// As in Web Mercator far from the equator.
+TEST_F(Coordinates, NotTrueToScaleAreWarnedOfForModels) {
+  const auto errorsAt = [&](double south, const std::string& output) {
+    const std::string y = std::to_string(south), top = std::to_string(south + 10000.0);
+    const std::string lake =
+        write("lake.geojson",
+              R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3857"}},)"
+              R"("features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[980000,)" +
+                  y + "],[990000," + y + "],[990000," + top + "],[980000," + top + "],[980000," + y + "]]]}}]}");
+    const ProgramRun run = runProgram({"mesh", lake, "--size", "500", "--overwrite", "-o", file(output)});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.errors;
+  };
+  const std::string text = errorsAt(8.6e6, "a.2dm");  // 61 degrees
+  EXPECT_NE(text.find("a.2dm' are 2.05 times those on the ground"), std::string::npos) << text;
+  EXPECT_EQ(errorsAt(8.6e6, "a.nc"), "");
+  EXPECT_EQ(errorsAt(1e5, "a.2dm").find("times those"), std::string::npos);
 }
 
 }  // namespace
