@@ -4,6 +4,7 @@
 #include <ogr_spatialref.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "gis/crs/ogr_support.hpp"
@@ -53,6 +54,8 @@ Crs parseCrs(const std::string& text) {
   }
   if (srs.IsCompound()) srs.StripVertical();
   srs.DemoteTo2D(nullptr);
+  const std::unique_ptr<OGRSpatialReference> base(srs.CloneGeogCS());
+  if (!base) throw InputError("the CRS " + quotedName(srs) + " has no longitudes and latitudes, as one of heights");
   Crs crs;
   crs.geographic = srs.IsGeographic();
   if (crs.geographic && std::abs(srs.GetAngularUnits() * 180.0 / std::numbers::pi - 1.0) > 1e-9) {

@@ -7,8 +7,8 @@
 namespace coastmesh {
 
 // `text` is "plane" or anything that PROJ accepts: "EPSG:32616", WKT, a PROJ string. Vertical axes are dropped; a local
-// (engineering) CRS is a plane. Throws InputError, also for geocentric CRS and for geographic ones with units other
-// than degrees.
+// (engineering) CRS is a plane. Throws InputError, also for geocentric and vertical CRS and for geographic ones with
+// units other than degrees.
 Crs parseCrs(const std::string& text);
 
 Crs wgs84();

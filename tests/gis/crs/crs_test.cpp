@@ -51,7 +51,7 @@ TEST(Crs, SameMeansTheSamePlaces) {
 }
 
 TEST(Crs, RefusesInOneSentenceThatNamesTheText) {
-  for (const std::string text : {"EPSG:0", "no such thing", "", "EPSG:4978", "EPSG:4807", "/etc/passwd"}) {
+  for (const std::string text : {"EPSG:0", "no such thing", "", "EPSG:4978", "EPSG:5874", "EPSG:4807", "/etc/passwd"}) {
     try {
       parseCrs(text);
       ADD_FAILURE() << text;
