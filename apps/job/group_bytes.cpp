@@ -9,16 +9,28 @@ auto partsOf(auto& seconds) requires std::is_same_v<std::remove_cvref_t<decltype
   auto& [triangulate, refine, coarsen, optimise, stitch] = seconds;
   return std::tie(triangulate, refine, coarsen, optimise, stitch);
 }
+auto partsOf(auto& water) requires std::is_same_v<std::remove_cvref_t<decltype(water)>, NotedWater> {
+  auto& [area_m2, before, after] = water;
+  return std::tie(area_m2, before, after);
+}
+auto partsOf(auto& waters) requires std::is_same_v<std::remove_cvref_t<decltype(waters)>, NotedWaters> {
+  auto& [count, area_m2, largest] = waters;
+  return std::tie(count, area_m2, largest);
+}
+auto partsOf(auto& waters) requires std::is_same_v<std::remove_cvref_t<decltype(waters)>, FollowedWaters> {
+  auto& [area_m2, cut_off, apart, joined, with_apart, closed_m2, cut_off_by_way, none_kept_open, in_plane] = waters;
+  return std::tie(area_m2, cut_off, apart, joined, with_apart, closed_m2, cut_off_by_way, none_kept_open, in_plane);
+}
 // All but the log.
 auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, GroupResult> {
   auto& [grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
          short_of, quality, size_max, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,
-         estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings, idle] =
-      result;
+         estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings, idle,
+         waters] = result;
   return std::tie(grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
                   short_of, quality, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces,
                   estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings,
-                  size_max, idle);
+                  size_max, idle, waters);
 }
 
 namespace {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "gis/coast/feature_names.hpp"
@@ -11,6 +14,7 @@
 #include "gis/crs/ogr_support.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/model/depth.hpp"
 
 namespace coastmesh {
 
@@ -114,6 +118,35 @@ bool holdsOnlyPolygons(const Coastline& coastline, FeatureUse use, const std::st
   });
 }
 
+// The depths of the triangle that some place in it may have, whose nodes were lowered where they were less than `least`.
+struct DepthRange {
+  double from_m = std::numeric_limits<double>::infinity(), to_m = -from_m;
+
+  void add(double depth_m, double least_m) {
+    from_m = std::min(from_m, depth_m > least_m ? depth_m : -std::numeric_limits<double>::infinity());
+    to_m = std::max(to_m, depth_m);
+  }
+  bool meets(const DepthBand& band) const { return to_m >= band.from_m && from_m < band.to_m; }
+};
+
+// A band is met where depths between those of nodes are in it.
+void addIdleBands(const MeshJob& job, const Grid& grid, std::vector<std::string>& warnings) {
+  std::vector<DepthBand> idle = job.sizes.depth.bands;
+  for (const auto& triangle : grid.triangles) {
+    if (idle.empty()) return;
+    DepthRange depths;
+    for (const std::uint32_t v : triangle)
+      if (std::isfinite(grid.z[v])) depths.add(-grid.z[v], job.finish.depth.min_depth_m);
+    std::erase_if(idle, [&](const DepthBand& band) { return depths.meets(band); });
+  }
+  for (const DepthBand& band : idle) {
+    std::ostringstream text;
+    text << "--depth-band " << band.from_m << ',' << band.to_m << ',' << band.size_m
+         << " has no effect: no depth of the mesh lies in it";
+    warnings.push_back(text.str());
+  }
+}
+
 constexpr const char* kCrsRight = "; is its CRS right?";
 
 }  // namespace
@@ -125,6 +158,7 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
   for (const RasterGeometry& raster : sizes.rasters)
     if (!coversAny(raster, grid))
       all.push_back("--size-raster " + raster.path + ": no node of the mesh lies in it; is its CRS right?");
+  if (hasDepths(grid)) addIdleBands(job, grid, all);
   const bool any = !sizes.features.empty() || !job.sizes.passages.empty() || !job.sizes.barriers.empty();
   const Box around = any ? surroundingsOf(grid) : Box{};  // a look at every node
   const auto isNear = [&](const auto& part) { return meets(boxOf(part), around, grid.crs); };

@@ -11,7 +11,8 @@
 namespace coastmesh {
 
 // A warning for each file that was given for sizes, passages, barriers, constraints, weirs or regions and has nothing
-// where the mesh lies: mostly it is in another CRS than it says, or of another place.
+// where the mesh lies: mostly it is in another CRS than it says, or of another place; and for each band of depths that
+// the mesh has none of.
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,
                                               const Grid& grid);
 

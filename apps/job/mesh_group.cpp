@@ -327,9 +327,8 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   if (!follows) {
     sized = makeSizes(domain, SizeAccuracy::Fine);
   } else {
-    FollowOptions follow = job.sizes.follow;
-    follow.of_land = job.input.frame.side == DomainSide::Land;
-    if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Modelled;
+    const FollowOptions follow = followOptionsOf(job);
+    const double area_m2 = result.input_area_m2 ? *result.input_area_m2 : geodesicArea(domain, Crs{});
     const ShoreGuides guides{projected(sizes.passages, domain.projection),
                              projected(sizes.barriers, domain.projection)};
     CleanReport coarser, followed;
@@ -343,6 +342,8 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     std::ranges::move(coarser.notes, std::back_inserter(result.notes));
     std::ranges::move(coarser.warnings, std::back_inserter(result.warnings));
     result.idle = std::move(coarser.idle);
+    result.waters = std::move(coarser.waters);
+    result.waters.area_m2 = area_m2;
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
   }
@@ -485,6 +486,13 @@ void refuse(const TooManyVertices& error, const GroupTask& task, GroupResult& re
 }
 
 }  // namespace
+
+FollowOptions followOptionsOf(const MeshJob& job) {
+  FollowOptions follow = job.sizes.follow;
+  follow.of_land = job.input.frame.side == DomainSide::Land;
+  if (!job.sizes.keep_water_given && !job.finish.targets.empty()) follow.keep = KeepWater::Modelled;
+  return follow;
+}
 
 GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
                       const GroupRoom& room, const RunControl& control) {

@@ -36,7 +36,11 @@ struct GroupResult {
   std::vector<std::string> notes;  // decisions of cleaning, and of following sizes
   std::vector<std::string> warnings;
   std::vector<std::string> idle;  // as in CleanReport
+  FollowedWaters waters;
 };
+
+// How coasts are to follow sizes where they do.
+FollowOptions followOptionsOf(const MeshJob& job);
 
 // The limits of a group's mesh.
 struct GroupRoom {

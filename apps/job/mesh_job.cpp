@@ -22,6 +22,7 @@
 #include "apps/job/stopwatch.hpp"
 #include "core/quality.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/frame_box.hpp"
 #include "gis/grid/grid_edit.hpp"
@@ -111,6 +112,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   }
   ++result.regions;
   for (const std::string& text : part.idle) ++result.idle[text];
+  result.waters.append(std::move(part.waters));
   result.pieces += part.pieces;
   if (part.pieces > 1) {
     result.log.append(std::move(part.log));
@@ -386,6 +388,16 @@ void noteFallenShort(const FrameMoves& moves, double min_angle_deg, MeshJobResul
   result.read.notes.push_back(text.str());
 }
 
+// By all groups: shares are of all water that is meshed.
+void noteFollowed(const MeshJob& job, MeshJobResult& result) {
+  const FollowOptions follow = followOptionsOf(job);
+  NotesAndWarnings texts = noteWaters(result.waters, follow);
+  std::ranges::move(texts.notes, std::back_inserter(result.read.notes));
+  std::ranges::move(texts.warnings, std::back_inserter(result.read.warnings));
+  std::string of_area = warningOfArea(result.waters, follow, result.mesh_area_m2);
+  if (!of_area.empty()) result.read.warnings.push_back(std::move(of_area));
+}
+
 // In the coordinates that are written: what is right in the working plane need not be so there.
 void findTurned(MeshJobResult& result, const ItemLoop& loop) {
   for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2, loop)) {
@@ -436,6 +448,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     noteFallenShort(moves, job.mesh.refine.min_angle_deg, result);
   }
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+  if (job.sizes.coast == CoastDetail::Follow) noteFollowed(job, result);
   result.log.append(recorder.finish("grid"));
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg};

@@ -97,6 +97,7 @@ struct MeshJobResult {
   std::vector<Point> turned_places;  // the first kBoundViolationPlaces of them, in the input's CRS
   std::vector<Refusal> refusals;
   std::map<std::string, std::size_t> idle;  // in how many regions what is given has no effect
+  FollowedWaters waters;                    // of what was meshed, where coasts follow sizes
   std::string last_unwanted;                // why a group outside the requested area was skipped
   MeshQuality quality;
   std::optional<double> input_area_m2;  // of what was meshed; none for a .poly

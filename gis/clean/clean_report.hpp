@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/point.hpp"
+#include "gis/clean/followed_waters.hpp"
 #include "gis/coast/coastline.hpp"
 
 namespace coastmesh {
@@ -52,6 +53,7 @@ struct CleanReport {
   std::vector<std::string> notes;     // decisions where the input was ambiguous
   std::vector<std::string> warnings;  // those of them that cost more than users may expect
   std::vector<std::string> idle;      // of what has no effect here: a note if it has none anywhere
+  FollowedWaters waters;
   std::array<std::uint64_t, kEditKinds> counts{};
 
   void add(EditKind kind, const Point& place, const Coastline& coastline, std::size_t feature) {
@@ -63,6 +65,7 @@ struct CleanReport {
     std::ranges::move(more.notes, std::back_inserter(notes));
     std::ranges::move(more.warnings, std::back_inserter(warnings));
     std::ranges::move(more.idle, std::back_inserter(idle));
+    waters.append(std::move(more.waters));
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) counts[kind] += more.counts[kind];
   }
 };

@@ -6,6 +6,7 @@
 
 #include "gis/coast/feature_names.hpp"
 #include "gis/coast/segment_tags.hpp"
+#include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
@@ -13,10 +14,7 @@ namespace coastmesh {
 namespace {
 
 constexpr const char* kNoEffect = " meets no water that is meshed: it has no effect";
-constexpr std::size_t kNamedWaters = 3, kMostWaters = 20, kNamedStraits = 10, kNamedSpits = 5, kNamedPoints = 5;
-// Of all the water.
-constexpr double kLargeWater = 0.005;  // is named, though not one of the largest
-constexpr double kWarned = 0.02;       // left out or parted by closing: more than models forgive
+constexpr std::size_t kNamedStraits = 10, kNamedSpits = 5, kNamedPoints = 5;
 
 std::string formatted(const char* format, double a, double b = 0.0) {
   char text[80];
@@ -33,67 +31,44 @@ std::string lengthText(double length_m, const Projection& projection) {
   return length_m < 1000.0 ? formatted("%.0f m", length_m) : formatted("%.3g km", 1e-3 * length_m);
 }
 
-std::string areaText(double area_m2, double whole_m2, const Projection& projection) {
-  return (projection.isIdentity() ? formatted("%.3g", area_m2) : formatted("%.3g km²", 1e-6 * area_m2)) + " (" +
-         formatted("%.2g %%", 100.0 * area_m2 / whole_m2) + ")";
+std::string wayText(const WaterWay& way, const Projection& projection) {
+  return lengthText(way.width_m, projection) + " wide";
 }
 
-// The largest of them, what is between them and the others, and which options change that.
-std::string namesOf(const std::vector<ApartWater>& waters, double area, bool of_land, const Projection& projection) {
-  std::string names;
-  std::size_t named = 0;
-  for (const auto& [water, way] : waters) {
-    if (named == kMostWaters || (named >= kNamedWaters && water.area < kLargeWater * area)) break;
-    names += named++ == 0 ? "" : "; ";
-    names += areaText(water.area, area, projection) + " at " + placeText(water.inside.front(), projection);
-    if (water.at_open) names += ", which has an open boundary";
-    names += way.exists ? (of_land ? ", behind land " : ", behind water ") + lengthText(way.width_m, projection) +
-                              " wide at " + placeText(way.place, projection)
-                        : ", without a connection in the data";
+NotedWater notedOf(const ApartWater& apart, const FollowOptions& options, const Projection& projection) {
+  const auto& [water, way] = apart;
+  std::string where = " at " + placeText(water.inside.front(), projection);
+  if (water.at_open) where += ", which has an open boundary";
+  where += way.exists ? (options.of_land ? ", behind land " : ", behind water ") + wayText(way, projection) + " at " +
+                            placeText(way.place, projection)
+                      : ", without a connection in the data";
+  return {water.area, areaInWords(water.area, projection.isIdentity()), where};
+}
+
+NotedWater notedOf(const JoinedWater& joined, const Projection& projection) {
+  const WaterWay& way = joined.way;
+  return {joined.area,
+          placeText(way.place, projection) + ", " + wayText(way, projection) + ", about " +
+              lengthText(way.length_m, projection) + " long, to " + areaInWords(joined.area, projection.isIdentity()),
+          ""};
+}
+
+FollowedWaters followedOf(const FollowNotes& notes, const FollowOptions& options, const Projection& projection) {
+  FollowedWaters waters;
+  waters.area_m2 = notes.area;
+  waters.in_plane = projection.isIdentity();
+  for (const ApartWater& apart : notes.cut_off) {
+    waters.cut_off.add(notedOf(apart, options, projection));
+    waters.cut_off_by_way |= apart.way.exists;
+    waters.none_kept_open |= options.keep == KeepWater::Modelled && apart.water.at_open;
   }
-  if (std::ranges::any_of(waters, [](const ApartWater& apart) { return apart.way.exists; }))
-    names += "; --passages or a smaller --channel-min keep the connection open, a smaller --strait-min widens it";
-  return names;
-}
-
-double areaOf(const std::vector<ApartWater>& waters) {
-  double area = 0.0;
-  for (const ApartWater& apart : waters) area += apart.water.area;
-  return area;
-}
-
-std::string noteOn(const FollowNotes& notes, const FollowOptions& options, const Projection& projection) {
-  const std::vector<ApartWater>& waters = notes.cut_off;
-  const bool none_kept_open = options.keep == KeepWater::Modelled &&
-                              std::ranges::any_of(waters, [](const ApartWater& w) { return w.water.at_open; });
-  std::string note =
-      areaText(areaOf(waters), notes.area, projection) + (options.of_land ? " of the land " : " of the water ") +
-      (options.keep == KeepWater::All ? "is meshed apart" : "is left out") + ", " + std::to_string(waters.size()) +
-      (options.of_land ? forCount(waters.size(), " piece", " pieces") : forCount(waters.size(), " water", " waters")) +
-      " without a connection to the " + (options.keep == KeepWater::Largest || none_kept_open ? "largest" : "others") +
-      ": the largest " + namesOf(waters, notes.area, options.of_land, projection);
-  if (options.keep != KeepWater::All) note += "; --keep-water all keeps them as they are";
-  return note;
-}
-
-std::string noteOnApart(const FollowNotes& notes, const FollowOptions& options, const Projection& projection) {
-  return std::string(options.of_land ? "the land" : "the water") + " is meshed in " +
-         std::to_string(notes.apart.size() + 1) + " parts without a connection: besides the largest " +
-         namesOf(notes.apart, notes.area, options.of_land, projection) + "; --keep-water largest leaves them out";
-}
-
-std::string noteOn(const std::vector<JoinedWater>& joined, double area, const Projection& projection) {
-  std::string note =
-      "straits that are the only connection between waters were widened to an element instead of closed, for the "
-      "largest of " +
-      std::to_string(joined.size()) + forCount(joined.size(), " water: ", " waters: ");
-  for (std::size_t i = 0; i < std::min(kNamedStraits, joined.size()); ++i) {
-    const WaterWay& way = joined[i].way;
-    if (i > 0) note += "; ";
-    note += placeText(way.place, projection) + ", " + lengthText(way.width_m, projection) + " wide, about " +
-            lengthText(way.length_m, projection) + " long, to " + areaText(joined[i].area, area, projection);
+  for (const ApartWater& apart : notes.apart) {
+    waters.apart.add(notedOf(apart, options, projection));
+    if (apart.way.exists) waters.closed_m2 += apart.water.area;
   }
-  return note + "; a larger --strait-min closes them";
+  waters.with_apart = notes.apart.empty() ? 0 : 1;
+  for (const JoinedWater& joined : notes.joined) waters.joined.add(notedOf(joined, projection));
+  return waters;
 }
 
 std::string noteOn(const std::vector<ClosedStrait>& straits, const Projection& projection) {
@@ -190,23 +165,11 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
       report.idle.push_back(name + kNoEffect);
     }
   }
-  std::ranges::stable_sort(notes.joined, std::ranges::greater{}, &JoinedWater::area);
-  if (!notes.joined.empty()) texts.push_back(noteOn(notes.joined, notes.area, projection));
   std::ranges::stable_sort(notes.straits, std::ranges::greater{}, &ClosedStrait::length_m);
   if (!notes.straits.empty()) texts.push_back(noteOn(notes.straits, projection));
   std::ranges::stable_sort(notes.spits, std::ranges::greater{}, &DroppedSpit::length_m);
   if (!notes.spits.empty()) texts.push_back(noteOn(notes.spits, projection));
-  const auto areaOfWater = [](const ApartWater& apart) { return apart.water.area; };
-  if (!notes.apart.empty()) {
-    std::ranges::stable_sort(notes.apart, std::ranges::greater{}, areaOfWater);
-    double closed = 0.0;
-    for (const ApartWater& apart : notes.apart) closed += apart.way.exists ? apart.water.area : 0.0;
-    (closed > kWarned * notes.area ? report.warnings : texts).push_back(noteOnApart(notes, options, projection));
-  }
-  if (notes.cut_off.empty()) return;
-  std::ranges::stable_sort(notes.cut_off, std::ranges::greater{}, areaOfWater);
-  const double left_out = options.keep == KeepWater::All ? 0.0 : areaOf(notes.cut_off);
-  (left_out > kWarned * notes.area ? report.warnings : texts).push_back(noteOn(notes, options, projection));
+  report.waters.append(followedOf(notes, options, projection));
 }
 
 }  // namespace coastmesh

@@ -48,8 +48,8 @@ void noteMetPoints(const MetPoints& met, const Projection& projection, CleanRepo
 // Adds warnings on weirs, constraints and points that have no water left.
 void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report);
 
-// Adds sentences on the largest changes to the report, with their places in the input's CRS: a warning if more of the
-// water is left out, or parted from the largest, than is acceptable for a model, otherwise notes.
+// Adds sentences on the largest changes to the report, with their places in the input's CRS. Those on shares of the
+// water are left to `noteWaters`: these are of all groups of features.
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
                    const Projection& projection, CleanReport& report);
 

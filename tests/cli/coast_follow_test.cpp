@@ -99,6 +99,33 @@ TEST_F(CoastFollow, WaterThatNothingJoinsToAnOpenBoundaryIsADefect) {
   }
 }
 
+// Half of a small lake is cut off from it: a third of a percent of the water.
+TEST_F(CoastFollow, WhatIsLeftOutIsAShareOfAllWaters) {
+  const LonLatRing large{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+  const LonLatRing two{{1, 0},       {1.03, 0},    {1.03, 0.0149}, {1.05, 0.0149}, {1.05, 0},    {1.08, 0},
+                       {1.08, 0.03}, {1.05, 0.03}, {1.05, 0.0151}, {1.03, 0.0151}, {1.03, 0.03}, {1, 0.03}};
+  const std::string lakes = write("lakes.geojson", geoJsonPolygons({{large}, {two}}));
+  const ProgramRun run = runProgram(
+      {"mesh", lakes, "-o", file("lakes.nc"), "--size", "1000", "--coast", "follow", "--keep-water", "largest"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.errors, "");
+  EXPECT_NE(run.output.find("(0.36 %) of the water is left out, 1 water"), std::string::npos) << run.output;
+}
+
+// A strait of 10 km between two coasts, with elements of 50 km.
+TEST_F(CoastFollow, WaterThatSizesAreTooLargeForIsWarnedOf) {
+  const LonLatRing south{{-0.1, -0.1}, {1.1, -0.1}, {1.1, 0.1}, {0.4, 0.1}, {0.4, 0.45}, {-0.1, 0.45}};
+  const LonLatRing north{{-0.1, 0.55}, {0.4, 0.55}, {0.4, 0.9}, {1.1, 0.9}, {1.1, 1.1}, {-0.1, 1.1}};
+  sea({{south}, {north}}, {"--size", "3000"});
+  EXPECT_EQ(run_.errors, "");
+  const nlohmann::json report = sea({{south}, {north}}, {"--size", "30000"});
+  EXPECT_NE(
+      run_.errors.find(" %) less area than in the input: water narrower than an element is closed; smaller sizes"),
+      std::string::npos)
+      << run_.errors;
+  EXPECT_LT(report["mesh"]["area_m2"].get<double>(), 0.98 * report["input"]["area_m2"].get<double>());
+}
+
 // One island of two hectares is given up: the layer says so, and where it lay.
 TEST_F(CoastFollow, EditsAreALayer) {
   const LonLatRing islet{{0.5, 0.6}, {0.502, 0.6}, {0.502, 0.602}, {0.5, 0.602}};

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
+#include "gis/follow/water_notes.hpp"
 
 namespace coastmesh {
 
@@ -56,6 +58,12 @@ Domain twoLakes(double width) {
 }
 
 std::size_t countOf(const CleanReport& report, EditKind kind) { return report.counts[static_cast<std::size_t>(kind)]; }
+
+void addWaterNotes(CleanReport& report, const FollowOptions& options) {
+  NotesAndWarnings texts = noteWaters(report.waters, options);
+  std::ranges::move(texts.notes, std::back_inserter(report.notes));
+  std::ranges::move(texts.warnings, std::back_inserter(report.warnings));
+}
 
 double areaOf(const Domain& domain) {
   double area = 0.0;

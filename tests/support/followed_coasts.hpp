@@ -25,6 +25,9 @@ std::size_t countOf(const CleanReport& report, EditKind kind);
 
 double areaOf(const Domain& domain);
 
+// Adds the sentences on waters to the report's notes and warnings, as after the only group of features.
+void addWaterNotes(CleanReport& report, const FollowOptions& options);
+
 // How many waters there are that nothing joins.
 std::size_t parts(const Domain& domain);
 

@@ -20,6 +20,7 @@ TEST(FollowSizes, OfWaterThatIsCutApartWhatIsAskedForStays) {
     if (open_to_the_east) domain.pslg.segments[5].tag = kOpenTag;
     CleanReport report;
     Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
+    addWaterNotes(report, {.keep = keep});
     const std::vector<std::string>& texts = keep == KeepWater::All ? report.notes : report.warnings;
     EXPECT_EQ(texts.size(), 1u);
     EXPECT_NE(texts.front().find("behind water 0.6 wide at ("), std::string::npos) << texts.front();
@@ -47,6 +48,7 @@ TEST(FollowSizes, AFrameThatGrazesAnotherWaterDoesNotDropTheOneThatIsMeant) {
       const Domain coarse = followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
       const bool grazed = side == 12.0 && keep == KeepWater::Modelled;  // 144 of 1744, 400 of 2000
       for (const Point& p : coarse.pslg.points) EXPECT_EQ(p.x < 45.0, grazed) << side;
+      addWaterNotes(report, {.keep = keep});
       ASSERT_EQ(report.warnings.size(), 1u);
       EXPECT_NE(report.warnings[0].find(grazed ? "144 (8.3 %) of the water is left out" : "1.6e+03"), std::string::npos)
           << report.warnings[0];
@@ -99,6 +101,7 @@ TEST(FollowSizes, WatersThatAreBothKeptAreJoinedOrNamed) {
       const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
       EXPECT_EQ(parts(coarse), width < 1.0 ? 2u : 1u);
       EXPECT_EQ(countOf(report, EditKind::CutOffWater), 0u);
+      addWaterNotes(report, {.keep = keep});
       if (width > 1.0) {
         EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
         continue;

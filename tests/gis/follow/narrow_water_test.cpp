@@ -101,13 +101,14 @@ TEST(FollowSizes, AStraitALittleNarrowerThanAnElementThatAloneJoinsWatersIsWiden
       const Domain before = twoLakes(width);
       const double area = areaOf(before);
       CleanReport report;
-      const Domain coarse = followSizes(Domain(before), ConstantSize(2.0),
-                                        {.channel_min = channel_min, .strait_min = 0.4}, oneFeature(), report);
+      const FollowOptions options{.channel_min = channel_min, .strait_min = 0.4};
+      const Domain coarse = followSizes(Domain(before), ConstantSize(2.0), options, oneFeature(), report);
       EXPECT_EQ(parts(coarse), 1u);
       EXPECT_GE(countOf(report, EditKind::WidenedPassage), 1u);
       EXPECT_EQ(countOf(report, EditKind::CutOffWater), 0u);
       EXPECT_NEAR(areaOf(coarse), area, 0.01 * area + 20.0 * channel_min - 10.0 * width);
       EXPECT_GE(leastApart(coarse), 0.75 * 2.0);
+      addWaterNotes(report, options);
       ASSERT_EQ(report.notes.size(), 1u);
       double x = 0.0, y = 0.0, wide = 0.0, length = 0.0, behind = 0.0;
       ASSERT_EQ(

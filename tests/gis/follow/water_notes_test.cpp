@@ -1,0 +1,63 @@
+// Sentences on waters are on all groups of features, and so are shares of the water in them.
+#include "gis/follow/water_notes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace coastmesh {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+FollowedWaters group(double area_m2, const std::vector<double>& cut_off) {
+  FollowedWaters waters;
+  waters.area_m2 = area_m2;
+  for (const double area : cut_off) waters.cut_off.add({area, areaInWords(area, false), " at (0, 0)"});
+  return waters;
+}
+
+TEST(WaterNotes, AThirdOfALakeBesideASeaIsNoWarning) {
+  const FollowOptions largest{.keep = KeepWater::Largest};
+  FollowedWaters lake = group(7e6, {2e6, 0.1e6});
+  EXPECT_THAT(noteWaters(lake, largest).warnings, ElementsAre(HasSubstr("2.1 km² (30 %) of the water is left out")));
+  FollowedWaters all = group(993e6, {});
+  all.append(std::move(lake));
+  const NotesAndWarnings texts = noteWaters(all, largest);
+  EXPECT_THAT(texts.warnings, IsEmpty());
+  EXPECT_THAT(texts.notes, ElementsAre(HasSubstr("2.1 km² (0.21 %) of the water is left out, 2 waters")));
+  EXPECT_THAT(texts.notes[0], HasSubstr("the largest 2 km² (0.2 %) at (0, 0); 0.1 km² (0.01 %) at (0, 0)"));
+}
+
+TEST(WaterNotes, ManyLittleLossesAreOneWarning) {
+  FollowedWaters all;
+  for (int i = 1; i <= 100; ++i) all.append(group(10e6, {i == 50 ? 0.5e6 : 0.2e6 + i}));
+  const NotesAndWarnings texts = noteWaters(all, {.keep = KeepWater::Largest});
+  ASSERT_THAT(texts.warnings, ElementsAre(HasSubstr("20.3 km² (2 %) of the water is left out, 100 waters")));
+  EXPECT_THAT(texts.warnings[0], HasSubstr("the largest 0.5 km² (0.05 %) at (0, 0); 0.2 km²"));
+  EXPECT_EQ(all.cut_off.largest.size(), NotedWaters::kMost);
+  EXPECT_EQ(all.cut_off.largest.back().area_m2, 0.2e6 + 82);
+}
+
+TEST(WaterNotes, AreasThatChangeByMoreThanTwoPercentAreWarnedOf) {
+  const FollowedWaters waters = group(1e10, {1e9});
+  const FollowOptions largest{.keep = KeepWater::Largest};
+  EXPECT_EQ(warningOfArea(waters, largest, 8.9e9), "");  // a tenth of it is left out, which another warning says
+  EXPECT_EQ(warningOfArea(waters, largest, 9.1e9), "");
+  EXPECT_EQ(warningOfArea(waters, {}, 9.9e9), "");
+  EXPECT_EQ(warningOfArea(waters, largest, 1e9),
+            "the water has 8000 km² (80 %) less area than in the input: water narrower than an element is closed; "
+            "smaller sizes (--size-shore, --size-max) or a smaller --channel-min keep more of it");
+  EXPECT_EQ(warningOfArea(waters, {.land_min = 5.0}, 1.03e10),
+            "the water has 300 km² (3 %) more area than in the input: land narrower than 5 elements that ends in water "
+            "is removed; smaller sizes (--size-shore, --size-max) or a smaller --land-min keep more of it");
+  EXPECT_EQ(warningOfArea(waters, {.channel_min = 0.0, .of_land = true}, 9e9),
+            "the land has 1000 km² (10 %) less area than in the input: land narrower than an element is removed; "
+            "smaller sizes (--size-shore, --size-max) keep more of it");
+}
+
+}  // namespace
+}  // namespace coastmesh
