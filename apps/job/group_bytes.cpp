@@ -21,16 +21,20 @@ auto partsOf(auto& waters) requires std::is_same_v<std::remove_cvref_t<decltype(
   auto& [area_m2, cut_off, apart, joined, with_apart, closed_m2, cut_off_by_way, none_kept_open, in_plane] = waters;
   return std::tie(area_m2, cut_off, apart, joined, with_apart, closed_m2, cut_off_by_way, none_kept_open, in_plane);
 }
+auto partsOf(auto& raised) requires std::is_same_v<std::remove_cvref_t<decltype(raised)>, RaisedShore> {
+  auto& [length_m, raised_m, most_m] = raised;
+  return std::tie(length_m, raised_m, most_m);
+}
 // All but the log.
 auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, GroupResult> {
   auto& [grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
          short_of, quality, size_max, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,
-         estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings, idle,
-         waters] = result;
+         estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings, idle, waters,
+         raised_shore] = result;
   return std::tie(grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
                   short_of, quality, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces,
                   estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings,
-                  size_max, idle, waters);
+                  size_max, idle, waters, raised_shore);
 }
 
 namespace {

@@ -348,6 +348,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
   }
   noteFilledWater(sized.filled, wanted, result);
+  if (!job.sizes.choose) result.raised_shore = sized.raised;
   VertexDemand& demand = sized.demand;
   demand.vertices += verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * most - demand.vertices),
                                         domain.projection.surface());

@@ -37,6 +37,7 @@ struct GroupResult {
   std::vector<std::string> warnings;
   std::vector<std::string> idle;  // as in CleanReport
   FollowedWaters waters;
+  RaisedShore raised_shore;
 };
 
 // How coasts are to follow sizes where they do.

@@ -18,6 +18,7 @@
 #include "apps/job/idle_inputs.hpp"
 #include "apps/job/memory_share.hpp"
 #include "apps/job/mesh_group.hpp"
+#include "apps/job/places.hpp"
 #include "apps/job/raster_helpers.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "core/quality.hpp"
@@ -113,6 +114,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   ++result.regions;
   for (const std::string& text : part.idle) ++result.idle[text];
   result.waters.append(std::move(part.waters));
+  result.raised_shore.add(part.raised_shore);
   result.pieces += part.pieces;
   if (part.pieces > 1) {
     result.log.append(std::move(part.log));
@@ -398,6 +400,17 @@ void noteFollowed(const MeshJob& job, MeshJobResult& result) {
   if (!of_area.empty()) result.read.warnings.push_back(std::move(of_area));
 }
 
+// Where it is so much of the shore that the sizes there may surprise.
+void noteRaisedShore(MeshJobResult& result) {
+  constexpr double kLittle = 0.1;
+  const auto& [length_m, raised_m, most_m] = result.raised_shore;
+  if (!(raised_m > kLittle * length_m)) return;
+  result.read.notes.push_back("--time-step asks for more than --size-shore along " +
+                              amount("%.0f %%", 100.0 * raised_m / length_m) + " of the shore, up to " +
+                              (most_m < 1000.0 ? amount("%.0f m", most_m) : amount("%.3g km", most_m / 1000.0)) +
+                              "; a shorter step allows smaller elements");
+}
+
 // In the coordinates that are written: what is right in the working plane need not be so there.
 void findTurned(MeshJobResult& result, const ItemLoop& loop) {
   for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2, loop)) {
@@ -449,6 +462,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   }
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   if (job.sizes.coast == CoastDetail::Follow) noteFollowed(job, result);
+  noteRaisedShore(result);
   result.log.append(recorder.finish("grid"));
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg};

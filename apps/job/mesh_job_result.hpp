@@ -18,6 +18,7 @@
 #include "gis/grid/grid.hpp"
 #include "gis/raster/raster_band.hpp"
 #include "gis/read/read_report.hpp"
+#include "gis/size/size_source.hpp"
 #include "gis/solver/partition_grid.hpp"
 #include "parallel/work_log.hpp"
 
@@ -98,7 +99,8 @@ struct MeshJobResult {
   std::vector<Refusal> refusals;
   std::map<std::string, std::size_t> idle;  // in how many regions what is given has no effect
   FollowedWaters waters;                    // of what was meshed, where coasts follow sizes
-  std::string last_unwanted;                // why a group outside the requested area was skipped
+  RaisedShore raised_shore;
+  std::string last_unwanted;  // why a group outside the requested area was skipped
   MeshQuality quality;
   std::optional<double> input_area_m2;  // of what was meshed; none for a .poly
   double mesh_area_m2 = 0.0;

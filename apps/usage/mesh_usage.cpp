@@ -100,6 +100,7 @@ void requireGlobe(const InputOptions& input, const SizeOptions& sizes) {
 void settle(MeshUsage& usage) {
   const bool framed = usage.job.input.frame.box.has_value() || !usage.job.input.clip.empty();
   settleSizing(usage.sizing, usage.job.finish.depth, framed && !usage.job.finish.targets.empty(), usage.job.sizes);
+  std::ranges::move(notesOnOverriddenSizes(usage.sizing, usage.job.sizes), std::back_inserter(usage.job.notes));
   requireGlobe(usage.job.input, usage.job.sizes);
   usage.job.mesh.refine.algorithm = named<Algorithm>(kAlgorithmNames, usage.algorithm);
   usage.job.mesh.refine.goal = named<QualityGoal>(kGoalNames, usage.quality);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 #include "gis/error.hpp"
 
@@ -49,7 +51,7 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
   table.number({"--size-shore", "Size at the shore"}, sizes.shore_m, "M", kAboveZero, "edge length at the shore");
   table
       .number({"--shore-rate", "Growth away from the shore"}, sizes.shore_rate, "R", {0.0, 1000.0},
-              "how fast that size grows with the distance from the shore")
+              "how fast that size grows with the distance from the shore", &usage.shore_rate_given)
       .needs({"--size-shore"});
   table.number({"--channel-elements", "Elements across channels"}, sizes.channel_elements, "N", {0.0, 1000.0},
                "elements across channels and straits; 0: not used");
@@ -165,6 +167,32 @@ void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may
     throw OptionError("--coast follow needs sizes to follow: give --size, or others");
   if (sizes.least_m == 0.0 && (sizes.depth.slope_elements > 0.0 || sizes.channel_elements > 0.0))
     throw OptionError("--slope-elements and --channel-elements can ask for lengths near 0: give --size-min");
+}
+
+std::vector<std::string> notesOnOverriddenSizes(const SizingUsage& usage, const SizeOptions& sizes) {
+  std::vector<std::string> notes;
+  const auto text = [](double number) {
+    std::ostringstream out;
+    out << std::setprecision(10) << number;
+    return out.str();
+  };
+  const auto note = [&](const std::string& asked, bool is_more, const char* bound, double limit) {
+    notes.push_back(asked + " is " + (is_more ? "more" : "less") + " than " + bound + " " + text(limit) +
+                    ", which overrides it");
+  };
+  const auto compare = [&](const std::string& asked, double size_m) {
+    if (!std::isfinite(size_m)) return;
+    if (size_m > sizes.most_m) note(asked, true, "--size-max", sizes.most_m);
+    if (size_m < sizes.least_m) note(asked, false, "--size-min", sizes.least_m);
+    if (size_m > sizes.size_m) note(asked, true, "--size", sizes.size_m);
+  };
+  compare("--size " + text(sizes.size_m), sizes.size_m);
+  compare("--size-shore " + text(sizes.shore_m), sizes.shore_m);
+  for (const DepthBand& band : sizes.depth.bands)
+    compare("--depth-band " + text(band.from_m) + "," + text(band.to_m) + "," + text(band.size_m), band.size_m);
+  if (usage.shore_rate_given && std::isfinite(sizes.shore_m) && sizes.shore_rate > sizes.gradation)
+    note("--shore-rate " + text(sizes.shore_rate), true, "--grade", sizes.gradation);
+  return notes;
 }
 
 }  // namespace coastmesh

@@ -354,6 +354,27 @@ DomainSizes sizesByShore(const SizeOptions& options, const Pslg& shore, const st
           {}};
 }
 
+RaisedShore raisedShore(const std::vector<SizedLine>& shore, const SizeField& floor, double least_m,
+                        const std::function<double(const Point&)>& scale) {
+  constexpr std::size_t kMostSamples = 2000;
+  constexpr double kMore = 1.1;  // of less there is no word
+  const std::size_t step = std::max<std::size_t>(1, shore.size() / kMostSamples);
+  std::vector<Point> places;
+  for (std::size_t i = 0; i < shore.size(); i += step) places.push_back(midpoint(shore[i].a, shore[i].b));
+  std::vector<double> floors(places.size());
+  floor.sample(places, floors);
+  RaisedShore raised;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const SizedLine& line = shore[k * step];
+    const double length_m = static_cast<double>(step) * distance(line.a, line.b) / scale(places[k]);
+    raised.length_m += length_m;
+    if (!(floors[k] > kMore * std::max(line.size_m, least_m))) continue;
+    raised.raised_m += length_m;
+    raised.most_m = std::max(raised.most_m, floors[k]);
+  }
+  return raised;
+}
+
 Pslg boundaryOf(const Box& box) {
   Pslg pslg;
   pslg.points = {{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}};
@@ -423,9 +444,14 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   ComposedSizes source(options, measure, mask, loop);
   const double reach = reachOn(surface, extent, root), reach_m = reach / measure(middle);
   const double most_m = std::min(options.most_m, options.size_m);
-  if (options.shore_m < kInfinity)
-    source.add("--size-shore", std::make_unique<DistanceField>(shoreLines(shore, options.shore_m, options.shore_rate),
-                                                               scale, most_m, surface));
+  bool has_shore = true;
+  std::vector<SizedLine> sized_shore;  // that the time step may raise
+  if (options.shore_m < kInfinity) {
+    std::vector<SizedLine> lines = shoreLines(shore, options.shore_m, options.shore_rate);
+    has_shore = !lines.empty();
+    if (options.time_step_s > 0.0) sized_shore = lines;
+    source.add("--size-shore", std::make_unique<DistanceField>(std::move(lines), scale, most_m, surface));
+  }
   if (options.channel_elements > 0.0) {
     // What the time step allows may be longer than what channels ask for: then their lines alone count.
     ChannelLines channels =
@@ -446,6 +472,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
                std::move(rasterFields(inputs.rasters, inputs, projection, square, {SizeRule{}}, loop).front()));
   DepthSizes depths = sizesOfDepths(options, inputs, domain, square, root, mask, source.leastWanted(), scale, loop);
   if (depths.asked) source.add(askingOfDepths(options.depth), std::move(depths.asked));
+  RaisedShore raised;
   if (depths.step) {
     auto floor = std::make_unique<SizeFloor>(std::move(depths.step), options.gradation,
                                              source.leastWanted() / kShoreFloor, scale, root, mask, loop, surface);
@@ -453,6 +480,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
       floor->raiseNear(
           std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.gradation), scale, kInfinity, surface),
           kShoreFloor);
+    raised = raisedShore(sized_shore, *floor, options.least_m, scale);
     source.setFloor(std::move(floor));
   }
   source.limitRate(options.gradation);
@@ -498,6 +526,8 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   }
   DomainSizes sizes{std::move(size), std::move(demand)};
   sizes.filled = depths.filled;
+  sizes.has_shore = has_shore;
+  sizes.raised = raised;
   return sizes;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -103,6 +104,18 @@ double leastWanted(const SizeOptions& options, const SizeInputs& inputs);
 // for that: each place is evaluated, and the demand is unknown.
 enum class SizeAccuracy { Fine, Rough };
 
+// Of the shore, where `SizeOptions::shore_m` is asked for, what the time step makes larger; metres.
+struct RaisedShore {
+  double length_m = 0.0, raised_m = 0.0;  // of all of it, and of that; both by samples
+  double most_m = 0.0;                    // the largest size there
+
+  void add(const RaisedShore& other) {
+    length_m += other.length_m;
+    raised_m += other.raised_m;
+    most_m = std::max(most_m, other.most_m);
+  }
+};
+
 struct DomainSizes {
   std::unique_ptr<SizeFunction> function;  // of places in the domain's plane; lengths on the surface it represents
   VertexDemand demand;
@@ -110,6 +123,8 @@ struct DomainSizes {
   // the shore, in metres on the ground. Otherwise NaN.
   double rate = std::numeric_limits<double>::quiet_NaN(), shore_m = rate;
   FilledWater filled{};
+  bool has_shore = true;  // false: sizes at the shore are asked for in vain
+  RaisedShore raised{};
 };
 
 // The sizes of a domain: the minimum that any of the options requests, within the bounds, not below what the time step
