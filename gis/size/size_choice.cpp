@@ -16,6 +16,10 @@ constexpr double kElementsAcross = 20.0;
 // Estimates of vertices are right to half as much; between these bounds the mesh has 10^4 to 10^5.
 constexpr double kFewEnough = 50'000.0, kManyEnough = 18'000.0;
 constexpr int kRounds = 8;
+// From the shore to the middle: for a straight shore across the whole a fifth of it does.
+constexpr double kMostGrowth = 1000.0;
+// Smaller sizes that add no more than this share are of no use.
+constexpr double kHardlyMore = 1.05;
 
 // Two digits, as a person would choose.
 double rounded(double size) {
@@ -23,12 +27,18 @@ double rounded(double size) {
   return std::round(size / unit) * unit;
 }
 
-double verticesFor(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain, const ItemLoop& loop) {
+struct Expected {
+  double vertices = 0.0;
+  bool has_shore = true;
+};
+
+Expected expectedFor(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain, const ItemLoop& loop) {
   constexpr double kFarTooMany = 100.0 * kVertices;
   try {
-    return makeSizeFunction(options, inputs, domain, kFarTooMany, loop).demand.vertices;
+    const DomainSizes sizes = makeSizeFunction(options, inputs, domain, kFarTooMany, loop);
+    return {sizes.demand.vertices, sizes.has_shore};
   } catch (const TooManyVertices& error) {
-    return std::max(kFarTooMany, error.demand.vertices);
+    return {std::max(kFarTooMany, error.demand.vertices)};
   }
 }
 
@@ -41,19 +51,48 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
   const Point middle{0.5 * (box.xmin + box.xmax), 0.5 * (box.ymin + box.ymax)};
   const double area = areaOn(domain.projection.surface(), {box.xmin, box.ymin}, {box.xmax, box.ymax});
   const double across = std::sqrt(area) / domain.projection.measureAt(middle);
+  const double most = rounded(across / kElementsAcross), finest = rounded(most / kMostGrowth);
   SizeOptions chosen = options;
   chosen.choose = false;
-  chosen.most_m = rounded(across / kElementsAcross);
-  chosen.shore_m = rounded(chosen.most_m / 20.0);
+  chosen.most_m = most;
+  chosen.shore_m = rounded(most / 20.0);
+  SizeOptions before = chosen;
+  double vertices_before = 0.0;
+  bool has_shore = true, shore_decides = true;
   for (int round = 0; round < kRounds; ++round) {
-    const double vertices = verticesFor(chosen, inputs, domain, loop);
+    const Expected expected = expectedFor(chosen, inputs, domain, loop);
+    const double vertices = expected.vertices;
+    if (has_shore && !expected.has_shore) {
+      has_shore = shore_decides = false;
+      chosen.shore_m = chosen.most_m = SizeOptions::kNone;
+      chosen.size_m = most;
+    }
     if (vertices > kManyEnough && vertices < kFewEnough) break;
+    // Finer sizes were of no use: a time step, perhaps, allows none.
+    if (vertices_before < kManyEnough && vertices < kHardlyMore * vertices_before) {
+      chosen = before;
+      if (!shore_decides) break;
+      shore_decides = false;
+    }
+    before = chosen;
+    vertices_before = vertices;
     // They go with the size to the power of -1, along a shore, to -2.
-    const double size = chosen.shore_m * std::pow(vertices / kVertices, 0.65);
+    const double ratio = vertices / kVertices;
+    double size = has_shore ? chosen.shore_m * std::pow(ratio, 0.65) : chosen.size_m * std::sqrt(ratio);
+    if (has_shore && size < finest) {
+      shore_decides = shore_decides && chosen.shore_m > finest;
+      size = finest;
+    }
     // Seas where not the shore, but shallow water has most of them.
-    if (vertices > kFewEnough && size > chosen.most_m / 8.0)
+    if (vertices > kFewEnough && size > most / 8.0)
       chosen.depth.wave_elements = std::round(0.6 * chosen.depth.wave_elements);
-    chosen.shore_m = rounded(std::min(size, chosen.most_m));
+    if (!has_shore) {
+      chosen.size_m = rounded(std::min(size, most));
+    } else if (shore_decides || vertices > kFewEnough) {
+      chosen.shore_m = rounded(std::min(size, chosen.most_m));
+    } else {
+      chosen.most_m = rounded(std::max(chosen.shore_m, chosen.most_m * std::sqrt(ratio)));
+    }
   }
   return chosen;
 }
@@ -65,9 +104,12 @@ std::string sizesAsOptions(const SizeOptions& options) {
     std::snprintf(number, sizeof number, " %.10g", value);
     text += (text.empty() ? "" : " ") + std::string(option) + number;
   };
-  add("--size-shore", options.shore_m);
-  add("--shore-rate", options.shore_rate);
-  add("--size-max", options.most_m);
+  if (std::isfinite(options.size_m)) add("--size", options.size_m);
+  if (std::isfinite(options.shore_m)) {
+    add("--size-shore", options.shore_m);
+    add("--shore-rate", options.shore_rate);
+  }
+  if (std::isfinite(options.most_m)) add("--size-max", options.most_m);
   add("--grade", options.gradation);
   add("--wave-elements", options.depth.wave_elements);
   add("--time-step", options.time_step_s);

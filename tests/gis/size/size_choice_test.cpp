@@ -1,0 +1,67 @@
+// Sizes for seas that have no shore, or hardly any.
+#include "gis/size/size_choice.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gis/coast/segment_tags.hpp"
+#include "tests/support/followed_coasts.hpp"
+
+namespace coastmesh {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kSide = 40e3;
+
+// A square of 40 km with open sides.
+Domain openBox() {
+  Domain domain;
+  addShore(domain, {{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}});
+  for (Segment& s : domain.pslg.segments) s.tag = kOpenTag;
+  return domain;
+}
+
+SizeOptions chosenFor(const Domain& domain) {
+  SizeOptions options;
+  options.choose = true;
+  const SizeOptions chosen = chooseSizes(options, {}, domain, inOrder);
+  constexpr double kMany = 1e6;
+  const double vertices = makeSizeFunction(chosen, {}, domain, kMany, inOrder).demand.vertices;
+  EXPECT_GT(vertices, 18e3);
+  EXPECT_LT(vertices, 50e3);
+  return chosen;
+}
+
+TEST(SizeChoice, WithoutAShoreOneSizeIsChosen) {
+  const SizeOptions chosen = chosenFor(openBox());
+  EXPECT_EQ(chosen.shore_m, SizeOptions::kNone);
+  EXPECT_NEAR(chosen.size_m, kSide / 160.0, kSide / 800.0);  // 30,000 vertices
+  const std::string text = sizesAsOptions(chosen);
+  EXPECT_THAT(text, HasSubstr("--size "));
+  EXPECT_THAT(text, Not(HasSubstr("--size-shore")));
+  EXPECT_THAT(text, Not(HasSubstr("inf")));
+}
+
+TEST(SizeChoice, AnIsletIsNotMeshedToTheGrain) {
+  Domain domain = openBox();
+  const Point at{0.3 * kSide, 0.6 * kSide};
+  addRing(domain, at, 50.0, 8, true);
+  const SizeOptions chosen = chosenFor(domain);
+  EXPECT_GE(chosen.shore_m, 1.0);
+  EXPECT_LT(chosen.shore_m, 100.0);
+  EXPECT_LT(chosen.most_m, kSide / 20.0);  // the sea has the others
+  EXPECT_GT(chosen.most_m, kSide / 200.0);
+}
+
+TEST(SizeChoice, AStraightShoreDecides) {
+  Domain domain = openBox();
+  domain.pslg.segments[0].tag = 0;
+  const SizeOptions chosen = chosenFor(domain);
+  EXPECT_EQ(chosen.most_m, kSide / 20.0);
+  EXPECT_NEAR(chosen.shore_m, kSide / 4000.0, kSide / 8000.0);
+}
+
+}  // namespace
+}  // namespace coastmesh
