@@ -22,6 +22,7 @@
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/check_target.hpp"
+#include "gis/model/impossible_depths.hpp"
 #include "gis/model/node_meets.hpp"
 #include "gis/model/triangle_overlaps.hpp"
 
@@ -219,6 +220,8 @@ int runCheck(const CheckUsage& usage, Run& run) {
     layer->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(rows)}); });
   }
   outputs.commit();
+  if (const auto impossible = impossibleDepths(grid))
+    run.warn(textOf(*impossible, grid) + ": they stand for places without a depth, or are wrong");
   if (!usage.quiet) printDefects(usage, grid, check.bounds, rows);
   return std::ranges::any_of(rows, isDefect) ? kExitShort : kExitDone;
 }

@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "gis/coast/feature_names.hpp"
 #include "gis/model/fill_depths.hpp"
+#include "gis/model/impossible_depths.hpp"
 #include "gis/model/sample_average.hpp"
 #include "gis/model/sample_raster.hpp"
 
@@ -142,27 +144,32 @@ std::string gapWarning(const Grid& grid, const DepthOptions& options) {
          "; give another --bathymetry that covers them";
 }
 
-// The deepest place of the sea is 10.9 km deep, the highest mountain 8.8 km high. What is beyond are numbers that stand
-// for no value, in a raster that does not say so; empty where there are none.
+// Numbers that stand for no value, in a raster that does not say so; empty where there are none.
 std::string impossibleWarning(const Grid& grid, const DepthOptions& options) {
-  constexpr double kDeepest = -12'000.0, kHighest = 9'000.0;
-  const auto isImpossible = [](double z) { return z < kDeepest || z > kHighest; };
-  const auto count = std::ranges::count_if(grid.z, isImpossible);
-  if (count == 0 || grid.crs.isPlane()) return {};
-  const auto worst = std::ranges::max_element(grid.z, [](double a, double b) {
-    const auto size = [](double z) { return std::isnan(z) ? 0.0 : std::abs(z); };
-    return size(a) < size(b);
-  });
-  const double raised = *worst + options.water_level_m, value = options.positive_down ? 0.0 - raised : raised;
-  char texts[2][120];
-  std::snprintf(texts[0], sizeof texts[0], "%td of %zu nodes have depths that do not occur on Earth, such as %.10g m",
-                count, grid.nodes.size(), 0.0 - *worst);
-  std::snprintf(texts[1], sizeof texts[1], "gdal_translate -a_nodata %.10g", value);
-  const Point& place = grid.nodes[static_cast<std::size_t>(worst - grid.z.begin())];
-  return texts[0] + (" at (" + roughPlaceInWords(place)) +
-         "): where a raster has such a value for places without one, "
-         "it has to say so (" +
-         texts[1] + "); nodes near to one lie between it and depths";
+  if (grid.crs.isPlane()) return {};
+  const std::optional<ImpossibleDepths> found = impossibleDepths(grid);
+  if (!found) return {};
+  const double raised = grid.z[found->worst] + options.water_level_m;
+  char text[120];
+  std::snprintf(text, sizeof text, "gdal_translate -a_nodata %.10g", options.positive_down ? 0.0 - raised : raised);
+  return textOf(*found, grid) + ": where a raster has such a value for places without one, it has to say so (" + text +
+         "); nodes near to one lie between it and depths";
+}
+
+// Where most nodes lie above the water: why that may be. `z` is that of all nodes.
+std::string dryWarning(std::vector<double> z, std::size_t dry, const DepthOptions& options) {
+  std::string text = std::to_string(dry) + " of " + std::to_string(z.size()) + " nodes lie above the water";
+  const std::string by_sign = options.positive_down ? "do the rasters hold elevations, positive up? See --depth-sign"
+                                                    : "do the rasters hold depths, positive down? See --depth-sign";
+  std::erase_if(z, [](double height) { return std::isnan(height); });
+  std::ranges::sort(z);
+  // But for a few, which may be anything.
+  const double lowest = z[z.size() / 50], highest = z[z.size() - 1 - z.size() / 50];
+  if (!(lowest > highest - lowest)) return text + "; " + by_sign;
+  char heights[120];
+  std::snprintf(heights, sizeof heights, ", nearly all of them between %.4g and %.4g m above it", lowest, highest);
+  return text + heights +
+         ": a lake's surface may be that high above the rasters' zero; give it with --water-level. Or " + by_sign;
 }
 
 void measure(const Grid& grid, DepthReport& report) {
@@ -211,18 +218,13 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   if (options.fill == DepthFill::Neighbours) report.filled = fillFromNeighbours(grid, loop);
   if (options.fill == DepthFill::Nearest) report.filled = fillFromNearest(grid, loop);
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));
+  if (2 * dry > grid.nodes.size() && known > 0) report.warnings.push_back(dryWarning(grid.z, dry, options));
   for (double& z : grid.z) {
     if (!(z > 0.0 - options.min_depth_m)) continue;
     z = 0.0 - options.min_depth_m;
     ++report.lowered;
   }
   measure(grid, report);
-  if (2 * dry > grid.nodes.size() && known > 0)
-    report.warnings.push_back(std::to_string(dry) + " of " + std::to_string(grid.nodes.size()) +
-                              " nodes lie above the water; " +
-                              (options.positive_down ? "do the rasters hold elevations, positive up?"
-                                                     : "do the rasters hold depths, positive down?") +
-                              " See --depth-sign");
   return report;
 }
 

@@ -62,6 +62,13 @@ TEST_F(Check, NodesThatDoNotHangTogether) {
   EXPECT_THAT(seam.output, HasSubstr("repeated node: 5"));
 }
 
+TEST_F(Check, DepthsThatEarthDoesNotHaveAreWarnedOf) {
+  const ProgramRun run = runProgram({"check", sheets("deep.14", {{0, 0}}, -99999.0)});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.errors, HasSubstr("25 of 25 nodes have depths that do not occur on Earth, such as -99999 m"));
+  EXPECT_EQ(runProgram({"check", sheets("sea.14", {{0, 0}}, 10900.0)}).errors, "");
+}
+
 TEST_F(Check, TimeStepsNeedDepths) {
   for (const double depth : {0.0, -3.0}) {
     const ProgramRun run = runProgram({"check", sheets("dry.14", {{0, 0}}, depth), "--time-step", "10"});

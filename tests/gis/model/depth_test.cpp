@@ -327,6 +327,21 @@ TEST_F(Depth, WarnsOfTheWrongSign) {
   EXPECT_THAT(setDepths(grid, {{depths}}).warnings[0], HasSubstr("--depth-sign"));
 }
 
+// Heights of a lake's bed are all far above the rasters' zero; depths given as heights begin at it.
+TEST_F(Depth, WarnsOfALakeAboveTheRastersZero) {
+  Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 8, 8);
+  const auto warningsOf = [&](const char* name, double least) {
+    const auto heights = raster(name, "EPSG:4326", {60, 60, 8.0, 54.0, 0.1},
+                                [least](double x, double) { return least + 40.0 * (x - 10.0); });
+    return setDepths(grid, {{heights}}).warnings;
+  };
+  const std::vector<std::string> lake = warningsOf("lake.tif", 1050.0), sea = warningsOf("sea.tif", 0.0);
+  EXPECT_THAT(lake, ElementsAre(::testing::AllOf(HasSubstr("between 1050 and 1130 m"), HasSubstr("--water-level"),
+                                                 HasSubstr("--depth-sign"))));
+  EXPECT_THAT(sea,
+              ElementsAre(::testing::AllOf(HasSubstr("--depth-sign"), ::testing::Not(HasSubstr("--water-level")))));
+}
+
 TEST_F(Depth, TellsWhatCannotBeUsed) {
   Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 2, 2);
   EXPECT_THROW(setDepths(grid, {{folder_ / "none.tif"}}), InputError);
