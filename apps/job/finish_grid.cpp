@@ -82,6 +82,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
 
 std::string finishSummary(const FinishOptions& options, const FinishReport& report) {
   std::string text;
+  for (const std::string& note : report.depth.notes) text += note + "\n";
   if (!options.depth.files.empty()) {
     char line[160];
     const bool any = std::ranges::any_of(report.depth.nodes_of_file, [](std::size_t nodes) { return nodes > 0; });
@@ -143,6 +144,7 @@ std::string depthSection(const FinishOptions& options, const FinishReport& repor
   return Json{{"method", kDepthMethodNames[static_cast<std::size_t>(options.depth.method)]},
               {"positive", options.depth.positive_down ? "down" : "up"},
               {"files", std::move(files)},
+              {"notes", depth.notes},
               {"averaged", depth.averaged},
               {"partial", depth.partial},
               {"filled", depth.filled},

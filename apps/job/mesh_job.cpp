@@ -433,6 +433,8 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   if (finish.boundaries.of_input.empty()) finish.boundaries.of_input = input.boundaries();
   if (!finish.boundaries.of_files) finish.boundaries.of_files = readBoundaryFiles(finish.boundaries);
   SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
+  for (const RasterGeometry& raster : sizes.rasters)
+    result.read.notes.insert(result.read.notes.end(), raster.notes.begin(), raster.notes.end());
   RasterHelpers rasters(job.mesh.helpers, RunControl{control.cancelled, {}});
   sizes.readers = rasters.readers();
   finish.depth.readers = rasters.pixelReaders();

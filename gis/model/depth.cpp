@@ -38,6 +38,9 @@ class ValueSearch {
 
   void take(std::size_t file, const RunControl& control) {
     const RasterBand raster(options_.files[file]);
+    raster.requireEvenFiles();
+    const std::vector<std::string>& notes = raster.geometry().notes;
+    report_.notes.insert(report_.notes.end(), notes.begin(), notes.end());
     if (raster.crs().isPlane() && !grid_.crs.isPlane())
       report_.warnings.push_back("'" + raster.path() + "' has no CRS; taken to be in that of the mesh, " +
                                  nameOf(grid_.crs));

@@ -50,6 +50,7 @@ struct DepthReport {
   std::size_t above_water = 0;
   double least_m = 0.0;  // depth, positive down; of known nodes
   double greatest_m = 0.0;
+  std::vector<std::string> notes;  // what was made of what the rasters say of their places and values
   std::vector<std::string> warnings;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -13,6 +14,8 @@
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/raster/length_unit.hpp"
+#include "gis/raster/raster_axes.hpp"
 #include "gis/raster/raster_mosaic.hpp"
 
 namespace coastmesh {
@@ -33,6 +36,25 @@ std::string subdatasetHint(GDALDataset& dataset) {
   char** const list = dataset.GetMetadata("SUBDATASETS");
   const char* const first = CSLFetchNameValue(list, "SUBDATASET_1_NAME");
   return first == nullptr ? "" : "; name one of its parts, such as " + std::string(first);
+}
+
+// Why GDAL gives the raster no geotransform, and what to do.
+std::string placelessText(GDALDataset& dataset, const std::optional<RasterAxes>& axes) {
+  if (CSLFetchNameValue(dataset.GetMetadata("GEOLOCATION"), "X_DATASET") != nullptr)
+    return " has a curvilinear grid, with a longitude and a latitude for each pixel; make it a grid of even rows and "
+           "columns with gdalwarp -t_srs EPSG:4326";
+  if (axes)
+    return " has axes of which GDAL makes no geotransform: '" + axes->columns.name + "' and '" + axes->rows.name +
+           "' are too unevenly spaced, or do not say what they are; resample it to even rows and columns, in degrees "
+           "or "
+           "with a CRS";
+  return " does not say where its pixels lie (no geotransform); warp it with gdalwarp";
+}
+
+std::string numberText(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", number);
+  return text;
 }
 
 }  // namespace
@@ -97,14 +119,21 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   raster.is_single = type == GDT_Float32;
   raster.scale = raster.band->GetScale();
   raster.offset = raster.band->GetOffset();
-  std::array<double, 6>& to_place = geometry_.to_place;
-  if (raster.dataset->GetGeoTransform(to_place.data()) != CE_None ||
-      !GDALInvGeoTransform(to_place.data(), geometry_.to_pixel.data()))
-    throw InputError("'" + name + "' does not say where its pixels lie (no geotransform); warp it with gdalwarp");
+  const std::string unit = oneLine(raster.band->GetUnitType(), 60);
+  const std::optional<double> metres = metresInUnit(unit);
+  if (!metres)
+    throw InputError("'" + name + "': the unit of its values is '" + unit +
+                     "', which is no length; if they are in metres, have the file say so (gdal_edit.py -units m, or "
+                     "ncatted for netCDF)");
+  if (*metres != 1.0) {
+    raster.scale *= *metres;
+    raster.offset *= *metres;
+    geometry_.notes.push_back("'" + name + "' is in " + unit + ": its values are multiplied by " + numberText(*metres));
+  }
   geometry_.columns = raster.dataset->GetRasterXSize();
   geometry_.rows = raster.dataset->GetRasterYSize();
-  geometry_.crs = fromOgr(raster.dataset->GetSpatialRef());
-
+  readPlaces(errors.text());
+  const std::array<double, 6>& to_place = geometry_.to_place;
   int& block_columns = geometry_.block_columns;
   int& block_rows = geometry_.block_rows;
   raster.band->GetBlockSize(&block_columns, &block_rows);
@@ -122,6 +151,51 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   }
 }
 
+// Where the pixels lie. `told` is what GDAL told when it opened the file.
+void RasterBand::readPlaces(const std::string& told) {
+  GDALDataset& dataset = *dataset_->dataset;
+  const std::string& name = geometry_.path;
+  const std::optional<RasterAxes> axes = axesOf(dataset);
+  if (axes && axes->columns.isLatitude() && axes->rows.isLongitude())
+    throw InputError("'" + name + "': its rows are along '" + axes->rows.name + "' and its columns along '" +
+                     axes->columns.name + "'; exchange these dimensions, as with ncpdq -a " + axes->columns.name + "," +
+                     axes->rows.name);
+  std::array<double, 6>& to_place = geometry_.to_place;
+  if (dataset.GetGeoTransform(to_place.data()) != CE_None ||
+      !GDALInvGeoTransform(to_place.data(), geometry_.to_pixel.data()))
+    throw InputError("'" + name + "'" + placelessText(dataset, axes));
+  geometry_.crs = fromOgr(dataset.GetSpatialRef());
+  if (axes) {
+    geometry_.uneven_columns = UnevenAxis::from(axes->columns, to_place[1], name);
+    geometry_.uneven_rows = UnevenAxis::from(axes->rows, to_place[5], name);
+    if (geometry_.crs.isPlane() && axes->columns.isLongitude() && axes->rows.isLatitude()) {
+      geometry_.crs = wgs84();
+      geometry_.notes.push_back("'" + name + "' has axes in degrees and no CRS; taken to be in " +
+                                nameOf(geometry_.crs));
+    }
+  } else if (told.find("not spaced evenly") != std::string::npos) {
+    throw InputError("'" + name +
+                     "': its rows or columns are not evenly spaced, and GDAL does not tell where they are (" + told +
+                     "); resample it to even ones");
+  }
+}
+
+void RasterBand::requireEvenFiles() const {
+  const OgrErrors errors;
+  const char* const drivers[] = {"netCDF", nullptr};
+  for (const std::string& file : filesOf(*dataset_->dataset)) {
+    const Dataset source{GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers)};
+    double step[6];
+    if (source.dataset == nullptr || source.dataset->GetRasterCount() == 0 ||
+        source.dataset->GetGeoTransform(step) != CE_None)
+      continue;
+    const std::optional<RasterAxes> axes = axesOf(*source.dataset);
+    if (axes && (UnevenAxis::from(axes->columns, step[1], file) || UnevenAxis::from(axes->rows, step[5], file)))
+      throw InputError("'" + path() + "' is made of '" + file +
+                       "', whose rows or columns are not evenly spaced, as those of a VRT are; give that file itself");
+  }
+}
+
 RasterUse RasterBand::use() const {
   RasterUse use{dataset_->bytes_read, {}};
   for (std::size_t f = 0; f < dataset_->is_read.size(); ++f)
@@ -132,14 +206,20 @@ RasterUse RasterBand::use() const {
 RasterBand::~RasterBand() = default;
 RasterBand::RasterBand(RasterBand&&) noexcept = default;
 
-RasterGeometry readRasterGeometry(const std::string& path) { return RasterBand(path).geometry(); }
+RasterGeometry readRasterGeometry(const std::string& path) {
+  const RasterBand band(path);
+  band.requireEvenFiles();
+  return band.geometry();
+}
 
 Point RasterGeometry::placeOf(const Point& pixel) const {
   const std::array<double, 6>& to = to_place;
-  return {to[0] + to[1] * pixel.x + to[2] * pixel.y, to[3] + to[4] * pixel.x + to[5] * pixel.y};
+  const double column = uneven_columns ? uneven_columns->evenOf(pixel.x) : pixel.x,
+               row = uneven_rows ? uneven_rows->evenOf(pixel.y) : pixel.y;
+  return {to[0] + to[1] * column + to[2] * row, to[3] + to[4] * column + to[5] * row};
 }
 
-Point RasterGeometry::pixelOf(const Point& place) const {
+Point RasterGeometry::evenPixelOf(const Point& place) const {
   const std::array<double, 6>& to = to_pixel;
   Point pixel{to[0] + to[1] * place.x + to[2] * place.y, to[3] + to[4] * place.x + to[5] * place.y};
   const double width = columns;

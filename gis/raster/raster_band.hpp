@@ -9,6 +9,7 @@
 
 #include "core/point.hpp"
 #include "gis/crs/crs.hpp"
+#include "gis/raster/raster_axes.hpp"
 
 namespace coastmesh {
 
@@ -32,14 +33,22 @@ struct RasterGeometry {
   bool is_exact = true;                        // a pixel is the same in any window
   std::array<double, 6> to_place{};            // GDAL's geotransform
   std::array<double, 6> to_pixel{};            // its inverse
-  Crs crs;                                     // a plane if the raster has none
-  double period = 0.0;                         // columns after which longitudes repeat: 360 degrees; 0 for other CRS
-  bool wraps = false;                          // the last column meets the first, to half a pixel
+  std::shared_ptr<const UnevenAxis> uneven_columns, uneven_rows;  // null: evenly spaced, as the geotransform says
+  Crs crs;                                                        // a plane if the raster has none
+  double period = 0.0;             // columns after which longitudes repeat: 360 degrees; 0 for other CRS
+  bool wraps = false;              // the last column meets the first, to half a pixel
+  std::vector<std::string> notes;  // what was made of what the file says of its places and values
 
   // A place of the raster's CRS in columns and rows, from the corner of the first pixel; longitudes in the raster's
   // range.
-  Point pixelOf(const Point& place) const;
+  Point pixelOf(const Point& place) const { return fromEven(evenPixelOf(place)); }
   Point placeOf(const Point& pixel) const;
+  // In two steps, the first of which is smooth: as if columns and rows were evenly spaced, and as they are.
+  Point evenPixelOf(const Point& place) const;
+  Point fromEven(const Point& even) const {
+    return {uneven_columns ? uneven_columns->pixelOf(even.x) : even.x,
+            uneven_rows ? uneven_rows->pixelOf(even.y) : even.y};
+  }
 };
 
 // What was read of a raster: bytes of its pixels, unpacked, in their type, including repeated reads; and the files that
@@ -54,7 +63,8 @@ struct RasterUse {
   }
 };
 
-// Throws InputError like `RasterBand`.
+// Throws InputError like `RasterBand`, and for a VRT of netCDF files whose pixels are not evenly spaced, as the VRT has
+// them: this is asked once, before a raster is read.
 RasterGeometry readRasterGeometry(const std::string& path);
 
 // The first band of a raster that GDAL reads, window by window. For one thread. Only this class reads rasters, so that
@@ -62,7 +72,8 @@ RasterGeometry readRasterGeometry(const std::string& path);
 // a mask (of the band, of the raster, an alpha band).
 class RasterBand {
  public:
-  // Throws InputError, also for a raster without georeference, and for complex numbers.
+  // Throws InputError, also for a raster without georeference, for complex numbers, and for values whose unit is no
+  // length.
   explicit RasterBand(std::string path);
   ~RasterBand();
   RasterBand(RasterBand&&) noexcept;
@@ -80,15 +91,18 @@ class RasterBand {
   std::int64_t tileColumns() const { return tile_columns_; }
   std::int64_t tileRows() const { return tile_rows_; }
 
-  // The window's values row by row, with scale and offset applied, NaN where missing. Columns beyond either end wrap
-  // around if `wraps()`. REQUIRES: otherwise the window is in the raster. Throws InputError.
+  // The window's values row by row, in metres, with scale and offset applied, NaN where missing. Columns beyond either
+  // end wrap around if `wraps()`. REQUIRES: otherwise the window is in the raster. Throws InputError.
   std::vector<double> read(const RasterWindow& window) const;
+  // Throws InputError for a VRT of files whose pixels are not evenly spaced.
+  void requireEvenFiles() const;
   // What was read so far.
   RasterUse use() const;
 
  private:
   struct Dataset;
 
+  void readPlaces(const std::string& told);
   void readInto(const RasterWindow& window, double* values, std::int64_t stride) const;
 
   RasterGeometry geometry_;

@@ -67,11 +67,32 @@ std::vector<int> cutsAlong(const std::vector<Placed>& placed, int end, int Pixel
   return cuts;
 }
 
+void addNetcdfParts(const CPLXMLNode* node, std::vector<std::string>& parts) {
+  for (; node != nullptr; node = node->psNext) {
+    const char* const file = isSource(node) ? CPLGetXMLValue(node, "SourceFilename", "") : "";
+    if (std::string_view(file).starts_with("NETCDF:")) parts.emplace_back(file);
+    addNetcdfParts(node->psChild, parts);
+  }
+}
+
 }  // namespace
 
 bool isVirtual(GDALDataset& dataset) {
   GDALDriver* const driver = dataset.GetDriver();
   return driver != nullptr && std::string_view(driver->GetDescription()) == "VRT";
+}
+
+std::vector<std::string> filesOf(GDALDataset& dataset) {
+  std::vector<std::string> files;
+  if (!isVirtual(dataset)) return files;
+  char** const list = dataset.GetFileList();
+  for (int i = 0; list != nullptr && list[i] != nullptr; ++i)
+    if (std::string_view(list[i]) != dataset.GetDescription()) files.emplace_back(list[i]);
+  CSLDestroy(list);
+  char** const text = dataset.GetMetadata("xml:VRT");
+  const Xml xml(text == nullptr || text[0] == nullptr ? nullptr : CPLParseXMLString(text[0]));
+  addNetcdfParts(xml.get(), files);
+  return files;
 }
 
 std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset) {

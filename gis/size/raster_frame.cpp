@@ -13,23 +13,6 @@ namespace coastmesh {
 
 namespace {
 
-// The pixels that a box of the working plane lies in, from places all over it, with some around; empty where the raster
-// does not reach.
-Box pixelsIn(const Box& box, const PlaneTable& to_pixel) {
-  constexpr int kProbes = 64;
-  Box pixels;
-  for (int j = 0; j <= kProbes; ++j) {
-    for (int i = 0; i <= kProbes; ++i) {
-      const Point p =
-          to_pixel.at({box.xmin + (box.xmax - box.xmin) * i / kProbes, box.ymin + (box.ymax - box.ymin) * j / kProbes});
-      if (std::isfinite(p.x) && std::isfinite(p.y)) pixels.add(p);
-    }
-  }
-  if (pixels.empty()) return pixels;
-  return pixels.grownBy(2.0 + std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) / kProbes);
-}
-
-// Cut along the edges of the files that the raster is put together of: each tile is of one of them.
 std::vector<int> startsBetween(const std::vector<int>& cuts) {
   std::vector<int> starts;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
@@ -37,11 +20,19 @@ std::vector<int> startsBetween(const std::vector<int>& cuts) {
   return starts;
 }
 
+// Along the edges of the files that the raster is put together of: each tile is of one of them; and where pixels become
+// larger or smaller: those of a tile have one size.
+std::vector<int> cutsOf(const RasterGeometry& raster, std::vector<int> PixelCuts::*of_files,
+                        const std::shared_ptr<const UnevenAxis>& uneven) {
+  if (raster.mosaic) return (*raster.mosaic).cuts.*of_files;
+  return uneven ? uneven->cuts(kTile) : std::vector<int>{};
+}
+
 }  // namespace
 
-TileAxis::TileAxis(int pixels, const std::vector<int>* cuts) : pixels_(pixels) {
-  if (cuts == nullptr) return;
-  starts_ = startsBetween(*cuts);
+TileAxis::TileAxis(int pixels, const std::vector<int>& cuts) : pixels_(pixels) {
+  if (cuts.empty()) return;
+  starts_ = startsBetween(cuts);
   tile_of_.resize(static_cast<std::size_t>(pixels));
   for (std::size_t t = 0; t < starts_.size(); ++t)
     std::fill(tile_of_.begin() + starts_[t],
@@ -51,19 +42,19 @@ TileAxis::TileAxis(int pixels, const std::vector<int>* cuts) : pixels_(pixels) {
 RasterFrame::RasterFrame(const RasterGeometry& of, const Crs& input, const Projection& projection, const Box& box,
                          const ItemLoop& loop)
     : raster(of),
-      columns(of.columns, of.mosaic ? &of.mosaic->cuts.columns : nullptr),
-      rows(of.rows, of.mosaic ? &of.mosaic->cuts.rows : nullptr) {
+      columns(of.columns, cutsOf(of, &PixelCuts::columns, of.uneven_columns)),
+      rows(of.rows, cutsOf(of, &PixelCuts::rows, of.uneven_rows)) {
   // From the working plane to the raster's own coordinates: both CRS, where there are two.
   std::optional<CrsMap> map;
   if (!raster.crs.isPlane() && !input.isPlane() && !sameCrs(raster.crs, input))
     map.emplace(toOgr(input), toOgr(raster.crs));
-  const auto pixelOf = [of, map, projection](const Point& x) {
+  const auto evenPixelOf = [of, map, projection](const Point& x) {
     const Point ground = projection.inverse(x);
-    return of.pixelOf(map ? map->forward(ground) : ground);
+    return of.evenPixelOf(map ? map->forward(ground) : ground);
   };
   constexpr double kPixelTolerance = 0.1;
-  to_pixel = std::make_unique<PlaneTable>(pixelOf, box, kPixelTolerance);
-  findWindow(pixelsIn(box, *to_pixel));
+  to_even_pixel_ = std::make_unique<PlaneTable>(evenPixelOf, box, kPixelTolerance);
+  findWindow(pixelsIn(box));
   const auto planeOf = [&](const Point& pixel) {
     const Point ground = raster.placeOf(pixel);
     return projection.forward(map ? map->inverse(ground) : ground);
@@ -88,6 +79,21 @@ RasterFrame::RasterFrame(const RasterGeometry& of, const Crs& input, const Proje
     }
   };
   forStretches(loop, places.size(), place, kWorthAStretch);
+}
+
+// From places all over the box, with some around.
+Box RasterFrame::pixelsIn(const Box& box) const {
+  constexpr int kProbes = 64;
+  Box pixels;
+  for (int j = 0; j <= kProbes; ++j) {
+    for (int i = 0; i <= kProbes; ++i) {
+      const Point p =
+          pixelOf({box.xmin + (box.xmax - box.xmin) * i / kProbes, box.ymin + (box.ymax - box.ymin) * j / kProbes});
+      if (std::isfinite(p.x) && std::isfinite(p.y)) pixels.add(p);
+    }
+  }
+  if (pixels.empty()) return pixels;
+  return pixels.grownBy(2.0 + std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) / kProbes);
 }
 
 // The tiles that hold these pixels; none where none do.

@@ -19,8 +19,8 @@ namespace coastmesh {
 // How the columns of a raster, or its rows, are shared out to tiles.
 class TileAxis {
  public:
-  // Between `cuts` tiles begin anew; null: there are none.
-  TileAxis(int pixels, const std::vector<int>* cuts);
+  // Between `cuts`, from 0 to the end, tiles begin anew; empty: there are none.
+  TileAxis(int pixels, const std::vector<int>& cuts);
 
   int pixels() const { return pixels_; }
   // REQUIRES: pixel >= 0. What lies beyond the last pixel is in the last tile, as far as that would go.
@@ -49,10 +49,11 @@ struct RasterFrame {
 
   RasterGeometry raster;
   TileAxis columns, rows;
-  std::unique_ptr<PlaneTable> to_pixel;
   std::array<int, 4> window{};    // of the tiles: first column and row, and the ends
   std::vector<TilePlace> places;  // in rows; pixels without a size lie where the working plane does not reach
 
+  // A place of the working plane.
+  Point pixelOf(const Point& place) const { return raster.fromEven(to_even_pixel_->at(place)); }
   bool has(int column, int row) const {
     return column >= window[0] && row >= window[1] && column < window[2] && row < window[3];
   }
@@ -62,7 +63,11 @@ struct RasterFrame {
   }
 
  private:
+  // The pixels that a box of the working plane lies in; empty where the raster does not reach.
+  Box pixelsIn(const Box& box) const;
   void findWindow(const Box& pixels);
+
+  std::unique_ptr<PlaneTable> to_even_pixel_;
 };
 
 }  // namespace coastmesh

@@ -54,7 +54,7 @@ void RasterField::sample(std::span<const Point> places, std::span<double> sizes)
   for (std::size_t i = 0; i < places.size(); ++i) {
     sizes[i] = kInfinity;
     if (tiles_.empty()) continue;
-    const Point p = frame_->to_pixel->at(places[i]);
+    const Point p = frame_->pixelOf(places[i]);
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
     // Half a pixel beyond the last centres, the nearest counts.
     if (!frame_->raster.wraps && (p.x < 0.0 || p.x > frame_->raster.columns)) continue;
@@ -153,7 +153,7 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
     // Corners, middles and the centre; what the sides bulge between them is small, and a share of the box is added for
     // it.
     for (int k = 0; k < 9; ++k) {
-      const Point p = frame_->to_pixel->at(boxes[i].centre + boxes[i].half * Point{k % 3 - 1.0, k / 3 - 1.0});
+      const Point p = frame_->pixelOf(boxes[i].centre + boxes[i].half * Point{k % 3 - 1.0, k / 3 - 1.0});
       known &= std::isfinite(p.x) && std::isfinite(p.y);
       if (known) pixels.add(p);
     }
