@@ -16,7 +16,7 @@ struct Unit {
 // Names of UDUNITS, EPSG, GDAL's drivers and GMT.
 constexpr Unit kUnits[] = {
     {1.0, "||1|-|none|unknown|unspecified|n/a|z|user_z_unit|"},
-    {1.0, "|m|m.|mt|mtr|mtrs|meter|meters|metre|metres|"},
+    {1.0, "|m|m.|mt|mtr|mtrs|masl|meter|meters|metre|metres|meter(s)|metre(s)|"},
     {1000.0, "|km|kilometer|kilometers|kilometre|kilometres|"},
     {0.1, "|dm|decimeter|decimeters|decimetre|decimetres|"},
     {0.01, "|cm|centimeter|centimeters|centimetre|centimetres|"},
@@ -51,16 +51,21 @@ std::optional<double> metresIn(std::string_view plain) {
 
 // Whether it says from where, or which way, lengths are measured, after their unit; as against "m s-1".
 bool saysFromWhere(std::string_view rest) {
-  constexpr std::string_view kBeginnings[] = {
-      "above", "below",  "over", "under",  "relative", "msl",  "lat",  "mllw",  "mlw",   "positive", "depth",
-      "deep",  "height", "navd", "(above", "(below",   "(msl", "(lat", "(mllw", "(navd", "(positive"};
+  constexpr std::string_view kBeginnings[] = {"above", "below",  "over", "under", "relative", "positive", "depth",
+                                              "deep",  "height", "down", "up",    "asl",      "bsl",      "msl",
+                                              "lat",   "mllw",   "mlw",  "mhw",   "mhhw",     "navd",     "ngvd",
+                                              "nap",   "nhn",    "ahd",  "igld",  "egm",      "chart"};
+  if (rest.starts_with('(')) rest.remove_prefix(1);
   return std::ranges::any_of(kBeginnings, [&](std::string_view word) { return rest.starts_with(word); });
 }
 
 }  // namespace
 
 std::optional<double> metresInUnit(std::string_view name) {
-  const std::string plain = inPlainLetters(name);
+  std::string plain = inPlainLetters(name);
+  if (plain.size() > 2 &&
+      ((plain.front() == '[' && plain.back() == ']') || (plain.front() == '(' && plain.back() == ')')))
+    plain = plain.substr(1, plain.size() - 2);
   if (const auto whole = metresIn(plain)) return whole;
   for (std::size_t blank = plain.find(' '); blank != std::string::npos; blank = plain.find(' ', blank + 1)) {
     std::string_view unit = std::string_view(plain).substr(0, blank);

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
@@ -49,6 +50,16 @@ std::string placelessText(GDALDataset& dataset, const std::optional<RasterAxes>&
            "or "
            "with a CRS";
   return " does not say where its pixels lie (no geotransform); warp it with gdalwarp";
+}
+
+// Of the band, else of heights in the CRS; with its length in metres.
+std::pair<std::string, std::optional<double>> unitOf(GDALDataset& dataset, GDALRasterBand& band) {
+  std::string unit = oneLine(band.GetUnitType(), 60);
+  const OGRSpatialReference* const crs = dataset.GetSpatialRef();
+  if (!unit.empty() || crs == nullptr || crs->IsCompound() == 0) return {unit, metresInUnit(unit)};
+  const char* name = nullptr;
+  const double metres = crs->GetTargetLinearUnits("VERT_CS", &name);
+  return {name == nullptr ? "" : name, metres};
 }
 
 std::string numberText(double number) {
@@ -119,8 +130,7 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   raster.is_single = type == GDT_Float32;
   raster.scale = raster.band->GetScale();
   raster.offset = raster.band->GetOffset();
-  const std::string unit = oneLine(raster.band->GetUnitType(), 60);
-  const std::optional<double> metres = metresInUnit(unit);
+  const auto [unit, metres] = unitOf(*raster.dataset, *raster.band);
   if (!metres)
     throw InputError("'" + name + "': the unit of its values is '" + unit +
                      "', which is no length; if they are in metres, have the file say so (gdal_edit.py -units m, or "
@@ -183,8 +193,9 @@ void RasterBand::readPlaces(const std::string& told) {
 void RasterBand::requireEvenFiles() const {
   const OgrErrors errors;
   const char* const drivers[] = {"netCDF", nullptr};
-  for (const std::string& file : filesOf(*dataset_->dataset)) {
-    const Dataset source{GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers)};
+  for (const std::string& file : netcdfFilesOf(*dataset_->dataset)) {
+    Dataset source;
+    source.dataset = GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers);
     double step[6];
     if (source.dataset == nullptr || source.dataset->GetRasterCount() == 0 ||
         source.dataset->GetGeoTransform(step) != CE_None)

@@ -67,6 +67,12 @@ std::vector<int> cutsAlong(const std::vector<Placed>& placed, int end, int Pixel
   return cuts;
 }
 
+// There may be thousands of tiles, which may be far away: others are not looked at.
+bool isNamedAsNetcdf(const char* file) {
+  return std::ranges::any_of(std::initializer_list<const char*>{"nc", "nc4", "cdf", "grd"},
+                             [file](const char* extension) { return EQUAL(CPLGetExtension(file), extension); });
+}
+
 void addNetcdfParts(const CPLXMLNode* node, std::vector<std::string>& parts) {
   for (; node != nullptr; node = node->psNext) {
     const char* const file = isSource(node) ? CPLGetXMLValue(node, "SourceFilename", "") : "";
@@ -82,12 +88,12 @@ bool isVirtual(GDALDataset& dataset) {
   return driver != nullptr && std::string_view(driver->GetDescription()) == "VRT";
 }
 
-std::vector<std::string> filesOf(GDALDataset& dataset) {
+std::vector<std::string> netcdfFilesOf(GDALDataset& dataset) {
   std::vector<std::string> files;
   if (!isVirtual(dataset)) return files;
   char** const list = dataset.GetFileList();
   for (int i = 0; list != nullptr && list[i] != nullptr; ++i)
-    if (std::string_view(list[i]) != dataset.GetDescription()) files.emplace_back(list[i]);
+    if (isNamedAsNetcdf(list[i])) files.emplace_back(list[i]);
   CSLDestroy(list);
   char** const text = dataset.GetMetadata("xml:VRT");
   const Xml xml(text == nullptr || text[0] == nullptr ? nullptr : CPLParseXMLString(text[0]));

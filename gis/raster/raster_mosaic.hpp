@@ -65,8 +65,8 @@ struct RasterMosaic {
 
 // Whether it is a VRT: a recipe for pixels of other files, which may be warped or scaled.
 bool isVirtual(GDALDataset& dataset);
-// The files that a VRT names, as far as they exist, and parts of netCDF files; nothing of other rasters.
-std::vector<std::string> filesOf(GDALDataset& dataset);
+// The netCDF files, by the ends of their names, and their parts that a VRT is made of; nothing of other rasters.
+std::vector<std::string> netcdfFilesOf(GDALDataset& dataset);
 // Of the first band; null where the raster is none, or does not say so.
 std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset);
 

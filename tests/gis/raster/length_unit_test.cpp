@@ -22,8 +22,9 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(LengthUnit, NamesOfLengths) {
-  for (const char* const name : {"", "m", "M", "metre", "meters", " Metres ", "1", "user_z_unit", "unknown",
-                                 "m above MSL", "meters, positive up", "metres (above LAT)", "m relative to sea level"})
+  for (const char* const name :
+       {"", "m", "M", "metre", "meters", " Metres ", "1", "user_z_unit", "unknown", "m above MSL",
+        "meters, positive up", "metres (above LAT)", "m relative to sea level", "[m]", "m NAP", "meter(s)"})
     EXPECT_EQ(metresInUnit(name), 1.0) << name;
   EXPECT_EQ(metresInUnit("km"), 1000.0);
   EXPECT_EQ(metresInUnit("cm"), 0.01);
@@ -35,17 +36,23 @@ TEST(LengthUnit, NamesOfLengths) {
 }
 
 TEST(LengthUnit, OthersAreNone) {
-  for (const char* const name : {"m/s", "m s-1", "m2", "kg", "degrees", "K", "hPa", "db", "|", "m|km", "above", "days"})
+  for (const char* const name : {"m/s", "m s-1", "m2", "kg", "degrees", "K", "hPa", "db", "|", "m|km", "above", "days",
+                                 "[m/s]", "m day-1", "[]"})
     EXPECT_EQ(metresInUnit(name), std::nullopt) << name;
 }
 
 // Three pixels of whole numbers with a scale, an offset and a value for none.
-std::string writeUnits(const std::string& path, const char* unit) {
+std::string writeUnits(const std::string& path, const char* unit, const char* crs = nullptr) {
   GDALAllRegister();
   GDALDataset* const dataset =
       GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 3, 1, 1, GDT_Int16, nullptr);
   double transform[6] = {0.0, 1.0, 0.0, 1.0, 0.0, -1.0};
   dataset->SetGeoTransform(transform);
+  if (crs != nullptr) {
+    OGRSpatialReference srs;
+    srs.SetFromUserInput(crs);
+    dataset->SetSpatialRef(&srs);
+  }
   GDALRasterBand* const band = dataset->GetRasterBand(1);
   band->SetUnitType(unit);
   band->SetScale(0.5);
@@ -68,6 +75,10 @@ TEST(LengthUnit, ValuesOfRastersAreInMetres) {
   EXPECT_DOUBLE_EQ(values[0], -5000.0);
   EXPECT_TRUE(std::isnan(values[1]));
   EXPECT_DOUBLE_EQ(values[2], 12000.0);
+  // Of which only the CRS tells the unit.
+  const RasterBand heights(writeUnits(folder / "feet.tif", "", "EPSG:4326+6360"));
+  EXPECT_THAT(heights.geometry().notes, ElementsAre(HasSubstr("US survey foot")));
+  EXPECT_NEAR(heights.read({0, 0, 1, 1}).front(), -5.0 * 1200.0 / 3937.0, 1e-9);
   try {
     readRasterGeometry(writeUnits(folder / "heat.tif", "Celsius"));
     FAIL();
