@@ -31,9 +31,9 @@ auto partsOf(auto& cell) requires std::is_same_v<std::remove_cvref_t<decltype(ce
 // All but the wanted lengths.
 auto partsOf(auto& options) requires std::is_same_v<std::remove_cvref_t<decltype(options)>, RefineOptions> {
   auto& [min_angle_deg, max_angle_deg, size_max, algorithm, max_vertices, most_in_memory, size, resolution, goal,
-         surface, size_scale] = options;
+         surface, least_edge, size_scale] = options;
   return std::tie(min_angle_deg, max_angle_deg, size_max, algorithm, max_vertices, most_in_memory, resolution, goal,
-                  surface, size_scale);
+                  surface, least_edge, size_scale);
 }
 
 namespace {

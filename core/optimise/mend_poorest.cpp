@@ -149,6 +149,23 @@ bool Optimiser::isWorthTrying(const Trial& trial) {
   return sum > kLeastRemoved * wanted_[u] * static_cast<double>(star_.size());
 }
 
+// Cuts a subsegment of the input in its middle. Returns false where that cannot be.
+bool Optimiser::halveSegment(EdgeRef e) {
+  const SegmentId seg = mesh_.segment(e);
+  if (seg >= pslg_.segments.size()) return false;
+  const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+  const Segment& whole = pslg_.segments[seg];
+  const Point x =
+      projectedOnLine(midpoint(mesh_.point(a), mesh_.point(b)), pslg_.points[whole.a], pslg_.points[whole.b]);
+  touched_.clear();
+  const VertexId middle = mesh_.splitSegment(e, x, touched_);
+  if (middle == kNone) return false;
+  noteAdded(middle);
+  wanted_[a] = wantedAt(a);
+  wanted_[b] = wantedAt(b);
+  return true;
+}
+
 // Does to the first triangle of a patch what is to be tried. Returns false where that cannot be.
 bool Optimiser::change(const Trial& trial) {
   constexpr TriId kFirst = 0;
@@ -173,21 +190,10 @@ bool Optimiser::change(const Trial& trial) {
       noteAdded(mesh_.insertInCavity(x, cavity, touched_));
       return true;
     }
-    case Change::Split: {
-      const EdgeRef e = edgeRef(kFirst, trial.corner);
-      const SegmentId seg = mesh_.segment(e);
-      if (seg >= pslg_.segments.size()) return false;
-      const VertexId a = mesh_.origin(e), b = mesh_.target(e);
-      const Segment& whole = pslg_.segments[seg];
-      const Point x =
-          projectedOnLine(midpoint(mesh_.point(a), mesh_.point(b)), pslg_.points[whole.a], pslg_.points[whole.b]);
-      const VertexId middle = mesh_.splitSegment(e, x, touched_);
-      if (middle == kNone) return false;
-      noteAdded(middle);
-      wanted_[a] = wantedAt(a);
-      wanted_[b] = wantedAt(b);
-      return true;
-    }
+    case Change::Split:
+      return halveSegment(edgeRef(kFirst, trial.corner));
+    case Change::RemoveShort:
+      return takeOutShort();
   }
   return false;
 }
@@ -247,12 +253,10 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
     if (std::isnan(known_shortest)) known_shortest = std::min(kShort, as_it_is.shortestShare());
     return known_shortest;
   };
-  // Pieces of a mesh cannot know what is left of a budget that they share.
-  const bool is_free_to_grow = options_.max_vertices > std::numeric_limits<std::uint64_t>::max() / 2;
   for (const Trial& trial : kTrials) {
     if (!as_it_is.isWorthTrying(trial)) continue;
     const bool grows = trial.change == Change::Insert || trial.change == Change::Split;
-    if (grows && !is_free_to_grow) continue;
+    if (grows && !isFreeToGrow()) continue;
     Optimiser other(patch, *this);
     if (!other.change(trial)) continue;
     const auto turn = [&](int times) {
@@ -289,17 +293,17 @@ void Optimiser::takePatch(const Submesh& patch, const TriMesh& solved) {
 }
 
 // Returns whether the mesh is another.
-bool Optimiser::mendPlace(TriId t) {
-  const Submesh patch = extractAround(mesh_, {}, {&t, 1}, kRings, patch_numbers_);
+bool Optimiser::mendPlace(TriId t, unsigned rings, BestOfPatch best_of) {
+  const Submesh patch = extractAround(mesh_, {}, {&t, 1}, rings, patch_numbers_);
   if (isHeldByFrozen(patch)) {
     if (is_submesh_) waiting_.insert(waiting_.end(), mesh_.triangle(t).v.begin(), mesh_.triangle(t).v.end());
     return false;
   }
   Change by = Change::None;
-  const std::optional<TriMesh> best = bestOf(patch, by);
+  const std::optional<TriMesh> best = (this->*best_of)(patch, by);
   if (!best) return false;
   takePatch(patch, *best);
-  stats_.removals += by == Change::Remove;
+  stats_.removals += by == Change::Remove || by == Change::RemoveShort;
   stats_.segment_splits += by == Change::Split;
   ++stats_.relocations;
   return true;
@@ -327,7 +331,7 @@ void Optimiser::mendPoorest(const RunControl& control, double share) {
     if (!mesh_.isLive(next.triangle) || mesh_.triangle(next.triangle).v != next.corners) continue;
     --left;
     --most;
-    if (!mendPlace(next.triangle)) continue;
+    if (!mendPlace(next.triangle, kRings, &Optimiser::bestOf)) continue;
     left += kMoreForGain;
     for (const TriId t : touched_)
       if (mesh_.isLive(t)) add(t);

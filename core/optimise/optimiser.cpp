@@ -83,6 +83,7 @@ void Optimiser::run(int sweeps, const RunControl& control) {
   if (size_ == nullptr) return;  // as few vertices as can be is what is wanted
   mendPoorest(control, shareOf(sweeps));
   for (int k = sweeps; k < all; ++k) sweep(false, false, control, shareOf(k), shareOf(k + 1));
+  if (options_.least_edge > 0.0) mendShortEdges(control, 1.0);
 }
 
 void Optimiser::sweep(bool merges, bool balances, const RunControl& control, double from, double to) {

@@ -22,7 +22,7 @@ namespace coastmesh {
 inline constexpr double kPoorShape = 0.9;
 
 // One run over a mesh. optimiser.cpp has the operations at a vertex, mend_poorest.cpp what is tried on triangles that
-// are still poor afterwards.
+// are still poor afterwards, mend_short.cpp what is tried where edges are shorter than the least length.
 class Optimiser {
   static constexpr double kEnoughCentred = 0.035;  // the cotangent of 88 degrees
 
@@ -42,7 +42,7 @@ class Optimiser {
 
  private:
   // An attempt to improve a poor triangle, at one of its corners or at the edge opposite.
-  enum class Change { None, Remove, Insert, Split };
+  enum class Change { None, Remove, Insert, Split, RemoveShort };
   struct Trial {
     Change change = Change::None;
     unsigned corner = 0;
@@ -51,6 +51,11 @@ class Optimiser {
   struct StarCost {
     double sum;          // sum of their costs
     double least_shape;  // quality of the poorest
+  };
+  // What edges fall short of the least length.
+  struct Shortness {
+    double sum;       // in shares of that length
+    double shortest;  // edge
   };
   struct PoorTriangle {
     double shape;
@@ -96,11 +101,25 @@ class Optimiser {
   void wake();
 
   void mendPoorest(const RunControl& control, double share);
-  bool mendPlace(TriId t);
+  // The best of what can be done in a patch, and how it begins; none where nothing gets better.
+  using BestOfPatch = std::optional<TriMesh> (Optimiser::*)(const Submesh&, Change&) const;
+  bool mendPlace(TriId t, unsigned rings, BestOfPatch best_of);
+  void mendShortEdges(const RunControl& control, double share);
+  bool mendShort(const RunControl& control, double share, unsigned rings);
+  std::optional<TriMesh> bestWithoutShort(const Submesh& patch, Change& by) const;
+  double lengthOf(EdgeRef e) const;
+  bool isShort(EdgeRef e) const;
+  Shortness shortness() const;
+  bool takeOutShort();
+  void settle();
+  bool divideWorst();
   std::optional<TriMesh> bestOf(const Submesh& patch, Change& by) const;
   void takePatch(const Submesh& patch, const TriMesh& solved);
   bool isWorthTrying(const Trial& trial);
   bool change(const Trial& trial);
+  bool halveSegment(EdgeRef e);
+  // Pieces of a mesh cannot know what is left of a budget that they share.
+  bool isFreeToGrow() const { return options_.max_vertices > std::numeric_limits<std::uint64_t>::max() / 2; }
   void noteAdded(VertexId v);
   double costOfAll() const;
   double goalOfAll() const;

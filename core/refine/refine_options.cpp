@@ -35,6 +35,8 @@ void requireInRange(const RefineOptions& options) {
           "a finite number of 0 or more");
   require(options.surface.curvature >= 0.0 && std::isfinite(options.surface.curvature), "surface.curvature",
           options.surface.curvature, "a finite number of 0 or more");
+  require(options.least_edge >= 0.0 && std::isfinite(options.least_edge), "least_edge", options.least_edge,
+          "a finite number of 0 or more");
   require(options.size_max > 0.0, "size_max", options.size_max, "above 0");
   require(options.size_scale > 0.0 && std::isfinite(options.size_scale), "size_scale", options.size_scale,
           "a finite number above 0");

@@ -42,6 +42,7 @@ struct RefineOptions {
   double resolution = 0.0;
   QualityGoal goal = QualityGoal::Shape;
   Surface surface = {};     // represented by the plane: all lengths and angles are measured on it
+  double least_edge = 0.0;  // 0 or more: the optimiser avoids shorter edges; used with `size`
   double size_scale = 1.0;  // above 0; factor on the requested lengths, for intermediate steps
 };
 

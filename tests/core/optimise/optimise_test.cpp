@@ -267,6 +267,54 @@ TEST(Optimise, KeepsAFineCoastAndItsAngles) {
   expectValidMesh(mesh, pslg);
 }
 
+// A shore of steps as long as the size wanted, by angles that change from step to step.
+Pslg steppedShore() {
+  Pslg pslg;
+  Point at{0.0, 0.0};
+  for (int i = 0; i < 60; ++i) {
+    pslg.points.push_back(at);
+    const double angle = 1.1 * std::sin(2.3 * i) + 0.4 * std::cos(5.1 * i);
+    at = at + Point{std::cos(angle), std::sin(angle)};
+  }
+  const double right = pslg.points.back().x;
+  pslg.points.push_back({right, 12.0});
+  pslg.points.push_back({0.0, 12.0});
+  for (VertexId v = 0; v < pslg.points.size(); ++v)
+    pslg.segments.push_back({v, static_cast<VertexId>((v + 1) % pslg.points.size())});
+  return pslg;
+}
+
+TEST(Optimise, TriesToLeaveNoEdgesShorterThanTheLeast) {
+  const Pslg pslg = steppedShore();
+  const ConstantSize size(1.0);
+  constexpr double kLeast = 0.7;
+  for (const double largest : {180.0, 90.0}) {
+    SCOPED_TRACE(largest);
+    const auto shortWith = [&](double least_edge) {
+      const RefineOptions options{.max_angle_deg = largest,
+                                  .size = &size,
+                                  .goal = largest > 90.0 ? QualityGoal::Shape : QualityGoal::Centred,
+                                  .least_edge = least_edge};
+      TriMesh mesh = refined(pslg, options);
+      const RefineStats stats = optimise(mesh, pslg, options, kOptimiseSweeps);
+      EXPECT_TRUE(stats.unresolved.empty());
+      expectValidMesh(mesh, pslg, {.min_angle_deg = 33.0, .max_angle_deg = largest});
+      std::vector<double> lengths;
+      for (TriId t = 0; t < mesh.triangles.size(); ++t)
+        for (unsigned i = 0; i < 3; ++i)
+          if (const EdgeRef e = edgeRef(t, i); mesh.twin(e) == kNone || e < mesh.twin(e))
+            if (const double d = distance(mesh.points[mesh.origin(e)], mesh.points[mesh.target(e)]); d < kLeast)
+              lengths.push_back(d);
+      std::ranges::sort(lengths);
+      return lengths;
+    };
+    const std::vector<double> without = shortWith(0.0), with = shortWith(kLeast);
+    ASSERT_FALSE(without.empty());
+    EXPECT_LE(2 * with.size(), without.size());
+    EXPECT_GE(with.empty() ? kLeast : with.front(), without.front());
+  }
+}
+
 TEST(Optimise, WithoutSizesEvensAnglesOut) {
   const Pslg pslg = fractalCoast(1, 3, 2);
   const RefineOptions options{.min_angle_deg = 30.0};

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <utility>
+
+#include "core/optimise/optimiser.hpp"
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Patches grow from pass to pass: most edges are helped in small ones, at less cost.
+constexpr std::array kRings = {2U, 3U, 2U, 4U};
+// In a patch every vertex gets so many turns without bounds on angles, and so many with them. Up to so many vertices
+// are added where triangles miss the bounds still.
+constexpr int kTurns = 5, kTurnsWithin = 2, kMostAdded = 6;
+// What edges fall short by, as a share of the least length, counts this many times as much as triangles cost; a patch
+// is taken where it gains so much of it.
+// Edges shorter than this share of the least length count so many times more.
+constexpr double kFarTooShort = 0.8, kSevere = 10.0;
+constexpr double kShortWeight = 10.0, kLeastGain = 0.01;
+// So many patches are tried in a pass for each edge that is too short, and as a share of the triangles.
+constexpr double kMostForEdge = 3.0, kMostPatches = 0.1;
+
+}  // namespace
+
+double Optimiser::lengthOf(EdgeRef e) const {
+  return bound_.surface.chord(mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.target(e)));
+}
+
+// Whether an edge is shorter than the least length and may become another: not where the input has it so.
+bool Optimiser::isShort(EdgeRef e) const {
+  const auto isGiven = [&](VertexId v) { return mesh_.kind(v) == VertexKind::Input; };
+  if (mesh_.isConstrained(e) && isGiven(mesh_.origin(e)) && isGiven(mesh_.target(e))) return false;
+  return lengthOf(e) < options_.least_edge;
+}
+
+Optimiser::Shortness Optimiser::shortness() const {
+  Shortness all{0.0, std::numeric_limits<double>::infinity()};
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    for (unsigned i = 0; i < 3 && mesh_.isLive(t); ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (const EdgeRef twin = mesh_.twin(e); twin != kNone && twin < e) continue;
+      const double length = lengthOf(e);
+      const double share = length / options_.least_edge;
+      all.sum += std::max(0.0, 1.0 - share) + kSevere * std::max(0.0, kFarTooShort - share);
+      all.shortest = std::min(all.shortest, length);
+    }
+  }
+  return all;
+}
+
+// Takes out of a patch what lies at edges that are too short. Returns false where nothing does.
+bool Optimiser::takeOutShort() {
+  std::vector<VertexId> out;
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    for (unsigned i = 0; i < 3 && mesh_.isLive(t); ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (!isShort(e)) continue;
+      for (const VertexId v : {mesh_.origin(e), mesh_.target(e)})
+        if (mesh_.kind(v) != VertexKind::Input) out.push_back(v);
+    }
+  }
+  std::ranges::sort(out);
+  out.erase(std::ranges::unique(out).begin(), out.end());
+  bool any = false;
+  for (const VertexId v : out) any = ops_.removeAnyway(v, touched_) || any;
+  return any;
+}
+
+// Moves the vertices of a patch: for costs alone first, since a way to good triangles may lead past bad ones.
+void Optimiser::settle() {
+  const auto turn = [this](int times) {
+    std::ranges::fill(active_, 1);
+    for (int k = 0; k < times; ++k) sweep(false, false, {}, 0.0, 1.0);
+  };
+  const TriangleBound bound = bound_;
+  const double clear_shape = std::exchange(clear_shape_, 0.0);
+  const bool flips_may_harm = std::exchange(flips_may_harm_, false);
+  bound_ = TriangleBound(0.0, 180.0, std::numeric_limits<double>::infinity());
+  bound_.surface = bound.surface;
+  turn(kTurns);
+  bound_ = bound;
+  clear_shape_ = clear_shape;
+  flips_may_harm_ = flips_may_harm;
+  turn(kTurnsWithin);
+}
+
+// Adds a vertex in the middle of the longest edge of the poorest triangle of a patch that misses the bounds. Returns
+// false where there is none, or its edge is the patch's rim.
+bool Optimiser::divideWorst() {
+  double least = std::numeric_limits<double>::infinity();
+  TriId worst = kNone;
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
+    if (!mesh_.isLive(t)) continue;
+    const Corners& v = mesh_.triangle(t).v;
+    if (!isBad(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), bound_)) continue;
+    const double shape = shapeOfTriangle(t);
+    if (shape >= least) continue;
+    least = shape;
+    worst = t;
+  }
+  if (worst == kNone) return false;
+  EdgeRef longest = edgeRef(worst, 0);
+  for (const unsigned i : {1U, 2U})
+    if (lengthOf(edgeRef(worst, i)) > lengthOf(longest)) longest = edgeRef(worst, i);
+  if (mesh_.segment(longest) == kFrozen) return false;
+  if (mesh_.isConstrained(longest)) return halveSegment(longest);
+  const Point middle = midpoint(mesh_.point(mesh_.origin(longest)), mesh_.point(mesh_.target(longest)));
+  Patch cavity;
+  if (!mesh_.findCavity(middle, worst, cavity)) return false;
+  touched_.clear();
+  noteAdded(mesh_.insertInCavity(middle, cavity, touched_));
+  return true;
+}
+
+// The best of a patch with its vertices moved, one or all of those at short edges taken out, and others put in where
+// that is what bounds take.
+std::optional<TriMesh> Optimiser::bestWithoutShort(const Submesh& patch, Change& by) const {
+  constexpr std::array kTrials = {Trial{Change::Remove, 0}, Trial{Change::Remove, 1}, Trial{Change::Remove, 2},
+                                  Trial{Change::None}, Trial{Change::RemoveShort}};
+  std::optional<TriMesh> best;
+  const Optimiser as_it_is(patch, *this);
+  const double cost = as_it_is.costOfAll();
+  if (std::isinf(cost)) return best;
+  const Shortness before = as_it_is.shortness();
+  const double held = as_it_is.goalOfAll();
+  double least = kShortWeight * before.sum + cost;
+  for (const Trial& trial : kTrials) {
+    Optimiser other(patch, *this);
+    if (!other.change(trial)) continue;
+    other.settle();
+    for (int k = 0; k < kMostAdded && isFreeToGrow() && other.divideWorst(); ++k) other.settle();
+    const Shortness then = other.shortness();
+    if (then.sum > before.sum - kLeastGain || then.shortest < std::min(before.shortest, options_.least_edge)) continue;
+    const double total = kShortWeight * then.sum + other.costOfAll();
+    if (!(total < least) || other.goalOfAll() < held) continue;
+    TriMesh solved = other.release();
+    if (wouldFlip(patch, solved)) continue;
+    least = total;
+    by = trial.change;
+    best = std::move(solved);
+  }
+  return best;
+}
+
+// One pass, the shortest edges first, in patches of so many rings. Returns whether any are left.
+bool Optimiser::mendShort(const RunControl& control, double share, unsigned rings) {
+  struct ShortEdge {
+    double length;
+    TriId triangle;
+    Corners corners;
+  };
+  std::deque<ShortEdge> queue;
+  const auto add = [&](TriId t) {
+    const Corners& v = mesh_.triangle(t).v;
+    if (std::ranges::none_of(v, [this](VertexId w) { return isDue(w); })) return;
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (const EdgeRef twin = mesh_.twin(e); twin != kNone && twin < e) continue;
+      if (isShort(e)) queue.push_back({lengthOf(e), t, v});
+    }
+  };
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
+    if (mesh_.isLive(t)) add(t);
+  std::ranges::sort(queue, {}, [](const ShortEdge& e) { return std::pair(e.length, e.triangle); });
+  double left = std::min(kMostForEdge * static_cast<double>(queue.size()), kMostPatches * mesh_.triangleSlots());
+  while (left >= 1.0 && !queue.empty()) {
+    control.checkpoint(share);
+    const ShortEdge next = queue.front();
+    queue.pop_front();
+    if (!mesh_.isLive(next.triangle) || mesh_.triangle(next.triangle).v != next.corners) continue;
+    --left;
+    if (!mendPlace(next.triangle, rings, &Optimiser::bestWithoutShort)) continue;
+    for (const TriId t : touched_)
+      if (mesh_.isLive(t)) add(t);
+  }
+  for (TriId t = 0; t < mesh_.triangleSlots() && queue.empty(); ++t)
+    if (mesh_.isLive(t)) add(t);
+  return !queue.empty();
+}
+
+// Tries, where edges are shorter than the least length, what moving and merging vertices one by one cannot do.
+void Optimiser::mendShortEdges(const RunControl& control, double share) {
+  for (const unsigned rings : kRings)
+    if (!mendShort(control, share, rings)) return;
+}
+
+}  // namespace coastmesh
