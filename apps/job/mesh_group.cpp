@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "apps/job/places.hpp"
+#include "apps/job/step_outcome.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "core/delaunay.hpp"
 #include "core/refine/check.hpp"
@@ -21,6 +22,7 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/follow/coast_follow.hpp"
+#include "gis/follow/least_edges.hpp"
 #include "gis/format/poly_io.hpp"
 #include "gis/model/make_grid.hpp"
 #include "gis/model/mark_regions.hpp"
@@ -137,6 +139,10 @@ MeshOptions optionsFor(const GroupTask& task, const Domain& domain, SurfaceKind 
       std::min(static_cast<double>(kMostVertices), room.memory / bytesPerVertex(job, surface).least));
   // A place that is no number has no resolution; what triangulates says which it is.
   if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
+  // Where the coast is kept the data say how long edges are.
+  if (job.sizes.least_m > 0.0 && job.sizes.any() && job.sizes.coast == CoastDetail::Follow)
+    options.refine.least_edge =
+        StepOutcome::kUsualShare * job.sizes.least_m * domain.projection.measureAt(centreOf(domain.pslg));
   if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
     options.refine.size_max = job.sizes.most_m;
     options.refine.size_max *= domain.projection.measureAt(centreOf(domain.pslg));
@@ -231,19 +237,26 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
 // replaced.
 template <typename MakeSizes>
 Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
-                   const ShoreGuides& guides, const Coastline& coastline, CleanReport& report, FollowStart start,
-                   const ItemLoop& loop) {
+                   const EdgeWishes& wishes, const ShoreGuides& guides, const Coastline& coastline, CleanReport& report,
+                   FollowStart start, const ItemLoop& loop) {
   constexpr double kSame = 1.05, kSameAtShores = 1.15;  // between the places that they are known at sizes are off
+  const auto lengthen = [&](Domain&& followed, const SizeFunction& size) {
+    if (wishes.least_m <= 0.0) return std::move(followed);
+    return lengthenShores(std::move(followed), wishes, size, coastline, report, loop);
+  };
   start.rate = sized.rate, start.shore_m = sized.shore_m;
   Domain followed = followSizes(Domain(domain), *sized.function, options, coastline, report, guides, loop, start);
+  followed = lengthen(std::move(followed), *sized.function);
   DomainSizes again = makeSizes(followed, SizeAccuracy::Fine);
   const SizeGrowth growth = growthOf(followed.pslg, *sized.function, *again.function, loop);
   if (growth.shore > kSameAtShores) {
     report = {};
     start.rate = again.rate, start.shore_m = again.shore_m;
     followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides, loop, start);
+    followed = lengthen(std::move(followed), *again.function);
   } else if (growth.elsewhere > kSame) {
     followed = coarsenFurther(std::move(followed), *again.function, coastline, report);
+    followed = lengthen(std::move(followed), *again.function);
   }
   sized = std::move(again);
   return followed;
@@ -323,12 +336,16 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     return makeSizeFunction(wanted, sizes, of, most, loop, accuracy);
   };
   const bool follows = job.sizes.coast == CoastDetail::Follow;
+  constexpr double kShoreMargin = 1.02;  // lengths in the plane are not quite those on the ground
+  constexpr double kNotObtuseDeg = 90.0;
   DomainSizes sized;
   if (!follows) {
     sized = makeSizes(domain, SizeAccuracy::Fine);
   } else {
     const FollowOptions follow = followOptionsOf(job);
     const double area_m2 = result.input_area_m2 ? *result.input_area_m2 : geodesicArea(domain, Crs{});
+    const EdgeWishes wishes{kShoreMargin * StepOutcome::kUsualShare * job.sizes.least_m,
+                            job.mesh.refine.max_angle_deg <= kNotObtuseDeg};
     const ShoreGuides guides{projected(sizes.passages, domain.projection),
                              projected(sizes.barriers, domain.projection)};
     CleanReport coarser, followed;
@@ -336,7 +353,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     if (const double least = leastWanted(wanted, sizes); least > 0.0)
       domain = thinToLeast(std::move(domain), least, follow, input.coastline(), guides, coarser, start, loop);
     sized = makeSizes(domain, SizeAccuracy::Rough);
-    domain = followShore(std::move(domain), sized, makeSizes, follow, guides, input.coastline(), followed,
+    domain = followShore(std::move(domain), sized, makeSizes, follow, wishes, guides, input.coastline(), followed,
                          std::move(start), loop);
     coarser.append(std::move(followed));
     std::ranges::move(coarser.notes, std::back_inserter(result.notes));

@@ -39,8 +39,8 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
                "edge length everywhere, unless another option requests less");
   table
       .number({"--size-min", "Minimum size"}, sizes.least_m, "M", kNotNegative,
-              "no size is smaller; shorter edges are reported, with exit code 1 if --coast follow leaves one shorter "
-              "than half of it")
+              "no size is smaller; with --coast follow edges shorter than 0.7 of it are avoided, "
+              "at the shore too; those left are reported, with exit code 1 if one is shorter than half of it")
       .needs(kSizes);
   table.number({"--size-max", "Maximum size"}, sizes.most_m, "M", kAboveZero,
                "no size is larger; without any other size, no edge is longer");

@@ -136,6 +136,7 @@ VertexId cutAfter(ShoreChains& chains, VertexId v, const Point& x, double size) 
   chains.open.push_back(0);
   chains.alive.push_back(1);
   chains.size.push_back(size);
+  if (!chains.least.empty()) chains.least.push_back(chains.least[v]);
   chains.next[v] = chains.prev[q] = made;
   return made;
 }

@@ -25,6 +25,10 @@ struct ShoreChains {
   std::vector<Segment> lines;        // what is no boundary
   // Ends of these, the lower first, in order.
   std::vector<std::pair<VertexId, VertexId>> line_ends{};
+  // At each vertex, where that is more than half of the size: no segment is to be shorter, and water wider by some.
+  // Empty: the size alone says it.
+  std::vector<double> least{};
+  bool no_square_ends = false;  // ends of water about as wide as the size are to be pointed or round
 };
 
 // Called before a vertex is taken out, and before it is moved to a place.

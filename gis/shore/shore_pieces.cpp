@@ -1,6 +1,7 @@
 #include "gis/shore/shore_pieces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,12 @@ namespace {
 // Lengths are shares of the size wanted.
 constexpr double kShort = 0.5;
 constexpr double kNarrow = 0.5;
+constexpr double kWide = 1.4;  // of the least length: in narrower water triangles with such edges are hard to find
+// Two corners of the water between these angles, so near to each other, make the end of it square: triangles without
+// obtuse angles take a vertex in its middle, and with it much shorter edges.
+constexpr double kSquareLow = toRadians(62.0), kSquareHigh = toRadians(140.0), kSquareSide = 1.5;
+constexpr double kClearlySquare = toRadians(10.0);  // so far between them, for the quality of a square end:
+constexpr double kSquareEnd = 0.7;
 constexpr double kLittleMore = 1.0 + 1e-9;  // rounding
 const double kSharp = std::pow(std::cos(kSmallShoreAngle), 2) * (1.0 - 1e-9);
 
@@ -35,6 +42,14 @@ double apartInWater(const Point& y, const Point& a, const Point& b) {
 }
 
 }  // namespace
+
+double ShorePieces::shortestAt(VertexId v) const {
+  return c_.least.empty() ? kShort * c_.size[v] : std::max(kShort * c_.size[v], c_.least[v]);
+}
+
+double ShorePieces::narrowestAt(VertexId v) const {
+  return c_.least.empty() ? kNarrow * c_.size[v] : std::max(kNarrow * c_.size[v], kWide * c_.least[v]);
+}
 
 void ShorePieces::buildTrees() {
   std::vector<Box> points, segments;
@@ -66,7 +81,7 @@ void ShorePieces::gather(VertexId v, double reach) {
   const VertexId p = c_.prev[v], q = c_.next[v];
   Box box = Box::of(c_.at[p], c_.at[q]);
   box.add(c_.at[v]);
-  box = box.grownBy((kNarrow + reach) * c_.size[v]);
+  box = box.grownBy(narrowestAt(v) + reach * c_.size[v]);
   trees_->points.visit(box, [&](std::uint32_t i) { points_.push_back(trees_->loose[i]); });
   trees_->segments.visit(box, [&](std::uint32_t s) {
     const auto& [from, to] = segments_.emplace_back(trees_->ends[s]);
@@ -85,7 +100,8 @@ double ShorePieces::qualityOf(VertexId v, const std::optional<Point>& x) const {
   const Point &a = c_.at[p], &b = c_.at[q];
   double quality = 1.0;
   const auto take = [&](double share) { quality = std::min(quality, share); };
-  const auto takeLength = [&](const Point& from, const Point& to) { take(distance(from, to) / (kShort * c_.size[v])); };
+  const double shortest = shortestAt(v);
+  const auto takeLength = [&](const Point& from, const Point& to) { take(distance(from, to) / shortest); };
   const auto takeAngle = [&](const Point& from, const Point& at, const Point& to) {
     take(waterAngle(from, at, to) / kSmallShoreAngle);
   };
@@ -99,7 +115,8 @@ double ShorePieces::qualityOf(VertexId v, const std::optional<Point>& x) const {
     if (pp != kNone) takeAngle(c_.at[pp], a, b);
     if (qq != kNone) takeAngle(a, b, c_.at[qq]);
   }
-  const double least = kNarrow * c_.size[v];
+  take(qualityOfEnds(v, x));
+  const double least = narrowestAt(v);
   for (const VertexId w : points_) {
     if (w == v || w == p || w == q || !c_.alive[w]) continue;
     const Point& y = c_.at[w];
@@ -120,10 +137,31 @@ double ShorePieces::qualityOf(VertexId v, const std::optional<Point>& x) const {
   return quality;
 }
 
+double ShorePieces::qualityOfEnds(VertexId v, const std::optional<Point>& x) const {
+  if (!c_.no_square_ends) return 1.0;
+  const VertexId p = c_.prev[v], q = c_.next[v], pp = c_.prev[p], qq = c_.next[q];
+  std::array<Point, 5> way;
+  std::size_t count = 0;
+  if (pp != kNone) way[count++] = c_.at[pp];
+  way[count++] = c_.at[p];
+  if (x) way[count++] = *x;
+  way[count++] = c_.at[q];
+  if (qq != kNone) way[count++] = c_.at[qq];
+  double most = 0.0;
+  const auto squareness = [&](std::size_t i) {
+    const double angle = waterAngle(way[i - 1], way[i], way[i + 1]);
+    return std::clamp(std::min(angle - kSquareLow, kSquareHigh - angle) / kClearlySquare, 0.0, 1.0);
+  };
+  for (std::size_t i = 1; i + 2 < count; ++i)
+    if (distance(way[i], way[i + 1]) < kSquareSide * c_.size[v])
+      most = std::max(most, std::min(squareness(i), squareness(i + 1)));
+  return 1.0 - (1.0 - kSquareEnd) * most;
+}
+
 bool ShorePieces::isFine(VertexId v) const {
   const VertexId p = c_.prev[v], q = c_.next[v], pp = c_.prev[p], qq = c_.next[q];
   const Point &a = c_.at[p], &x = c_.at[v], &b = c_.at[q];
-  const double shortest = kLittleMore * kShort * c_.size[v], least = kLittleMore * kNarrow * c_.size[v];
+  const double shortest = kLittleMore * shortestAt(v), least = kLittleMore * narrowestAt(v);
   if (std::min(squaredDistance(a, x), squaredDistance(x, b)) < shortest * shortest) return false;
   const auto isSharp = [&](const Point& from, const Point& at, const Point& to) {
     const Point in = from - at, out = to - at;
@@ -132,6 +170,7 @@ bool ShorePieces::isFine(VertexId v) const {
   };
   if (isSharp(a, x, b) || (pp != kNone && isSharp(c_.at[pp], a, x)) || (qq != kNone && isSharp(x, b, c_.at[qq])))
     return false;
+  if (qualityOfEnds(v, x) < 1.0) return false;
   const Box first = Box::of(a, x).grownBy(least), second = Box::of(x, b).grownBy(least);
   const auto isOwn = [&](VertexId w) { return w == v || w == p || w == q; };
   // Across the water.

@@ -49,6 +49,12 @@ class ShorePieces {
   double apart(VertexId v, const Point& x) const;
 
  private:
+  // What a segment at v is to be no shorter than, and water no narrower.
+  double shortestAt(VertexId v) const;
+  double narrowestAt(VertexId v) const;
+  // v's piece with v at x or taken out, and its neighbours beyond: up to five places in a row.
+  double qualityOfEnds(VertexId v, const std::optional<Point>& x) const;
+
   struct Trees {
     std::vector<std::pair<VertexId, VertexId>> ends;
     std::vector<VertexId> loose;  // ends of nothing

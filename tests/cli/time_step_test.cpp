@@ -218,6 +218,24 @@ TEST_F(TimeStep, SizeMinThatTheCoastUndercutsIsSaid) {
   }
 }
 
+TEST_F(TimeStep, SizeMinHoldsForEdgesWhereTheCoastFollows) {
+  for (const std::string quality : {"shape", "centred"}) {
+    SCOPED_TRACE(quality);
+    const ProgramRun run = runProgram({"mesh", raggedSea(), "-o", file("bay.2dm"), "--report", file("r.json"),
+                                       "--overwrite", "--size-shore", "1000", "--size-min", "1000", "--size-max",
+                                       "9000", "--coast", "follow", "--quality", quality});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    const Json report = Json::parse(readText(file("r.json")));
+    const Json undercut = report.at("step").at("size_min");
+    EXPECT_FALSE(undercut.at("missed").get<bool>());
+    EXPECT_LT(undercut.at("shorter").get<double>(), 0.01 * report.at("mesh").at("vertices").get<double>());
+    EXPECT_EQ(report.at("mesh").at("below_bound"), 0);
+    EXPECT_LE(report.at("mesh").at("max_angle_deg").get<double>(), quality == "centred" ? 90.0 : 120.0);
+    const double meshed = report.at("mesh").at("area_m2"), given = report.at("input").at("area_m2");
+    EXPECT_NEAR(meshed / given, 1.0, 0.005);
+  }
+}
+
 // Edges spread round the size: where that is --size-min everywhere, those a little shorter are no reason to warn.
 TEST_F(TimeStep, SizeMinIsNotUndercutByTheUsualSpreadOfEdges) {
   const std::string square = write("square.geojson", geoJsonPolygons({{{{0, 0}, {0.2, 0}, {0.2, 0.2}, {0, 0.2}}}}));
