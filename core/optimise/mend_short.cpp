@@ -19,9 +19,9 @@ constexpr std::array kRings = {2U, 3U, 2U, 4U};
 constexpr int kTurns = 5, kTurnsWithin = 2, kMostAdded = 6;
 // What edges fall short by, as a share of the least length, counts this many times as much as triangles cost; a patch
 // is taken where it gains so much of it.
-// Edges shorter than this share of the least length count so many times more.
-constexpr double kFarTooShort = 0.8, kSevere = 10.0;
 constexpr double kShortWeight = 10.0, kLeastGain = 0.01;
+// What edges fall short of this share of the least length counts so many times more.
+constexpr double kFarTooShort = 0.8, kSevere = 10.0;
 // So many patches are tried in a pass for each edge that is too short, and as a share of the triangles.
 constexpr double kMostForEdge = 3.0, kMostPatches = 0.1;
 
