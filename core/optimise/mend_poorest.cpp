@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <utility>
@@ -236,6 +237,14 @@ double Optimiser::shortestShare() const {
   return least;
 }
 
+double Optimiser::longestEdge() const {
+  double longest = 0.0;
+  for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
+    for (unsigned i = 0; i < 3 && mesh_.isLive(t); ++i)
+      longest = std::max(longest, squaredLengthOf(mesh_.origin(edgeRef(t, i)), mesh_.target(edgeRef(t, i))));
+  return std::sqrt(longest);
+}
+
 // The best of what can be tried in a patch, if any is better than what is there.
 std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const {
   constexpr std::array kTrials = {Trial{Change::None},      Trial{Change::Remove, 0},       Trial{Change::Remove, 1},
@@ -253,6 +262,8 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
     if (std::isnan(known_shortest)) known_shortest = std::min(kShort, as_it_is.shortestShare());
     return known_shortest;
   };
+  // Shapes gain from some edges longer than wanted, but nowhere is more wanted than the most.
+  const double longest = std::max(kLongestShare * size_->most(), as_it_is.longestEdge());
   for (const Trial& trial : kTrials) {
     if (!as_it_is.isWorthTrying(trial)) continue;
     const bool grows = trial.change == Change::Insert || trial.change == Change::Split;
@@ -267,6 +278,7 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
     turn((goal_ == QualityGoal::Shape ? kTurns : kTurnsForGoals) - kFirstTurns);
     const double cost = other.costOfAll();
     if (!(cost < least) || other.goalOfAll() < held || other.shortestShare() < shortest()) continue;
+    if (other.longestEdge() > longest) continue;
     TriMesh solved = other.release();
     if (wouldFlip(patch, solved)) continue;
     least = cost;

@@ -124,6 +124,7 @@ class Optimiser {
   double costOfAll() const;
   double goalOfAll() const;
   double shortestShare() const;
+  double longestEdge() const;
   double shapeOfTriangle(TriId t) const;
   bool isPoor(TriId t) const;
   bool isHeldByFrozen(const Submesh& patch) const;

@@ -252,6 +252,34 @@ TEST(Optimise, VerticesSlideAlongSegments) {
   EXPECT_GT(elsewhere, 10u);
 }
 
+double longestEdge(const TriMesh& mesh) {
+  double longest = 0.0;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t)
+    for (unsigned i = 0; i < 3; ++i)
+      longest =
+          std::max(longest, distance(mesh.points[mesh.origin(edgeRef(t, i))], mesh.points[mesh.target(edgeRef(t, i))]));
+  return longest;
+}
+
+// A comb, its teeth ten times as high as wide: vertices of its straight sides are taken out for the triangles' shapes.
+TEST(Optimise, NoEdgeGetsLongerThanAnyMayBe) {
+  Pslg comb;
+  for (int i = 0; i < 12; ++i)
+    for (const Point& p : {Point{0.0, 10.0}, Point{0.0, 0.0}, Point{1.0, 0.0}, Point{1.0, 10.0}})
+      comb.points.push_back(p + Point{2.0 * i, 0.0});
+  comb.points.push_back({23.0, 12.0});
+  comb.points.push_back({0.0, 12.0});
+  const auto count = static_cast<VertexId>(comb.points.size());
+  for (VertexId v = 0; v < count; ++v) comb.segments.push_back({v, (v + 1) % count, 0, 0, kOutside});
+  const ConstantSize size(0.5);
+  const RefineOptions options{.size = &size};
+  TriMesh mesh = refined(comb, options);
+  ASSERT_LE(longestEdge(mesh), kLongestShare * 0.5);
+  const RefineStats stats = optimise(mesh, comb, options, kOptimiseSweeps);
+  EXPECT_GT(stats.removals, 0u);
+  EXPECT_LE(longestEdge(mesh), kLongestShare * 0.5);
+}
+
 TEST(Optimise, KeepsAFineCoastAndItsAngles) {
   const Pslg pslg = fractalCoast(3, 3, 2);
   const SizeOf size(0.2, 0.2, [](const Point&) { return 0.2; });
