@@ -118,7 +118,7 @@ bool holdsOnlyPolygons(const Coastline& coastline, FeatureUse use, const std::st
   });
 }
 
-// The depths of the triangle that some place in it may have, whose nodes were lowered where they were less than `least`.
+// The depths that some place in a triangle may have, whose nodes were lowered where they were less than `least`.
 struct DepthRange {
   double from_m = std::numeric_limits<double>::infinity(), to_m = -from_m;
 
