@@ -4,16 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
-#include <optional>
 #include <ranges>
 #include <string>
 #include <utility>
 
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
-#include "core/size/plane_sizes.hpp"
 #include "gis/coast/segment_tags.hpp"
+#include "gis/follow/domain_shores.hpp"
 #include "gis/follow/follow_notes.hpp"
 #include "gis/follow/passage_sizes.hpp"
 #include "gis/follow/shore_joins.hpp"
@@ -33,63 +31,6 @@ namespace coastmesh {
 namespace {
 
 constexpr double kNoted = 0.005;  // of the area of the water: so near shores need not be moved for
-
-// Sizes as lengths of a domain's plane: that is where shores are measured.
-class SizesInPlane {
- public:
-  SizesInPlane(const SizeFunction& size, const Domain& domain) : wanted_(&size) {
-    const Surface surface = domain.projection.surface();
-    if (!surface.isCurved()) return;
-    Box box;
-    for (const Point& p : domain.pslg.points) box.add(p);
-    in_plane_.emplace(size, surface, Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax});
-  }
-
-  const SizeFunction& get() const { return in_plane_ ? *in_plane_ : *wanted_; }
-
- private:
-  const SizeFunction* wanted_;
-  std::optional<PlaneSizes> in_plane_;
-};
-
-// `before` is what the graph was made of, without its own.
-Domain domainOf(ShoreGraph&& graph, Domain&& before) {
-  Domain made;
-  made.projection = before.projection;
-  made.resolution = before.resolution;
-  made.lines = std::move(before.lines);
-  for (VertexId v = 0; v < graph.source.size(); ++v) {
-    const VertexId source = graph.source[v];
-    made.input_points.push_back(source != kNone ? before.input_points[source]
-                                                : before.projection.inverse(graph.pslg.points[v]));
-  }
-  made.pslg = std::move(graph.pslg);
-  return made;
-}
-
-// Gives the report what was changed.
-struct EditLog {
-  const Domain& domain;
-  const Coastline& coastline;
-  CleanReport& report;
-
-  void add(EditKind kind, const Point& place, RegionId water) const {
-    addInput(kind, domain.projection.inverse(place), water);
-  }
-  // Of a vertex; of those that following had made there is no word.
-  void add(EditKind kind, const ShoreChains& chains, VertexId v) const {
-    if (chains.source[v] != kNone) addInput(kind, domain.input_points[chains.source[v]], chains.leaving[v].left);
-  }
-  void addInput(EditKind kind, const Point& input, RegionId water) const {
-    report.add(kind, input, coastline, static_cast<std::size_t>(water));
-  }
-};
-
-ShoreGraph takeGraph(Domain& domain) {
-  ShoreGraph graph{std::move(domain.pslg), std::vector<VertexId>(domain.input_points.size())};
-  std::iota(graph.source.begin(), graph.source.end(), VertexId{0});
-  return graph;
-}
 
 // Of each point of the domain: whether it is asked for as a vertex.
 std::vector<char> pointsAskedFor(const Domain& domain, const Coastline& coastline) {

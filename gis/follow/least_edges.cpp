@@ -1,13 +1,11 @@
 #include "gis/follow/least_edges.hpp"
 
 #include <cmath>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 #include "core/label_regions.hpp"
 #include "core/metric.hpp"
-#include "core/size/plane_sizes.hpp"
+#include "gis/follow/domain_shores.hpp"
 #include "gis/follow/shore_sizes.hpp"
 #include "gis/projection/scale_table.hpp"
 #include "gis/shore/shore_chains.hpp"
@@ -42,34 +40,19 @@ Domain lengthenShores(Domain&& domain, const EdgeWishes& wishes, const SizeFunct
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
   const ScaleTable scales(domain.projection, box);
-  const Surface surface = domain.projection.surface();
-  std::optional<PlaneSizes> in_plane;
-  if (surface.isCurved()) in_plane.emplace(size, surface, Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax});
-  ShoreGraph graph{std::move(domain.pslg), std::vector<VertexId>(domain.input_points.size())};
-  std::iota(graph.source.begin(), graph.source.end(), VertexId{0});
-  ShoreChains chains = chainsOf(std::move(graph), in_plane ? *in_plane : size, loop);
+  const SizesInPlane in_plane(size, domain);
+  ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get(), loop);
   for (const Point& p : chains.at) chains.least.push_back(wishes.least_m * scales.at(p));
   chains.no_square_ends = wishes.no_square_ends;
-  const auto log = [&](EditKind kind, VertexId v) {
-    if (chains.source[v] == kNone) return;
-    report.add(kind, domain.input_points[chains.source[v]], coastline,
-               static_cast<std::size_t>(chains.leaving[v].left));
-  };
+  const EditLog log{domain, coastline, report};
   WaterAreas areas = areasOf(chains, scales), missing;
-  const ShoreLoss gone = [&](VertexId v) { log(EditKind::SimplifiedPoint, v); };
-  const ShoreMove moved = [&](VertexId v, const Point&) { log(EditKind::MovedPoint, v); };
+  const ShoreLoss gone = [&](VertexId v) { log.add(EditKind::SimplifiedPoint, chains, v); };
+  const ShoreMove moved = [&](VertexId v, const Point&) { log.add(EditKind::MovedPoint, chains, v); };
   mendShores(chains, gone, moved, loop);
   for (const auto& [water, area] : areasOf(chains, scales))
     if (std::abs(area - areas[water]) > kNoted * areas[water]) missing[water] = areas[water] - area;
   if (!missing.empty()) shiftShores(chains, missing, scales, moved);
-  graph = graphOf(std::move(chains));
-  std::vector<Point> input_points;
-  for (VertexId v = 0; v < graph.source.size(); ++v)
-    input_points.push_back(graph.source[v] != kNone ? domain.input_points[graph.source[v]]
-                                                    : domain.projection.inverse(graph.pslg.points[v]));
-  domain.input_points = std::move(input_points);
-  domain.pslg = std::move(graph.pslg);
-  return std::move(domain);
+  return domainOf(graphOf(std::move(chains)), std::move(domain));
 }
 
 }  // namespace coastmesh

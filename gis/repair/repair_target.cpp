@@ -1,6 +1,7 @@
 #include "gis/repair/repair_target.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
 #include "core/quality.hpp"
@@ -58,9 +59,22 @@ std::vector<FoundDefect> withoutRepeats(const std::vector<FoundDefect>& defects)
   return once;
 }
 
-void requireNoWeirs(const Grid& grid) {
-  if (std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return !boundary.weir.empty(); }))
-    throw InputError("the mesh has weirs and defects; repair the defects by hand, or remove the weirs");
+bool hasWeirs(const Grid& grid) {
+  return std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return !boundary.weir.empty(); });
+}
+
+// What is wrong with counts alone is right once the mesh is written again.
+void refuseWeirs(const std::vector<FoundDefect>& defects) {
+  const auto wanting = [](const FoundDefect& found) { return found.defect.kind != TargetDefectKind::WrongCount; };
+  const auto first = std::ranges::find_if(defects, wanting);
+  if (first == defects.end()) return;
+  const auto& [kind, place, triangle, node, value, text, advice] = first->defect;
+  char at[80];
+  std::snprintf(at, sizeof at, "%.10g, %.10g", place.x, place.y);
+  throw InputError("the mesh has weirs, so its defects cannot be repaired, " +
+                   std::to_string(std::ranges::count_if(defects, wanting)) + " in all, the first at " + at + ": " +
+                   std::string(toString(kind)) + (text.empty() ? "" : ", " + text) +
+                   "; check lists them; repair them by hand, or remove the weirs");
 }
 
 void requireTriangles(const Grid& grid, std::span<const Target> targets) {
@@ -213,7 +227,10 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
     reportLeft(findOverlaps(grid, targets), state.report);
     return std::move(state.report);
   }
-  requireNoWeirs(grid);
+  if (hasWeirs(grid)) {
+    refuseWeirs(defects);
+    return std::move(state.report);
+  }
   if (dropCopies(state, defects)) defects = findDefects(grid, targets, options);
   startRepairs(state, memory);
   state.links.kinds = takeBoundaryKinds(grid);

@@ -569,5 +569,25 @@ TEST(CheckTarget, RepairKeepsWhatTrianglesTell) {
   EXPECT_NEAR(area, 16e6, 1.0);
 }
 
+// What a weir joins cannot be taken apart.
+TEST(Targets, DefectsOfAMeshWithWeirsAreNamedAndCountsAreNone) {
+  Grid grid = soundGrid();
+  grid.boundaries.back().weir = {1.0, 1.0, 1.0};
+  grid.notes = {"NVEL is 38, but the land segments have 45 nodes"};
+  EXPECT_FALSE(checkTarget(grid, Target::Adcirc).empty());
+  const Grid before = grid;
+  EXPECT_TRUE(repairForTargets(grid, std::array{Target::Adcirc}).repairs.empty());
+  EXPECT_EQ(grid.nodes, before.nodes);
+  grid.nodes.push_back({100.0, -5000.0});
+  grid.z.push_back(-20.0);
+  try {
+    repairForTargets(grid, std::array{Target::Adcirc});
+    FAIL() << "the node that is in no triangle was taken out";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("1 in all, the first at 100, -5000: unused node"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace coastmesh
