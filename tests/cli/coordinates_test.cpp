@@ -258,7 +258,7 @@ TEST_F(Coordinates, HeightsAloneAreRefusedInOneLine) {
   const ProgramRun run = runProgram({"mesh", input, "-o", file("m.nc")});
   EXPECT_EQ(run.code, 3) << run.errors;
   EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
-  EXPECT_NE(run.errors.find("EPSG:5711 has no longitudes and latitudes"), std::string::npos) << run.errors;
+  EXPECT_NE(run.errors.find("has no longitudes and latitudes"), std::string::npos) << run.errors;
 }
 
 TEST_F(Coordinates, OceanAndLandAreTheTwoSidesOfAllCoasts) {

@@ -14,6 +14,7 @@
 #include "gis/clean/clean_options.hpp"
 #include "gis/clean/clean_report.hpp"
 #include "gis/clean/domain.hpp"
+#include "gis/clean/followed_waters.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/frame.hpp"
 #include "gis/coast/group_features.hpp"
@@ -138,6 +139,19 @@ TEST_F(GisCoastExamples, Domain) {
   EXPECT_EQ(on_the_map, (Point{25.0, 62.0}));
   EXPECT_GT(std::hypot(in_the_plane.x, in_the_plane.y), 1000.0);
   EXPECT_FALSE(domain.closed());
+}
+
+// gis/clean/followed_waters.hpp: What following sizes has made of the water, for notes.
+TEST_F(GisCoastExamples, FollowedWaters) {
+  //! [gis/clean/followed_waters.hpp]
+  FollowedWaters all, group;
+  group.area_m2 = 3e6;
+  group.cut_off.add({1.5e5, "0.15 km²", " at (10, 50)"});
+  all.append(std::move(group));
+  const double left_out = all.cut_off.area_m2 / all.area_m2;  // of all groups
+  //! [gis/clean/followed_waters.hpp]
+  EXPECT_DOUBLE_EQ(left_out, 0.05);
+  EXPECT_EQ(all.cut_off.count, 1u);
 }
 
 // gis/coast/coastline.hpp: Polygons and lines as they were read, and what each is for.

@@ -17,6 +17,7 @@
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/grid/grid_parts.hpp"
+#include "gis/model/apart_waters.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/boundary_edges.hpp"
 #include "gis/model/boundary_rules.hpp"
@@ -24,6 +25,7 @@
 #include "gis/model/depth.hpp"
 #include "gis/model/target.hpp"
 #include "gis/model/time_step.hpp"
+#include "gis/raster/raster_axes.hpp"
 #include "gis/raster/raster_band.hpp"
 #include "gis/repair/repair_options.hpp"
 #include "gis/repair/repair_report.hpp"
@@ -155,6 +157,21 @@ TEST_F(GisGridExamples, GridParts) {
   EXPECT_TRUE(kept.has(GridPart::Title));
 }
 
+// gis/model/apart_waters.hpp: Water that no open boundary reaches.
+TEST_F(GisGridExamples, ApartWaters) {
+  //! [gis/model/apart_waters.hpp]
+  Grid grid;
+  grid.nodes = {{0, 0}, {2, 0}, {1, 2}, {5, 0}, {6, 0}, {5, 1}};
+  grid.triangles = {{0, 1, 2}, {3, 4, 5}};
+  grid.area_m2 = {2.0, 0.5};
+  grid.boundaries = {{BoundaryRole::Open, true, {0, 1, 2}}, {BoundaryRole::Land, true, {3, 4, 5}}};
+  const DroppedWaters dropped = dropApartWaters(grid);
+  //! [gis/model/apart_waters.hpp]
+  EXPECT_EQ(dropped.waters, 1u);
+  EXPECT_EQ(grid.triangles.size(), 1u);
+  EXPECT_TRUE(apartWaters(grid).empty());
+}
+
 // gis/model/assign_boundaries.hpp: Which parts of the boundary are open, rivers or shore.
 TEST_F(GisGridExamples, AssignBoundaries) {
   //! [gis/model/assign_boundaries.hpp]
@@ -248,6 +265,18 @@ TEST_F(GisGridExamples, TimeStep) {
   //! [gis/model/time_step.hpp]
   EXPECT_NEAR(step.step_s, 1000.0 / std::sqrt(9.81 * 20.0), 0.2);
   EXPECT_EQ(too_short.size(), grid.triangles.size());
+}
+
+// gis/raster/raster_axes.hpp: Where the pixels of a raster lie whose axes are not even.
+TEST_F(GisGridExamples, RasterAxes) {
+  //! [gis/raster/raster_axes.hpp]
+  const RasterAxis rows{"lat", "degrees_north", "latitude", {10.0, 10.9, 11.7, 12.4}};
+  const double step = (12.4 - 10.0) / 3.0;  // as GDAL has it
+  const auto axis = UnevenAxis::from(rows, step, "bed.nc");
+  const double pixel = axis->pixelOf((10.9 - 10.0) / step + 0.5);  // of a place at 10.9 degrees
+  //! [gis/raster/raster_axes.hpp]
+  EXPECT_NEAR(pixel, 1.5, 1e-9);  // the middle of the second
+  EXPECT_TRUE(rows.isLatitude());
 }
 
 // gis/raster/raster_band.hpp: A raster's first band, a window at a time.
