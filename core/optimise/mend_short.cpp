@@ -90,7 +90,7 @@ void Optimiser::settle() {
 }
 
 // Adds a vertex in the middle of the longest edge of the poorest triangle of a patch that misses the bounds. Returns
-// false where there is none, or its edge is the patch's rim.
+// false where there is none, or its edge lies on the patch's boundary.
 bool Optimiser::divideWorst() {
   double least = std::numeric_limits<double>::infinity();
   TriId worst = kNone;

@@ -47,8 +47,7 @@ std::string placelessText(GDALDataset& dataset, const std::optional<RasterAxes>&
   if (axes)
     return " has axes of which GDAL makes no geotransform: '" + axes->columns.name + "' and '" + axes->rows.name +
            "' are too unevenly spaced, or do not say what they are; resample it to even rows and columns, in degrees "
-           "or "
-           "with a CRS";
+           "or with a CRS";
   return " does not say where its pixels lie (no geotransform); warp it with gdalwarp";
 }
 
