@@ -76,7 +76,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
-  if (!targets.empty()) report.apart = apartWaters(grid).size();
+  if (!targets.empty() && !isOneWater(grid)) report.apart = apartWaters(grid).size();
   return report;
 }
 

@@ -66,8 +66,28 @@ std::vector<ApartWater> apartWaters(const Grid& grid) {
   return found;
 }
 
+bool isOneWater(const Grid& grid) {
+  // Connected through nodes, none of which is all that connects two parts: more than two edges of the boundary would
+  // end in it.
+  std::vector<std::uint8_t> ends(grid.nodes.size(), 0);
+  for (const Boundary& boundary : grid.boundaries) {
+    const std::size_t edges = boundary.closed ? boundary.nodes.size() : boundary.nodes.size() - 1;
+    for (std::size_t i = 0; i < edges && !boundary.nodes.empty(); ++i)
+      for (const std::uint32_t node : {boundary.nodes[i], boundary.nodes[(i + 1) % boundary.nodes.size()]})
+        if (++ends[node] > 2) return false;
+  }
+  UnionFind nodes(grid.nodes.size());
+  for (const auto& [a, b, c] : grid.triangles) {
+    nodes.unite(a, b);
+    nodes.unite(b, c);
+  }
+  return std::ranges::all_of(grid.triangles,
+                             [&](const auto& v) { return nodes.find(v[0]) == nodes.find(grid.triangles[0][0]); });
+}
+
 DroppedWaters dropApartWaters(Grid& grid) {
   constexpr double kLittle = 0.1;  // of all water: what is connected is not what is meant
+  if (isOneWater(grid)) return {};
   const Apart apart = apartOf(grid);
   DroppedWaters dropped;
   double all = 0.0;

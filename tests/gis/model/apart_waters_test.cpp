@@ -39,6 +39,20 @@ TEST(ApartWaters, AreThoseWithoutAnOpenBoundary) {
   EXPECT_EQ(dropApartWaters(closed).waters, 0u);
 }
 
+TEST(ApartWaters, OneWaterHangsTogetherThroughEdges) {
+  EXPECT_TRUE(isOneWater(squares({2.0})));
+  EXPECT_FALSE(isOneWater(squares({2.0, 1.0})));
+  // Two triangles that share a node alone.
+  Grid pinched = squares({2.0});
+  pinched.nodes.push_back({4.0, 2.0});
+  pinched.nodes.push_back({3.0, 3.0});
+  pinched.triangles.push_back({2, 4, 5});
+  pinched.area_m2.push_back(1.0);
+  pinched.boundaries.push_back({BoundaryRole::Land, true, {2, 4, 5}});
+  EXPECT_FALSE(isOneWater(pinched));
+  EXPECT_EQ(apartWaters(pinched).size(), 1u);
+}
+
 TEST(ApartWaters, AreTakenOutOfTheGrid) {
   Grid grid = squares({3.0, 1.0, 2.0});
   const DroppedWaters dropped = dropApartWaters(grid);
