@@ -1,11 +1,11 @@
 #include "apps/job/grid_pieces.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
 #include "core/metric.hpp"
+#include "core/pslg.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/feature_names.hpp"
@@ -128,7 +128,7 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
   markLines(grid, piece);
   for (std::size_t i = 0; i < piece.nodes.size(); ++i) {
     const Point& place = piece.mesh.points[i];
-    if (std::isfinite(place.x) && std::isfinite(place.y)) continue;
+    if (isInRange(place)) continue;
     throw InputError("the node at " + placeInWords(grid.nodes[piece.nodes[i]]) +
                      " lies beyond every plane that shows the mesh: its triangles overlap, or hold the whole Earth");
   }
