@@ -35,7 +35,7 @@ std::string wayText(const WaterWay& way, const Projection& projection) {
   return lengthText(way.width_m, projection) + " wide";
 }
 
-NotedWater notedOf(const ApartWater& apart, const FollowOptions& options, const Projection& projection) {
+NotedWater notedOf(const DetachedWater& apart, const FollowOptions& options, const Projection& projection) {
   const auto& [water, way] = apart;
   std::string where = " at " + placeText(water.inside.front(), projection);
   if (water.at_open) where += ", which has an open boundary";
@@ -57,12 +57,12 @@ FollowedWaters followedOf(const FollowNotes& notes, const FollowOptions& options
   FollowedWaters waters;
   waters.area_m2 = notes.area;
   waters.in_plane = projection.isIdentity();
-  for (const ApartWater& apart : notes.cut_off) {
+  for (const DetachedWater& apart : notes.cut_off) {
     waters.cut_off.add(notedOf(apart, options, projection));
     waters.cut_off_by_way |= apart.way.exists;
     waters.none_kept_open |= options.keep == KeepWater::Modelled && apart.water.at_open;
   }
-  for (const ApartWater& apart : notes.apart) {
+  for (const DetachedWater& apart : notes.apart) {
     waters.apart.add(notedOf(apart, options, projection));
     if (apart.way.exists) waters.closed_m2 += apart.water.area;
   }

@@ -12,16 +12,16 @@
 
 namespace coastmesh {
 
-struct ApartWater {
+struct DetachedWater {
   WaterPart water;
   WaterWay way;  // to the others, in the data
 };
 
 // Notes for users on a shore that was made to follow sizes.
 struct FollowNotes {
-  double area = 0.0;                // square metres of water, including what is cut off
-  std::vector<ApartWater> cut_off;  // not kept, but meshed nevertheless if all are
-  std::vector<ApartWater> apart;    // kept beside the largest
+  double area = 0.0;                   // square metres of water, including what is cut off
+  std::vector<DetachedWater> cut_off;  // not kept, but meshed nevertheless if all are
+  std::vector<DetachedWater> apart;    // kept beside the largest
   std::vector<JoinedWater> joined;
   std::vector<ClosedStrait> straits;
   std::vector<DroppedSpit> spits;

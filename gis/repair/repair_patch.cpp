@@ -15,7 +15,7 @@ bool isFixed(const RepairView& view, std::uint32_t a, std::uint32_t b, std::uint
 }
 
 // The triangle to the left of the edge from `a` to `b`.
-std::optional<PatchEdge> findSide(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b) {
+std::optional<PatchEdge> findSide(const RepairView& view, const GridPatch& patch, std::uint32_t a, std::uint32_t b) {
   for (const PatchEdge& edge : patch.edgesAt(view, edgeKey(a, b))) {
     const GridCorners& v = view.grid.triangles[edge.triangle];
     for (unsigned i = 0; i < 3; ++i)
@@ -28,7 +28,7 @@ bool isShore(const BoundaryKind& kind) { return kind.role == BoundaryRole::Land 
 
 }  // namespace
 
-std::vector<PatchEdge> Patch::edgesAt(const RepairView& view, const NodePair& key) const {
+std::vector<PatchEdge> GridPatch::edgesAt(const RepairView& view, const NodePair& key) const {
   std::vector<PatchEdge> edges;
   const auto& at = view.links.triangles_at;
   if (key[1] >= at.size()) return edges;  // a node that the edit adds
@@ -49,8 +49,8 @@ std::vector<std::uint32_t> nodesOf(const Grid& grid, std::span<const std::uint32
   return nodes;
 }
 
-Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle) {
-  Patch patch;
+GridPatch patchRound(const RepairView& view, std::span<const std::uint32_t> middle) {
+  GridPatch patch;
   for (const std::uint32_t node : nodesOf(view.grid, middle))
     patch.triangles.insert(patch.triangles.end(), view.links.triangles_at[node].begin(),
                            view.links.triangles_at[node].end());
@@ -71,7 +71,7 @@ const BoundaryKind* kindOf(const RepairView& view, const PatchEdit& edit, std::u
   return at == view.links.kinds.end() ? nullptr : &at->second;
 }
 
-std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b) {
+std::optional<PatchEdit> flipOf(const RepairView& view, const GridPatch& patch, std::uint32_t a, std::uint32_t b) {
   const std::optional<PatchEdge> left = findSide(view, patch, a, b), right = findSide(view, patch, b, a);
   if (!left || !right) return std::nullopt;
   if (isFixed(view, a, b, left->triangle, right->triangle)) return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std:
   return edit;
 }
 
-PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b, double share) {
+PatchEdit splitOf(const RepairView& view, const GridPatch& patch, std::uint32_t a, std::uint32_t b, double share) {
   const auto middle = static_cast<std::uint32_t>(view.grid.nodes.size());
   PatchEdit edit{.kind = PatchEditKind::EdgeSplit, .nodes = {a, b}, .share = share, .placed = middle};
   edit.place = placeBetween(view.grid.crs, view.grid.nodes[a], view.grid.nodes[b], share);

@@ -67,7 +67,7 @@ struct PatchEdge {
   std::uint32_t apex = 0;      // the triangle's corner opposite
 };
 
-struct Patch {
+struct GridPatch {
   std::vector<std::uint32_t> triangles;  // of the grid, ascending
 
   // Their edges at a key, by triangle. Looked up: of the thousands round one node a few are asked for.
@@ -100,16 +100,16 @@ struct PatchEdit {
 std::vector<std::uint32_t> nodesOf(const Grid& grid, std::span<const std::uint32_t> triangles);
 
 // The triangles that share a node with one of these.
-Patch patchRound(const RepairView& view, std::span<const std::uint32_t> middle);
+GridPatch patchRound(const RepairView& view, std::span<const std::uint32_t> middle);
 
 // What the boundary is at the edge once the edit is made; null inside the mesh.
 const BoundaryKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b);
 
 // The edge between two triangles of the patch turned to join their other corners; none where it has to stay.
-std::optional<PatchEdit> flipOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b);
+std::optional<PatchEdit> flipOf(const RepairView& view, const GridPatch& patch, std::uint32_t a, std::uint32_t b);
 
 // A new node on the edge, at `share` of the way.
-PatchEdit splitOf(const RepairView& view, const Patch& patch, std::uint32_t a, std::uint32_t b, double share);
+PatchEdit splitOf(const RepairView& view, const GridPatch& patch, std::uint32_t a, std::uint32_t b, double share);
 
 // The nodes round an inner node, counter-clockwise; empty where they do not close.
 std::vector<std::uint32_t> ringRound(const RepairView& view, std::uint32_t node);

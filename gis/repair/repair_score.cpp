@@ -208,7 +208,7 @@ int edgeDefects(const EditedView& edited, const NodePair& edge, std::span<const 
 }
 
 // Of the edges that have another triangle beside them after the edit than before.
-int edgeDefectsAdded(const EditedView& edited, const Patch& patch, std::span<const std::uint32_t> replaced) {
+int edgeDefectsAdded(const EditedView& edited, const GridPatch& patch, std::span<const std::uint32_t> replaced) {
   const auto& [view, edit] = std::tie(edited.view, edited.edit);
   const EditedView now(view, kNoEdit);
   std::vector<PatchEdge> made;
@@ -290,7 +290,7 @@ bool isRoughlyBelow(const EditedView& edited, const EditScore& score, const Scor
 
 }  // namespace
 
-PatchScale scaleOf(const RepairView& view, const Patch& patch) {
+PatchScale scaleOf(const RepairView& view, const GridPatch& patch) {
   PatchScale scale;
   for (const std::uint32_t t : patch.triangles) {
     double& angle = view.smallest_angle[t];
@@ -313,11 +313,11 @@ EditScore scoreOf(const PatchScale& scale) {
   return {0, scale.angles.empty() ? 180.0 : scale.angles.front().first};
 }
 
-EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& scale, const PatchEdit& edit) {
+EditScore scoreOf(const RepairView& view, const GridPatch& patch, const PatchScale& scale, const PatchEdit& edit) {
   return scoreAbove(view, patch, scale, edit, {}).value_or(EditScore{kTurnedOver, 0.0});
 }
 
-std::optional<EditScore> scoreAbove(const RepairView& view, const Patch& patch, const PatchScale& scale,
+std::optional<EditScore> scoreAbove(const RepairView& view, const GridPatch& patch, const PatchScale& scale,
                                     const PatchEdit& edit, const ScoreBar& bar) {
   EditScore score{0, 180.0};
   const std::vector<std::uint32_t> replaced = replacedBy(edit);

@@ -48,7 +48,7 @@ struct PatchScale {
   mutable std::vector<std::pair<std::uint32_t, std::optional<TriangleScore>>> replaced{};
 };
 
-PatchScale scaleOf(const RepairView& view, const Patch& patch);
+PatchScale scaleOf(const RepairView& view, const GridPatch& patch);
 
 // What an edit has to reach to be of use.
 struct ScoreBar {
@@ -66,10 +66,10 @@ struct ScoreBar {
 
 // Of the patch as it is.
 EditScore scoreOf(const PatchScale& scale);
-EditScore scoreOf(const RepairView& view, const Patch& patch, const PatchScale& scale, const PatchEdit& edit);
+EditScore scoreOf(const RepairView& view, const GridPatch& patch, const PatchScale& scale, const PatchEdit& edit);
 
 // The same where the edit reaches the bar; none as soon as it is clear that it does not.
-std::optional<EditScore> scoreAbove(const RepairView& view, const Patch& patch, const PatchScale& scale,
+std::optional<EditScore> scoreAbove(const RepairView& view, const GridPatch& patch, const PatchScale& scale,
                                     const PatchEdit& edit, const ScoreBar& bar);
 
 // Whether moves of the node may leave fewer defects than there are: not where the edges across from it, which stay, are

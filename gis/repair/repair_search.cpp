@@ -16,7 +16,8 @@ class Contest {
  public:
   // Triangles with a smaller angle than `least_angle_deg`, or a larger one than `largest_angle_deg`, are made only of
   // such.
-  Contest(const RepairView& view, const Patch& patch, double least_angle_deg = 0.0, double largest_angle_deg = 180.0)
+  Contest(const RepairView& view, const GridPatch& patch, double least_angle_deg = 0.0,
+          double largest_angle_deg = 180.0)
       : view_(view),
         patch_(patch),
         scale_(scaleOf(view, patch)),
@@ -38,7 +39,7 @@ class Contest {
 
  private:
   const RepairView& view_;
-  const Patch& patch_;
+  const GridPatch& patch_;
   const PatchScale scale_;
   const EditScore now_;
   const double least_angle_deg_, largest_angle_deg_;
@@ -68,7 +69,7 @@ void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
 }  // namespace
 
 std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
-                                       const SearchReach& reach, const Patch& patch) {
+                                       const SearchReach& reach, const GridPatch& patch) {
   std::set<NodePair> edges;
   for (const std::uint32_t t : inside) {
     const GridCorners& v = view.grid.triangles[t];
@@ -84,7 +85,7 @@ std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const s
 }
 
 std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
-                                         std::span<const std::uint32_t> movable, const Patch& patch) {
+                                         std::span<const std::uint32_t> movable, const GridPatch& patch) {
   const GridCorners& v = view.grid.triangles[t];
   Contest contest(view, patch, view.step.least_angle_deg, view.step.largest_angle_deg);
   for (const std::uint32_t node : movable) offerMoves(contest, view, node);
@@ -96,13 +97,13 @@ std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t
   return contest.take();
 }
 
-bool mendsByCornersAlone(const RepairView& view, const Patch& patch) {
+bool mendsByCornersAlone(const RepairView& view, const GridPatch& patch) {
   return view.shores == nullptr && !view.isFor(Target::Dflowfm) && !view.isFor(Target::Swan) &&
          !view.isFor(Target::Fesom) && scaleOf(view, patch).turned.empty();
 }
 
 std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,
-                                      const Patch& patch) {
+                                      const GridPatch& patch) {
   constexpr double kBetterDeg = 0.1;
   const PatchScale scale = scaleOf(view, patch);
   std::optional<PatchEdit> best;
@@ -129,7 +130,7 @@ std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, s
   return best;
 }
 
-std::optional<PatchEdit> bestNodeSplit(const RepairView& view, std::uint32_t node, const Patch& patch) {
+std::optional<PatchEdit> bestNodeSplit(const RepairView& view, std::uint32_t node, const GridPatch& patch) {
   const std::vector<std::uint32_t> ring = ringRound(view, node);
   if (ring.size() < 8) return std::nullopt;
   const std::size_t n = ring.size(), half = n / 2;

@@ -18,7 +18,7 @@ constexpr std::array kShares{0.5, 0.4, 0.6, 0.3, 0.7};
 constexpr std::array kFarShares{0.2, 0.8, 0.15, 0.85, 0.1, 0.9, 0.05, 0.95};
 
 // The patch round the triangles, none where part of it has been changed in this round: then another one will do.
-std::optional<Patch> untouchedPatch(const RepairState& state, std::span<const std::uint32_t> middle) {
+std::optional<GridPatch> untouchedPatch(const RepairState& state, std::span<const std::uint32_t> middle) {
   if (state.anyTaken(middle)) return std::nullopt;
   // Node by node: after a change beside a node of many triangles all other attempts there are over at once.
   const auto isTaken = [&](std::uint32_t node) { return state.anyTaken(state.links.triangles_at[node]); };
@@ -54,7 +54,7 @@ std::string_view textOf(PatchEditKind kind) {
   return kTexts[static_cast<std::size_t>(kind)];
 }
 
-void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit) {
+void applyEdit(RepairState& state, const GridPatch& patch, const PatchEdit& edit) {
   placeNode(state, edit);
   for (const NodePair& edge : edit.gone) state.links.kinds.erase(edge);
   for (const auto& [edge, kind] : edit.made) state.links.kinds[edge] = kind;
@@ -72,7 +72,7 @@ void applyEdit(RepairState& state, const Patch& patch, const PatchEdit& edit) {
   }
 }
 
-void applyRepair(RepairState& state, const Patch& patch, const PatchEdit& edit, const FoundDefect& found) {
+void applyRepair(RepairState& state, const GridPatch& patch, const PatchEdit& edit, const FoundDefect& found) {
   applyEdit(state, patch, edit);
   addRepair(state, found, found.defect.place, std::string(textOf(edit.kind)));
 }

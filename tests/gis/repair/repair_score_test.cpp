@@ -119,7 +119,7 @@ void expectTrueScores(Target target, const Crs& crs) {
       std::vector<std::uint32_t> near;
       for (const std::uint32_t node : grid.triangles[t])
         near.insert(near.end(), links.triangles_at[node].begin(), links.triangles_at[node].end());
-      const Patch patch = patchRound(view, near);
+      const GridPatch patch = patchRound(view, near);
       const PatchScale scale = scaleOf(view, patch);
       for (unsigned i = 0; i < 3; ++i) {
         const std::uint32_t a = grid.triangles[t][i], b = grid.triangles[t][next3(i)];
@@ -188,7 +188,7 @@ TEST(RepairScore, AboveABarIsTheScoreThatReachesIt) {
   for (const auto& targets : kTargetsOfScores) {
     for (const Crs& crs : {Crs{}, wgs84()}) {
       int above = 0, below = 0;
-      forEachInnerNode(targets, crs, [&](const RepairView& view, const Patch& patch, std::uint32_t node) {
+      forEachInnerNode(targets, crs, [&](const RepairView& view, const GridPatch& patch, std::uint32_t node) {
         const PatchScale scale = scaleOf(view, patch);
         std::vector<PatchEdit> edits = movesOf(view, node);
         for (const std::uint32_t other : neighboursOf(view, node))
@@ -222,7 +222,7 @@ TEST(RepairScore, NoMoveMendsWhereNoneMay) {
   for (const auto& targets : kTargetsOfScores) {
     for (const Crs& crs : {Crs{}, wgs84()}) {
       int hopeless = 0, mended = 0;
-      forEachInnerNode(targets, crs, [&](const RepairView& view, const Patch& patch, std::uint32_t node) {
+      forEachInnerNode(targets, crs, [&](const RepairView& view, const GridPatch& patch, std::uint32_t node) {
         const PatchScale scale = scaleOf(view, patch);
         const bool may = moveMayMend(view, scale, node);
         hopeless += !may;
