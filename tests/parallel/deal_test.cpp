@@ -159,8 +159,8 @@ TEST(Deal, ACutReplyIsAnError) {
 
 TEST(Deal, IsCancelledWhileHelpersWork) {
   const Case c = cases().front();
-  ThreadHelpers others(2);
   std::atomic<bool> stop = false;
+  ThreadHelpers others(2);  // they end before what they set
   others.before_answer = [&] {
     stop = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
