@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/job/places.hpp"
+#include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
@@ -22,15 +23,19 @@ std::string nameOf(const Repair& repair) { return repair.target ? nameOf(*repair
 constexpr double kMuchWater = 0.02;  // of all: more than models forgive
 
 std::string textOf(const DroppedWaters& dropped) {
-  char area[80];
-  std::snprintf(area, sizeof area, "%.3g km² (%.2g %%) of the water is", 1e-6 * dropped.area_m2, 100.0 * dropped.share);
-  return std::string(area) + " left out, " + std::to_string(dropped.waters) +
+  return areaInWords(dropped.area_m2, dropped.in_plane) + amount(" (%.2g %%)", 100.0 * dropped.share) +
+         " of the water is left out, " + std::to_string(dropped.waters) +
          forCount(dropped.waters, " water", " waters") +
          " of other features without a connection to an open boundary: the largest at " + pointText(dropped.place) +
          "; --keep-water all keeps them";
 }
 
 }  // namespace
+
+std::vector<std::string> FinishReport::notes() const {
+  if (dropped.waters == 0 || dropped.share > kMuchWater) return {};
+  return {textOf(dropped)};
+}
 
 std::vector<std::string> FinishReport::warnings() const {
   std::vector<std::string> all = depth.warnings;
@@ -94,7 +99,6 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
                   forCount(report.depth.filled, "node", "nodes"), report.depth.unknown, report.depth.above_water);
     text += line;
   }
-  if (report.dropped.waters > 0 && report.dropped.share <= kMuchWater) text += textOf(report.dropped) + "\n";
   constexpr std::size_t kRepairsShown = 20;
   const std::vector<Repair>& repairs = report.repairs.repairs;
   for (std::size_t i = 0; i < std::min(kRepairsShown, repairs.size()); ++i)

@@ -32,6 +32,7 @@ struct FinishReport {
   DroppedWaters dropped;
   std::size_t apart = 0;  // such waters that are still there, if targets are given
 
+  std::vector<std::string> notes() const;
   std::vector<std::string> warnings() const;
 };
 

@@ -168,10 +168,10 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   report_.beyond_frame = framed.beyond_frame;
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
   if (options_.crs == "plane" && coastline_.crs.geographic)
-    report_.warnings.push_back(
-        "--crs plane takes the input's degrees as they are: all lengths, as of --size, are in degrees, and angles on "
-        "the "
-        "ground differ; --crs auto works in metres");
+    report_.warnings.push_back("--crs plane takes coordinates as they are, in the degrees of " +
+                               nameOf(coastline_.crs) +
+                               ": lengths, as of --size, have that unit, and angles on the ground differ; --crs auto "
+                               "works in metres");
   if (working) {
     chosen_ = Projection::to(coastline_.crs, *working);
     const std::string distorts = judgeWorkingPlane(coastline_, *working, *chosen_);

@@ -475,6 +475,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
     result.finish = finishGrid(result.grid, finish, inner, recorder.loop("finish", RunControl{control.cancelled, {}}));
+    std::ranges::move(result.finish.notes(), std::back_inserter(result.read.notes));
     if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0) {
       result.short_before_repairs = result.short_of.count;
       measureAgain(job, input, merged, true, result);

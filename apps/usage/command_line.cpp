@@ -27,7 +27,7 @@ class HelpFormatter : public CLI::Formatter {
     return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode), "\n\n\n", "\n\n");
   }
   // What must be given may also stand in a file, which CLI11 does not know: to it nothing is required.
-  // And shows "FILE ..." for options that take one value each time.
+  // It also shows "FILE ..." for options that take one value each time.
   std::string make_option_opts(const CLI::Option* option) const override {
     std::string options = CLI::Formatter::make_option_opts(option);
     if (!option->get_positional()) options = CLI::detail::find_and_replace(options, " ...", " (repeat)");

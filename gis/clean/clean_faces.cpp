@@ -61,6 +61,8 @@ class Labeller {
     result.beyond = label(PlanarMap::kOuterFace);
     result.segments = keepEdges(result.lines);
     result.points = keepPoints(result.segments);
+    for (const CleanChain& chain : chains_.chains)
+      if (chain.role == CleanChain::Role::Point) result.asked.push_back(chain.walk.front());
     return result;
   }
 

@@ -12,6 +12,7 @@ namespace coastmesh {
 struct LabelledEdges {
   std::vector<Segment> segments;  // tagged: see segment_tags.hpp
   std::vector<VertexId> points;
+  std::vector<VertexId> asked;    // all requested vertices
   std::vector<VertexId> traces;   // vertices of edges that were dissolved, ascending
   std::vector<DomainLine> lines;  // what the tags refer to
   RegionId beyond = kOutside;     // the label outside all edges

@@ -25,6 +25,7 @@ struct Domain {
   Pslg pslg;  // labelled: a segment's sides hold the index of a feature in `Coastline::features`, or kOutside
   std::vector<Point> input_points;  // for each point of the PSLG: its place in the input's CRS, with the input's bits
   Projection projection = Projection::plane();
+  std::vector<VertexId> asked{};    // points of the PSLG that the user asked for as vertices, wherever they lie
   std::vector<DomainLine> lines{};  // what tags of segments refer to: see segment_tags.hpp
   Resolution resolution;            // what later changes of the domain must keep
   // For a whole globe, where no side of a segment is outside: what no feature contains, and what contains the plane's

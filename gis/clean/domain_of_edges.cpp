@@ -21,6 +21,8 @@ Domain domainOf(const CleanVertices& vertices, LabelledEdges&& edges, const Proj
     domain.input_points.push_back(vertices.input[v]);
   }
   for (Segment& s : segments) s.a = renumbered[s.a], s.b = renumbered[s.b];
+  for (const VertexId v : edges.asked)
+    if (renumbered[v] != kNone) domain.asked.push_back(renumbered[v]);
   domain.pslg.segments = std::move(segments);
   domain.lines = std::move(edges.lines);
   return domain;

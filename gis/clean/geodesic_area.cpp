@@ -11,18 +11,11 @@
 #include <numeric>
 #include <utility>
 
+#include "gis/geometry/ring_area.hpp"
+
 namespace coastmesh {
 
 namespace {
-
-double planeArea(const Ring& ring) {
-  double twice = 0;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    const Point &o = ring[0], &a = ring[i], &b = ring[i + 1];
-    twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-  }
-  return std::abs(twice) / 2;
-}
 
 // The ring with longitudes that go on past ±180 where it crosses the antimeridian, its first point repeated at the end:
 // 360 degrees further where it goes round a pole.
@@ -63,7 +56,7 @@ RingArea::RingArea(const Crs& crs) : edges_(crs.semi_major_m, crs.flattening) {
 
 double RingArea::of(const Ring& ring) const {
   if (ring.size() < 3) return 0;
-  if (!to_geographic_) return planeArea(ring);
+  if (!to_geographic_) return std::abs(signedAreaOf(ring));
   std::vector<LonLat> places;
   places.reserve(ring.size());
   for (const Point& p : ring) places.push_back(to_geographic_->forward(p));

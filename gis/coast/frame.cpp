@@ -7,12 +7,12 @@
 #include <iterator>
 #include <limits>
 
-#include "core/metric.hpp"
 #include "gis/coast/clip_chains.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/coast/unite_frames.hpp"
 #include "gis/error.hpp"
+#include "gis/geometry/ring_area.hpp"
 
 namespace coastmesh {
 
@@ -362,20 +362,13 @@ void setUses(Coastline& coastline, FeatureUse use) {
   }
 }
 
-double signedArea(const Ring& ring) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    twice += cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
-  return 0.5 * twice;
-}
-
 // Rings of land polygons, whose direction differs from format to format, in the direction of coastlines: with the water
 // on the right.
 void directAsCoasts(Feature& land) {
   for (Polygon& polygon : land.polygons) {
-    if (signedArea(polygon.outer) < 0.0) std::ranges::reverse(polygon.outer);
+    if (signedAreaOf(polygon.outer) < 0.0) std::ranges::reverse(polygon.outer);
     for (Ring& hole : polygon.holes)
-      if (signedArea(hole) > 0.0) std::ranges::reverse(hole);
+      if (signedAreaOf(hole) > 0.0) std::ranges::reverse(hole);
   }
 }
 

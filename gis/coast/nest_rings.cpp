@@ -6,21 +6,13 @@
 #include <optional>
 
 #include "gis/geometry/chain_index.hpp"
+#include "gis/geometry/ring_area.hpp"
 
 namespace coastmesh {
 
 namespace {
 
 constexpr std::size_t kNoRing = static_cast<std::size_t>(-1);
-
-double areaOf(const Ring& ring) {
-  double twice = 0.0;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    const Point &o = ring[0], &a = ring[i], &b = ring[i + 1];
-    twice += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-  }
-  return std::abs(twice) / 2;
-}
 
 bool liesInside(const Ring& ring, const ChainIndex& other) {
   for (const Point& p : ring) {
@@ -37,7 +29,7 @@ std::vector<NestedRing> nestRings(const std::vector<Ring>& rings) {
   std::vector<double> areas(rings.size());
   for (std::size_t i = 0; i < rings.size(); ++i) {
     for (const Point& p : rings[i]) boxes[i].add(p);
-    areas[i] = areaOf(rings[i]);
+    areas[i] = std::abs(signedAreaOf(rings[i]));
   }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
 

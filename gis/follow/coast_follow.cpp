@@ -32,19 +32,6 @@ namespace {
 
 constexpr double kNoted = 0.005;  // of the area of the water: so near shores need not be moved for
 
-// Of each point of the domain: whether it is asked for as a vertex.
-std::vector<char> pointsAskedFor(const Domain& domain, const Coastline& coastline) {
-  std::vector<Point> asked;
-  for (const Feature& feature : coastline.features)
-    asked.insert(asked.end(), feature.points.begin(), feature.points.end());
-  const auto isBefore = [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
-  std::ranges::sort(asked, isBefore);
-  std::vector<char> stays(domain.input_points.size(), 0);
-  for (std::size_t v = 0; v < stays.size() && !asked.empty(); ++v)
-    stays[v] = std::ranges::binary_search(asked, domain.input_points[v], isBefore) ? 1 : 0;
-  return stays;
-}
-
 // What the water gains where v goes to x, or straight on where x is none, is added.
 void addGain(const ShoreChains& chains, VertexId v, const Point* x, const ScaleTable& scales, WaterAreas& gained) {
   const Point &a = chains.at[chains.prev[v]], &b = chains.at[chains.next[v]], &from = chains.at[v];
@@ -132,9 +119,8 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   }
   // What of lines cannot be followed keeps no land; the rest is set aside, as the width of water does not depend on it.
   LostLines lost;
-  const std::vector<char> stays = pointsAskedFor(domain, coastline);
-  returnLines(graph, takeLines(graph, stays), {given, scales}, options.channel_min, lost);
-  WaterLines in_water = takeLines(graph, stays);
+  returnLines(graph, takeLines(graph, domain.asked), {given, scales}, options.channel_min, lost);
+  WaterLines in_water = takeLines(graph, domain.asked);
   const std::vector<VertexId> ends_of_lines = bridgeLand(graph, in_water, given);
   sampleShores(graph, given, lines, loop, even);
   start.triangles = triangulateShores(std::move(graph), given, loop, even);

@@ -48,8 +48,11 @@ inline Domain domainOf(ShoreGraph&& graph, Domain&& before) {
   made.projection = before.projection;
   made.resolution = before.resolution;
   made.lines = std::move(before.lines);
+  std::vector<char> is_asked(before.input_points.size(), 0);
+  for (const VertexId v : before.asked) is_asked[v] = 1;
   for (VertexId v = 0; v < graph.source.size(); ++v) {
     const VertexId source = graph.source[v];
+    if (source != kNone && is_asked[source] != 0) made.asked.push_back(v);
     made.input_points.push_back(source != kNone ? before.input_points[source]
                                                 : before.projection.inverse(graph.pslg.points[v]));
   }

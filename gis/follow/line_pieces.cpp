@@ -45,7 +45,8 @@ LineCutter::LineCutter(const Pslg& shores, const std::vector<Point>& at, const s
       faces_(map_, shores.points, edges_),
       shore_boxes_(treeOf(shores.points, shores.segments)),
       line_boxes_(treeOf(at, lines)),
-      cuts_(shores.segments.size()) {
+      cuts_(shores.segments.size()),
+      cut_pieces_(lines.size()) {
   for (std::uint32_t v = 0; v < at.size(); ++v) nodes_.push_back(nodeOf(v));
 }
 
@@ -103,7 +104,12 @@ bool LineCutter::isOf(std::uint32_t node, SegmentId shore) const {
 }
 
 bool LineCutter::hasNodeAt(const Point& x) const {
-  return std::ranges::any_of(nodes_, [&](const LineNode& node) { return node.at == x; });
+  bool found = false;
+  line_boxes_.visit(Box::of(x, x).grownBy(beyond_), [&](std::uint32_t s) {
+    found = found || points_[lines_[s].a] == x || points_[lines_[s].b] == x;
+    for (const auto& [a, b] : cut_pieces_[s]) found = found || a == x || b == x;
+  });
+  return found;
 }
 
 bool LineCutter::areOnOneShore(std::uint32_t a, std::uint32_t b) const {
@@ -155,7 +161,7 @@ void LineCutter::cut(SegmentId line, std::vector<LinePiece>& pieces, std::vector
     if (!is_last) piece.b = nodeAt(crossings[i], at(piece.a), piece.a, line);
     if (piece.a != piece.b && fits(piece.a, at(piece.a), piece.b, line)) {
       pieces.push_back(piece);
-      if (!crossings.empty()) cut_pieces_.push_back({at(piece.a), at(piece.b), line});
+      if (!crossings.empty()) noteCut(line, at(piece.a), at(piece.b));
     } else {
       dry.emplace_back(from, to);
     }
@@ -220,12 +226,19 @@ bool LineCutter::fits(std::uint32_t start, const Point& x, std::uint32_t end, Se
     if (y == q) return !runsAlong(y, x, p);
     return !segmentsMeet(x, y, p, q);
   };
-  line_boxes_.visit(Box::of(x, y), [&](std::uint32_t s) {
+  line_boxes_.visit(Box::of(x, y).grownBy(beyond_), [&](std::uint32_t s) {
     fits_so = fits_so && (s == line || isClearOf(points_[lines_[s].a], points_[lines_[s].b]));
+    if (leads && s == line) return;
+    for (const auto& [a, b] : cut_pieces_[s]) fits_so = fits_so && isClearOf(a, b);
   });
-  return fits_so && std::ranges::all_of(cut_pieces_, [&](const CutPiece& piece) {
-           return (leads && piece.of == line) || isClearOf(piece.a, piece.b);
-         });
+  return fits_so;
+}
+
+void LineCutter::noteCut(SegmentId line, const Point& a, const Point& b) {
+  cut_pieces_[line].emplace_back(a, b);
+  const Box box = Box::of(points_[lines_[line].a], points_[lines_[line].b]), piece = Box::of(a, b);
+  beyond_ =
+      std::max({beyond_, box.xmin - piece.xmin, piece.xmax - box.xmax, box.ymin - piece.ymin, piece.ymax - box.ymax});
 }
 
 std::optional<LinePiece> LineCutter::leadToShore(std::uint32_t node, SegmentId line, double most) {
@@ -244,7 +257,7 @@ std::optional<LinePiece> LineCutter::leadToShore(std::uint32_t node, SegmentId l
   if (foot.shore == kNone) return std::nullopt;
   const LinePiece piece{node, nodeAt(foot, x, node, line, true), line};
   if (!fits(piece.a, x, piece.b, line, true)) return std::nullopt;
-  cut_pieces_.push_back({x, at(piece.b), line});
+  noteCut(line, x, at(piece.b));
   return piece;
 }
 

@@ -48,6 +48,7 @@ class LineCutter {
   // Whether a shore is nearer to x than so much.
   bool isShoreWithin(const Point& x, double distance) const;
 
+  // Whether an end of a line, or of a piece of one, is at x.
   bool hasNodeAt(const Point& x) const;
 
   // Whether both nodes lie on the same segment of the shore.
@@ -67,16 +68,13 @@ class LineCutter {
     SegmentId shore;
     std::uint32_t node = kNone;
   };
-  struct CutPiece {
-    Point a, b;
-    SegmentId of;
-  };
 
   LineNode nodeOf(std::uint32_t point);
   const Point& at(std::uint32_t node) const { return nodes_[node].at; }
   bool isOf(std::uint32_t node, SegmentId shore) const;
   std::vector<Crossing> crossingsOf(SegmentId line) const;
   std::uint32_t nodeAt(Crossing& crossing, Point inner, std::uint32_t inner_node, SegmentId line, bool leads = false);
+  void noteCut(SegmentId line, const Point& a, const Point& b);
   bool fits(std::uint32_t start, const Point& x, std::uint32_t end, SegmentId line, bool leads = false) const;
 
   const Pslg& shores_;
@@ -89,7 +87,10 @@ class LineCutter {
   BoxTree shore_boxes_, line_boxes_;
   std::vector<LineNode> nodes_;  // first those that are points of lines
   std::vector<std::vector<std::uint32_t>> cuts_;
-  std::vector<CutPiece> cut_pieces_;  // those that are not whole segments
+  // Of each line: its pieces that are no whole segments, from end to end; and how far any of them reaches beyond the box
+  // of its line.
+  std::vector<std::vector<std::pair<Point, Point>>> cut_pieces_;
+  double beyond_ = 0.0;
 };
 
 }  // namespace coastmesh

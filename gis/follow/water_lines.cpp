@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -222,8 +223,9 @@ class Returner {
 
 }  // namespace
 
-WaterLines takeLines(ShoreGraph& graph, const std::vector<char>& stays) {
+WaterLines takeLines(ShoreGraph& graph, const std::vector<VertexId>& asked) {
   WaterLines lines;
+  const std::set<VertexId> stays(asked.begin(), asked.end());
   Pslg& pslg = graph.pslg;
   std::vector<char> on_shore(pslg.points.size(), 0), on_line(pslg.points.size(), 0);
   for (const Segment& s : pslg.segments) {
@@ -237,7 +239,7 @@ WaterLines takeLines(ShoreGraph& graph, const std::vector<char>& stays) {
       in_lines[v] = static_cast<VertexId>(lines.at.size());
       lines.at.push_back(pslg.points[v]);
       lines.source.push_back(graph.source[v]);
-      lines.stays.push_back(graph.source[v] < stays.size() ? stays[graph.source[v]] : 0);
+      lines.stays.push_back(stays.contains(graph.source[v]) ? 1 : 0);
       lines.shore.push_back(on_shore[v] != 0 ? kept : kNone);
       if (on_line[v] == 0) lines.loose.push_back(in_lines[v]);
     }

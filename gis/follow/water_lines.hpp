@@ -21,9 +21,9 @@ struct WaterLines {
   std::size_t bridges = 0;        // so many of the segments, the last, lie on land
 };
 
-// Takes out of the graph segments that have the same water on both sides, and points on no other. `stays`: by source,
-// those that are asked for as vertices.
-WaterLines takeLines(ShoreGraph& graph, const std::vector<char>& stays = {});
+// Takes out of the graph segments that have the same water on both sides, and points on no other. `asked`: the sources
+// of those that are asked for as vertices.
+WaterLines takeLines(ShoreGraph& graph, const std::vector<VertexId>& asked = {});
 
 // Joins ends of a line on both sides of land narrower than an element, in case that this goes: bridges. `shores`: as
 // `takeLines` left it. Other vertices of the shore where lines end are returned: land has to stay there.

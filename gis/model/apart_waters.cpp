@@ -108,6 +108,7 @@ DroppedWaters dropApartWaters(Grid& grid) {
   dropped.share = dropped.area_m2 / all;
   if (dropped.share > 1.0 - kLittle) return {};
   dropped.waters = areas.size();
+  dropped.in_plane = grid.crs.isPlane();
   removeTriangles(grid, apart.is_apart);
   removeUnusedNodes(grid);
   return dropped;

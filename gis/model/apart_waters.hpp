@@ -24,6 +24,7 @@ struct DroppedWaters {
   std::size_t waters = 0;
   double area_m2 = 0.0, share = 0.0;  // and of all water that there was
   Point place;                        // in the largest, in the grid's CRS
+  bool in_plane = false;              // areas are in units of the plane
 };
 
 // Takes these waters out of the grid, but none if the others are less than a tenth of all: the largest may then be

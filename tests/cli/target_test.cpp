@@ -189,6 +189,38 @@ TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
   EXPECT_GT(mesh("mended.14", {"--target", "dflowfm"}), 0u);
 }
 
+// Of two lakes only the larger gets an open boundary.
+TEST_F(Target, WatersOfOtherFeaturesWithoutAnOpenBoundaryAreLeftOut) {
+  const std::string lakes =
+      write("lakes.geojson", geoJsonPolygons({{{{10, 50}, {10.2, 50}, {10.2, 50.1}, {10, 50.1}}},
+                                              {{{11, 50}, {11.02, 50}, {11.02, 50.01}, {11, 50.01}}}}));
+  const std::string west =
+      write("west.geojson", R"({"type":"Feature","properties":{"type":"open"},"geometry":{"type":"LineString",)"
+                            R"("coordinates":[[10,50],[10,50.1]]}})");
+  const auto meshed = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"mesh",     lakes,          "--size",     "500", "--target",
+                                       "schism",   "--boundaries", west,         "-o",  file("m.gr3"),
+                                       "--report", file("m.json"), "--overwrite"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.errors + readText(file("m.json"));
+  };
+  const auto defects = [&] { return runProgram({"check", file("m.gr3"), "--target", "schism"}).code; };
+  const std::string left_out = "1 water of other features", stays = "1 water has no connection to an open boundary";
+  const std::string followed = meshed({"--coast", "follow"});
+  EXPECT_NE(followed.find(left_out), std::string::npos) << followed;
+  EXPECT_EQ(followed.find(stays), std::string::npos) << followed;
+  EXPECT_EQ(defects(), 0);
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, std::vector<std::string>{"--coast", "follow", "--keep-water", "all"}}) {
+    const std::string kept = meshed(more);
+    EXPECT_EQ(kept.find(left_out), std::string::npos) << kept;
+    EXPECT_NE(kept.find(stays), std::string::npos) << kept;
+    EXPECT_EQ(defects(), 1);
+  }
+}
+
 // Circles round the corners of a square's halves have one centre: no water would flow across its diagonal.
 TEST_F(Target, FlowLinksOfDflowfmHaveALength) {
   const std::string square =

@@ -177,11 +177,10 @@ TEST(WaterLines, PointsAskedForStayInLines) {
   ShoreGraph drawn = graphOf(kBasin, {{10, 50}, {49, 50}, {50, 50}, {90, 50}});
   const ScaleTable scales(Projection::plane(), Box{0, 0, 100, 100});
   for (const bool is_asked : {false, true}) {
-    std::vector<char> stays(drawn.source.size(), 0);
-    stays[5] = is_asked ? 1 : 0;
     ShoreGraph graph = drawn;
     LostLines lost;
-    returnLines(graph, takeLines(graph, stays), {ConstantSize(kSize), scales}, 1.0, lost);
+    returnLines(graph, takeLines(graph, is_asked ? std::vector<VertexId>{5} : std::vector<VertexId>{}),
+                {ConstantSize(kSize), scales}, 1.0, lost);
     EXPECT_EQ(std::ranges::count(graph.pslg.points, Point{49, 50}), is_asked ? 1 : 0);
   }
 }
@@ -272,6 +271,25 @@ TEST(FollowSizes, LandWhereALineEndsStays) {
     EXPECT_EQ(std::ranges::count_if(followed.pslg.segments,
                                     [&](const Segment& s) { return isBoundary(s) && (s.a == end || s.b == end); }),
               2);
+}
+
+TEST(FollowSizes, APointAskedForOnALineStays) {
+  for (const bool is_asked : {false, true}) {
+    std::vector<Feature> features{polygonFeature(1, square(0.0, 0.0, 100.0)),
+                                  lineFeature(2, {{10, 50}, {49, 50}, {50, 50}, {90, 50}})};
+    features[1].use = FeatureUse::Constraint;
+    if (is_asked) features[1].points = {{49, 50}};
+    const Coastline coast = coastlineOf(std::move(features));
+    CleanReport report;
+    Domain domain = cleanFeatures(coast, allMembers(coast), Projection::plane(), {}, report);
+    ASSERT_EQ(domain.asked.size(), is_asked ? 1u : 0u);
+    const Domain followed = followSizes(std::move(domain), ConstantSize(kSize), {}, coast, report);
+    EXPECT_EQ(std::ranges::count(followed.pslg.points, Point{49, 50}), is_asked ? 1 : 0);
+    ASSERT_EQ(followed.asked.size(), is_asked ? 1u : 0u);
+    if (is_asked) {
+      EXPECT_EQ(followed.pslg.points[followed.asked[0]], (Point{49, 50}));
+    }
+  }
 }
 
 TEST(FollowSizes, APointInANarrowInletIsLeftOutAndNamed) {
