@@ -87,8 +87,8 @@ class LineCutter {
   BoxTree shore_boxes_, line_boxes_;
   std::vector<LineNode> nodes_;  // first those that are points of lines
   std::vector<std::vector<std::uint32_t>> cuts_;
-  // Of each line: its pieces that are no whole segments, from end to end; and how far any of them reaches beyond the box
-  // of its line.
+  // Of each line: its pieces that are no whole segments, from end to end; and how far any of them reaches beyond the
+  // box of its line.
   std::vector<std::vector<std::pair<Point, Point>>> cut_pieces_;
   double beyond_ = 0.0;
 };
