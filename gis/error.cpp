@@ -18,7 +18,7 @@ std::string oneLine(std::string_view text, std::size_t longest) {
   if (line.size() <= longest) return line;
   std::size_t end = line.rfind(' ', longest);
   if (end == std::string::npos || end == 0) {
-    // One word: cut between characters, of which all bytes but the first begin with 10.
+    // A single word is cut between UTF-8 characters: their continuation bytes begin with 10.
     end = longest;
     while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;
   }

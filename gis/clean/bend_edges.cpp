@@ -17,10 +17,11 @@ namespace {
 
 constexpr int kMostHalvings = 12;
 
-// The place at a share of the way along an edge's line.
+// The point at a share, 0 to 1, of the way along the line of an edge.
 using Line = std::function<Point(double)>;
 
-// Longitudes the shorter way; those past the end of the turn that both ends lie in come back at its beginning.
+// Takes the shorter way in longitude. Longitudes beyond the range of 360 degrees that contains both ends are wrapped
+// into it.
 Line lonLatLine(const Point& a, const Point& b, bool geographic) {
   const double east = geographic ? std::remainder(b.x - a.x, 360.0) : b.x - a.x;
   const auto [low, high] = std::minmax(a.x, b.x);
@@ -66,16 +67,16 @@ class Bender {
     return [=, low = low, high = high, this](double t) {
       LonLat place;
       way.Position(t * way.Distance(), place.lat, place.lon);
-      // In the turn of the ends.
+      // In the same range of 360 degrees as the ends.
       if (place.lon < low - 180.0) place.lon += 360.0;
       if (place.lon > high + 180.0) place.lon -= 360.0;
       return to_geographic_.inverse(place);
     };
   }
 
-  // The same points from either end.
+  // Adds the same points for either direction of the edge.
   void addBetween(const Point& a, const Point& b, std::vector<Point>& bent) {
-    if (a == b || (geographic_ && std::abs(a.y) == 90.0 && a.y == b.y)) return;  // a pole is a place
+    if (a == b || (geographic_ && std::abs(a.y) == 90.0 && a.y == b.y)) return;  // a pole is one point
     const bool in_order = std::tie(a.x, a.y) < std::tie(b.x, b.y);
     const Point &from = in_order ? a : b, &to = in_order ? b : a;
     const std::size_t before = bent.size();
@@ -83,7 +84,7 @@ class Bender {
     if (!in_order) std::reverse(bent.begin() + static_cast<std::ptrdiff_t>(before), bent.end());
   }
 
-  // In the order of the way, between its shares t and u, whose places in the plane are p and q.
+  // Adds points between the shares t and u of the line, in order; p and q are the places of t and u in the plane.
   void halve(const Line& line, double t, const Point& p, double u, const Point& q, int halvings,
              std::vector<Point>& bent) {
     if (halvings == kMostHalvings || isStraight(line, t, p, u, q)) return;
@@ -94,7 +95,8 @@ class Bender {
     halve(line, middle, in_plane, u, q, halvings + 1, bent);
   }
 
-  // A line that bends to both sides may cross its chord in the middle. What has no place in the plane is left alone.
+  // Tests three points, since a line that bends to both sides may cross its chord in the middle. True where the line
+  // has no place in the plane.
   bool isStraight(const Line& line, double t, const Point& p, double u, const Point& q) const {
     if (!(distance(p, q) > tolerance_m_ * projection_.scaleAt(midpoint(p, q)))) return true;
     for (const double share : {0.25, 0.5, 0.75}) {

@@ -26,8 +26,8 @@ std::string namesOf(const Coastline& coastline, const std::vector<std::size_t>& 
   return names;
 }
 
-// The two ends of lines that are nearest to one another, of those at which no other line begins or ends; empty where
-// there are none, or too many for anyone to mend by hand.
+// Text that names the two nearest loose ends of lines, at which no other line begins or ends; empty if there are fewer
+// than two, or too many to join by hand.
 std::string nearestEnds(const Coastline& coastline, const std::vector<std::size_t>& members,
                         const Projection& projection) {
   constexpr std::size_t kMost = 2000;
@@ -81,7 +81,7 @@ void refuseEmpty(const Coastline& coastline, const std::vector<std::size_t>& mem
                                       "--clip FILE"));
 }
 
-// Edits beyond the frame are about what is not meshed anyway.
+// Removes edits outside the frame, where nothing is meshed, except for points that were requested there.
 void keepFramedEdits(const Coastline& coastline, const std::vector<std::size_t>& members, std::size_t first,
                      CleanReport& report) {
   ChainIndex frame(ChainIndex::Kind::Rings);

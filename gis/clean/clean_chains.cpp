@@ -22,7 +22,7 @@ namespace coastmesh {
 
 namespace {
 
-// A chain of the input that takes part.
+// A chain of the input that takes part in cleaning.
 struct InputChain {
   CleanChain::Role role;
   std::uint32_t feature;
@@ -38,9 +38,9 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
     const auto index = static_cast<std::uint32_t>(member);
-    // On land an island is a separate polygon; the size of polygons cut by the frame is unknown.
+    // In land features an island is a separate polygon; the full area of polygons cut at the frame is unknown.
     const bool land = feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
-    // Where a region has lines, they are its border, cleaned before.
+    // If a region has lines, they are its border, cleaned before.
     const bool by_lines = feature.use == FeatureUse::Region && !feature.lines.empty();
     for (const Polygon& polygon : feature.polygons) {
       if (by_lines) break;
@@ -139,7 +139,7 @@ class VertexMaker {
     vertices.input.reserve(expected);
   }
 
-  // The vertex for a point; `snapped`: whether it is another point nearby.
+  // Returns the vertex for a point. `snapped` is set to true if that is another point nearby.
   VertexId make(const Point& plane, const Point& input, bool& snapped) {
     const VertexId found = grid_.find(plane);
     if (found != kNone) {
@@ -159,7 +159,7 @@ class VertexMaker {
   PointGrid grid_;
 };
 
-// Takes spikes out of a ring without repeated vertices: a, b, a becomes a. Calls `spike(b)`.
+// Removes spikes from a ring without repeated vertices: a, b, a becomes a. Calls `spike(b)`.
 template <typename Spike>
 std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& spike) {
   std::vector<VertexId> kept;
@@ -171,7 +171,7 @@ std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& s
       kept.push_back(v);
     }
   }
-  // Also where the ring closes.
+  // The same where the ring closes.
   std::size_t first = 0, last = kept.size();
   while (last - first > 2) {
     if (kept[first] == kept[last - 1]) {
@@ -190,7 +190,7 @@ std::vector<VertexId> withoutSpikes(const std::vector<VertexId>& ring, Spike&& s
   return {kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-// A ring traced several times over is traced once. Returns whether it was.
+// Reduces a ring that is traced several times over to one round. Returns true for such a ring.
 bool traceOnce(std::vector<VertexId>& walk) {
   const auto again = std::find(walk.begin() + 1, walk.end(), walk.front());
   const auto once = static_cast<std::size_t>(again - walk.begin());
@@ -201,7 +201,7 @@ bool traceOnce(std::vector<VertexId>& walk) {
   return true;
 }
 
-// Whether two rings have the same vertices in the same order, from any of them on and either way round.
+// True if two rings have the same vertices in the same order, from any start and in either direction.
 bool isSameRing(const std::vector<VertexId>& a, const std::vector<VertexId>& b) {
   if (a.size() != b.size()) return false;
   const std::size_t n = a.size();
@@ -215,11 +215,11 @@ bool isSameRing(const std::vector<VertexId>& a, const std::vector<VertexId>& b) 
   return forward || backward;
 }
 
-// Rings that a feature has twice in the same role: by the even-odd rule they would be as if they were not there.
-// Calls `drop(ring)` for each.
+// Removes rings that a feature repeats in the same role: by the even-odd rule they would cancel each other. Calls
+// `drop(ring)` for each.
 template <typename Drop>
 void dropRepeatedRings(std::vector<CleanChain>& chains, Drop&& drop) {
-  // Those that may be the same, in their order.
+  // Rings that may be the same are adjacent, in their order.
   struct Key {
     std::uint32_t feature;
     CleanChain::Role role;
@@ -253,7 +253,8 @@ void dropRepeatedRings(std::vector<CleanChain>& chains, Drop&& drop) {
   std::erase_if(chains, [&](const CleanChain&) { return repeated[c++]; });
 }
 
-// Of a sample of the points: least and greatest scale, and the coordinates' own grain, in which a snap distance drowns.
+// Over a sample of the points: least and greatest scale, and the grain of coordinates, below which a snap distance has
+// no effect.
 struct Scales {
   double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
   double grain = std::numeric_limits<double>::infinity();
@@ -281,7 +282,7 @@ Scales scalesOf(const std::vector<InputChain>& chains, const Coastline& coastlin
   return scales;
 }
 
-// Features whose rings hold the place that lies beyond all of the plane.
+// Features whose rings contain the plane's point at infinity, `place`; ascending.
 std::vector<std::uint32_t> holdersOf(const Point& place, const Coastline& coastline,
                                      const std::vector<std::size_t>& members) {
   std::vector<std::uint32_t> holders;
@@ -302,7 +303,7 @@ std::vector<std::uint32_t> holdersOf(const Point& place, const Coastline& coastl
     }
     return false;
   };
-  for (const bool frames : {true, false}) {  // most often no frame does, and all else lies in frames
+  for (const bool frames : {true, false}) {  // usually no frame contains it; others extend little beyond
     for (const std::size_t member : members) {
       const Feature& feature = coastline.features[member];
       if ((feature.use == FeatureUse::Frame) == frames && holds(feature)) {
@@ -339,7 +340,7 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   }
   result.seam = seam;
   const Scales scales = scalesOf(input, coastline, projection);
-  // By the smallest scale, so that nowhere more is snapped than requested.
+  // By the smallest scale, so that nowhere more than requested is snapped.
   const double snap = input.empty() || options.snap_m <= 0 ? 0 : options.snap_m * scales.least;
   result.snap = snap > scales.grain ? snap : 0;
   if (const std::optional<Point> beyond = projection.infinity()) {

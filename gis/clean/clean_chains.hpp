@@ -16,8 +16,8 @@ namespace coastmesh {
 // A vertex of the input, or one made where edges cross.
 struct CleanVertices {
   std::vector<Point> plane;
-  std::vector<Point> input;  // the input's own bits
-  std::vector<char> is_new;  // made by us: `input` is computed
+  std::vector<Point> input;  // with the input's bits, unless new
+  std::vector<char> is_new;  // made by cleaning: `input` is computed
 };
 
 // A ring or an open line over vertices.
@@ -37,7 +37,7 @@ struct CleanChains {
   double snap = 0;  // the snap distance in the plane; 0 if too small to matter
   Resolution resolution;
   std::optional<Seam> seam;
-  // Whether features of these uses exist; a frame around the whole globe leaves no chain.
+  // True if features of these uses exist, even without chains: a frame around the whole globe has none.
   bool framed = false, land = false, coast = false;
   std::vector<std::uint32_t> beyond;  // features that contain the plane's point at infinity, ascending
 };

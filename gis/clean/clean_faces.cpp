@@ -18,7 +18,7 @@ namespace coastmesh {
 
 namespace {
 
-// Features that a face lies in, ascending.
+// The features that contain a face, ascending.
 using FeatureSet = std::vector<std::uint32_t>;
 
 // An edge and its uses [first_use, last_use).
@@ -26,7 +26,7 @@ struct MapEdge {
   std::uint32_t first_use, last_use;
 };
 
-// Which of several features with lines along an edge counts; the least, and of those alike the first.
+// Precedence among features with lines along one edge: the lowest rank, then the first feature.
 int rankOf(FeatureUse use) {
   if (use == FeatureUse::Weir) return 0;
   return use == FeatureUse::Region ? 2 : 1;
@@ -88,7 +88,7 @@ class Labeller {
   std::int64_t fidOf(std::uint32_t feature) const { return coastline_.features[feature].fid; }
   const Point& inputOf(VertexId v) const { return chains_.vertices.input[v]; }
 
-  // Features whose rings run along the edge: crossing it leads into them or out of them.
+  // Features whose rings run along the edge: crossing it enters or leaves them.
   FeatureSet parted(const MapEdge& edge) const {
     FeatureSet features;
     for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
@@ -97,7 +97,7 @@ class Labeller {
     return features;
   }
 
-  // From the unbounded face inwards.
+  // Finds the features that contain each face, from the unbounded face inwards.
   void fillFaces() {
     holders_.resize(map_.faceCount());
     holders_[PlanarMap::kOuterFace] = chains_.beyond;
@@ -117,7 +117,7 @@ class Labeller {
     }
   }
 
-  // The first feature of a use that holds the face, else kOutside.
+  // The first feature of a use that contains the face, else kOutside.
   RegionId holderOf(std::uint32_t face, FeatureUse use) const {
     for (const std::uint32_t feature : holders_[face]) {
       if (useOf(feature) == use) return static_cast<RegionId>(feature);
@@ -147,7 +147,7 @@ class Labeller {
     return one_.empty() ? area : one_.at(static_cast<std::uint32_t>(area));
   }
 
-  // Makes features that share an edge one; the vertices of those edges.
+  // Unites features that share an edge. Returns the vertices of those edges, ascending.
   std::vector<VertexId> dissolve() {
     std::vector<VertexId> traces;
     if (chains_.land || chains_.coast) return traces;
@@ -238,10 +238,10 @@ class Labeller {
     return segments;
   }
 
-  // A feature, and whether a region has its border there.
+  // A feature, and whether a region has its border along the edge.
   using LineKey = std::pair<std::uint32_t, bool>;
 
-  // The line that runs along an edge within the domain.
+  // The line along an edge within the domain; nullopt if there is none.
   std::optional<LineKey> lineAlong(const MapEdge& edge) const {
     std::uint32_t first = kNone;
     bool of_region = false;
@@ -255,7 +255,7 @@ class Labeller {
     return first == kNone ? std::nullopt : std::optional(LineKey(first, of_region));
   }
 
-  // Whether open water goes on beyond an edge of the boundary.
+  // True if an edge of the boundary is open: on the frame, or on a line of use Open.
   bool opens(const MapEdge& edge, RegionId left, RegionId right) const {
     if (left != kOutside && right != kOutside) return false;
     for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
@@ -265,7 +265,7 @@ class Labeller {
     return false;
   }
 
-  // Vertices asked for that lie in water and on no segment; those elsewhere are reported.
+  // Requested vertices that lie in water and on no segment; those outside are reported.
   std::vector<VertexId> keepPoints(const std::vector<Segment>& segments) const {
     std::vector<VertexId> points;
     const bool any = std::ranges::any_of(chains_.chains,
@@ -305,12 +305,12 @@ class Labeller {
 
   const Point& placeIn(std::uint32_t face) const { return inputOf(ends_[map_.around(face).front() / 2].first); }
 
-  // A polygon wholly in another is mostly an island, drawn as a feature of its own where a hole was needed.
+  // Warns of polygons inside others: most are islands, drawn as separate features instead of holes.
   void warnOfNested() {
     struct Shared {
       std::uint32_t other, face;
     };
-    std::map<std::uint32_t, Shared> shared;  // of features that lie in another somewhere
+    std::map<std::uint32_t, Shared> shared;  // by feature that overlaps another somewhere
     std::vector<std::uint32_t> alone;        // features that have a face to themselves
     for (std::uint32_t face = 0; face < holders_.size(); ++face) {
       FeatureSet areas;
@@ -323,7 +323,7 @@ class Labeller {
     if (shared.empty()) return;
     std::ranges::sort(alone);
     std::erase_if(shared, [&](const auto& each) { return std::ranges::binary_search(alone, each.first); });
-    // Of two that are the same the second is told.
+    // Of two identical features, the second is reported.
     std::erase_if(shared, [&](const auto& each) {
       const auto other = shared.find(each.second.other);
       return other != shared.end() && each.first < other->first && other->second.other == each.first;
@@ -340,7 +340,7 @@ class Labeller {
         "makes in QGIS");
   }
 
-  // A ring is judged by the first of its edges that is left. Those that cross something have no side to judge by.
+  // Checks each ring at its first remaining edge. Rings that cross something are skipped: their inside is ambiguous.
   void reportMisplacedRings() {
     std::vector<char> done = noded_.crossed;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -377,12 +377,12 @@ class Labeller {
   CleanReport& report_;
   std::uint32_t first_coast_ = kNone;
   std::vector<MapEdge> edges_;
-  RegionId rest_;  // what lies in no feature
+  RegionId rest_;  // label outside all features of a whole globe, else kOutside
   std::vector<std::pair<VertexId, VertexId>> ends_;
   PlanarMap map_;
   std::vector<FeatureSet> holders_;
-  std::map<std::uint32_t, RegionId> one_;  // by feature: the first of those it is one with; empty: each is its own
-  std::vector<char> water_;                // by face, where there are coasts
+  std::map<std::uint32_t, RegionId> one_;  // by feature: the first that it is united with; empty unless dissolved
+  std::vector<char> water_;                // by face; empty without coasts
   std::vector<RegionId> labels_;           // by face
 };
 

@@ -14,14 +14,14 @@ struct LabelledEdges {
   std::vector<VertexId> points;
   std::vector<VertexId> asked;    // all requested vertices
   std::vector<VertexId> traces;   // vertices of edges that were dissolved, ascending
-  std::vector<DomainLine> lines;  // what the tags refer to
+  std::vector<DomainLine> lines;  // the lines that tags refer to
   RegionId beyond = kOutside;     // the label outside all edges
 };
 
 // Labels the faces between noded edges: a face belongs to the first feature that contains it by the even-odd rule,
 // within the frame if there is one; framed water belongs to the frame. With `dissolve`, features that share an edge are
-// one, the first of them. What is dropped goes to the report. Throws InputError if coasts do not determine which side
-// is water.
+// united into the first of them. Dropped edges and points are reported. Throws InputError if coasts do not determine
+// which side is water, and NothingWanted if the requested water is outside of all that coasts or the frame enclose.
 LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, const Coastline& coastline,
                          const Projection& projection, bool dissolve, CleanReport& report,
                          const ItemLoop& loop = inOrder);

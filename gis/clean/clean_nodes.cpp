@@ -17,9 +17,9 @@ namespace coastmesh {
 
 namespace {
 
-// The snap distance counts in the first rounds, since edges that are led through vertices come nearer to others; after
-// them rounding is all that is left to fight, at the grain of the coordinates. In these later rounds vertices nearer
-// than that grain become one, and each round doubles it.
+// Rounds that use the snap distance (several, since edges led through vertices come nearer to others), and rounds in
+// all. Later rounds only resolve effects of rounding: they use the grain of the coordinates, doubled each round, and
+// merge vertices closer than that.
 constexpr int kSnapRounds = 8, kMostRounds = 24;
 
 // An edge and its uses, [first_use, last_use).
@@ -39,7 +39,7 @@ struct Crossing {
   std::uint32_t e, f;
 };
 
-// True iff v lies inside the edge ab, exactly, or nearer to it than `tolerance` and between its ends.
+// True iff v lies exactly on the edge ab, or between its ends and nearer to it than `tolerance`.
 bool liesOnEdge(const Point& a, const Point& b, const Point& v, double tolerance) {
   const double dx = b.x - a.x, dy = b.y - a.y, wx = v.x - a.x, wy = v.y - a.y;
   if (tolerance > 0) {
@@ -78,7 +78,7 @@ class Noder {
   const Point& at(VertexId v) const { return chains_.vertices.plane[v]; }
   std::uint32_t featureOf(const EdgeUse& use) const { return chains_.chains[use.chain].feature; }
   bool isLine(const EdgeUse& use) const { return !chains_.chains[use.chain].isRing(); }
-  // What a line is for; before that of all lines for rings.
+  // For sorting: the use of a line; less for rings than for all lines.
   int lineUse(const EdgeUse& use) const {
     return isLine(use) ? static_cast<int>(coastline_.features[featureOf(use)].use) : -1;
   }
@@ -92,7 +92,7 @@ class Noder {
     for (std::size_t i = 0; i < edges; ++i) uses_.push_back({chain.walk[i], chain.walk[(i + 1) % n], c});
   }
 
-  // Sorts the uses, lets those of one feature cancel in pairs, and lists the edges.
+  // Sorts the uses, cancels those of one feature in pairs, and lists the edges.
   void collapse(bool reported) {
     const auto key = [&](const EdgeUse& use) {
       return std::tuple(use.low(), use.high(), lineUse(use), featureOf(use), use.chain, use.a);
@@ -128,7 +128,7 @@ class Noder {
     uses_.resize(kept);
   }
 
-  // By counting: there are as many vertices as edges, and few edges at each.
+  // Counting sort: there are as many vertices as edges, and few edges at each.
   void sortByLow() {
     std::vector<std::uint32_t> next(chains_.vertices.plane.size() + 1, 0);
     for (const EdgeUse& use : uses_) ++next[use.low() + 1];
@@ -143,12 +143,12 @@ class Noder {
     return chains_.seam && chains_.seam->holds(vertices.input[u]) && chains_.seam->holds(vertices.input[v]);
   }
 
-  // False where nothing is left to do.
+  // Returns false if nothing is left to do.
   bool splitOnce(int round) {
     const double grain = grain_ * std::ldexp(1.0, std::max(0, round - kSnapRounds));
     const double tolerance = round < kSnapRounds ? std::max(chains_.snap, grain) : grain;
     if (round >= kSnapRounds) mergeVertices(grain);
-    // The first round takes the input exactly, but for the snap distance asked for; what rounding made comes after.
+    // The first round uses only the requested snap distance; the grain is for effects of rounding in later rounds.
     find(round == 0 ? chains_.snap : tolerance);
     if (splits_.empty() && crossings_.empty()) return false;
     if (round == 0) reportSplits();
@@ -217,7 +217,7 @@ class Noder {
     }
   }
 
-  // So that new vertices are numbered along the edges, and of one edge along Hilbert's curve.
+  // Sorts by edge, and crossings of one edge along the Hilbert curve, so that new vertices are numbered in that order.
   void sortCrossings() {
     if (crossings_.empty()) return;
     std::vector<Point> centres;
@@ -271,7 +271,7 @@ class Noder {
                 std::max(first, second));
   }
 
-  // Makes every split edge a chain through the vertices found on it. What is new is active in the next round.
+  // Makes every split edge a chain through the vertices found on it. New edges are active in the next round.
   void apply() {
     std::vector<EdgeUse> uses;
     uses.reserve(uses_.size() + 2 * splits_.size());
@@ -300,7 +300,7 @@ class Noder {
     activate(std::move(fresh));
   }
 
-  // Makes those edges active whose ends are listed, lower end first.
+  // Activates the edges whose ends are listed, lower end first, and no others.
   void activate(std::vector<std::pair<VertexId, VertexId>> fresh) {
     std::sort(fresh.begin(), fresh.end());
     active_.assign(edges_.size(), 0);
@@ -309,8 +309,8 @@ class Noder {
     }
   }
 
-  // Makes vertices nearer than `tolerance` one, the first of them: where they are as near as rounding moves edges,
-  // these would go round and round between them.
+  // Merges vertices nearer than `tolerance` into the first of them. Between vertices as close as rounding moves edges,
+  // splitting would never end.
   void mergeVertices(double tolerance) {
     std::vector<VertexId> target(chains_.vertices.plane.size(), kNone), kept;
     for (const EdgeUse& use : uses_) target[use.a] = target[use.b] = 0;
@@ -372,7 +372,7 @@ class Noder {
   struct {
     std::uint32_t feature = 0;
     Point place;
-  } last_split_;  // for the error where rounds come to no end
+  } last_split_;  // for the error if rounds do not terminate
 };
 
 }  // namespace

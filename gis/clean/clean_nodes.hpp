@@ -17,17 +17,17 @@ struct EdgeUse {
 
 // Edges that meet only in common end points.
 struct NodedEdges {
-  // Sorted by low end, high end, rings before lines, feature. The rings of a feature use an edge at most once (two uses
-  // cancel: even-odd), lines of one FeatureUse at most once.
+  // Sorted by low end, high end, rings before lines, use of lines, feature. The rings of a feature use an edge at most
+  // once (two uses cancel: even-odd), lines of one FeatureUse at most once.
   std::vector<EdgeUse> uses;
-  std::vector<char> crossed;  // for each chain: whether one of its edges crossed another edge
+  std::vector<char> crossed;  // by chain: true if one of its edges crossed another edge
 };
 
 // Inserts vertices where edges cross, and leads edges through the vertices that lie on them (within the snap distance),
-// until edges meet only in common end points, exactly. New vertices are appended to `chains.vertices`. New vertices and
-// edges pass through whatever is within the snap distance of them, as long as this terminates (if three vertices are
-// little more than that apart, an edge between two may stay closer to the third: by a seventh, seldom up to a half);
-// after that the grain of `chains.resolution` is used. Throws InputError if that does not terminate.
+// until edges meet only in common end points, exactly. New vertices are appended to `chains.vertices`. New edges are
+// led through vertices, and edges through new vertices, within the snap distance, as long as this terminates (if three
+// vertices are little more than that apart, an edge between two may stay closer to the third: by a seventh, seldom up
+// to a half); after that the grain of `chains.resolution` is used. Throws InputError if that does not terminate.
 NodedEdges nodeChains(CleanChains& chains, const Coastline& coastline, const Projection& projection,
                       CleanReport& report, const ItemLoop& loop = inOrder);
 

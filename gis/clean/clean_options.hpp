@@ -4,7 +4,7 @@
 
 namespace coastmesh {
 
-// What to do at a vertex where rings, or a ring with itself, touch.
+// The treatment of vertices where rings, or a ring with itself, touch.
 enum class Pinches {
   Keep,  // the vertex stays in both; it is reported
   Open,  // land recedes a little, so that water can pass: see `openPinches`

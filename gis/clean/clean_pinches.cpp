@@ -18,7 +18,7 @@ namespace coastmesh {
 
 namespace {
 
-// By vertex: in how many sectors the outside lies. Each of these begins, counter-clockwise, with one edge.
+// By vertex: the number of sectors of the outside, each of which begins, counter-clockwise, with one edge.
 std::vector<std::uint32_t> outsideSectors(std::size_t vertices, const std::vector<Segment>& segments) {
   std::vector<std::uint32_t> sectors(vertices, 0);
   for (const Segment& s : segments) {
@@ -34,7 +34,7 @@ std::size_t featureBeside(const Segment& s) { return static_cast<std::size_t>(st
 double angleBetween(const Point& v, const Point& p, const Point& q) {
   const double ux = p.x - v.x, uy = p.y - v.y, wx = q.x - v.x, wy = q.y - v.y;
   const int turn = orient2d(v, p, q);
-  if (turn == 0) return std::numbers::pi;  // edges of a plane graph do not run along one another
+  if (turn == 0) return std::numbers::pi;  // edges of a plane graph do not overlap
   const double angle = std::abs(std::atan2(ux * wy - uy * wx, ux * wx + uy * wy));
   return turn > 0 ? angle : 2 * std::numbers::pi - angle;
 }
@@ -49,13 +49,13 @@ struct Spoke {
 
 // A sector of the outside between two spokes, counter-clockwise from `first` to `last`.
 struct Corner {
-  std::size_t first, last;  // numbers of spokes
+  std::size_t first, last;  // indices of spokes
   double angle;
   double water_before, water_after;  // angles of the water beside its edges
-  bool open;                         // an open boundary runs along it
+  bool open;                         // one of its edges is an open boundary
 };
 
-// The way from a pinched vertex along the shore.
+// A path along the shore from a pinched vertex.
 struct Way {
   enum class End { Beyond, Back, Stuck } end = End::Stuck;
   std::vector<std::uint32_t> segments;  // the last leads to `to`
@@ -63,8 +63,8 @@ struct Way {
   VertexId to = kNone;
 };
 
-// What takes a corner's place: from on its first edge to on its last, by `tip`, which lies on the bisector, a gap away
-// from the pinched vertex v. A shoulder is how far along the edges it begins.
+// The replacement of a corner: from a point on its first edge to one on its last, by `tip`, which lies on the bisector,
+// a gap away from the pinched vertex v. The shoulder is the distance along an edge at which it begins.
 //
 //            / last                    / last
 //   water   /                 water   o
@@ -75,7 +75,7 @@ struct Way {
 //            \ first                   \ first
 struct Notch {
   Point first, tip, last;
-  bool whole_first, whole_last;  // a vertex that is there
+  bool whole_first, whole_last;  // true for an existing vertex: the edge is taken whole
 };
 
 class PinchOpener {
@@ -128,11 +128,11 @@ class PinchOpener {
   }
 
  private:
-  // Pieces and new edges of a segment stay within this share of its length around it.
+  // Pieces and new edges of a segment are no further from it than this share of its length.
   static constexpr double kReach = 0.25;
-  // How far along the edges a notch begins, in gaps.
+  // Distance along the edges at which a notch begins, in gaps.
   static constexpr double kShoulder = 4.0;
-  // A notch that reaches further along an edge than this takes all of it.
+  // A notch that would reach further along an edge than this share of it takes the whole edge.
   static constexpr double kMostOfEdge = 0.6;
 
   const Point& at(VertexId v) const { return vertices_.plane[v]; }
@@ -154,7 +154,7 @@ class PinchOpener {
     return spokes;
   }
 
-  // The corners, those to be opened first in front.
+  // The corners, in the order in which to open them.
   std::vector<Corner> cornersOf(VertexId v, const std::vector<Spoke>& spokes) const {
     const std::size_t n = spokes.size();
     std::vector<Corner> corners;
@@ -184,9 +184,9 @@ class PinchOpener {
     return corners;
   }
 
-  // True iff one sector of the outside is left, or none.
+  // Opens corners of v. True iff at most one sector of the outside is left.
   bool open(VertexId v) {
-    // Each cut takes a corner away.
+    // Each cut removes a corner.
     for (std::size_t round = at_.at(v).size(); round > 0; --round) {
       const std::vector<Spoke> spokes = spokesOf(v);
       const std::vector<Corner> corners = cornersOf(v, spokes);
@@ -197,10 +197,10 @@ class PinchOpener {
     return cornersOf(v, spokesOf(v)).size() < 2;
   }
 
-  // What there is of shore in the reach of that gap is none to be kept.
+  // Shore nearer to the vertex than this is too small to keep.
   double leastScale() const { return kLeastScale * gap_; }
 
-  // How far the nearest vertices are, along each of the spokes.
+  // Distance of the nearest vertex along any of the spokes.
   double scaleAround(VertexId v, const std::vector<Spoke>& spokes) const {
     double scale = std::numeric_limits<double>::infinity();
     for (const Spoke& spoke : spokes) {
@@ -211,7 +211,7 @@ class PinchOpener {
     return std::isfinite(scale) ? scale : leastScale();
   }
 
-  // Along the shore from v until a vertex is as far from it as `reach`, or is v again.
+  // Follows the shore from v to a vertex at a distance of at least `reach`, or back to v.
   Way follow(VertexId v, const Spoke& spoke, double reach) const {
     constexpr std::size_t kFarthest = 64;  // edges
     Way way;
@@ -234,7 +234,7 @@ class PinchOpener {
     return segments_[segment].a == v ? segments_[segment].b : segments_[segment].a;
   }
 
-  // The shore's other segment at u, where there are two of one kind.
+  // The shore's other segment at u, if there is exactly one, of the same tag and labels; else nullopt.
   std::optional<std::uint32_t> nextAlong(std::uint32_t segment, VertexId u) const {
     std::optional<std::uint32_t> next;
     for (const std::uint32_t other : segmentsNear(Box::of(at(u), at(u)))) {
@@ -243,7 +243,7 @@ class PinchOpener {
       next = other;
     }
     if (!next || segments_[*next].tag != segments_[segment].tag) return std::nullopt;
-    const auto leftOf = [&](const Segment& s) { return s.a == u ? s.left : s.right; };  // on the way from u
+    const auto leftOf = [&](const Segment& s) { return s.a == u ? s.left : s.right; };  // when leaving u
     const auto rightOf = [&](const Segment& s) { return s.a == u ? s.right : s.left; };
     const Segment &s = segments_[segment], &t = segments_[*next];
     return leftOf(s) == rightOf(t) && rightOf(s) == leftOf(t) ? next : std::nullopt;
@@ -271,7 +271,8 @@ class PinchOpener {
     return false;
   }
 
-  // A ring that leads back to v within that reach, with nothing in it, goes: island or lake.
+  // Removes a ring that leads back to v within the reach of the way and contains nothing, island or lake. Returns true
+  // if it did.
   bool dropLobe(const Way& way, VertexId v) {
     if (way.end != Way::End::Back) return false;
     Ring ring{at(v)};
@@ -299,7 +300,7 @@ class PinchOpener {
     std::erase(at_[v], segment);
   }
 
-  // How far from the vertex a notch begins: where the water beside the edge has become as wide as the gap.
+  // Distance from the vertex at which a notch begins: there the water beside the edge is as wide as the gap.
   static double shoulder(double gap, double water) {
     return std::max(kShoulder * gap, gap / (2 * std::sin(std::min(water, std::numbers::pi) / 2)));
   }
@@ -335,7 +336,7 @@ class PinchOpener {
     return near;
   }
 
-  // Whether two edges with the ends given meet in more than a common end.
+  // True if two edges with the given ends meet other than in a common end.
   static bool clash(const Point& a, const Point& b, const Point& c, const Point& d) {
     const auto overlap = [](const Point& shared, const Point& p, const Point& q) {
       return orient2d(shared, p, q) == 0 &&
@@ -348,7 +349,7 @@ class PinchOpener {
     return segmentsMeet(a, b, c, d);
   }
 
-  // Whether two edges that do not meet but in a common end come nearer to one another than the gap beyond that end.
+  // True if an end of one edge, other than a common end, comes nearer to the other edge than the gap.
   bool tooNear(const Point& a, const Point& b, const Point& c, const Point& d) const {
     const auto near = [&](const Point& p, const Point& from, const Point& to) {
       return !(p == from) && !(p == to) && squaredDistanceToSegment(p, from, to) < gap_ * gap_;
@@ -356,7 +357,7 @@ class PinchOpener {
     return near(a, c, d) || near(b, c, d) || near(c, a, b) || near(d, a, b);
   }
 
-  // Whether the corner from v to the notch holds nothing, and the notch's edges meet nothing.
+  // True if the corner from v to the notch contains nothing, and the edges of the notch meet nothing.
   bool fits(VertexId v, const Way& along_first, const Way& along_last, const Notch& notch, double gap) const {
     const Point& centre = at(v);
     if (orient2d(centre, notch.first, notch.tip) <= 0 || orient2d(centre, notch.tip, notch.last) <= 0) return false;
@@ -383,7 +384,7 @@ class PinchOpener {
     const auto clashes = [&](const Point& a, const Point& b) {
       return std::ranges::any_of(edges, [&](const auto& edge) { return clash(edge.first, edge.second, a, b); });
     };
-    // What is passed by goes, but may not come between the vertex and the notch.
+    // Passed vertices will be removed, but must not lie between the vertex and the notch.
     for (const Way* way : {&along_first, &along_last}) {
       for (std::size_t i = 0; i + 1 < way->segments.size(); ++i) {
         const Segment& s = segments_[way->segments[i]];
@@ -410,7 +411,7 @@ class PinchOpener {
     return static_cast<VertexId>(vertices_.plane.size() - 1);
   }
 
-  // Adds an edge, to be found where `beside` is.
+  // Adds an edge, which queries find through the original segment of `beside`.
   void addSegment(VertexId a, VertexId b, std::int32_t tag, RegionId left, RegionId right, std::uint32_t beside) {
     if (a > b) std::swap(a, b), std::swap(left, right);
     const auto number = static_cast<std::uint32_t>(segments_.size());
@@ -436,13 +437,13 @@ class PinchOpener {
     noteStrayed(segment);
   }
 
-  // What does not lie where it is looked for is looked at always.
+  // Segments outside the box through which queries find them are included in every query.
   void noteStrayed(std::uint32_t segment) {
     const Segment& s = segments_[segment];
     if (!boxes_[originalOf(segment)].contains(Box::of(at(s.a), at(s.b)))) strayed_.push_back(segment);
   }
 
-  // An edge that is taken whole goes on from its far end to the tip; of another the near part becomes water.
+  // An edge taken whole now runs from its far end to the tip; of another the part near v becomes water.
   void apply(VertexId v, const Spoke& first, const Way& along_first, const Spoke& last, const Way& along_last,
              const Notch& notch) {
     const std::int32_t first_tag = segments_[first.segment].tag, last_tag = segments_[last.segment].tag;
@@ -465,16 +466,16 @@ class PinchOpener {
     }
   }
 
-  // More than the gap, so that what was parted is not brought together again.
+  // In gaps: above 1, so that shores that were separated are not joined again.
   static constexpr double kGapMargin = 1.5;
-  // In gaps: where the least opening is as wide as it may be.
+  // In gaps: the scale at which the least opening is the widest allowed.
   static constexpr double kLeastScale = kGapMargin / kReach;
 
   CleanVertices& vertices_;
   std::vector<Segment>& segments_;
   const Coastline& coastline_;
   const Projection& projection_;
-  double gap_;  // that new edges keep from others
+  double gap_;  // least distance of new edges from others
   CleanReport& report_;
   std::uint32_t originals_;
   std::vector<Box> boxes_;  // of the first `originals_` segments, with their surroundings

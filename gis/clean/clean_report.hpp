@@ -19,19 +19,19 @@ enum class EditKind {
   Spike,            // an edge that runs back along itself
   SelfCrossing,     // two edges of a feature cross: a vertex was inserted
   FeaturesCross,    // edges of two features cross: a vertex was inserted
-  TouchingRing,     // a ring meets another, or itself, in a vertex: the domain is pinched there (nothing was changed)
+  TouchingRing,     // a ring meets another, or itself, in a vertex: the domain is pinched there (unchanged)
   OverlappingEdge,  // two edges overlap, or a vertex lies on an edge: made to meet in vertices
   DegenerateRing,   // a ring without area was dropped
   SmallIsland,      // dropped for `min_island_area_m2`
   SimplifiedPoint,  // dropped for `simplify_m`
-  FeaturesOverlap,  // a place is in two features: the first of them applies; the edit names the other
+  FeaturesOverlap,  // an area is in two features: the first of them applies; the edit names the other
   MisplacedRing,    // a hole outside its outer ring, or an outer ring inside another: taken by the even-odd rule
   OutsideWater,     // a point requested as a vertex is outside the domain: dropped
-  DissolvedEdge,    // an edge between two features, or a vertex only of such edges: dropped by `dissolve`
+  DissolvedEdge,    // an edge between two features, or a vertex left by such edges: dropped by `dissolve`
   OpenedPinch,      // water can pass where rings touched, or crossed, in a vertex: made by `Pinches::Open`
   ClosedWater,      // water narrower or smaller than the elements there: closed by `followSizes`
-  DroppedSpit,      // land narrower than these that ends in water: dropped by `followSizes`
-  CutOffWater,      // water cut off where narrow water was closed: left out by `followSizes`
+  DroppedSpit,      // land narrower than the elements there that ends in water: dropped by `followSizes`
+  CutOffWater,      // water cut off by closing narrow water: left out by `followSizes`
   MovedPoint,       // a point of the shore: moved by `followSizes`, by at most half the size there
   WidenedPassage,   // given by the user, or the only connection of waters: land beside it receded, by `followSizes`
   Barrier,          // water on a line given by the user: closed by `followSizes`
@@ -45,14 +45,14 @@ struct Edit {
   EditKind kind;
   Point place;  // in the input's CRS
   std::int64_t fid = 0;
-  std::uint32_t feature = 0;  // of the coastline: fids of several sources are alike
+  std::uint32_t feature = 0;  // index in the coastline, since fids of several sources may be equal
 };
 
 struct CleanReport {
   std::vector<Edit> edits;
   std::vector<std::string> notes;     // decisions where the input was ambiguous
-  std::vector<std::string> warnings;  // those of them that cost more than users may expect
-  std::vector<std::string> idle;      // of what has no effect here: a note if it has none anywhere
+  std::vector<std::string> warnings;  // decisions that cost more than users may expect
+  std::vector<std::string> idle;      // inputs without effect on this group: noted if true of all groups
   FollowedWaters waters;
   std::array<std::uint64_t, kEditKinds> counts{};
 

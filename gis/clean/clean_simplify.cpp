@@ -18,7 +18,7 @@ namespace coastmesh {
 
 namespace {
 
-// A vertex with exactly two segments of the same labels, in a doubly linked chain.
+// A vertex and its first two segments. If there are exactly two, of the same labels, they link it into a chain.
 struct Link {
   std::array<std::uint32_t, 2> segment{kNone, kNone};
   std::uint32_t degree = 0;
@@ -42,7 +42,7 @@ class Simplifier {
         tolerance_(tolerance),
         links_(vertices.plane.size()) {
     pieces_.reserve(edges.segments.size());
-    for (const VertexId v : edges.points) links_[v].degree = 3;  // not to be taken, but in the way
+    for (const VertexId v : edges.points) links_[v].degree = 3;  // never dropped, but it blocks others
     for (const Segment& s : edges.segments) {
       for (const VertexId v : {s.a, s.b}) {
         Link& link = links_[v];
@@ -64,7 +64,7 @@ class Simplifier {
     tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
   }
 
-  // Lets only those go for which `may(v, p, q)` holds, with its neighbours p and q.
+  // Limits removal to vertices v for which `may(v, p, q)` is true, with the neighbours p and q.
   template <typename May>
   void restrictTo(May&& may) {
     for (VertexId v = 0; v < links_.size(); ++v) {
@@ -75,7 +75,7 @@ class Simplifier {
   template <typename Dropped>
   std::vector<Segment> run(Dropped&& dropped) {
     for (VertexId v = 0; v < links_.size(); ++v) enqueue(v);
-    // Every entry that is not stale drops a vertex or is never renewed but by one that does.
+    // Terminates, since only dropping a vertex adds entries.
     while (!queue_.empty()) {
       const Entry entry = queue_.top();
       queue_.pop();
@@ -107,7 +107,7 @@ class Simplifier {
     return s.a == v ? s.b : s.a;
   }
 
-  // Labels to the left and to the right on the way out of v.
+  // Labels on the left and on the right when leaving v.
   std::pair<RegionId, RegionId> labelsFrom(std::uint32_t segment, VertexId v) const {
     const Segment& s = pieces_[segment].segment;
     return s.a == v ? std::pair(s.left, s.right) : std::pair(s.right, s.left);
@@ -124,14 +124,14 @@ class Simplifier {
     return p != q && !joined(p, q);
   }
 
-  // Whether a segment between p and q is there already: the ring is a triangle, or two chains run between them.
+  // True if p and q are joined by a segment already: the ring is a triangle, or two chains run between them.
   bool joined(VertexId p, VertexId q) const { return ends_.contains(keyOf(p, q)); }
 
   static std::uint64_t keyOf(VertexId p, VertexId q) {
     return (static_cast<std::uint64_t>(std::min(p, q)) << 32) | std::max(p, q);
   }
 
-  // The largest distance, squared, of v and what was dropped beside it from the segment that would replace it.
+  // The largest squared distance of v, and of vertices dropped beside it, from the segment that would replace it.
   double costOf(VertexId v) const {
     const auto [first, second] = links_[v].segment;
     const Point &a = at(other(first, v)), &b = at(other(second, v));
@@ -148,8 +148,8 @@ class Simplifier {
     if (tolerance >= 0.0 && cost <= tolerance * tolerance) queue_.push({cost, v, links_[v].version});
   }
 
-  // Whether the triangle of v and its neighbours holds another living vertex, on its boundary included, or the segment
-  // that would replace v comes too near to one.
+  // True if the triangle of v and its neighbours contains another living vertex, or one on its boundary, or if the
+  // segment that would replace v comes too near to one.
   bool blocked(VertexId v) const {
     const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
     const int turn = orient2d(at(p), at(v), at(q));
@@ -161,7 +161,7 @@ class Simplifier {
       if (found || w == v || w == p || w == q || links_[w].degree == 0) return;
       found = squaredDistanceToSegment(at(w), at(p), at(q)) < gap * gap;
       if (found) return;
-      if (turn == 0) {  // v lies on pq, or the chain turns back: nothing may lie on the way
+      if (turn == 0) {  // v lies on pq, or the chain turns back: no vertex may lie on that line
         found = orient2d(at(p), at(q), at(w)) == 0;
         return;
       }
@@ -171,13 +171,13 @@ class Simplifier {
     return found;
   }
 
-  // Whether the segment that would replace v makes too small an angle with another at one of its ends.
+  // True if the segment that would replace v makes too small an angle with another at one of its ends.
   bool pointed(VertexId v) const {
     const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
     return pointedAt(p, v, q) || pointedAt(q, v, p);
   }
 
-  // The same at p, where the segment to v would go to q instead.
+  // The same at p, where pq would replace pv.
   bool pointedAt(VertexId p, VertexId v, VertexId q) const {
     const Point out = at(q) - at(p);
     const double length = std::sqrt(squaredLength(out));
@@ -234,9 +234,9 @@ class Simplifier {
   const std::function<double(VertexId)>& tolerance_;  // in the plane
   std::vector<Link> links_;
   std::vector<Piece> pieces_;
-  std::unordered_map<VertexId, std::vector<VertexId>> junctions_;  // their neighbours, where there are more than two
+  std::unordered_map<VertexId, std::vector<VertexId>> junctions_;  // neighbours, if more than two
   std::unordered_set<std::uint64_t> ends_;                         // of living pieces
-  std::unordered_set<VertexId> kept_;                              // not to be dropped whatever their place
+  std::unordered_set<VertexId> kept_;                              // never to be dropped
   BoxTree tree_;
   std::priority_queue<Entry> queue_;
 };
@@ -258,7 +258,7 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
 
 namespace {
 
-// The last decimal in which a coordinate is written, as a length: 1e-7 for 3.1415926; no more than `most`, and no less
+// The unit of the last decimal in which a coordinate is written: 1e-7 for 3.1415926; no more than `most`, and no less
 // than `least`.
 double lastDecimal(double x, double most, double least) {
   double step = most;
@@ -272,9 +272,9 @@ double lastDecimal(double x, double most, double least) {
 
 std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
                                 const Projection& projection, const Resolution& resolution, CleanReport& report) {
-  constexpr double kFarthest = 1000;                               // metres; the input's coordinates decide
-  const double coarsest = coastline.crs.geographic ? 1e-7 : 0.01;  // a last decimal: degrees, metres
-  constexpr double kStraight = 0.01;     // of what replaces it: however coarse the decimals, a bend is no trace
+  constexpr double kFarthest = 1000;  // metres: not reached, since `isStraight` is stricter
+  const double coarsest = coastline.crs.geographic ? 1e-7 : 0.01;  // last decimals: degrees, metres
+  constexpr double kStraight = 0.01;  // of the new segment: a longer deviation is a bend, however coarse the decimals
   constexpr double kRounding = 0x1p-44;  // of a coordinate
   const std::function<double(VertexId)> farthest = [&](VertexId v) {
     return kFarthest * projection.scaleAt(vertices.plane[v]);

@@ -21,7 +21,8 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
 
 // Drops those of `edges.traces` that lie on the straight line between their neighbours: vertices left in the shore
 // where polygons were cut apart. The tolerance is the last decimal to which the input was rounded, at most a
-// centimetre, or rounding errors if it has all its digits. Topology is kept as above.
+// centimetre, or rounding errors if it has all its digits; it is at most 1 % of the new segment. Topology is kept as
+// above.
 std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdges& edges, const Coastline& coastline,
                                 const Projection& projection, const Resolution& resolution, CleanReport& report);
 

@@ -17,7 +17,7 @@ struct ChainEdge {
 
 struct Insertion {
   ChainEdge edge;
-  double along;  // distance from the edge's first point, by its longer coordinate
+  double along;  // distance from the edge's first point, along its longer coordinate
   Point place;
 
   friend bool operator<(const Insertion& p, const Insertion& q) {

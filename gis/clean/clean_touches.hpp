@@ -21,11 +21,11 @@ struct Touch {
   Point place;
 };
 
-// Points that lie on an edge of another chain, or of their own, become points of that edge: features that touch in the
+// Inserts points that lie on an edge of another chain, or of their own, into that edge: features that touch in the
 // input's coordinates (such as polygons cut along a grid of longitudes) must touch in the working plane too, where
 // edges are slightly different lines. A point is on an edge if it is within `tolerance`, 0 or more, or within the
-// rounding of coordinates, in their own unit; points that close to one of its ends are left to snapping. Edges wider
-// than `widest` are skipped: longitudes that jump from one end of the map to the other do not run between.
+// rounding of coordinates, in their own unit; points that close to an end of the edge are left to snapping. Edges wider
+// than `widest` are skipped: if longitudes jump from one end of the map to the other, no edge runs between.
 std::vector<Touch> insertTouchingPoints(const std::vector<TouchChain>& chains, double tolerance,
                                         double widest = std::numeric_limits<double>::infinity(),
                                         const ItemLoop& loop = inOrder);

@@ -12,7 +12,7 @@ namespace coastmesh {
 
 namespace {
 
-// Lines that agree on the rule by less than this share of their length do not follow it.
+// Coasts follow the rule if at least this share of their length does.
 constexpr double kAgreement = 0.9;
 
 class WaterFinder {
@@ -33,7 +33,8 @@ class WaterFinder {
   }
 
  private:
-  // Goes over all faces that may be water and hang together, and says on which side of the coasts each lies.
+  // Finds the sides of all faces connected to `first` on which water may lie, given the side of `first`: crossing a
+  // coast changes sides. Calls `found(face, water)` for each.
   template <typename Found>
   void flood(std::uint32_t first, bool water, Found&& found) {
     if (seen_.empty()) seen_.assign(coast_.map.faceCount(), 0);
@@ -65,7 +66,7 @@ class WaterFinder {
         for (const PlanarMap::HalfEdge h : coast_.map.around(member)) {
           const CoastEdge& edge = coast_.edges[h / 2];
           if (!edge.parts || edge.direction == 0 || coast_.map.faceOf(h) == coast_.map.faceOf(h ^ 1u)) continue;
-          // The half-edge has the face on its left; a coast that runs the other way has it on its right.
+          // The half-edge has the face on its left; a coast in the opposite direction has it on its right.
           const bool on_right = (h % 2 == 0) != (edge.direction > 0);
           const double weight = lengthOf(edge);
           length += weight;
@@ -109,8 +110,8 @@ class WaterFinder {
     return std::hypot(b.x - a.x, b.y - a.y);
   }
 
-  // Follows each line from where it ends within the frame: where it comes to the frame's boundary, or ends again, it
-  // should have parted water from land. A line that ends at another coast is a pier.
+  // Follows each line from a loose end within the frame. If it reaches the boundary of the frame, or another loose end,
+  // it should have separated water from land. A line that ends at another coast is a pier.
   void refuseGaps() const {
     const std::size_t n = vertices_.plane.size();
     std::vector<std::uint32_t> degree(n, 0), lines(n, 0);
@@ -132,7 +133,7 @@ class WaterFinder {
     for (const VertexId start : loose) {
       std::uint32_t e = at[start][0];
       VertexId v = start;
-      // No vertex comes twice: all between the ends have two edges.
+      // Terminates: all vertices between the ends have exactly two edges.
       while (true) {
         v = coast_.edges[e].low == v ? coast_.edges[e].high : coast_.edges[e].low;
         if (degree[v] != 2 || on_frame[v]) break;

@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// The edges and points as a domain, with only the vertices in use, in their order.
+// The edges and points as a domain, with only the used vertices, in their order.
 Domain domainOf(const CleanVertices& vertices, LabelledEdges&& edges, const Projection& projection,
                 const Resolution& resolution);
 

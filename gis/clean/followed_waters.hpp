@@ -9,20 +9,20 @@
 
 namespace coastmesh {
 
-// A water that following sizes has changed, for a note: its share of all water goes between the two texts. That is
-// known only when all groups of features are done.
+// A water that following sizes has changed, for a note. Its share of all water, known only when all groups of features
+// are done, goes between the two texts.
 struct NotedWater {
   double area_m2 = 0.0;
   std::string before, after;
 };
 
-// How many there are, and the largest of them.
+// The number of waters, their area, and the largest of them.
 struct NotedWaters {
   static constexpr std::size_t kMost = 20;
 
   std::size_t count = 0;
   double area_m2 = 0.0;
-  std::vector<NotedWater> largest{};  // the largest first, of equals that which came first
+  std::vector<NotedWater> largest{};  // largest first, equal ones in the order added
 
   void add(NotedWater&& water) {
     ++count;
@@ -43,15 +43,14 @@ struct NotedWaters {
   }
 };
 
-// What following sizes has made of the water, or of the land where that is meshed; of one group of features, or of
-// several.
+// The changes of the water by following sizes, or of the land if that is meshed, in one group of features or several.
 struct FollowedWaters {
-  double area_m2 = 0.0;         // of all of it, before
-  NotedWaters cut_off, apart;   // without a connection: what is not kept, and what is kept beside the largest
-  NotedWaters joined;           // by straits that were widened
-  std::size_t with_apart = 0;   // groups of which parts are kept beside the largest
-  double closed_m2 = 0.0;       // of `apart`, where the data have a connection
-  bool cut_off_by_way = false;  // the data have one for any of `cut_off`
+  double area_m2 = 0.0;         // of all water, kept or not
+  NotedWaters cut_off, apart;   // disconnected: not kept, and kept beside the largest
+  NotedWaters joined;           // by widened straits
+  std::size_t with_apart = 0;   // groups that keep parts beside the largest
+  double closed_m2 = 0.0;       // of `apart`, if connected in the data
+  bool cut_off_by_way = false;  // some of `cut_off` is connected in the data
   bool none_kept_open = false;  // the largest was kept although others are at an open boundary
   bool in_plane = false;        // lengths have no unit
 

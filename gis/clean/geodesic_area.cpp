@@ -17,8 +17,8 @@ namespace coastmesh {
 
 namespace {
 
-// The ring with longitudes that go on past ±180 where it crosses the antimeridian, its first point repeated at the end:
-// 360 degrees further where it goes round a pole.
+// The ring with longitudes that continue past ±180 across the antimeridian. Its first point is repeated at the end, 360
+// degrees further if the ring surrounds a pole.
 std::vector<LonLat> unrolled(const std::vector<LonLat>& ring) {
   std::vector<LonLat> result = ring;
   result.push_back(ring.front());
@@ -63,7 +63,7 @@ double RingArea::of(const Ring& ring) const {
   return onEllipsoid(places);
 }
 
-// None for rings whose longitudes jump or that come near to a pole.
+// Returns nullopt for rings whose longitudes jump or that come near to a pole.
 std::optional<double> RingArea::awayFromPoles(const std::vector<LonLat>& ring) const {
   constexpr double kWidest = 90, kHighest = 89;  // degrees
   GeographicLib::Accumulator<double> sum;
@@ -96,7 +96,7 @@ double RingArea::onEllipsoid(const std::vector<LonLat>& ring) const {
 
 double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members, const ItemLoop& loop) {
   const RingArea area(coastline.crs);
-  std::vector<std::pair<const Ring*, double>> rings;  // with the sign that they count with
+  std::vector<std::pair<const Ring*, double>> rings;  // and its sign in the sum
   for (const std::size_t member : members) {
     if (coastline.features[member].use != FeatureUse::Area) continue;
     for (const Polygon& polygon : coastline.features[member].polygons) {
@@ -116,8 +116,7 @@ double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& 
 namespace {
 
 // Karney, "Algorithms for geodesics" (2013), Section 6: the area between an edge and the equator, added up along rings
-// with the inside to their left. Which of the areas that differ by half the globe is meant, crossings of a meridian
-// tell.
+// with the inside to their left. The sum is ambiguous by half the globe; the parity of crossings of a meridian decides.
 class AreaSum {
  public:
   explicit AreaSum(const EdgeArea& edges) : edges_(edges) {}
@@ -136,17 +135,17 @@ class AreaSum {
     sum_ -= area;
     const double step = Math::AngDiff(from.lon_deg, to.lon_deg);
     const bool west_before = Math::AngNormalize(from.lon_deg) < 0, west_after = Math::AngNormalize(to.lon_deg) < 0;
-    // Only where the meridian of 0 degrees is crossed, not the one of 180.
+    // Only at the meridian of 0 degrees, not at that of 180.
     if ((step > 0 && west_before && !west_after) || (step < 0 && !west_before && west_after)) odd_ = !odd_;
   }
   void add(const AreaSum& other) {
     const double sum = other.sum_();
     sum_ += sum;
-    sum_ += other.sum_(-sum);  // what rounding left of it
+    sum_ += other.sum_(-sum);  // the rest lost by rounding
     odd_ = odd_ != other.odd_;
   }
 
-  // Slivers between geodesics may be less than nothing: what would be more than `most()` is one of these.
+  // A negative sum means the rest of the globe; if that exceeds `most()`, the sum is of slivers between geodesics.
   template <typename Most>
   double area(const Most& most) const {
     const double globe = edges_.geodesic().EllipsoidArea();
@@ -160,7 +159,7 @@ class AreaSum {
   bool odd_ = false;
 };
 
-// The ends of a segment between inside and outside, with the inside to the left; none for others.
+// The ends of a segment between inside and outside, with the inside to the left; nullopt for other segments.
 std::optional<std::pair<VertexId, VertexId>> borderOf(const Segment& s) {
   if ((s.left >= 0) == (s.right >= 0)) return std::nullopt;
   return s.left >= 0 ? std::pair(s.a, s.b) : std::pair(s.b, s.a);
@@ -177,9 +176,9 @@ double planeArea(const Domain& domain, const std::vector<Point>& points) {
   return std::abs(twice) / 2;
 }
 
-// More than a domain has on the ground, by its area in the working plane.
+// Upper bound of a domain's area on the ground, from its area in the working plane.
 double mostArea(const Domain& domain) {
-  constexpr double kDegree = 112e3, kCare = 2.0;  // metres; an identity's units are those of the input
+  constexpr double kDegree = 112e3, kCare = 2.0;  // metres per degree, the largest unit of an identity; factor
   double least = domain.projection.isIdentity() ? 1 / kDegree : domain.projection.scaleAt({});
   for (const Point& p : domain.pslg.points)
     if (!domain.projection.isIdentity()) least = std::min(least, domain.projection.scaleAt(p));

@@ -24,16 +24,16 @@ class RingArea {
   double onEllipsoid(const std::vector<LonLat>& ring) const;
   std::optional<double> awayFromPoles(const std::vector<LonLat>& ring) const;
 
-  std::optional<GeographicMap> to_geographic_;  // none for a plane
+  std::optional<GeographicMap> to_geographic_;  // nullopt for a plane
   EdgeArea edges_;
 };
 
-// Area of the group's polygons without holes, on the ellipsoid (or in the plane), in square metres, edges geodesic: the
-// sum of all rings as they are, so that what overlaps counts twice.
+// Area of the group's polygons minus their holes, on the ellipsoid in square metres, with geodesic edges, or in the
+// plane: the sum over all rings as they are, so that overlaps count twice.
 double geodesicArea(const Coastline& coastline, const std::vector<std::size_t>& members,
                     const ItemLoop& loop = inOrder);
 
-// Area that the domain's labels cover, as above: each place counts once, whatever the rings of the input repeat.
+// Area of the domain by its labels, as above: each place counts once, whatever the rings of the input repeat.
 double geodesicArea(const Domain& domain, const Crs& crs, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

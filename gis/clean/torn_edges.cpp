@@ -9,18 +9,18 @@ namespace coastmesh {
 
 namespace {
 
-// The part `t` of the way from a to b, in longitudes the shorter way round.
+// The point at the share `t` of the way from a to b, the shorter way in longitude.
 Point along(const Point& a, const Point& b, double t, bool geographic) {
   double dx = b.x - a.x;
   if (geographic && std::abs(dx) > 180 && std::abs(dx) < 360) dx -= std::copysign(360.0, dx);
   return {a.x + t * dx, a.y + t * (b.y - a.y)};
 }
 
-// Whether the image of an edge jumps: where it does not, small steps along the edge are small ones in the plane.
+// True if the image of an edge jumps; otherwise small steps along the edge are small in the plane.
 bool jumps(const Point& a, const Point& b, const Point& plane_a, const Point& plane_b, bool geographic,
            const Projection& projection) {
   constexpr int kSteps = 64;
-  constexpr double kJump = 0.5;  // of the distance of the two ends
+  constexpr double kJump = 0.5;  // of the distance between the two ends
   const double longest = kJump * distance(plane_a, plane_b);
   Point before = plane_a;
   for (int i = 1; i <= kSteps; ++i) {

@@ -16,9 +16,9 @@ struct ProjectedChain {
   bool closed = false;
 };
 
-// Throws InputError, with the edge, if `projection` shows the two ends of an edge far apart although they are close in
+// Throws InputError, with the edge, if `projection` maps the two ends of an edge far apart although they are close in
 // the input's coordinates: a user's CRS may have a discontinuity where the input has none, at ±180 or at the edge of an
-// interrupted map. `extent` is that of the whole plane: a discontinuity spans a large part of it.
+// interrupted map. `extent` is the size of the image of all chains: a discontinuity spans a large part of it.
 void requireUntorn(const ProjectedChain& chain, double extent, const Crs& crs, const Projection& projection);
 
 }  // namespace coastmesh

@@ -10,11 +10,11 @@ namespace coastmesh {
 
 namespace {
 
-// A point of a chain, and what is to be added to its longitude so that the chain does not jump.
+// A point of a chain, and the turn to add to its longitude so that the chain does not jump.
 struct Turned {
   Point p;
   double turn = 0;    // degrees
-  bool made = false;  // none of the input's
+  bool made = false;  // not a point of the input
 };
 
 using TurnedChain = std::vector<Turned>;
@@ -40,7 +40,7 @@ std::vector<Point> pointsOf(const TurnedChain& chain) {
   return points;
 }
 
-// The inside of one side of the box: sign · coordinate <= sign · limit.
+// One side of the box. Inside: sign · coordinate <= sign · limit.
 struct Side {
   bool in_x;
   double limit;
@@ -52,7 +52,7 @@ struct Side {
   double beyond(const Turned& at) const { return sign * (own(at) + shiftOf(at) - limit); }
   bool holds(const Turned& at) const { return beyond(at) <= 0; }
   bool runsThrough(const Turned& at) const { return own(at) == limit - shiftOf(at); }
-  // Where ab crosses the side, in the turn of a. REQUIRES: it holds one of them.
+  // Where ab crosses the side, with the turn of a. REQUIRES: exactly one of the two is inside.
   Turned cut(const Turned& a, const Turned& b) const {
     const double da = beyond(a), db = beyond(b), t = da / (da - db), dx = b.p.x + (b.turn - a.turn) - a.p.x;
     Turned at{{a.p.x + t * dx, a.p.y + t * (b.p.y - a.p.y)}, a.turn, true};
@@ -74,7 +74,8 @@ std::vector<Side> sidesOf(const ClipBox& clip) {
   return sides;
 }
 
-// Adds the multiples of `piece` strictly between a and b, which lie on one side, in the order from a to b.
+// Adds points at the multiples of `piece` strictly between a and b, in the order from a to b. REQUIRES: a and b lie on
+// one side of the box.
 void addPieces(const Turned& a, const Turned& b, double piece, bool along_x, TurnedChain& chain) {
   const double from = along_x ? a.p.x + a.turn : a.p.y, to = along_x ? b.p.x + b.turn : b.p.y;
   const double low = std::floor(std::min(from, to) / piece) + 1, high = std::ceil(std::max(from, to) / piece) - 1;
@@ -87,7 +88,7 @@ void addPieces(const Turned& a, const Turned& b, double piece, bool along_x, Tur
   }
 }
 
-// Cuts what runs along the box's sides into pieces.
+// Divides the edges that run along sides of the box.
 TurnedChain inPieces(const TurnedChain& ring, const ClipBox& clip, const std::vector<Side>& sides) {
   if (!std::isfinite(clip.piece_x) && !std::isfinite(clip.piece_y)) return ring;
   TurnedChain result;
@@ -145,7 +146,7 @@ std::vector<TurnedChain> clipLines(TurnedChain line, const ClipBox& clip) {
   return kept;
 }
 
-// The clips that see a chain from each turn in which some of it lies in the box.
+// The clip with each shift by full turns at which the chain may reach into the box.
 std::vector<ClipBox> clipsOf(const TurnedChain& chain, const ClipBox& clip) {
   if (!std::isfinite(clip.box.xmin)) return {clip};
   double west = std::numeric_limits<double>::infinity(), east = -west;
@@ -162,7 +163,7 @@ std::vector<ClipBox> clipsOf(const TurnedChain& chain, const ClipBox& clip) {
   return clips;
 }
 
-// With the longitudes of points that were made in the map that begins at `west`.
+// The points of the chain; longitudes of new ones are moved to the range of 360 degrees that begins at `west`.
 std::vector<Point> onMap(const TurnedChain& chain, double west) {
   std::vector<Point> points = pointsOf(chain);
   for (std::size_t i = 0; i < chain.size(); ++i) {

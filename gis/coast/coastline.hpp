@@ -38,23 +38,23 @@ struct Feature {
   std::int64_t fid = 0;
   std::string source;  // "file" or "file|layer", as errors name it
   std::vector<Polygon> polygons;
-  std::vector<std::vector<Point>> lines;                        // open chains, of lines that closed no ring
+  std::vector<std::vector<Point>> lines;                        // open chains: lines that close no ring
   std::vector<std::pair<std::string, std::string>> attributes;  // name, value as text; nulls are omitted
   FeatureUse use = FeatureUse::Area;
   bool from_lines = false;          // its rings were made of lines
-  bool clipped = false;             // distant parts were cut off, or longitudes jump: sides of its rings mean nothing
-  std::string region;               // of a meshed part: its region
+  bool clipped = false;             // distant parts were cut off, or longitudes jump: area and nesting of rings unknown
+  std::string region;               // of a meshed part: name of its region
   std::vector<Point> points;        // of a constraint: points that become vertices
-  std::vector<Point> vertex_order;  // of a cleaned part: numbered vertices, those of other features too
+  std::vector<Point> vertex_order;  // of a cleaned file: vertices by number, including those of other features
 };
 
 // The input as read, in its own CRS and coordinates, not repaired yet.
 struct Coastline {
   std::vector<Feature> features;
   Crs crs;
-  std::optional<Point> water_at;  // a point in the water: only what can be reached from it is meshed
+  std::optional<Point> water_at;  // a point in the water: its side of the coasts is meshed
   bool framed_by_box = false;     // its Frame was given as a box
-  // The whole globe is meshed: this feature, without a shape, contains what no other does.
+  // If the whole globe is meshed: a feature without a shape, for everything outside the others.
   std::optional<std::size_t> rest{};
 };
 

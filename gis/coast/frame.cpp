@@ -34,7 +34,8 @@ std::string inWords(const Box& box) {
   return text;
 }
 
-// The longitude from which the data's turn round the globe goes: -180, or 0 for data that go on past 180.
+// Western end of the 360 degrees of longitude that the data use: -180, 0 for data from 0 to 360, or where the data
+// begin, if they span 360 degrees at most.
 double turnOf(const Box& data) {
   if (data.empty() || (data.xmin >= -180 && data.xmax <= 180)) return -180;
   if (data.xmin >= 0 && data.xmax <= kTurn) return 0;
@@ -60,7 +61,7 @@ void refuseOddBox(const Box& box, const Crs& crs) {
   }
 }
 
-// An east below the west is meant across the antimeridian, and is a slip where that leads round most of the Earth.
+// An east less than the west means a box across the antimeridian. If that spans most of the Earth, it may be a mistake.
 void noteWideBox(const Box& box, const Crs& crs, FrameReport& report) {
   if (!crs.geographic || box.xmin < box.xmax) return;
   const double width = box.xmax + kTurn - box.xmin;
@@ -71,7 +72,7 @@ void noteWideBox(const Box& box, const Crs& crs, FrameReport& report) {
                          " across the antimeridian; the order is west, south, east, north");
 }
 
-// Polygons of a frame are read like any others: their coordinates may be none of the CRS.
+// Polygons of a frame are read like any others, so their coordinates may be invalid in the CRS.
 void refuseOddFrames(const Coastline& coastline) {
   for (const Feature& feature : coastline.features) {
     if (feature.use != FeatureUse::Frame || !coastline.crs.geographic) continue;
@@ -83,11 +84,11 @@ void refuseOddFrames(const Coastline& coastline) {
   }
 }
 
-// How many straight pieces an edge of a frame is made of, so that it is the same line in the working plane as in the
-// input's CRS: areas then agree to some 2e-7, and along a parallel it turns by 2 degrees at most from piece to piece.
+// Number of straight pieces of a frame edge, so that it is the same line in the working plane as in the input's CRS:
+// areas then agree to some 2e-7, and along a parallel the direction changes by at most 2 degrees per piece.
 int piecesOf(const Point& a, const Point& b, bool geographic) {
   constexpr double kLongest = 0.15, kLongestInPlane = 15'000, kMostTurn = 2;  // degrees of arc, metres, degrees
-  constexpr double kMostInPlane = 4096;                                       // more than once round the Earth
+  constexpr double kMostInPlane = 4096;                                       // more than once around the Earth
   const double dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y);
   if (!geographic) {
     return static_cast<int>(std::clamp(std::ceil(std::hypot(dx, dy) / kLongestInPlane), 1.0, kMostInPlane));
@@ -122,7 +123,7 @@ Polygon polygonOf(const Box& box) {
   return {{{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}}, {}};
 }
 
-// The user's box as a feature; where it reaches past the end of the data's turn, in two parts.
+// The user's box as a feature; in two parts if it extends beyond the data's range of longitudes.
 Feature frameOf(const Box& given, const Crs& crs, double turn) {
   Feature frame;
   frame.fid = 0;
@@ -133,7 +134,7 @@ Feature frameOf(const Box& given, const Crs& crs, double turn) {
     return frame;
   }
   const double width = given.xmax - given.xmin + (given.xmax < given.xmin ? kTurn : 0);
-  const double turns = std::floor((given.xmin - turn) / kTurn);  // 0 where the box lies in the data's turn
+  const double turns = std::floor((given.xmin - turn) / kTurn);  // 0 if the box begins in the data's range
   const double west = width == kTurn ? turn : given.xmin - turns * kTurn, end = turn + kTurn;
   const double east = width == kTurn ? end : given.xmax - turns * kTurn + (given.xmax < given.xmin ? kTurn : 0);
   const auto add = [&](double from, double to) {
@@ -148,16 +149,16 @@ struct Interval {
   double from, to;
 };
 
-// What is kept of the data: intervals of longitude (or x) that do not overlap, and one of latitude.
+// The data to keep: disjoint intervals of longitude (or x), and one of latitude (or y).
 struct Extent {
   std::vector<Interval> x;
   Interval y{0, 0};
 };
 
-// By how much of their extent frames are grown, on each side, before what lies beyond is cut off.
+// Share of its extent by which a frame is grown on each side before data beyond it are cut off.
 constexpr double kMargin = 0.1;
 
-// The frames' extents, grown a little.
+// The extents of the frames, grown by the margin.
 Extent extentOfFrames(const Coastline& coastline, double turn) {
   const bool geographic = coastline.crs.geographic;
   const Box all = boundsOf(coastline, true);
@@ -194,9 +195,10 @@ Extent extentOfFrames(const Coastline& coastline, double turn) {
   return extent;
 }
 
-// The longest piece along the side of a box that in the working plane strays from it by half of `margin` at most: all
-// in degrees. A parallel at latitude p has the geodesic curvature tan p, and a meridian may be as bent as the plane is
-// large; a chord strays by an eighth of its length's square times the curvature. The turn's 2^-3, 2^-4, ... part.
+// Longest piece of a side of a box that deviates from that side in the working plane by at most half of `margin`; all
+// in degrees. A chord deviates by an eighth of its squared length times the curvature. A parallel at latitude p has
+// geodesic curvature tan p, and the plane may add a curvature of 1 per radius of the Earth, to meridians too. The
+// result is 360 degrees times 2^-3, 2^-4, ...
 double longestPiece(double margin, double latitude, bool along_parallel) {
   constexpr double kLongest = 45, kShortest = 0.02;
   const double degree = GeographicLib::Math::degree();
@@ -208,7 +210,7 @@ double longestPiece(double margin, double latitude, bool along_parallel) {
   return piece;
 }
 
-// The clip of a geographic box, whose sides are cut into pieces; those along meridians if `meridians`.
+// The clip for a geographic box: sides along parallels are divided, those along meridians if `meridians`.
 ClipBox geographicClip(const Box& box, bool meridians) {
   constexpr double kMarginOfAll = kMargin / (1 + 2 * kMargin);
   ClipBox clip{box};
@@ -229,7 +231,8 @@ std::vector<ClipBox> clipBoxes(const Extent& extent, bool geographic, double tur
       clips.push_back({box});
       continue;
     }
-    // Along the end of the data's turn, what is cut off goes on within the frame, by the same points on both sides.
+    // A side along an end of the data's range is not divided: the cut data continue within the frame at the other end,
+    // with the same points on both sides.
     ClipBox clip = geographicClip(box, box.xmin > turn && box.xmax < turn + kTurn);
     for (const double shift : {0.0, -kTurn, kTurn}) {
       clip.shift = shift;
@@ -239,7 +242,7 @@ std::vector<ClipBox> clipBoxes(const Extent& extent, bool geographic, double tur
   return clips;
 }
 
-// For chains that go on past the end of the data's turn: boxes that do so too.
+// Boxes for chains that continue past the end of the data's range of longitudes, as these boxes do.
 std::vector<ClipBox> turnedClipBoxes(const Extent& extent, double turn) {
   std::vector<Interval> joined = extent.x;
   if (joined.size() > 1 && joined.front().from == turn && joined.back().to == turn + kTurn) {
@@ -254,8 +257,7 @@ std::vector<ClipBox> turnedClipBoxes(const Extent& extent, double turn) {
   return clips;
 }
 
-// True iff something of `box` lies within the clip; with a turn added only where more than a side is common, since that
-// side is there without it as well.
+// True iff `box` meets the clip. With a shift, a shared side alone does not count: it is there without the shift too.
 bool meets(const Box& box, const ClipBox& clip) {
   const Box seen{box.xmin + clip.shift, box.ymin, box.xmax + clip.shift, box.ymax};
   return seen.meets(clip.box) && (clip.shift == 0 || (seen.xmax > clip.box.xmin && seen.xmin < clip.box.xmax));
@@ -265,11 +267,11 @@ bool within(const Box& box, const ClipBox& clip) { return clip.shift == 0 && cli
 
 struct Clips {
   std::vector<ClipBox> plain, turned;
-  double west = 0;  // where the data's turn begins
+  double west = 0;  // where the data's range of longitudes begins
 };
 
-// What of a polygon whose longitudes jump lies near the frame. Sides follow from even and odd: any outer ring may have
-// the holes.
+// Adds the parts near the frame of a polygon whose longitudes jump. Inside is even-odd over all rings, so any outer
+// ring may take the holes.
 void clipTurnedPolygon(const Polygon& polygon, const Clips& clips, std::vector<Polygon>& kept) {
   const auto partsOf = [&](const Ring& ring) {
     std::vector<Ring> parts;
@@ -295,7 +297,7 @@ bool jumps(const Polygon& polygon) {
 
 bool jumps(const std::vector<Point>& line) { return turnsOf(line, false).any; }
 
-// What of a feature lies near the frame.
+// Reduces a feature to its parts near the frame.
 void clipFeature(Feature& feature, const Clips& clips) {
   const Box bounds = boundsOf(feature);
   if (std::ranges::any_of(clips.plain, [&](const ClipBox& clip) { return within(bounds, clip); })) return;
@@ -362,8 +364,7 @@ void setUses(Coastline& coastline, FeatureUse use) {
   }
 }
 
-// Rings of land polygons, whose direction differs from format to format, in the direction of coastlines: with the water
-// on the right.
+// Gives rings of land polygons, whose direction depends on the format, the direction of coastlines: water on the right.
 void directAsCoasts(Feature& land) {
   for (Polygon& polygon : land.polygons) {
     if (signedAreaOf(polygon.outer) < 0.0) std::ranges::reverse(polygon.outer);
@@ -372,7 +373,7 @@ void directAsCoasts(Feature& land) {
   }
 }
 
-// What polygons and lines within a frame are.
+// Sets the uses of polygons and lines within a frame.
 void chooseUses(Coastline& coastline, const FrameOptions& options, FrameReport& report) {
   bool polygons = false, open_lines = false;
   for (const Feature& feature : coastline.features) {

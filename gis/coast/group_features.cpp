@@ -28,8 +28,8 @@ struct FeatureIndex {
   std::size_t edgeCount() const { return rings.edgeCount() + lines.edgeCount(); }
 
  private:
-  // Many of them so that neighbours follow one another: files have islands of an ocean in an order that makes nodes of
-  // a tree as wide as the world, all of which a search would have to enter.
+  // In Hilbert order if there are many: files list the islands of an ocean in an order that makes tree nodes as wide as
+  // the world, and a search would enter all of them.
   static std::vector<const Ring*> ringsOf(const Feature& feature) {
     std::vector<const Ring*> all;
     for (const Polygon& polygon : feature.polygons) {
@@ -66,7 +66,7 @@ bool edgesMeet(const ChainIndex& a, const ChainIndex& b, const SnapReach& reach)
 bool liesIn(const ChainIndex& chains, const ChainIndex& rings) {
   if (rings.edgeCount() == 0) return false;
   bool lies = false;
-  // An ocean has tens of thousands of rings, and thousands of lakes beside it: only what begins near is looked at.
+  // Visits only edges near `rings`: an ocean has tens of thousands of rings, and thousands of lakes beside it.
   chains.visit(rings.bounds(), [&](std::uint32_t edge) {
     const Point& start = chains.start(edge);
     const bool is_first = &start == &chains.chainStart(chains.chainOf(edge));
@@ -75,7 +75,7 @@ bool liesIn(const ChainIndex& chains, const ChainIndex& rings) {
   return lies;
 }
 
-// True iff `small` and `large` touch, nearly so, cross, or one holds a part of the other.
+// True iff `small` and `large` touch, cross, come within reach of one another, or one contains part of the other.
 bool belongTogether(const FeatureIndex& small, const FeatureIndex& large, const SnapReach& reach) {
   Box box = small.rings.bounds();
   box.add(small.lines.bounds());
@@ -84,10 +84,10 @@ bool belongTogether(const FeatureIndex& small, const FeatureIndex& large, const 
   const auto found = [&](std::uint32_t) { near = true; };
   large.rings.visit(box, found);
   large.lines.visit(box, found);
-  if (!near) {  // the whole of `small` lies in one face of `large`: any of its points tells
+  if (!near) {  // `small` lies in one face of `large`: any point of it decides
     if (large.rings.edgeCount() == 0) return false;
     const ChainIndex& any = small.rings.edgeCount() > 0 ? small.rings : small.lines;
-    // A ring of one point has no edges: nothing is known to belong to it.
+    // A ring of one point has no edges, so it belongs to nothing.
     return any.chainCount() > 0 && large.rings.locate(any.chainStart(0)) == Location::Inside;
   }
   return edgesMeet(small.rings, large.rings, reach) || edgesMeet(small.rings, large.lines, reach) ||
@@ -101,8 +101,8 @@ bool isGuest(const Feature& feature) {
          feature.use == FeatureUse::Region;
 }
 
-// Where longitudes span exactly 360 degrees, the data are cut along a meridian (the antimeridian, as a rule): features
-// that meet there, from either side, touch.
+// If longitudes span exactly 360 degrees, the data are cut along a meridian (usually the antimeridian): features that
+// meet there from either side touch.
 void uniteAcrossCut(const Coastline& coastline, const std::vector<Box>& boxes, UnionFind& sets) {
   Box extent;
   for (const Box& box : boxes) extent.add(box);
@@ -141,7 +141,7 @@ void uniteAcrossCut(const Coastline& coastline, const std::vector<Box>& boxes, U
   }
 }
 
-// Water between land or coasts and a frame: one whatever lies in it.
+// True iff land or coasts lie in a frame: the water between them is one group, whatever lies in it.
 bool isFramedWater(const Coastline& coastline) {
   bool framed = false, shores = false;
   for (const Feature& feature : coastline.features) {
@@ -151,7 +151,7 @@ bool isFramedWater(const Coastline& coastline) {
   return framed && shores;
 }
 
-// True iff the frame is one box in the input's coordinates, and `box` lies inside of it.
+// True iff a polygon of the frame is a box in the input's coordinates, and `box` lies strictly inside it.
 bool framedWhole(const Feature& frame, const Box& box) {
   for (const Polygon& polygon : frame.polygons) {
     Box bounds;
@@ -170,7 +170,8 @@ bool framedWhole(const Feature& frame, const Box& box) {
   return false;
 }
 
-// Frames, constraints and regions join each group that their extent meets, in whichever turn round the globe.
+// Frames join every group that is not strictly inside a box of theirs. Constraints, weirs and regions join each group
+// that their extent meets, at any full turn of longitudes.
 void addGuests(const Coastline& coastline, const std::vector<Box>& boxes, const SnapReach& reach,
                std::vector<std::vector<std::size_t>>& groups) {
   if (std::ranges::none_of(coastline.features, isGuest)) return;
@@ -207,7 +208,7 @@ std::vector<std::vector<std::size_t>> setsOf(UnionFind& sets, const Coastline& c
   std::vector<std::uint32_t> group_of(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     if (isGuest(coastline.features[i])) continue;
-    const std::uint32_t root = sets.find(i);  // never above i: its group is there already
+    const std::uint32_t root = sets.find(i);  // never above i, so its group exists
     if (root == i) {
       group_of[i] = static_cast<std::uint32_t>(groups.size());
       groups.emplace_back();
@@ -222,8 +223,8 @@ struct Pair {
   std::uint32_t a, b;
 };
 
-// Unites features that belong together. What is not yet known of pairs is worked out by all threads, some at a time:
-// pairs that others have united meanwhile need not be looked at.
+// Unites features that belong together. All threads test pairs, one batch at a time: pairs that earlier batches united
+// are skipped.
 class Uniting {
  public:
   Uniting(const std::vector<Feature>& features, const SnapReach& reach, const ItemLoop& loop, UnionFind& sets)
@@ -248,7 +249,7 @@ class Uniting {
   }
 
  private:
-  // Indices of features of this many edges are kept; those of smaller ones are made when needed.
+  // Features with at least this many edges keep their index; those of smaller ones are made when needed.
   static constexpr std::size_t kLarge = 64;
 
   static std::size_t edgesOf(const Feature& feature) {

@@ -12,7 +12,7 @@ namespace {
 
 // Line ends by node: end 2·line is its first point, 2·line + 1 its last.
 struct LineEnds {
-  std::vector<std::uint32_t> node_of;               // one an end
+  std::vector<std::uint32_t> node_of;               // by end; kNone for an empty line
   std::vector<std::vector<std::uint32_t>> ends_at;  // by node
 
   explicit LineEnds(const std::vector<std::vector<Point>>& lines) : node_of(2 * lines.size(), kNone) {
@@ -42,7 +42,7 @@ struct LineEnds {
   }
 };
 
-// The arc that begins by leaving `first` (an end of a line) and goes on through nodes where two ends meet.
+// The arc that leaves `first` (an end of a line) and continues through nodes where exactly two ends meet.
 Arc followFrom(std::uint32_t first, const std::vector<std::vector<Point>>& lines, const LineEnds& ends,
                std::vector<char>& used) {
   Arc arc;
@@ -67,7 +67,7 @@ std::vector<Arc> joinAtSimpleNodes(const std::vector<std::vector<Point>>& lines,
   std::vector<Arc> arcs;
   std::vector<char> used(lines.size(), 0);
   for (std::size_t i = 0; i < lines.size(); ++i) used[i] = lines[i].empty();
-  // First from the ends that join nothing, then round what is left: closed chains.
+  // First from ends without a partner, then around the closed chains that remain.
   for (const bool from_anywhere : {false, true}) {
     for (std::uint32_t end = 0; end < 2 * lines.size(); ++end) {
       if (used[end / 2] || (!from_anywhere && ends.partner(end) != kNone)) continue;
@@ -77,7 +77,7 @@ std::vector<Arc> joinAtSimpleNodes(const std::vector<std::vector<Point>>& lines,
   return arcs;
 }
 
-// Lines without repeated points; those of less than two distinct points come out empty.
+// Lines without repeated points; empty if fewer than two distinct points are left.
 std::vector<std::vector<Point>> withoutRepeats(const std::vector<std::vector<Point>>& lines) {
   std::vector<std::vector<Point>> clean = lines;
   for (auto& line : clean) {

@@ -17,11 +17,12 @@ struct JoinedLines {
   std::vector<Part> open;
 };
 
-// Joins lines whose ends agree bit for bit, in either direction; each part has the direction of most of its lines.
+// Joins lines whose ends agree bit for bit, in either direction; each part has the direction of most of its edges.
 // Where more than two ends meet, dead ends (such as a wharf) stay open; of the rest the outermost rings are closed
 // first, then those inside them (such as an island that touches the shore), until only lines from shore to shore (such
 // as a dam) are left, which stay open. Lines of less than two distinct points are dropped. Parts are in the order of
-// their origins. O(n log n) except for networks of lines, where each ring around others takes a pass over its network.
+// their origins. O(n log n), except for networks of lines, where each level of nested rings takes a pass over the
+// network.
 JoinedLines joinLines(const std::vector<std::vector<Point>>& lines);
 
 }  // namespace coastmesh

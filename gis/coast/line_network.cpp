@@ -25,7 +25,7 @@ class Network {
   }
 
   PeeledNetwork peel() {
-    // Every pass takes at least one arc.
+    // Each pass removes at least one arc.
     while (left_ > 0) {
       pruneBlindEnds();
       for (const HalfArc h : outerHalfArcs()) splitIntoRings(walkFace(h));
@@ -44,7 +44,7 @@ class Network {
     return h % 2 == 0 ? points[1] : points[points.size() - 2];
   }
 
-  // Counter-clockwise, from due east on.
+  // Counter-clockwise, beginning due east.
   void sortAround(std::vector<HalfArc>& star) const {
     const auto lower = [&](HalfArc h) {
       const Point &v = tailPoint(h), &p = secondPoint(h);
@@ -81,14 +81,14 @@ class Network {
     }
   }
 
-  // For each connected piece a half-arc that has the unbounded face to its left.
+  // For each connected piece, a half-arc with the unbounded face on its left.
   std::vector<HalfArc> outerHalfArcs() const {
     UnionFind pieces(leaving_.size());
     for (std::uint32_t a = 0; a < arcs_.size(); ++a) {
       if (alive_[a]) pieces.unite(arcs_[a].from, arcs_[a].to);
     }
-    // The least vertex (by x, then y) of each piece lies on its boundary; where it is an end, one half-arc leaving it
-    // does.
+    // The least vertex (by x, then y) of each piece lies on its outer boundary. If it is an end of arcs, a half-arc
+    // that leaves it has the unbounded face on its left.
     struct Least {
       std::uint32_t arc = kNone;
       std::size_t vertex = 0;
@@ -114,8 +114,8 @@ class Network {
       const bool left_turn = orient2d(points[vertex - 1], points[vertex], points[vertex + 1]) > 0;
       return 2 * arc + (left_turn ? 1 : 0);
     }
-    // All that leaves the least vertex does so between due south (not included) and due north: outside is what lies to
-    // the left of the last of them.
+    // All half-arcs leave the least vertex between due south (exclusive) and due north: the unbounded face is on the
+    // left of the last of them.
     const auto& star = leaving_[vertex == 0 ? arcs_[arc].from : arcs_[arc].to];
     HalfArc last = star.front();
     for (const HalfArc h : star) {
@@ -124,7 +124,7 @@ class Network {
     return last;
   }
 
-  // The half-arcs around the face to the left of `first`.
+  // The half-arcs around the face on the left of `first`.
   std::vector<HalfArc> walkFace(HalfArc first) const {
     std::vector<HalfArc> walk;
     HalfArc h = first;
@@ -137,7 +137,7 @@ class Network {
     return walk;
   }
 
-  // Cuts the walk where it comes back to a node; a piece that goes out and back along one arc is a bridge.
+  // Cuts the walk where it returns to a node; a piece out and back along one arc is a bridge.
   void splitIntoRings(const std::vector<HalfArc>& walk) {
     std::vector<HalfArc> stack;
     for (const HalfArc h : walk) {
@@ -148,7 +148,7 @@ class Network {
       std::vector<HalfArc> loop(stack.begin() + static_cast<std::ptrdiff_t>(begin), stack.end());
       stack.resize(begin);
       for (const HalfArc used : loop) mark_[tail(used)] = kNone;
-      // Where the same line is there twice, a walk comes back on the other side of what is taken already.
+      // If a line is present twice, the walk returns along the other side of arcs that are already taken.
       if (std::ranges::any_of(loop, [&](HalfArc used) { return alive_[used / 2] == 0; })) continue;
       if (loop.size() == 2 && loop[0] == twin(loop[1])) {
         result_.open.push_back(loop[0] / 2);
@@ -168,7 +168,7 @@ class Network {
   std::vector<std::vector<HalfArc>> leaving_;  // living half-arcs by node, counter-clockwise
   std::vector<char> alive_;
   std::size_t left_;
-  std::vector<std::uint32_t> mark_;  // place of a node in the stack of `splitIntoRings`
+  std::vector<std::uint32_t> mark_;  // by node: its place in the stack of `splitIntoRings`, else kNone
   PeeledNetwork result_;
 };
 

@@ -12,7 +12,7 @@ struct Arc {
   std::uint32_t from = 0, to = 0;  // nodes
   std::vector<Point> points;       // both ends included
   std::size_t origin = 0;
-  std::int64_t balance = 0;  // points of lines in the arc's direction, minus those of the others
+  std::int64_t balance = 0;  // edges of lines in the arc's direction, minus edges against it
 };
 
 // Arcs that form a ring, each with its direction.
@@ -26,8 +26,8 @@ struct PeeledNetwork {
   std::vector<std::uint32_t> open;  // arcs in no ring
 };
 
-// Divides a planar network of arcs into rings from the outside inwards, see `joinLines`. REQUIRES: nodes below
-// `node_count`. Every arc is returned once.
+// Divides a planar network of arcs into rings from the outside inwards, see `joinLines`. Returns every arc once.
+// REQUIRES: nodes below `node_count`.
 PeeledNetwork peelNetwork(const std::vector<Arc>& arcs, std::uint32_t node_count);
 
 }  // namespace coastmesh

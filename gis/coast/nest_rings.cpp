@@ -33,7 +33,7 @@ std::vector<NestedRing> nestRings(const std::vector<Ring>& rings) {
   }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
 
-  // Every ring is asked for what it holds, so that only one index is needed at a time.
+  // For each ring, finds the rings inside it, so that only one index is needed at a time.
   std::vector<std::size_t> parent(rings.size(), kNoRing);
   for (std::size_t around = 0; around < rings.size(); ++around) {
     std::optional<ChainIndex> index;

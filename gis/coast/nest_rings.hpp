@@ -7,15 +7,15 @@
 
 namespace coastmesh {
 
-// A ring and those directly inside it, as indices.
+// An outer ring and the holes directly inside it, as indices.
 struct NestedRing {
   std::size_t outer = 0;
   std::vector<std::size_t> holes;
 };
 
 // Even-odd nesting: a ring in no other is an outer ring, one directly inside an outer ring is its hole, one directly
-// inside a hole is an outer ring again. Rings may touch; if rings cross, one is inside the other if its first vertex
-// is. Outer rings are in the order given.
+// inside a hole is an outer ring again. Rings may touch. If rings cross, the smaller is inside the other if its box is
+// within the other's and its first vertex off the other ring is inside that. Outer rings are in the order given.
 std::vector<NestedRing> nestRings(const std::vector<Ring>& rings);
 
 }  // namespace coastmesh

@@ -5,10 +5,9 @@
 
 namespace coastmesh {
 
-// The meaning of `Segment::tag` in a `Domain`. A user's markers of a .poly are small numbers; a shore has
-// 0. A line inside the domain given by the user has its index in `Domain::lines`, counted from
-// kFirstLineTag.
-inline constexpr std::int32_t kOpenTag = 0x40000000;  // on the frame's boundary: open water
+// The meaning of `Segment::tag` in a `Domain`. Markers of a user's .poly file are small numbers; a shore has 0. A line
+// inside the domain given by the user has its index in `Domain::lines`, counted from kFirstLineTag.
+inline constexpr std::int32_t kOpenTag = 0x40000000;  // an open boundary
 inline constexpr std::int32_t kFirstLineTag = kOpenTag + 1;
 
 inline bool isLineTag(std::int32_t tag) { return tag >= kFirstLineTag; }

@@ -9,17 +9,17 @@ namespace coastmesh {
 
 namespace {
 
-// What cleaning measures in a plane that is not quite conformal, or in degrees of another latitude.
+// Margin, since cleaning measures in a plane that is not quite conformal, or in degrees of another latitude.
 constexpr double kSlack = 1.12;
 
 double cosOfLatitude(double latitude) { return GeographicLib::Math::cosd(std::min(std::abs(latitude), 90.0)); }
 
-// The largest number of units of a projected CRS for a metre on the ground, of places all over `extent`.
+// The largest number of units of a projected CRS per metre on the ground, sampled over `extent`.
 double greatestScale(const GeographicMap& map, const GeographicLib::Geodesic& geodesic, double metres_per_unit,
                      const Box& extent) {
-  constexpr int kPlaces = 9;           // along either side
+  constexpr int kPlaces = 9;           // along each side
   constexpr double kStep = 50.0;       // metres
-  constexpr double kGreatest = 100.0;  // as of Mercator's at 89.4 degrees: larger ones would make everything near
+  constexpr double kGreatest = 100.0;  // as Mercator has at 89.4 degrees; with larger ones everything would be near
   const double step = kStep / metres_per_unit;
   double greatest = 1.0 / metres_per_unit;
   for (int i = 0; i < kPlaces; ++i) {
@@ -52,7 +52,7 @@ SnapReach::SnapReach(const SnapDistance& snap, const Crs& crs, const Box& extent
   flattening_ = crs.flattening;
   map_.emplace(crs);
   const double metres_per_unit = metresPerUnit(crs);
-  constexpr double kBetweenPlaces = 1.5;  // the scale between the places that are looked at
+  constexpr double kBetweenPlaces = 1.5;  // the scale may be larger between the samples
   units_ = snap.length / metres_per_unit;
   most_units_ = geographic_ ? length_ / metres_per_unit
                             : kBetweenPlaces * length_ *

@@ -17,7 +17,7 @@ Step stepOf(const Point& a, const Point& b) {
 
 int turnOf(const Point& a, const Point& b) { return a.x > b.x ? 1 : -1; }
 
-// Whether edges of exactly 360 degrees jump.
+// True if edges of exactly 360 degrees jump.
 bool wholeTurnsJump(const std::vector<Point>& lonlat, std::size_t edges) {
   bool others = false;
   int by_jumps = 0, by_whole_turns = 0;

@@ -35,7 +35,7 @@ Ring pointsOf(const OGRLinearRing& ring) {
   return points;
 }
 
-// Its polygons as they are, valid or not. REQUIRES: each has an outer ring.
+// The polygons of a feature as they are, valid or not. REQUIRES: each has an outer ring.
 Shape shapeOf(const Feature& feature) {
   auto shape = std::make_unique<OGRMultiPolygon>();
   for (const Polygon& polygon : feature.polygons) {
@@ -68,9 +68,9 @@ Polygon fromOgr(const OGRPolygon& polygon) {
   return made;
 }
 
-// A point inside of it; none where GEOS fails. OGRPolygon::PointOnSurface fails always in GDAL 3.6.
+// A point inside the polygon; null if GEOS fails. OGRPolygon::PointOnSurface always fails in GDAL 3.6.
 Shape insideOf(const OGRPolygon& polygon) {
-  OGRGeometryH handle = OGRGeometry::ToHandle(const_cast<OGRPolygon*>(&polygon));  // which it does not change
+  OGRGeometryH handle = OGRGeometry::ToHandle(const_cast<OGRPolygon*>(&polygon));  // not changed by the call
   return Shape(OGRGeometry::FromHandle(OGR_G_PointOnSurface(handle)));
 }
 
@@ -90,7 +90,7 @@ void uniteFrames(Coastline& coastline) {
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
   std::vector<Feature*> meeting;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    std::size_t met = 0;  // itself too
+    std::size_t met = 0;  // including itself
     tree.visit(boxes[i], [&](std::uint32_t) { ++met; });
     if (met > 1) meeting.push_back(frames[i]);
   }
@@ -110,7 +110,7 @@ void uniteFrames(Coastline& coastline) {
   }
   const Shape united(all.UnionCascaded());
   const std::vector<const OGRPolygon*> parts = polygonsOf(require(united, *meeting.front()));
-  // The part that each polygon went into: by a place inside of it, which lies in one.
+  // The part that contains each polygon, found by a point inside the polygon.
   std::vector<Box> part_boxes;
   for (const OGRPolygon* part : parts) {
     OGREnvelope box;
@@ -129,7 +129,7 @@ void uniteFrames(Coastline& coastline) {
       });
     }
   }
-  // Features that share a part are one, by the first of them.
+  // Features that share a part are united into the first of them.
   std::vector<std::size_t> first_of(parts.size(), meeting.size());
   std::vector<std::size_t> count_of(parts.size(), 0);
   for (std::size_t f = 0; f < meeting.size(); ++f) {

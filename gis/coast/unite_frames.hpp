@@ -4,9 +4,9 @@
 
 namespace coastmesh {
 
-// Makes the frames of several features that overlap, or touch along a line, one: the first of them gets what they cover
-// together, and the others nothing. Their sides inside of it would be edges of the mesh. By coordinates: frames on both
-// sides of the antimeridian stay apart. Throws InputError: GEOS cannot unite them, or GDAL is without it.
+// Unites frames of several features that overlap, or touch along a line: the first feature gets the union, the others
+// nothing. Otherwise their sides inside the union would become edges of the mesh. Uses coordinates only: frames on both
+// sides of the antimeridian stay separate. Throws InputError if GEOS cannot unite them, or GDAL was built without it.
 void uniteFrames(Coastline& coastline);
 
 }  // namespace coastmesh

@@ -41,7 +41,7 @@ Crs parseCrs(const std::string& text) {
   if (text == "plane") return {};
   OGRSpatialReference srs;
   const OgrErrors errors;
-  // Without leave to open files or the net: a mistyped code is an error, not a look-up.
+  // No access to files or the network: a mistyped code is an error, not a look-up.
   const char* const options[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
   if (text.empty() || srs.SetFromUserInput(text.c_str(), options) != OGRERR_NONE) {
     throw InputError("\"" + text + "\" is not a CRS that PROJ knows" +

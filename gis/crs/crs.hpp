@@ -13,11 +13,10 @@ Crs parseCrs(const std::string& text);
 
 Crs wgs84();
 
-// Whether coordinates mean the same place in both.
+// True if equal coordinates mean the same place in both.
 bool sameCrs(const Crs& a, const Crs& b);
 
-// Metres on the ground per unit of the coordinates, at a scale of 1; for degrees at the equator; 1 for a
-// plane.
+// Metres on the ground per unit of the coordinates, at a scale of 1; for degrees at the equator; 1 for a plane.
 double metresPerUnit(const Crs& crs);
 
 // The unit of a projected CRS: "metre", "US survey foot". REQUIRES: neither a plane nor geographic.

@@ -29,7 +29,7 @@ Crs fromOgr(const OGRSpatialReference* srs) {
   char* wkt = nullptr;
   srs->exportToWkt(&wkt, options);
   const std::unique_ptr<char, void (*)(void*)> owner(wkt, CPLFree);
-  // MapInfo's WGS 84 has no name, by which matches are weighed.
+  // MapInfo's WGS 84 has no name, and matches are weighted by name.
   const Crs crs = parseCrs(wkt);
   return crs.geographic && sameCrs(crs, wgs84()) ? wgs84() : crs;
 }

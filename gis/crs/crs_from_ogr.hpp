@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// What OGR says of a GeoPackage's layer without a CRS.
+// OGR's name for the CRS of a GeoPackage layer that has none.
 inline constexpr std::string_view kUndefinedGeographic = "Undefined geographic SRS";
 
 // The CRS of `srs`; a plane for null, and for an undefined one. Looks up the EPSG code if the source has none, as in

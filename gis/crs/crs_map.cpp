@@ -67,11 +67,11 @@ Pair makePair(const CrsMap::Ends& ends) {
   return pair;
 }
 
-// The transformations of one thread. A few are kept, since a run uses few by turns.
+// The transformations of one thread. Keeps four, since a run alternates between a few.
 class Kept {
  public:
-  // Makes the thread's PROJ context first, so that it outlives the transformations: destroyed later, they would make a
-  // new one that nobody frees.
+  // Makes the thread's PROJ context first, so that it outlives the transformations; otherwise their destruction would
+  // make a new context that is never freed.
   Kept() { OGRSpatialReference().SetWellKnownGeogCS("WGS84"); }
 
   const Pair& get(const std::shared_ptr<const CrsMap::Ends>& ends) {
@@ -114,8 +114,8 @@ CrsMap::CrsMap(const OGRSpatialReference& from, const OGRSpatialReference& to) {
 
 Point CrsMap::forward(const Point& p) const { return transform(*pairOfThread(ends_).forward, p); }
 
-// PROJ's two ways of some projections (equal-area ones, by series) miss one another by a tenth of a millimetre: points
-// that came here and go back would shift against those that stayed. What a second round trip is off by is taken off.
+// For some projections (equal-area ones, by series) PROJ's forward and inverse differ by a tenth of a millimetre, so
+// that points that make the round trip would shift against others. We subtract the error of a second round trip.
 Point CrsMap::inverse(const Point& p) const {
   const Pair& pair = pairOfThread(ends_);
   const auto size = [](const Point& q) { return std::max(std::abs(q.x), std::abs(q.y)); };
@@ -126,7 +126,7 @@ Point CrsMap::inverse(const Point& p) const {
   if (!(miss(image) > kRounding * size(p))) return first;
   const Point again = transform(*pair.inverse, image);
   const Point step{again.x - first.x, again.y - first.y};
-  constexpr double kSmall = 1e-6;  // a larger one is a turn round the globe, or no place
+  constexpr double kSmall = 1e-6;  // relative; a larger step is a full turn of longitude, or NaN
   if (!(size(step) <= kSmall * size(first))) return first;
   const Point better{first.x - step.x, first.y - step.y};
   return miss(transform(*pair.forward, better)) < miss(image) ? better : first;
@@ -138,7 +138,7 @@ OGRSpatialReference geographicBase(const Crs& crs) {
   const std::unique_ptr<OGRSpatialReference> base(srs.CloneGeogCS());
   if (!base) throw InputError("the CRS " + nameOf(crs) + " has no longitudes and latitudes");
   OGRSpatialReference result(*base);
-  // Degrees, whatever the base of the projected CRS measures in (grads, for some French ones).
+  // Degrees, even if the base of the projected CRS uses another unit (grads, for some French ones).
   result.SetAngularUnits(SRS_UA_DEGREE, CPLAtof(SRS_UA_DEGREE_CONV));
   result.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return result;

@@ -16,7 +16,7 @@ class CrsMap {
   // Throws InputError if PROJ has no transformation.
   CrsMap(const OGRSpatialReference& from, const OGRSpatialReference& to);
 
-  Point forward(const Point& p) const;  // not finite where `p` has no image
+  Point forward(const Point& p) const;  // not finite if `p` has no image
   Point inverse(const Point& p) const;  // of `forward`, up to rounding
 
   struct Ends;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Larger edges are left to Karney's formulas; so are ellipsoids less round than this.
+// Larger edges, and ellipsoids of larger eccentricity, are left to Karney's formulas.
 constexpr double kLargestStep = 0.2;            // degrees, of latitude
 constexpr double kLargestTurn = 0.5;            // degrees, of longitude
 constexpr double kLargestEccentricity2 = 0.01;  // squared
@@ -21,14 +21,14 @@ EdgeArea::EdgeArea(double semi_major_m, double flattening)
 
 EdgeArea::Vertex EdgeArea::at(const LonLat& place) const {
   const double s = std::sin(place.lat * kDegree), x = e2_ * s * s;
-  // b^2 / 2 (s / (1 - x) + atanh(e s) / e), Snyder (1987), equation 3-12; the series of atanh ends below 1e-16.
+  // b^2 / 2 (s / (1 - x) + atanh(e s) / e), Snyder (1987), equation 3-12; the series of atanh is truncated below 1e-16.
   const double series = 1 + x * (1.0 / 3 + x * (1.0 / 5 + x * (1.0 / 7 + x * (1.0 / 9 + x * (1.0 / 11 + x / 13)))));
   return {place.lon, place.lat, s, a_ * a_ * (1 - e2_) / 2 * s * (1 / (1 - x) + series)};
 }
 
-// On the map whose x is the longitude and whose y is `per_radian`, areas are true, and a geodesic y(x) has y'' =
-// -sin(lat) (r^2 + 3 M^2 lat'^2): by Clairaut's relation, with r the radius of the parallel and M that of the meridian.
-// So a short one lies beside its chord by a parabola, and encloses -y'' dx^3 / 12 with it.
+// On the map with x = longitude and y = `per_radian`, areas are true. A geodesic y(x) there has y'' = -sin(lat) (r^2 +
+// 3 M^2 lat'^2) by Clairaut's relation, with r the radius of the parallel and M that of the meridian. A short one thus
+// deviates from its chord by a parabola and encloses -y'' dx^3 / 12 with it.
 double EdgeArea::under(const Vertex& from, const Vertex& to) const {
   const double turn = to.lon_deg - from.lon_deg, step = to.lat_deg - from.lat_deg;
   if (std::abs(turn) > kLargestTurn || std::abs(step) > kLargestStep || std::abs(e2_) > kLargestEccentricity2) {

@@ -6,8 +6,8 @@
 
 namespace coastmesh {
 
-// Areas between geodesics and the equator, in square metres, positive for edges going east, north of the equator. A
-// million short edges take 0.05 s, with GeographicLib's PolygonArea 2 s, more than reading them.
+// Areas between geodesics and the equator, in square metres; positive for edges that go east, north of the equator. A
+// million short edges take 0.05 s; GeographicLib's PolygonArea takes 2 s, more than reading them.
 class EdgeArea {
  public:
   EdgeArea(double semi_major_m, double flattening);
@@ -21,7 +21,7 @@ class EdgeArea {
   Vertex at(const LonLat& place) const;
 
   // REQUIRES: the longitudes are less than 180 degrees apart as given, with no pole between or among them. Accurate to
-  // about 1e-9 of what the edge might enclose with others of its length.
+  // about 1e-9 of the area that edges of this length can enclose.
   double under(const Vertex& from, const Vertex& to) const;
 
   const GeographicLib::Geodesic& geodesic() const { return geodesic_; }

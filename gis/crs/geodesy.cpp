@@ -20,7 +20,7 @@ namespace {
 
 // Places on an ellipsoid.
 struct Geodetic {
-  std::span<const Point> points;  // the places themselves where `places` is empty
+  std::span<const Point> points;  // already geographic if `places` is empty
   std::vector<LonLat> places;
   double a = 0.0;  // semi-major axis, metres
   double f = 0.0;  // flattening
@@ -84,11 +84,11 @@ std::unique_ptr<Vector[]> toEarthCentred(const Geodetic& geodetic, const ItemLoo
 
 constexpr double kSmallEdge = 20000.0;  // metres
 
-// Area of a triangle with edges below `kSmallEdge`: the flat triangle through its corners, seen along the normal of the
-// ellipsoid at its centroid, with the first term of the series in the Gaussian curvature K. On a sphere the flat area A
-// with circumradius r, at the distance d from its circumcentre to its centroid, makes A (1 + K (sum l^2 / 8 - r^2 /
-// 2)), its projection A (1 - K d^2 / 2), and d^2 = r^2 - sum l^2 / 9; the quotient is 1 + K sum l^2 5/72. What is left
-// out is below 1e-7 for 20 km. The difference of two large areas, as PolygonArea takes it, would be worse here.
+// Area of a triangle with edges below `kSmallEdge`: the flat triangle through its corners, projected along the normal
+// of the ellipsoid at its centroid, with the first term of the series in the Gaussian curvature K. On a sphere, a flat
+// area A with circumradius r and distance d from circumcentre to centroid has the spherical area A (1 + K (sum l^2 / 8
+// - r^2 / 2)), the projected area A (1 - K d^2 / 2), and d^2 = r^2 - sum l^2 / 9; the quotient is 1 + K sum l^2 5/72.
+// The error is below 1e-7 for 20 km. PolygonArea, a difference of two large areas, is less accurate here.
 double smallTriangleArea(const Vector& u, const Vector& v, const Vector& w, double a, double e2) {
   const Vector uv = v - u, uw = w - u, vw = w - v;
   Vector normal{u[0] + v[0] + w[0], u[1] + v[1] + w[1], (u[2] + v[2] + w[2]) / (1.0 - e2)};
@@ -102,8 +102,8 @@ double smallTriangleArea(const Vector& u, const Vector& v, const Vector& w, doub
 
 constexpr double kMediumEdge = 60000.0;  // metres
 
-// The square of a geodesic's length from that of its chord: an arc of the normal section's curvature at its middle, by
-// Euler's formula. What is left out is below 1e-11 for 60 km.
+// The square of a geodesic's length from that of its chord: the arc has the curvature of the normal section at its
+// middle, by Euler's formula. The error is below 1e-11 for 60 km.
 double squaredArc(const Vector& p, const Vector& q, double a, double e2) {
   const Vector chord = q - p;
   const Vector normal{p[0] + q[0], p[1] + q[1], (p[2] + q[2]) / (1.0 - e2)};
@@ -118,9 +118,10 @@ double squaredArc(const Vector& p, const Vector& q, double a, double e2) {
   return squared * (1.0 + x * (1.0 / 12.0 + x / 90.0));
 }
 
-// Area of a triangle with edges below `kMediumEdge`: that of the plane triangle with geodesics' lengths for sides,
-// times 1 + K sum l^2 / 24, with the Gaussian curvature K at the centroid (Gauss, Disquisitiones generales circa
-// superficies curvas, 1827, Section 29). The plane triangle's comes from the flat one by the change of its sides.
+// Area of a triangle with edges below `kMediumEdge`: that of the plane triangle whose sides have the geodesics'
+// lengths, times 1 + K sum l^2 / 24, with the Gaussian curvature K at the centroid (Gauss, Disquisitiones generales
+// circa superficies curvas, 1827, Section 29). The plane triangle's area is that of the flat one through the corners
+// plus a first-order term for the change of its sides.
 double mediumTriangleArea(const Vector& u, const Vector& v, const Vector& w, double a, double e2) {
   const Vector uv = v - u, uw = w - u, vw = w - v;
   const Vector across = cross(uv, uw);
@@ -131,7 +132,7 @@ double mediumTriangleArea(const Vector& u, const Vector& v, const Vector& w, dou
   const double t = 1.0 - e2 * sin2_lat;
   const double curvature = t * t / (a * a * (1.0 - e2));
   const double uv2 = squaredArc(u, v, a, e2), uw2 = squaredArc(u, w, a, e2), vw2 = squaredArc(v, w, a, e2);
-  // Of the area by the square of a side: a quarter of the cotangent of the angle opposite.
+  // The derivative of the area by the square of a side is a quarter of the cotangent of the opposite angle.
   const double more =
       (dot(uv, uw) * (vw2 - dot(vw, vw)) - dot(uv, vw) * (uw2 - dot(uw, uw)) + dot(uw, vw) * (uv2 - dot(uv, uv))) /
       (4.0 * twice);
@@ -210,7 +211,7 @@ EdgeMeter::EdgeMeter(std::span<const Point> nodes, const Crs& crs, const ItemLoo
 double EdgeMeter::between(std::uint32_t a, std::uint32_t b) const {
   if (places_ == nullptr) return std::hypot(nodes_[b].x - nodes_[a].x, nodes_[b].y - nodes_[a].y);
   const Vector along = places_[b] - places_[a];
-  // The arc over the chord, on a sphere about as large.
+  // The arc over the chord, on a sphere whose radius is the semi-major axis.
   return diameter_ * std::asin(std::min(1.0, std::sqrt(dot(along, along)) / diameter_));
 }
 

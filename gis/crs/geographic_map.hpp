@@ -10,14 +10,14 @@ namespace coastmesh {
 
 class CrsMap;
 
-// From coordinates of a CRS to longitudes and latitudes on its ellipsoid, and back; the same numbers for a geographic
-// one. Cheap to copy; usable from several threads at once.
+// Converts coordinates of a CRS to longitudes and latitudes on its ellipsoid, and back; the identity for a geographic
+// CRS. Cheap to copy; usable from several threads at once.
 class GeographicMap {
  public:
   // REQUIRES: !crs.isPlane(). Throws InputError if PROJ has no transformation.
   explicit GeographicMap(const Crs& crs);
 
-  LonLat forward(const Point& input) const;  // not finite where `input` has no place
+  LonLat forward(const Point& input) const;  // not finite if `input` has no image
   Point inverse(const LonLat& place) const;
   bool isIdentity() const { return !map_; }
 

@@ -25,7 +25,7 @@ double determinant(const Vector& a, const Vector& b, const Vector& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-// Those of EPSG with axes south and west, and the same projections with axes east and north.
+// EPSG codes of projections with axes south and west, and of the same projections with axes east and north.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kUnmirrored{{
     {"EPSG:2065", "EPSG:5221"},
     {"EPSG:5224", "EPSG:5225"},
@@ -38,7 +38,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kUnmirror
 
 bool mirrorsGround(const Crs& crs, const Point& place) {
   if (crs.isPlane() || crs.geographic) return false;
-  constexpr double kStep = 1000.0;  // metres: curvature does not matter over it, nor rounding
+  constexpr double kStep = 1000.0;  // metres: small against curvature, large against rounding
   const double step = kStep / metresPerUnit(crs);
   const GeographicMap map(crs);
   const auto at = [&](double x, double y) { return onUnitSphere(map.forward({place.x + x, place.y + y})); };

@@ -7,12 +7,12 @@
 
 namespace coastmesh {
 
-// Whether the coordinates of `crs` show the ground mirrored at `place`, as those with axes south and west do: what goes
-// round counter-clockwise on the ground goes round clockwise in them. False for planes, for longitudes and latitudes,
-// and where `place` lies nowhere.
+// True if the coordinates of `crs` mirror the ground at `place`, as axes south and west do: a ring that is
+// counter-clockwise on the ground is clockwise in them. False for planes, for longitudes and latitudes, and if `place`
+// has no image.
 bool mirrorsGround(const Crs& crs, const Point& place);
 
-// What to use instead of a CRS that does so: "EPSG:5514, which has axes east and north", or without the code.
+// What to use instead of such a CRS: "EPSG:5514, which has axes east and north", or without a code if none is known.
 std::string unmirrored(const Crs& crs);
 
 }  // namespace coastmesh

@@ -17,7 +17,7 @@ namespace coastmesh {
 
 namespace {
 
-// Of several versions of GDAL. Too many are not minded: who is told looks for himself.
+// Fragments of the messages of several GDAL versions. They may match too much: callers then search the file themselves.
 bool saysLeftOut(std::string_view message) {
   if (message.find("GeoJSON: ") == message.npos) return false;
   constexpr std::array<std::string_view, 5> kWords = {"failure", "nvalid", "nsupported", "null object", "issing"};
@@ -35,8 +35,8 @@ OgrErrors::~OgrErrors() { CPLPopErrorHandler(); }
 
 void OgrErrors::collect(int severity, int, const char* message) {
   auto* self = static_cast<OgrErrors*>(CPLGetErrorHandlerUserData());
-  if (severity == CE_Fatal) std::terminate();  // GDAL would end the process: there is no memory
-  // GDAL may quote all of a file or of a statement.
+  if (severity == CE_Fatal) std::terminate();  // out of memory; GDAL would abort the process
+  // GDAL may quote a whole file or statement.
   constexpr std::size_t kLongest = 300;
   if (severity == CE_Debug && self->left_out_.empty() && saysLeftOut(message)) {
     self->left_out_ = oneLine(message, kLongest);

@@ -16,10 +16,10 @@ class OgrErrors {
   OgrErrors(const OgrErrors&) = delete;
   OgrErrors& operator=(const OgrErrors&) = delete;
 
-  bool failed() const { return failed_; }            // an error, not only warnings, since the start or `clear`
-  const std::string& text() const { return text_; }  // the first error, else the first warning: one line, not long
-  // The first message of the GeoJSON driver on a geometry, or a part of one, that it drops: only a debug message, which
-  // GDAL issues if CPL_DEBUG is "GeoJSON".
+  bool failed() const { return failed_; }            // true after an error (not a warning) since the start or `clear`
+  const std::string& text() const { return text_; }  // the first error, else the first warning, as one short line
+  // The first message of the GeoJSON driver on a geometry, or part of one, that it drops. It is only a debug message,
+  // which GDAL issues if CPL_DEBUG is "GeoJSON".
   const std::string& leftOut() const { return left_out_; }
   void clear();
 
@@ -45,8 +45,8 @@ class OgrOption {
   bool was_set_;
 };
 
-// Registers GDAL's drivers. GDAL itself goes through all of them at every call, which takes as long as opening a small
-// file; here only the first call does anything.
+// Registers GDAL's drivers. GDALAllRegister itself goes through all of them at every call, which takes as long as
+// opening a small file; here only the first call does so.
 void registerDrivers();
 
 // With x = easting or longitude. REQUIRES: not a plane.

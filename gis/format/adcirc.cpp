@@ -6,7 +6,7 @@
 namespace coastmesh {
 namespace {
 
-// ADCIRC's fort.14, depth positive down, and the CRS in a .prj beside it. Throws OutputError, also where a depth is
+// Writes ADCIRC's fort.14, depth positive down, and the CRS in a .prj beside it. Throws OutputError, also if a depth is
 // unknown.
 void writeAdcirc(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
@@ -16,7 +16,7 @@ void writeAdcirc(const Grid& grid, const std::string& path, const ItemLoop& loop
   writePrjBeside(path, grid.crs);
 }
 
-// Reads it back, with what is wrong in it as `notes`. Throws InputError.
+// Reads a fort.14; `notes` report what is wrong in it. Throws InputError.
 Grid readAdcirc(const std::string& path, const Crs& unsaid) {
   Grid grid = readFort14(path);
   for (Boundary& boundary : grid.boundaries) {

@@ -12,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files of one name and these endings make one source.
+// Files with the same stem and these endings form one source.
 const std::vector<std::vector<std::string_view>> kSets = {{".shp", ".shx", ".dbf", ".cpg", ".qix", ".sbn", ".sbx"},
                                                           {".tab", ".dat", ".map", ".id", ".ind"},
                                                           {".mif", ".mid"}};
-// Beside any source: its CRS, its place, what says more of it.
+// Files beside any source: its CRS, georeference, other metadata.
 constexpr std::array<std::string_view, 8> kInPlace = {".prj", ".qpj", ".tfw", ".wld", ".hdr", ".gfs", ".xsd", ".clr"};
 constexpr std::array<std::string_view, 6> kAfter = {".aux.xml", ".ovr", ".msk", ".qpj", "-wal", "-journal"};
 
@@ -44,7 +44,7 @@ std::vector<std::string> companionsOf(const std::string& path) {
     if (std::ranges::count(set, fs::path(path).extension().string()) > 0) std::ranges::for_each(set, add);
   }
   for (const std::string_view ending : kAfter) all.push_back(path + std::string(ending));
-  // A .poly may leave its points to a .node.
+  // A .poly may have its vertices in a .node.
   const GridFormat* format = path.ends_with(".poly") ? &gridFormatFor(".node") : formatOf(path);
   if (format != nullptr) {
     const OutputFiles files = filesOf(*format, path);

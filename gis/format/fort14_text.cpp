@@ -108,7 +108,7 @@ void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& p
 
 namespace {
 
-// A line's first number; what follows it is a comment. None at the end of the file.
+// The first number of a line, which may be followed by a comment. Nullopt at the end of the file.
 std::optional<std::uint64_t> countLine(TextReader& file) {
   if (!file.nextLine()) return std::nullopt;
   return file.count();

@@ -16,8 +16,8 @@ enum class Fort14Kind { Adcirc, Schism };
 void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& places, Fort14Kind kind,
                  const ItemLoop& loop);
 
-// Reads either, without the CRS. Segments are taken as they are, wherever they run; the `notes` say where counts,
-// numbers and sums are not what the programs require. Throws InputError.
+// Reads either, without the CRS. Segments are not required to run along the boundary; `notes` report counts, numbers
+// and sums that are not as the programs require. Throws InputError.
 Grid readFort14(const std::string& path);
 
 }  // namespace coastmesh

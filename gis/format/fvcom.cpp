@@ -25,7 +25,7 @@ std::string fileOfSet(const std::string& path, const char* which) {
   return base.append("_").append(which).append(".dat");
 }
 
-// In the order along each boundary, each node once.
+// Nodes of open boundaries, in order along each boundary, each node once.
 std::vector<std::uint32_t> openNodes(const Grid& grid) {
   std::vector<std::uint32_t> nodes;
   std::vector<bool> seen(grid.nodes.size(), false);
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> openNodes(const Grid& grid) {
   return nodes;
 }
 
-// What a file says of each node.
+// The value that a file has for each node.
 using NodeValue = std::function<double(std::size_t node)>;
 
 NodeValue latitudesOf(const Grid& grid) {
@@ -69,10 +69,10 @@ void writeCells(const Grid& grid, const NodeValue& depth, const std::string& pat
   file.close();
 }
 
-// FVCOM's set: `lake_grd.dat` (cells and nodes), `lake_dep.dat` (depth, positive down), `lake_obc.dat` (nodes of open
-// boundaries, type 1) and `lake_cor.dat` (latitudes; 0, which is no rotation, in a plane), with the CRS in a .prj.
-// `path` is the first of them; without "_grd.dat" at its end it gives the name of the set. Rivers are shore here: FVCOM
-// has them in its namelist. Throws OutputError, also where a depth is unknown.
+// Writes FVCOM's set: `lake_grd.dat` (cells and nodes), `lake_dep.dat` (depth, positive down), `lake_obc.dat` (nodes of
+// open boundaries, type 1) and `lake_cor.dat` (latitudes; in a plane 0, which means no rotation), with the CRS in a
+// .prj. `path` is the first of them; if it does not end in "_grd.dat", it names the set without its extension. Rivers
+// are written as shore, since FVCOM has them in its namelist. Throws OutputError, also if a depth is unknown.
 void writeFvcom(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const NodeValue depth = [&grid](std::size_t i) { return grid.z.empty() ? 0.0 : 0.0 - grid.z[i]; };
@@ -155,7 +155,7 @@ std::vector<bool> readOpenNodes(const std::string& path, const Grid& grid) {
 
 }  // namespace
 
-// Reads the set, of which all but the first may be missing. Throws InputError.
+// Reads the set; only the first file is required. Throws InputError.
 Grid readFvcom(const std::string& path, const Crs& unsaid) {
   Grid grid;
   readCells(fileOfSet(path, "grd"), grid);

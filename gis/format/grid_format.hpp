@@ -10,7 +10,7 @@ namespace coastmesh {
 // The type of coordinates in a format's files.
 enum class NodePlaces {
   AsTheyAre,   // those of the grid, bit for bit
-  OneTurn,     // the same, but longitudes do not jump from 180 to -180, if the grid has an end (`inOneTurn`)
+  OneTurn,     // the same, but longitudes do not jump unless the mesh surrounds a pole or the globe (`inOneTurn`)
   Geographic,  // longitudes and latitudes in degrees, bit for bit if the grid has these
   Sphere,      // angles in radians or coordinates on a sphere, subject to rounding, if the grid is geographic
 };
@@ -18,16 +18,16 @@ enum class NodePlaces {
 // A file format, its name ("gpkg") and its file endings.
 struct GridFormat {
   std::string_view name;
-  std::vector<std::string_view> endings;  // none: chosen only by its name
+  std::vector<std::string_view> endings;  // none: chosen by name only
   std::string_view description;
   bool readable = false;
   bool writable = false;
   GridParts holds;          // the parts of a grid that its files hold and its reader restores
-  bool says_depth = false;  // every file of it has a depth at each node: 0 if the grid has none
+  bool says_depth = false;  // its files have a depth at each node: 0 if the grid has none
   NodePlaces places = NodePlaces::AsTheyAre;
-  // Models read it and take lengths for metres, and it does not say their unit.
+  // Read by models that take lengths to be in metres; the files do not hold the unit.
   bool lengths_in_metres = false;
-  bool beside_grid = false;  // not a grid, but an additional file for a solver: the parts that `holds` names
+  bool beside_grid = false;  // not a grid, but an additional file for a solver, with the parts in `holds`
 };
 
 }  // namespace coastmesh

@@ -12,12 +12,12 @@ namespace coastmesh {
 
 // How a format is written and read.
 struct FormatFunctions {
-  // With the threads of `loop`; the same bytes for any number of them.
+  // Uses the threads of `loop`; writes the same bytes for any number of them.
   void (*write)(const Grid&, const std::string& path, const ItemLoop& loop) = nullptr;
   // `unsaid` is the CRS if the file has none.
   Grid (*read)(const std::string& path, const Crs& unsaid) = nullptr;
   OutputFiles (*files)(const std::string& path) = nullptr;  // null: only `path`
-  // For a format that shares its ending with another: whether `path` holds it. Null: only its endings decide.
+  // For a format that shares its ending with another: returns whether `path` is of this format. Null: endings decide.
   bool (*holds)(const std::string& path) = nullptr;
 };
 
@@ -26,8 +26,8 @@ struct FormatRecord {
   FormatFunctions functions;
 };
 
-// Every format, in the order of messages, by the function that describes it, in the file that writes it. A new format
-// is one line here.
+// Every format, in the order of messages, by the function that describes it; the function is in the file that writes
+// the format. A new format is one line here.
 #define COASTMESH_GRID_FORMATS(FORMAT) \
   FORMAT(geoPackageFormat)             \
   FORMAT(geoJsonFormat)                \
@@ -59,7 +59,7 @@ COASTMESH_GRID_FORMATS(COASTMESH_FORMAT)
 // `path` with its last ending replaced.
 std::string withEnding(const std::string& path, const char* ending);
 OutputFiles withPrjBeside(const std::string& path);  // `path`, and a .prj with its CRS
-OutputFiles layerFiles(const std::string& path);     // one file each for triangles, nodes, boundaries and lines
+OutputFiles layerFiles(const std::string& path);     // one file each for triangles, nodes, boundaries, lines
 
 const FormatFunctions& functionsOf(const GridFormat& format);
 

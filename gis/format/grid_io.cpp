@@ -33,7 +33,7 @@ std::string inSmallLetters(std::string text) {
   return text;
 }
 
-// The longest of the endings that fit: "_22.msh" before ".msh".
+// The format with the longest ending that fits: "_22.msh" before ".msh".
 const GridFormat* formatByEnding(const std::string& path) {
   const std::string lower = inSmallLetters(path);
   const GridFormat* found = nullptr;
@@ -48,7 +48,7 @@ const GridFormat* formatByEnding(const std::string& path) {
   return found;
 }
 
-// Those with the ending of `path` that are told by what a file holds.
+// Formats with the ending of `path` that are recognised by content.
 std::vector<const GridFormat*> formatsToldByContent(const std::string& path) {
   const std::string ending = inSmallLetters(std::filesystem::path(path).extension().string());
   std::vector<const GridFormat*> told;
@@ -77,7 +77,7 @@ std::size_t edgesOfLines(const Grid& grid) {
   return edges;
 }
 
-// Lines of other programs may run anywhere.
+// Files of other programs may have lines anywhere.
 void keepLinesInside(Grid& grid) {
   const std::size_t before = edgesOfLines(grid);
   cutLinesOffEdges(grid);
@@ -137,7 +137,7 @@ OutputFiles filesOf(const GridFormat& format, const std::string& path) {
   return functions.files ? functions.files(path) : OutputFiles{{path}, {}, {}};
 }
 
-// Programs give different formats the same ending (.msh, .nc): the one that the file holds.
+// Programs use the same ending for different formats (.msh, .nc): the content decides.
 const GridFormat* gridFormatOf(const std::string& path) {
   for (const GridFormat* const format : formatsToldByContent(path))
     if (functionsOf(*format).holds(path)) return format;
@@ -146,7 +146,7 @@ const GridFormat* gridFormatOf(const std::string& path) {
 
 namespace {
 
-// What comes through a pipe can be read only once, from its beginning to its end.
+// A pipe can be read only once, from start to end.
 void requireNoPipe(const std::string& path) {
   std::error_code error;
   const GridFormat* const format = formatByEnding(path);

@@ -14,8 +14,8 @@ namespace coastmesh {
 
 const std::vector<GridFormat>& gridFormats();
 
-// The format of `path` by its ending, case-insensitive, or of `name` if that is not empty. Throws OutputError with the
-// list of known formats.
+// The format of `path` by its ending, case-insensitive, or the format `name` if that is not empty. Throws OutputError
+// with the list of known formats.
 const GridFormat& gridFormatFor(const std::string& path, const std::string& name = {});
 
 // A mesh that is written to a temporary folder and moved into place completely or not at all: see StagedFiles. A .prj
@@ -43,16 +43,15 @@ class StagedOutput {
   std::vector<std::string> inputs_;
 };
 
-// The format of a file that is there, by its content where several share an ending; null if none is known.
+// The format of an existing file, by its content if several formats share its ending; null if none is known.
 const GridFormat* gridFormatOf(const std::string& path);
 
-// Reads a mesh in any readable format of `gridFormats`. Nodes, triangles and their winding are as in the
-// file, including unused nodes; `boundaries` is empty if the file has none. Lines are those along edges
-// inside the mesh; `notes` name lines of the file that are not. If the file has no CRS it is `unsaid`. Throws
-// InputError.
+// Reads a mesh in any readable format of `gridFormats`. Nodes, triangles and their winding are as in the file,
+// including unused nodes; `boundaries` is empty if the file has none. Lines are those along edges inside the mesh;
+// `notes` report other lines of the file. If the file has no CRS it is `unsaid`. Throws InputError.
 Grid readGrid(const std::string& path, const Crs& unsaid = {});
 
-// What to say of a file that `readGrid` has read, where it had to choose; empty where it had not. Throws InputError.
+// A remark for the user on a file that `readGrid` has read, if it had to choose; else empty. Throws InputError.
 std::string remarkOnGrid(const std::string& path);
 
 }  // namespace coastmesh

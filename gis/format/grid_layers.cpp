@@ -16,7 +16,7 @@ LayerColumn idColumn() {
   return {"id", LayerColumn::Whole([](std::size_t row) { return static_cast<std::int64_t>(row) + 1; })};
 }
 
-// A text of the triangle's feature; left out where no feature has it.
+// Adds a column with a text of the triangle's feature, unless all texts are empty.
 void addFeatureText(const Grid& grid, const std::string& name, std::vector<std::string_view> texts,
                     std::vector<LayerColumn>& columns) {
   std::size_t longest = 0;

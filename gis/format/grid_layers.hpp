@@ -14,15 +14,15 @@
 
 namespace coastmesh {
 
-// What the GIS layers of a grid hold, whatever file they go to. Columns and shapes refer to the grid they were made of.
+// The contents of a grid's GIS layers, for any file format. Columns and shapes refer to the grid they were made from.
 
 struct LayerColumn {
   using Flag = std::function<bool(std::size_t row)>;
-  using Whole = std::function<std::optional<std::int64_t>(std::size_t row)>;  // none is null
+  using Whole = std::function<std::optional<std::int64_t>(std::size_t row)>;  // nullopt is null
   using Real = std::function<double(std::size_t row)>;
   using Text = std::function<std::string_view(std::size_t row)>;  // empty is null
 
-  std::string name;  // ten letters at most, for the .dbf of a shapefile
+  std::string name;  // at most ten characters, for the .dbf of a shapefile
   std::variant<Flag, Whole, Real, Text> value;
   std::size_t longest = 0;  // bytes, of a text
 };
@@ -34,29 +34,30 @@ struct GridLayer {
   Shape shape = Shape::Point;
   std::size_t rows = 0;
   std::vector<LayerColumn> columns;
-  // The nodes of the row's shape in `nodes`; what is closed ends where it starts.
+  // Stores the nodes of the row's shape in `nodes`; closed shapes repeat their first node.
   std::function<void(std::size_t row, std::vector<std::uint32_t>& nodes)> shapeOf;
 };
 
 inline constexpr std::string_view kTriangleLayer = "triangles", kNodeLayer = "nodes", kBoundaryLayer = "boundaries",
                                   kLineLayer = "lines";
 
-// Of the triangles' layer: the ids of a triangle's nodes, counter-clockwise. Polygons say neither which of several
-// nodes at a place is meant nor, after a Shapefile has turned them, the winding.
+// Columns of the triangles' layer: the ids of a triangle's nodes, counter-clockwise. Polygons do not determine which of
+// several nodes at a place is meant, nor the winding, since shapefiles reverse it.
 inline constexpr std::array<std::string_view, 3> kCornerColumns = {"node1", "node2", "node3"};
 
 // The layers in this order: triangles (id, node1, node2, node3, min_angle in degrees, area_m2, src_fid, source, name,
-// region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, where there are any, lines (id,
-// kind, name, closed, length_m), ids from 1. Columns that the grid has nothing for are left out; `name` is the first
-// attribute of the source feature that is called so, or like it. REQUIRES: `grid` outlives the result.
+// region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, if there are any, lines (id, kind,
+// name, closed, length_m), ids from 1. Columns without values in the grid are left out; a triangle's `name` is the
+// first attribute of its feature that is called so, or else contains "name". REQUIRES: `grid` outlives the result.
 std::vector<GridLayer> layersOf(const Grid& grid);
 
-// What layers hold of a grid.
+// The parts of a grid that layers hold.
 inline constexpr GridParts kLayerParts{GridPart::Sizes,   GridPart::Features, GridPart::FeatureNames,
                                        GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
                                        GridPart::Rivers,  GridPart::Ibtypes,  GridPart::BareWeirs};
 
-// Files that hold one layer each: "lake.shp" goes with "lake_nodes.shp" and "lake_boundaries.shp" and "lake_lines.shp".
+// The file of a layer in formats with one layer per file: "lake.shp" goes with "lake_nodes.shp", "lake_boundaries.shp"
+// and "lake_lines.shp".
 std::string pathOfLayer(const std::string& path, std::string_view layer);
 
 }  // namespace coastmesh

@@ -55,7 +55,7 @@ bool anyName(const Grid& grid) {
       grid.features, [](const GridFeature& feature) { return !feature.source.empty() || !feature.attributes.empty(); });
 }
 
-// What the grid has of a part, in words; empty where it has nothing.
+// Describes what the grid has of a part; empty if nothing.
 std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) {
   switch (part) {
     case GridPart::Title:

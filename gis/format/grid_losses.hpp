@@ -8,12 +8,12 @@ namespace coastmesh {
 
 // Which losses are reported.
 enum class LossesOf {
-  Grid,   // all that the grid holds
-  Input,  // what the user gave for it: lines, regions, types of boundaries, and pieces, which are marked on request
+  Grid,   // everything that the grid holds
+  Input,  // what the user gave: lines, regions, types of boundaries, and pieces, which are marked on request
 };
 
-// What of the grid a file of the format cannot hold, as the end of a sentence: "2 weirs, whose edges stay in the mesh;
-// the regions of triangles". Empty where it holds all.
+// Describes what a file of the format cannot hold of the grid, as the end of a sentence: "the names of 2 regions; 2
+// weirs, whose edges stay in the mesh". Empty if it can hold everything.
 std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of);
 
 }  // namespace coastmesh

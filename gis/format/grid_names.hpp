@@ -9,25 +9,25 @@
 
 namespace coastmesh {
 
-// Regions and features as formats with numbers and names have them.
+// Names and numbers of regions and features in files.
 
-// The names of the grid's regions, sorted; their numbers in files are counted from 1, 0 being none.
+// The names of the grid's regions, sorted; in files they are numbered from 1, and 0 means none.
 std::vector<std::string> regionNames(const Grid& grid);
-std::vector<int> regionNumbers(const Grid& grid, const std::vector<std::string>& names);  // one a feature
+std::vector<int> regionNumbers(const Grid& grid, const std::vector<std::string>& names);  // one for each feature
 
-// One name a feature, no two alike: "feature 7", "feature 7 (2)" where another source has that number too, "feature 7
-// in Bay" in a region. Quotes and ends of lines become blanks.
+// A unique name for each feature: "feature 7", "feature 7 (2)" for the second with that number and region, "feature 7
+// in Bay" in a region. Quotes and line ends become blanks.
 std::vector<std::string> featureLabels(const Grid& grid);
 
-// The feature that such a name names; another name becomes that of a feature `number`.
+// The feature that such a name stands for; any other name becomes that of a feature `number`.
 GridFeature featureOfLabel(const std::string& label, std::int64_t number);
 
-// Without what ends a name in quotes: these, and ends of lines.
+// Replaces quotes and line ends, which would end a quoted name, by blanks.
 std::string quotable(std::string_view name);
 
-// Gives the grid a feature for each fid and region and each triangle its own, both given one a triangle; `regions` are
-// numbers into `names` as above, and empty where there are none. Does nothing where neither is given, or fids are none:
-// not a number, or past the whole numbers that a double has.
+// Makes a feature for each combination of fid and region, and assigns each triangle its own. `fids` and `regions` have
+// one number for each triangle or are empty; `regions` are numbers into `names` as above. Fids count as not given if
+// one of them is NaN or exceeds 2^53 in absolute value. Does nothing if neither is given.
 void addFeatures(const std::vector<double>& fids, const std::vector<double>& regions,
                  const std::vector<std::string>& names, Grid& grid);
 

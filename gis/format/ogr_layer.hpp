@@ -13,12 +13,12 @@
 
 namespace coastmesh {
 
-// How OGR writes layers of a grid, whatever file they go to.
+// How OGR writes layers of a grid, for any file format.
 struct OgrWriter {
   const char* driver;
   std::vector<const char*> layer_options;
-  bool table_types = false;         // flags and texts as a .dbf has them
-  const char* plane_wkt = nullptr;  // what a plane is called; null: nothing
+  bool table_types = false;         // flags and texts in the types of a .dbf
+  const char* plane_wkt = nullptr;  // the CRS of a plane; null: none
   bool hides_failures = false;      // OGR does not report when the disk is full
 };
 
@@ -27,7 +27,7 @@ struct CloseDataset {
 };
 using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
 
-// A layer of polygons or lines on the map; where some are cut, all may have several parts.
+// A layer of polygons or lines on the map; if any is cut, all are written as multi-part geometries.
 struct MapOfLayer {
   MapCutter cutter;
   bool has_parts = false;
@@ -38,11 +38,11 @@ struct MapOfLayer {
 // All throw OutputError, with the message that OGR gives.
 [[noreturn]] void failToWrite(const std::string& path, const OgrErrors& errors);
 DatasetPtr createDataset(const OgrWriter& writer, const std::string& path, const OgrErrors& errors);
-// What is left in GDAL's buffers is written now; only the collected messages say whether it went well.
+// Flushes GDAL's buffers; only the collected messages show whether that succeeded.
 void closeDataset(DatasetPtr dataset, const std::string& path, const OgrErrors& errors);
 OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const OgrWriter& writer, const Grid& grid,
                       const GridLayer& layer, const std::string& name, const OgrErrors& errors);
-// One row after another, numbered from the first that OGR has free.
+// Writes all rows in order; OGR numbers them from its first free fid.
 void writeFeatures(OGRLayer& target, const std::string& path, const Grid& grid, const GridLayer& layer,
                    const OgrErrors& errors);
 

@@ -10,7 +10,7 @@ void requireParts(const std::vector<std::uint32_t>& parts, const std::string& pa
     throw OutputError("'" + path + "': the mesh has no parts: give mesh --partition, or run partition");
 }
 
-// SCHISM's partition.prop: a line an element with its number, from 1, and its rank, from 0. Throws OutputError.
+// Writes SCHISM's partition.prop: for each element its number, from 1, and its rank, from 0. Throws OutputError.
 void writeSchismPartition(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireParts(grid.part_of, path);
   TextWriter file(path);
@@ -19,7 +19,7 @@ void writeSchismPartition(const Grid& grid, const std::string& path, const ItemL
   file.close();
 }
 
-// ADCIRC's partmesh.txt: a line a node with its subdomain, from 1. Throws OutputError.
+// Writes ADCIRC's partmesh.txt: the subdomain of each node, from 1. Throws OutputError.
 void writeAdcircPartition(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireParts(grid.node_part_of, path);
   TextWriter file(path);

@@ -22,7 +22,7 @@ struct VertexHeader {
 VertexHeader readVertexHeader(TextReader& file) {
   file.needLine();
   VertexHeader header{file.count(), 0, false};
-  // A bare 0 stands for "see the .node file".
+  // A bare 0 means "see the .node file".
   const std::uint64_t dimensions = file.hasWord() ? file.count() : 2;
   if (dimensions != 2) file.fail("vertices must have 2 dimensions, not " + std::to_string(dimensions));
   header.attributes = file.hasWord() ? file.count() : 0;
@@ -85,7 +85,7 @@ void readSegments(TextReader& file, const IdMap& vertices, Pslg& pslg) {
 }
 
 void readHoles(TextReader& file, Pslg& pslg) {
-  if (!file.nextLine()) return;  // Triangle itself wants the count, other programs leave it out
+  if (!file.nextLine()) return;  // Triangle requires the count, other programs omit it
   const std::uint64_t count = file.count();
   for (std::uint64_t i = 0; i < count; ++i) {
     file.needLine();

@@ -38,7 +38,7 @@ struct Contents {
     Tag entity = 0;
     Tag part = 0;
   };
-  std::map<std::pair<int, Tag>, Origin> origin_of;  // of what the parts of a mesh hold of entities
+  std::map<std::pair<int, Tag>, Origin> origin_of;  // of partitioned entities, by dimension and tag
   std::vector<Tag> node_tags;
   std::vector<std::array<double, 3>> places;
   std::vector<Element<2>> lines;
@@ -75,7 +75,7 @@ void readEntities(TextReader& file, Contents& contents) {
   }
 }
 
-// Of several parts that a border belongs to the first counts.
+// An entity between parts lists several of them; the first counts.
 void readPartitionedEntities(TextReader& file, Contents& contents) {
   file.needLine();
   file.count();  // parts
@@ -141,7 +141,7 @@ void readNodes22(TextReader& file, Contents& contents) {
   }
 }
 
-// The line is at the nodes of the element.
+// REQUIRES: the next words of the line are the nodes of the element.
 void addElement(TextReader& file, std::int64_t type, Tag tag, Tag physical, Contents::Origin of, Contents& contents) {
   if (type == 1) {
     const Tag a = file.integer(), b = file.integer();
@@ -278,7 +278,7 @@ void sortByTag(Contents& contents) {
   contents.node_tags = std::move(tags);
   contents.places = std::move(places);
   std::ranges::stable_sort(contents.triangles, {}, &Element<3>::tag);
-  // What parts cut a line into is one line again.
+  // Sorting by tag rejoins lines that partitioning cut.
   if (!contents.origin_of.empty()) std::ranges::stable_sort(contents.lines, {}, &Element<2>::tag);
 }
 
@@ -323,7 +323,7 @@ std::optional<BoundaryRole> roleOfName(std::string name) {
   return std::nullopt;
 }
 
-// ADCIRC's type at the end of a name that we gave; -1 for none.
+// ADCIRC's type at the end of a name that `writeGmsh` gave; -1 if there is none.
 int ibtypeOfName(const std::string& name) {
   const std::size_t mark = name.rfind(kIbtypeMark);
   int type = -1;
@@ -332,7 +332,7 @@ int ibtypeOfName(const std::string& name) {
   return type;
 }
 
-// "weir North" is a weir; a name of another program's stays as it is, and its line is a constraint.
+// "weir North" is a weir called "North"; names given by other programs are kept, and their lines are constraints.
 std::pair<LineKind, std::string> lineOfName(const std::string& name) {
   for (const LineKind kind : kLineKinds) {
     const std::string_view word = toString(kind);
@@ -342,7 +342,8 @@ std::pair<LineKind, std::string> lineOfName(const std::string& name) {
   return {LineKind::Constraint, name};
 }
 
-// Elements along the mesh's boundary, by their physical groups, are boundaries, those inside lines, by their curves.
+// Makes boundaries of line elements along the mesh's boundary, by physical group, and lines of those inside, by
+// physical group and curve.
 void readCurves(const Contents& contents, const IdMap& node_index, const std::string& path, Grid& grid) {
   std::vector<std::pair<Tag, Tag>> keys;  // physical group and curve, in the order of their first elements
   std::map<std::pair<Tag, Tag>, std::size_t> group_of;

@@ -48,7 +48,7 @@ class LayerReader {
     return feature_.get();
   }
 
-  // -1 where there is none.
+  // -1 if there is none.
   int field(std::string_view name) const { return layer_.GetLayerDefn()->GetFieldIndex(std::string(name).c_str()); }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -85,9 +85,9 @@ OGRLayer& triangleLayer(GDALDataset& dataset, const std::string& path) {
   return *polygons.front();
 }
 
-// A layer that goes with the triangles: in the same file, or in one of its own beside it.
+// A layer that belongs to the triangles: in the same file, or in a file of its own beside it.
 struct Companion {
-  DatasetPtr dataset;  // null where it is the triangles' own
+  DatasetPtr dataset;  // null if the layer is in the triangles' file
   OGRLayer* layer = nullptr;
   std::string path;
 };
@@ -103,8 +103,8 @@ Companion findCompanion(GDALDataset& dataset, const std::string& path, std::stri
 
 Point placeOf(const OGRSimpleCurve& chain, int i) { return {chain.getX(i), chain.getY(i)}; }
 
-// The points of each of its parts, in the file's order, which says nothing of the winding: formats and programs have
-// ways of their own. A ring's first point is not repeated.
+// The points of each part of a polygon, in the file's order. This order does not determine the winding, since formats
+// and programs have different conventions. Rings do not repeat their first point.
 std::vector<std::vector<Point>> partsOf(const OGRFeature& feature, const LayerReader& reader) {
   const OGRGeometry* geometry = feature.GetGeometryRef();
   if (geometry == nullptr || geometry->IsEmpty()) reader.fail("it has no geometry");
@@ -131,7 +131,7 @@ std::vector<std::vector<Point>> partsOf(const OGRFeature& feature, const LayerRe
   return parts;
 }
 
-// Ascending, each once.
+// The distinct points of all parts, ascending.
 std::vector<Point> pointsOf(const std::vector<std::vector<Point>>& parts) {
   std::vector<Point> points;
   for (const auto& part : parts) points.insert(points.end(), part.begin(), part.end());
@@ -141,7 +141,7 @@ std::vector<Point> pointsOf(const std::vector<std::vector<Point>>& parts) {
   return points;
 }
 
-// The order of `ids`, which are a layer's: those that repeat stay in the file's.
+// The order that sorts the `ids` of a layer; equal ids keep the file's order.
 std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
   std::vector<std::uint32_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -150,7 +150,7 @@ std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
   return order;
 }
 
-// The result is the ids of the nodes, ascending.
+// Returns the ids of the nodes, ascending; empty if there is no layer of nodes with ids.
 std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid,
                                         NodesByPlace& index) {
   std::vector<std::int64_t> ids;
@@ -181,7 +181,7 @@ std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErr
   return ids;
 }
 
-// The text of a field; empty where there is none.
+// The text of a field; empty if there is none.
 std::string textOf(const OGRFeature& feature, int field) {
   return field >= 0 && feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsString(field) : "";
 }
@@ -216,16 +216,16 @@ class FeatureTable {
 
 struct LayerTriangle {
   std::array<Point, 3> corners;
-  std::array<double, 3> z{};   // of the corners; NaN where the file has none
-  bool has_corners = false;    // three, and no more; one that is cut (`MapCutter`) may have others
-  std::vector<Point> outline;  // all its points
+  std::array<double, 3> z{};   // of the corners; NaN if the file has none
+  bool has_corners = false;    // one part with three points; a triangle that is cut (`MapCutter`) may have others
+  std::vector<Point> outline;  // the distinct points of all parts
   std::optional<std::array<std::int64_t, 3>> node_ids;  // counter-clockwise
   std::int64_t feature = 0;
 };
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// A triangle's third coordinates.
+// The third coordinates of a triangle's corners; NaN if it has none.
 std::array<double, 3> cornerHeights(const OGRFeature& feature) {
   std::array<double, 3> z{kUnknown, kUnknown, kUnknown};
   const OGRGeometry* geometry = feature.GetGeometryRef();
@@ -237,8 +237,8 @@ std::array<double, 3> cornerHeights(const OGRFeature& feature) {
   return z;
 }
 
-// The nodes' z as that of all corners there; unknown where these differ. None where all are 0, as programs write what
-// has no height. REQUIRES: the triangles are as given, not turned yet.
+// The z of each node: that of all corners there, unknown if they differ. Empty if none differs from 0, which programs
+// write if there are no heights. REQUIRES: corners are in the same order in `given` and in `grid.triangles`.
 std::vector<double> heightsAt(const std::vector<LayerTriangle>& given, const Grid& grid) {
   std::vector<double> z(grid.nodes.size(), kUnknown);
   std::vector<bool> differs(z.size(), false);
@@ -258,7 +258,7 @@ std::vector<double> heightsAt(const std::vector<LayerTriangle>& given, const Gri
   return any ? z : std::vector<double>();
 }
 
-// The nodes that a triangle names, where they have its corners: somebody may have edited the layers.
+// The nodes that a triangle names, if they are at its corners: the layers may have been edited. Else nullopt.
 std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& triangle, const std::vector<Point>& nodes,
                                                        const std::vector<std::int64_t>& ids, const MapCutter& cutter) {
   if (!triangle.node_ids) return std::nullopt;
@@ -302,7 +302,7 @@ void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<st
       index.add(from.corners[i], triangle[i]);
     }
   }
-  // A layer of nodes has depths of its own, or says that there are none.
+  // If there is a layer of nodes, only it defines depths.
   if (ids.empty()) grid.z = heightsAt(given, grid);
   windTriangles(grid.nodes, grid.crs, wound, grid.triangles);
 }
@@ -350,7 +350,7 @@ void readTriangles(LayerReader& reader, const std::string& path, const std::vect
   makeTriangles(triangles, node_ids, grid, index, path);
 }
 
-// Whether two places of a map of longitudes and latitudes are one on the ground: a turn apart, or at a pole.
+// True if two places on a map of longitudes and latitudes are the same on the ground: a full turn apart, or at a pole.
 bool sameOnGround(const Point& a, const Point& b) {
   return a.y == b.y && (a.x == b.x || std::max(a.x, b.x) - 360.0 == std::min(a.x, b.x) || std::abs(a.y) == 90.0);
 }
@@ -408,7 +408,7 @@ class LineReader {
   }
 
  private:
-  // Those at the very place come first.
+  // Nodes with exactly these coordinates come first, then those a full turn away or at the same pole.
   std::vector<std::uint32_t> nodesAt(const Point& place) const {
     std::vector<std::uint32_t> nodes = index_.allAt(place);
     const auto add = [&](std::uint32_t node) {
@@ -425,7 +425,7 @@ class LineReader {
   const Grid& grid_;
   const NodesByPlace& index_;
   LineNodes nodes_;
-  std::vector<std::uint32_t> poles_;  // the nodes there, which have any longitude
+  std::vector<std::uint32_t> poles_;  // nodes at the poles, whose longitudes are arbitrary
 };
 
 void readBoundaries(const Companion& companion, const OgrErrors& errors, const NodesByPlace& index, Grid& grid) {
@@ -471,7 +471,7 @@ void readLines(const Companion& companion, const OgrErrors& errors, const NodesB
   reorder(grid.lines, orderOf(ids));
 }
 
-// OGR takes a GeoJSON file that says "crs": null for WGS 84.
+// True if a GeoJSON file has "crs": null, which OGR reads as WGS 84.
 bool saysNullCrs(const std::string& path) {
   constexpr std::streamsize kHead = 4096;
   std::ifstream file(path, std::ios::binary);

@@ -45,7 +45,7 @@ Crs crsOf(const NetcdfReader& file, const std::string& variable, const std::stri
 }
 
 Crs readCrs(const NetcdfReader& file, const std::string& x) {
-  constexpr std::string_view kNoCode = "EPSG:0";  // D-FlowFM's word for none
+  constexpr std::string_view kNoCode = "EPSG:0";  // D-FlowFM's code for none
   std::string variable = file.text(x, "grid_mapping");
   for (const char* name : {"projected_coordinate_system", "wgs84"})
     if (!file.hasVariable(variable)) variable = name;
@@ -61,7 +61,7 @@ Crs readCrs(const NetcdfReader& file, const std::string& x) {
   return longitudes ? wgs84() : Crs{};
 }
 
-// Rows of node indices; kNone for the fill value. `columns` comes out as the length of a row.
+// Rows of node indices; kNone for the fill value. `columns` receives the length of a row.
 std::vector<std::uint32_t> readConnectivity(const NetcdfReader& file, const std::string& variable, bool transposed,
                                             std::size_t nodes, std::size_t& columns) {
   const std::vector<std::size_t> shape = file.shape(variable);
@@ -80,7 +80,7 @@ std::vector<std::uint32_t> readConnectivity(const NetcdfReader& file, const std:
         out.push_back(kNone);
         continue;
       }
-      // Without a sign, in which the difference of any two numbers fits.
+      // Unsigned, since the difference of any two numbers fits.
       const std::uint64_t node = static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(start);
       if (value < start || node >= nodes)
         file.fail("row " + std::to_string(r + 1) + " of \"" + variable + "\" names node " + std::to_string(value) +
@@ -129,9 +129,9 @@ struct DepthVariable {
 using namespace std::string_view_literals;
 
 constexpr std::array kAltitudes{"altitude"sv, "surface_altitude"sv, "bedrock_altitude"sv};
-constexpr std::array kDepths{"depth"sv, "depth_below_geoid"sv};  // besides sea_floor_depth...
+constexpr std::array kDepths{"depth"sv, "depth_below_geoid"sv};  // and any that starts with sea_floor_depth
 
-// Small letters, without the name of the mesh in front.
+// In lower case, without the name of the mesh in front.
 constexpr std::array kElevationNames{"node_z"sv, "netnode_z"sv, "z"sv, "bed_level"sv, "bedlevel"sv, "elevation"sv};
 constexpr std::array kDepthNames{"depth"sv, "h"sv, "bathymetry"sv, "node_depth"sv};
 
@@ -153,9 +153,10 @@ Rank rankOf(const NetcdfReader& file, const std::string& name, const std::string
   return std::ranges::count(kDepthNames, bare) > 0 ? Rank::DepthName : Rank::None;
 }
 
-// The variables with depths or elevations of the bed at the nodes, the best known first: with the standard_name of an
-// altitude, then that of a depth of the sea floor, then without any but with a name that models give it (FVCOM's `h`,
-// SCHISM's `depth`, D-Flow FM's `mesh2d_node_z`). An attribute `positive` says the direction before names do.
+// The variables with depths or elevations of the bed at the nodes, the most reliable first: with the standard_name of
+// an altitude, then with that of a depth of the sea floor, then with no standard_name but a name that models use
+// (FVCOM's `h`, SCHISM's `depth`, D-Flow FM's `mesh2d_node_z`). For the direction, an attribute `positive` takes
+// precedence over names.
 std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::string& mesh, const std::string& x) {
   std::vector<std::pair<Rank, DepthVariable>> found;
   const std::vector<std::string> at_nodes = file.dimensionsOf(x);

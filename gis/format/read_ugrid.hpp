@@ -6,14 +6,14 @@
 
 namespace coastmesh {
 
-// The first two-dimensional mesh topology of a UGRID file, if its faces are triangles, whatever its variables are
-// called. The CRS comes from the variable that grid_mapping names, or `projected_coordinate_system` or `wgs84`;
-// longitudes without one are taken as WGS 84, other coordinates as a plane. z: altitude or depth of the sea floor at
-// the nodes, by its standard_name or else by its name. Boundaries, features, angles and areas as `writeUgrid` writes
-// them. Throws InputError.
+// Reads the first two-dimensional mesh topology of a UGRID file, if its faces are triangles, for any names of
+// variables. The CRS comes from the variable that grid_mapping names, or `projected_coordinate_system` or `wgs84`;
+// longitudes without one are taken as WGS 84, other coordinates as `unsaid`. z: altitude or depth of the sea floor at
+// the nodes, by standard_name, else by name. Boundaries, lines, features, regions, pieces, parts, sizes, angles and
+// areas as in files of `writeUgrid`. Throws InputError.
 Grid readUgrid(const std::string& path, const Crs& unsaid);
 
-// Which variable z is taken from, where others would do as well; else empty. Throws InputError.
+// Names the variable that z is taken from, if there are other candidates; else empty. Throws InputError.
 std::string depthRemark(const std::string& path);
 
 }  // namespace coastmesh

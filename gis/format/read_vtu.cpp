@@ -89,7 +89,8 @@ class VtuFile {
 
   [[noreturn]] void fail(const std::string& what) const { throw InputError("'" + path_ + "': " + what); }
 
-  // The first array of a section (those of points have no fixed name), or the one called `name`.
+  // The array called `name`; if that is empty, the first of the section, since that of points has no fixed name.
+  // Nullopt if there is none.
   std::optional<std::vector<double>> array(const char* section, std::string_view name) const {
     const bool in_grid = std::string_view(section) == "FieldData";
     const CPLXMLNode* const parent = CPLGetXMLNode(in_grid ? grid_ : piece_, section);
@@ -135,7 +136,7 @@ class VtuFile {
     return decodeBytes(block(bytes_, appended_ + offset), type);
   }
 
-  // The bytes of an array that stand after their own number.
+  // The bytes of an array; their number precedes them.
   std::string block(const std::string& bytes, std::size_t at) const {
     if (bytes.size() - at < header_) fail("an array lies beyond its end");
     std::uint64_t size = 0;
@@ -180,12 +181,12 @@ class VtuFile {
   std::unique_ptr<CPLXMLNode, FreeXml> root_;
   const CPLXMLNode* grid_ = nullptr;
   const CPLXMLNode* piece_ = nullptr;
-  std::size_t appended_ = 0;  // where the appended arrays start; 0 where there are none
+  std::size_t appended_ = 0;  // where the appended arrays start; 0 if there are none
   bool base64_ = false;
   std::size_t header_ = 4;
 };
 
-// Reads the triangles and says which of the file's cells they are.
+// Reads the triangles and returns the index of each in the file's cells.
 std::vector<std::size_t> readTriangles(const VtuFile& file, Grid& grid) {
   const std::size_t cells = file.count("NumberOfCells");
   const std::vector<double> ends = file.need("Cells", "offsets", cells), types = file.need("Cells", "types", cells);
@@ -222,7 +223,7 @@ std::vector<double> readCellData(const VtuFile& file, const char* name, const st
   return out;
 }
 
-// Boundaries or lines as `writeVtu` has them among the fields.
+// A boundary or line, as `writeVtu` stores it in the field data.
 struct Chain {
   std::vector<std::uint32_t> nodes;
   std::size_t kind = 0;
@@ -254,7 +255,7 @@ std::vector<Chain> readChains(const VtuFile& file, const std::string& of, const 
   return chains;
 }
 
-// Texts as bytes, each ended by a zero.
+// Texts are stored as bytes, each ended by a zero.
 std::vector<std::string> readTexts(const VtuFile& file, const char* name) {
   std::vector<std::string> texts;
   std::string text;

@@ -6,12 +6,12 @@
 
 namespace coastmesh {
 
-// Node data of a mesh on a globe, whose points are places in space.
+// Node data with longitudes and latitudes, for a mesh on a globe, whose points are in space.
 inline constexpr const char *kVtuLongitude = "longitude", *kVtuLatitude = "latitude";
 
-// VTK's unstructured grid of triangles as XML: arrays appended (raw or base64) or inline (ASCII or base64), not
-// compressed. Lines and points among the cells are left out; node data `z`, and what `writeVtu` adds, are read. Throws
-// InputError.
+// Reads VTK's unstructured grid of triangles as XML: arrays appended (raw or base64) or inline (ASCII or base64), not
+// compressed. Lines and points among the cells are ignored. z: node data "z", else the third coordinate if it is not 0
+// throughout and the mesh is not on a globe. What `writeVtu` adds is read too. Throws InputError.
 Grid readVtu(const std::string& path, const Crs& unsaid);
 
 }  // namespace coastmesh

@@ -12,8 +12,8 @@
 namespace coastmesh {
 namespace {
 
-// SCHISM's hgrid.gr3 in the grid's CRS, hgrid.ll beside it in longitudes and latitudes (not for a plane), and the CRS
-// in a .prj; depth positive down. `path` may name either file. Throws OutputError, also where a depth is unknown.
+// Writes SCHISM's hgrid.gr3 in the grid's CRS, hgrid.ll beside it in longitudes and latitudes (not for a plane), and
+// the CRS in a .prj; depth positive down. `path` may name either file. Throws OutputError, also if a depth is unknown.
 void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   if (grid.crs.isPlane() && path.ends_with(".ll"))
@@ -27,7 +27,7 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
   if (grid.crs.isPlane()) return;
   TextWriter ll(withEnding(path, ".ll"));
   std::vector<Point> places = geographicNodes(grid, loop);
-  // Those of a projected grid have not been seen before.
+  // `StagedOutput` does this for geographic grids only; these may come from a projected one.
   if (auto turned = inOneTurn(places, grid.triangles, loop)) places = *std::move(turned);
   writeFort14(ll, grid, places, Fort14Kind::Schism, loop);
   ll.close();
@@ -37,7 +37,7 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
 // Reads either file: a .ll is in WGS 84. Throws InputError.
 Grid readSchism(const std::string& path, const Crs& unsaid) {
   Grid grid = readFort14(path);
-  for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;  // SCHISM knows no more than land and islands
+  for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;  // SCHISM only distinguishes land and islands
   std::string ending = std::filesystem::path(path).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   grid.crs = readPrjBeside(path, unsaid);

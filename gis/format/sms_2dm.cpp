@@ -29,7 +29,7 @@ struct Cards {
   std::map<std::int64_t, std::string> material_names;
 };
 
-// A node string goes on over several lines until a node with a minus sign ends it.
+// A node string may continue over several lines until a node with a minus sign ends it.
 void readNodeString(TextReader& file, Cards& cards, bool& unfinished) {
   if (!unfinished) cards.strings.emplace_back();
   unfinished = true;
@@ -94,7 +94,7 @@ void readMaterials(const Cards& cards, Grid& grid) {
     grid.feature_of.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(known, material) - known.begin()));
 }
 
-// What a node string is by its number, where all of the file's are numbered as `write2dm` does it.
+// The kinds of node strings by their numbers, if all strings are numbered as by `write2dm`; else all are unknown.
 using StringKind = std::variant<std::monostate, BoundaryRole, LineKind>;
 std::vector<StringKind> kindsOf(const std::vector<NodeString>& strings) {
   std::vector<StringKind> kinds;
@@ -121,8 +121,8 @@ std::vector<std::uint32_t> nodesOf(const NodeString& string, const IdMap& node_i
   return nodes;
 }
 
-// Boundaries, and lines inside the mesh: those of other programs are strings, or parts of them, that do not run along
-// the boundary.
+// Reads boundaries and lines inside the mesh. In files of other programs, strings or parts of them that do not run
+// along the boundary are lines.
 void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& file, Grid& grid) {
   const std::vector<StringKind> kinds = kindsOf(cards.strings);
   std::vector<std::vector<NodePair>> groups;
@@ -149,9 +149,9 @@ void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& 
   }
 }
 
-// SMS .2dm of triangles, with the CRS of a .prj beside it. Materials become features where there are several. Node
-// strings that follow the mesh's boundary become boundaries: numbered by us they keep their role, others are open, or
-// land or an island where they close. Throws InputError with file and line.
+// Reads SMS .2dm of triangles, with the CRS of a .prj beside it. Materials become features if there are several or one
+// is named. Node strings that follow the mesh's boundary become boundaries: if numbered by us they keep their role;
+// else they are open, or land or an island if closed. Throws InputError with file and line.
 Grid read2dm(const std::string& path, const Crs& unsaid) {
   TextReader file(path);
   file.needLine();
@@ -186,14 +186,14 @@ void writeNodeString(TextWriter& file, std::vector<std::uint32_t> nodes, bool cl
   file << ' ' << id << '\n';
 }
 
-// Whether the numbers of materials say all that is known of features.
+// True if the numbers of materials define the features completely: fids count from 1, and there are no regions.
 bool numbersSayAll(const Grid& grid) {
   for (std::size_t f = 0; f < grid.features.size(); ++f)
     if (grid.features[f].fid != static_cast<std::int64_t>(f) + 1 || !grid.features[f].region.empty()) return false;
   return true;
 }
 
-// SMS has the names of materials among the assignments of its models.
+// SMS stores names of materials among the assignments of its models.
 void writeMaterialNames(TextWriter& file, const Grid& grid) {
   if (grid.feature_of.empty() || numbersSayAll(grid)) return;
   const std::vector<std::string> labels = featureLabels(grid);
@@ -202,9 +202,9 @@ void writeMaterialNames(TextWriter& file, const Grid& grid) {
   file << "END2DMBC\n";
 }
 
-// SMS .2dm with a .prj beside it. z is elevation, positive up, 0 where the grid has none; the material is the number of
-// the feature; boundaries are node strings that repeat the first node where they close, numbered as `boundaryMarker`
-// says. Throws OutputError.
+// Writes SMS .2dm with a .prj beside it. z is elevation, positive up, 0 if the grid has none; the material is the
+// number of the feature; boundaries and lines are node strings that repeat the first node if closed, numbered by
+// `boundaryMarker` and `lineMarker`. Throws OutputError.
 void write2dm(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   TextWriter file(path);

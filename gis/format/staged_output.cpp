@@ -43,7 +43,7 @@ const GridFormat& writable(const std::string& path, const GridFormat& format) {
 StagedOutput::StagedOutput(const std::string& path, const GridFormat& format, bool overwrite)
     : format_(&writable(path, format)), files_(path, filesOf(format, path), overwrite) {}
 
-// Whether a .prj that is there already stays, because it says what the grid's would.
+// True if an existing .prj is kept, because it has the grid's CRS. Throws OutputError if it may not be replaced.
 bool StagedOutput::keepsPrj(const Grid& grid) const {
   const std::string prj = filesOf(*format_, files_.path()).prj;
   if (prj.empty() || !isThere(prj)) return false;
@@ -51,7 +51,7 @@ bool StagedOutput::keepsPrj(const Grid& grid) const {
   try {
     if (sameCrs(readPrjBeside(prj), grid.crs)) return true;
   } catch (const InputError&) {
-    // It says nothing that can be read, so not the grid's CRS either.
+    // It cannot be read, so it is not the grid's CRS.
   }
   if (!files_.mayReplace()) throw OutputError("'" + prj + "' exists already; give --overwrite to replace it");
   const auto belongsTo = [&](const std::string& owner) {
@@ -75,7 +75,7 @@ void StagedOutput::write(const Grid& grid, const ItemLoop& loop) {
   const auto make = [&](const Grid& made) {
     files_.make([&](const std::string& path) { functionsOf(*format_).write(made, path, loop); });
   };
-  // A copy costs less memory than meshing did, and only meshes across the end of the longitudes need one.
+  // A copy needs less memory than meshing did, and only meshes with a jump of longitudes need one.
   std::optional<std::vector<Point>> turned;
   if (format_->places == NodePlaces::OneTurn && grid.crs.geographic)
     turned = inOneTurn(grid.nodes, grid.triangles, loop);

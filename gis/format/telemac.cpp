@@ -20,7 +20,7 @@ std::string trimmed(const std::string& text) {
   return last == std::string::npos ? std::string() : text.substr(0, last + 1);
 }
 
-// Ranks of nodes on the boundary from 1, 0 inside.
+// Ranks of nodes on the boundary, from 1; 0 inside.
 using Ranks = std::vector<std::int32_t>;
 
 Ranks readGeometry(FortranReader& file, Grid& grid) {
@@ -69,7 +69,7 @@ Ranks readGeometry(FortranReader& file, Grid& grid) {
   return ranks;
 }
 
-// What each node is by the .cli; shore where it says nothing.
+// The role of each node in the .cli; land if it is not listed.
 std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& ranks, Grid& grid) {
   std::vector<BoundaryRole> roles(grid.nodes.size(), BoundaryRole::Land);
   const auto on_boundary =
@@ -102,15 +102,14 @@ std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& r
   return roles;
 }
 
-// Loops in the order of their ranks, each from its lowest.
+// Sorts loops by rank; each starts at its node of lowest rank.
 void sortByRank(std::vector<std::vector<std::uint32_t>>& loops, const Ranks& ranks) {
   const auto rankOf = [&](std::uint32_t node) { return ranks[node]; };
   for (auto& loop : loops) std::ranges::rotate(loop, std::ranges::min_element(loop, {}, rankOf));
   std::ranges::stable_sort(loops, {}, [&](const auto& loop) { return ranks[loop.front()]; });
 }
 
-// Reads either precision, two-dimensional meshes of triangles alone, and the .cli where there is one. Throws
-// InputError.
+// Reads either precision, only two-dimensional meshes of triangles, and the .cli if it exists. Throws InputError.
 Grid readTelemac(const std::string& path, const Crs& unsaid) {
   Grid grid;
   FortranReader file(path);
@@ -119,7 +118,7 @@ Grid readTelemac(const std::string& path, const Crs& unsaid) {
   auto loops = boundaryLoops(grid);
   sortByRank(loops, ranks);
   grid.crs = readPrjBeside(path, unsaid);
-  // An edge is open where both its nodes are; between two kinds it is of the second.
+  // An edge is open if both its nodes are; between two kinds of opening it has the kind of the second.
   grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t from, std::uint32_t to) {
     return BoundaryKind{roles[from] == BoundaryRole::Land ? BoundaryRole::Land : roles[to]};
   });
@@ -128,13 +127,13 @@ Grid readTelemac(const std::string& path, const Crs& unsaid) {
 
 bool isLiquid(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
 
-// The boundary's nodes in TELEMAC's order, each with what it is.
+// The boundary's nodes in TELEMAC's order, with their roles.
 struct BoundaryNodes {
   std::vector<std::uint32_t> nodes;
   std::vector<BoundaryRole> roles;
 };
 
-// Outer loops before islands, each from its south-western node, as TELEMAC numbers them itself.
+// Outer loops before islands, each from its south-western node, as TELEMAC itself numbers them.
 std::vector<std::vector<std::uint32_t>> orderedLoops(const Grid& grid) {
   std::vector<std::vector<std::uint32_t>> loops = boundaryLoops(grid);
   const auto southWest = [&](std::uint32_t node) { return grid.nodes[node].x + grid.nodes[node].y; };
@@ -144,7 +143,7 @@ std::vector<std::vector<std::uint32_t>> orderedLoops(const Grid& grid) {
   return loops;
 }
 
-// A node between two kinds of opening belongs to the one before it, a node at the end of one to that one.
+// A node between two kinds of opening has the kind of the edge before it; one at the end of an opening belongs to it.
 BoundaryNodes boundaryNodesOf(const Grid& grid, const std::string& path) {
   const EdgeKinds kinds(grid);
   const auto roleOf = [&](std::uint32_t from, std::uint32_t to) {
@@ -210,11 +209,10 @@ void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
   file.close();
 }
 
-// TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, and beside
-// it the boundary conditions: `lake.slf` with `lake.cli`, and the CRS in a .prj. Shores are walls (2 2 2), open
-// boundaries levels (5 4 4), rivers discharges (4 5 5). The file has codes for nodes only: the shore of a single edge
-// between two openings becomes open with them. Throws OutputError, also where a z is unknown or the mesh touches
-// itself in a node.
+// Writes TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, and
+// beside it the boundary conditions, `lake.slf` with `lake.cli`, and the CRS in a .prj. Shores are walls (2 2 2), open
+// boundaries levels (5 4 4), rivers discharges (4 5 5). The file has codes for nodes only: a shore of a single edge
+// between two openings becomes open. Throws OutputError, also if a z is unknown or the mesh touches itself in a node.
 void writeTelemac(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const BoundaryNodes boundary = boundaryNodesOf(grid, path);

@@ -34,7 +34,7 @@ IdMap readNodes(const std::string& path, Grid& grid) {
   return IdMap(std::move(ids), file, "node");
 }
 
-// Features by the triangles' attribute, ascending; none where it is not a whole number throughout.
+// Features by the triangles' attribute, ascending; none unless all values are integers up to 2^53.
 void readFeatures(const std::vector<double>& attribute, Grid& grid) {
   constexpr double kExact = 9007199254740992.0;  // 2^53
   const auto isWhole = [](double value) { return value == std::floor(value) && std::abs(value) <= kExact; };
@@ -69,11 +69,11 @@ void readElements(const std::string& path, const IdMap& node_index, Grid& grid) 
   readFeatures(attribute, grid);
 }
 
-// Segments in the order and with the markers that `writeTriangle` gives them; others have no roles and are left out.
+// Reads segments in the order and with the markers of `writeTriangle`; others have no roles and are ignored.
 void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) {
   TextReader file(path, kComment);
   file.needLine();
-  if (file.count() != 0) return;  // a .poly with vertices of its own is no companion of the .node
+  if (file.count() != 0) return;  // a .poly with its own vertices does not belong to the .node
   file.needLine();
   const std::uint64_t count = file.count();
   if (!file.hasWord() || file.count() == 0) return;
@@ -92,9 +92,9 @@ void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) 
   takeMarkedEdges(edges, grid);
 }
 
-// Triangle's .node and .ele, numbered from 0 or 1, with the boundaries of a .poly where its markers are ours, and the
-// CRS of a .prj beside them; `path` is the .node or the .ele. A single attribute of the nodes is z, a whole number as
-// the attribute of the triangles their feature. Throws InputError with file and line.
+// Reads Triangle's .node and .ele, numbered from 0 or 1, with boundaries and lines from a .poly if its markers are
+// ours, and the CRS of a .prj beside them; `path` is the .node or the .ele. A single attribute of the nodes is z; an
+// integer as attribute of the triangles is their feature. Throws InputError with file and line.
 Grid readTriangle(const std::string& path, const Crs& unsaid) {
   Grid grid;
   const IdMap node_index = readNodes(withEnding(path, ".node"), grid);
@@ -138,7 +138,7 @@ Point pointInside(const Grid& grid, const Boundary& island, const std::string& p
   ring.closeRings();
   OGRPolygon polygon;
   polygon.addRing(&ring);
-  OGRPoint inside(0.0, 0.0);  // GDAL refuses to fill an empty one
+  OGRPoint inside(0.0, 0.0);  // GDAL does not fill an empty point
   if (polygon.PointOnSurface(&inside) != OGRERR_NONE)
     throw OutputError("cannot write '" + path + "': no point found inside the island at " +
                       std::to_string(grid.nodes[island.nodes[0]].x) + ", " +
@@ -170,9 +170,10 @@ void writeSegments(const Grid& grid, const std::vector<MarkedEdge>& edges, const
   file.close();
 }
 
-// Triangle's .node and .ele, numbered from 1, with the boundaries as segments in a .poly and the CRS in a .prj; `path`
-// is any of them. z is the attribute of a node, the feature's fid that of a triangle. Segments are marked with
-// `boundaryMarker`, nodes with that of the first boundary they lie on. Islands have a hole point. Throws OutputError.
+// Writes Triangle's .node and .ele, numbered from 1, with boundaries and lines as segments in a .poly and the CRS in a
+// .prj; `path` is the .node or the .ele. z is the attribute of a node, the feature's fid that of a triangle. Segments
+// are marked with `boundaryMarker` and `lineMarker`, nodes with the marker of the first segment they lie on. Islands
+// have a hole point. Throws OutputError.
 void writeTriangle(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const std::vector<MarkedEdge> edges = markedEdges(grid);

@@ -12,7 +12,7 @@
 namespace coastmesh {
 namespace {
 
-// A text in JSON's quotes; bytes that are no UTF-8 become U+FFFD.
+// A JSON string; bytes that are not UTF-8 become U+FFFD.
 std::string jsonText(std::string_view text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -146,10 +146,10 @@ void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs
   file.close();
 }
 
-// The grid's layers as three GeoJSON files: `path` with the triangles, and beside it nodes and boundaries. Written here
-// rather than by OGR, whose numbers do not all come back bit for bit and which takes what it cannot name for WGS 84.
-// WGS 84 as RFC 7946 has it; other CRS in their own coordinates with the `crs` member of GeoJSON 2008, null for a
-// plane. Throws OutputError, also for a CRS without a code, since GeoJSON can only name codes.
+// Writes the grid's layers as three or four GeoJSON files: triangles to `path`, and beside it nodes, boundaries and any
+// lines. OGR is not used here, since not all of its numbers are read back bit for bit, and it writes a CRS that it
+// cannot name as WGS 84. WGS 84 is written as in RFC 7946; other CRS in their own coordinates with the `crs` member of
+// GeoJSON 2008, null for a plane. Throws OutputError, also for a CRS without a code, since GeoJSON can only name codes.
 void writeGeoJson(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const std::string crs_member = crsMember(grid.crs, path);
   const MapCutter cutter(grid);

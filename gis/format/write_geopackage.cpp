@@ -18,10 +18,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "geometries say that they are so");
 
-// The date that the file notes inside: the same input has to give the same bytes.
+// A constant date in the file, so that the same input makes the same bytes.
 constexpr const char* kDate = "2000-01-01T00:00:00.000Z";
 
-// Little-endian bytes one after another.
+// Writes little-endian values one after another.
 class ByteCursor {
  public:
   explicit ByteCursor(std::span<std::byte> to) : at_(to.data()) {}
@@ -46,7 +46,7 @@ IndexBox boxOf(std::span<const Point> places) {
   return box;
 }
 
-// "GP", version 0, what follows, and the CRS; then a box where the geometry is no point.
+// Writes a geometry's header: "GP", version 0, flags, the CRS, and the box if there is one.
 constexpr std::size_t kHeaderBytes = 8, kBoxBytes = 32;
 void putHeader(ByteCursor& bytes, std::int32_t srs_id, const std::optional<IndexBox>& box) {
   constexpr std::uint8_t kLittleEndian = 1, kWithBox = 2;
@@ -57,7 +57,7 @@ void putHeader(ByteCursor& bytes, std::int32_t srs_id, const std::optional<Index
   for (const double side : {box->low.x, box->high.x, box->low.y, box->high.y}) bytes.put(side);
 }
 
-// The rows of a layer of triangles or of nodes, as OGR would have SQLite write them.
+// The rows of a layer of triangles or of nodes, in the form in which OGR would have SQLite write them.
 class LayerRows {
  public:
   // REQUIRES: both outlive it.
@@ -81,9 +81,9 @@ class LayerRows {
     return boxOfParts(map_.cutter.partsOf(corners));
   }
 
-  // Whether no row is too large to be made so.
+  // True if all rows are within `kLargestSqliteRow`.
   bool areSmall() const {
-    constexpr std::size_t kGeometry = 1500, kNumber = 10;  // of what is cut at the end of longitudes and at a pole
+    constexpr std::size_t kGeometry = 1500, kNumber = 10;  // bytes at most; cut at the end of longitudes and at a pole
     std::size_t bytes = kGeometry;
     for (const LayerColumn& column : layer_.columns) bytes += kNumber + column.longest;
     return bytes <= kLargestSqliteRow;
@@ -128,7 +128,7 @@ class LayerRows {
     bytes.put(ring[0]);
   }
 
-  // Without its box, which would be a sixth of the row: the index has it, and four corners say it as soon.
+  // Omits the box, which would be a sixth of the row: the index has it, and it is as fast to read from four corners.
   void putTriangle(std::size_t row, std::int32_t srs_id, SqliteRow& to) const {
     const std::span<std::byte> blob = to.blob(kHeaderBytes + polygonBytes(3));
     if (blob.empty()) return;
@@ -175,7 +175,7 @@ class LayerRows {
   MapOfLayer map_;
 };
 
-// What a file is asked and told by SQL.
+// Runs SQL on a file. Throws OutputError if it fails.
 class Sql {
  public:
   Sql(GDALDataset& dataset, const std::string& path, const OgrErrors& errors)
@@ -217,7 +217,7 @@ class Sql {
 
 std::string indexOf(const GridLayer& layer) { return "rtree_" + layer.name + "_geom"; }
 
-// The layer as OGR makes it, with an index that knows none of its features; those too that OGR is to write.
+// Creates the layer by OGR, with an empty spatial index; writes its features by OGR too if `with_features`.
 void createLayerWithIndex(GDALDataset& dataset, const std::string& path, const OgrWriter& writer, const Grid& grid,
                           const GridLayer& layer, bool with_features, const OgrErrors& errors) {
   OGRLayer& target = createLayer(dataset, path, writer, grid, layer, layer.name, errors);
@@ -225,7 +225,7 @@ void createLayerWithIndex(GDALDataset& dataset, const std::string& path, const O
   if (sql.ask("SELECT CreateSpatialIndex('" + layer.name + "', '" + target.GetGeometryColumn() + "')") != "1")
     failToWrite(path, errors);
   if (!with_features) return;
-  // Features do not go into the index one by one.
+  // The index is made later as a whole, so features must not be inserted into it one by one.
   const std::string trigger = indexOf(layer) + "_insert";
   const std::string made = sql.ask("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = '" + trigger + "'");
   sql.run("DROP TRIGGER \"" + trigger + "\"");
@@ -233,8 +233,8 @@ void createLayerWithIndex(GDALDataset& dataset, const std::string& path, const O
   sql.run(made);
 }
 
-// What SQLite and OGR note of a layer's rows while they enter them. The box as a geometry's, so that no bit of it is
-// lost between numbers and text.
+// Writes what SQLite and OGR record of a layer's rows while they insert them. The box is passed as that of a geometry,
+// so that no bits are lost in conversion to text.
 void noteRows(Sql& sql, const GridLayer& layer, const IndexBox& box) {
   std::array<std::byte, kHeaderBytes + kBoxBytes> bytes{};
   ByteCursor cursor(bytes);
@@ -255,15 +255,15 @@ void noteRows(Sql& sql, const GridLayer& layer, const IndexBox& box) {
 
 }  // namespace
 
-// OGR makes the file, its tables and what is short; rows of triangles and nodes, and the indices of all layers, are
-// made by all threads and put behind that.
+// OGR makes the file, its tables and the short layers; rows of triangles and nodes, and the indices of all layers, are
+// made by all threads and appended.
 void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const OgrErrors errors;
   const OgrOption date("OGR_CURRENT_DATE", kDate);
-  // The file only gets its name once it is whole, so nothing is gained by a journal or by waiting for the disk.
+  // The file is renamed to its target only when complete, so a journal or waiting for the disk would gain nothing.
   const OgrOption journal("OGR_SQLITE_JOURNAL", "OFF");
   const OgrOption synchronous("OGR_SQLITE_SYNCHRONOUS", "OFF");
-  // Said in this way or OGR calls it an undefined geographic CRS.
+  // Without this name OGR calls a plane an undefined geographic CRS.
   const OgrWriter writer{"GPKG", {"SPATIAL_INDEX=NO"}, false, "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
   const std::vector<GridLayer> layers = layersOf(grid);
   std::vector<std::unique_ptr<LayerRows>> rows_of;  // null: OGR writes them
@@ -326,7 +326,7 @@ void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& 
 
 namespace {
 
-// SQLite would play a log that an older file of the name left into the new one.
+// SQLite would apply the log of an older file of the same name to the new one.
 OutputFiles geoPackageFiles(const std::string& path) {
   return {{path}, {path + "-wal", path + "-shm", path + "-journal"}, {}};
 }

@@ -21,8 +21,8 @@ constexpr int kLine = 1, kTriangle = 2;  // element types
 constexpr GridParts kParts22{GridPart::Features, GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
                              GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs};
 
-// Curves are tagged from 1 in the order of the boundaries, then of the lines, surfaces go on after them in the order of
-// the features. Physical groups have the tags of their entities; lines of one kind and name are one group.
+// Curves are tagged from 1 in the order of the boundaries, then of the lines; surfaces continue in the order of the
+// features. Physical groups have the tags of their entities; lines of the same kind and name are one group.
 struct Layout {
   struct Curve {
     const std::vector<std::uint32_t>* nodes = nullptr;
@@ -32,7 +32,7 @@ struct Layout {
   };
   std::vector<Curve> curves;
   std::vector<std::pair<std::size_t, std::string>> curve_groups;  // tag and name
-  std::vector<std::vector<std::uint32_t>> triangles;              // one a surface
+  std::vector<std::vector<std::uint32_t>> triangles;              // one list for each surface
   std::size_t line_count = 0;
 
   std::size_t surfaces() const { return triangles.size(); }
@@ -86,7 +86,7 @@ void writePhysicalNames(TextWriter& file, const Grid& grid, const Layout& layout
   file << "$EndPhysicalNames\n";
 }
 
-// In the order in which the nodes were written: readers there are take the values for it, and leave the tags unread.
+// Writes values in the order of the nodes in the file: some readers rely on it and ignore the tags.
 void writeNodeData(TextWriter& file, const Grid& grid, const std::vector<std::uint32_t>& order, const ItemLoop& loop) {
   if (grid.z.empty()) return;
   const auto known = std::ranges::count_if(grid.z, [](double z) { return !std::isnan(z); });
@@ -111,7 +111,7 @@ TextWriter& operator<<(TextWriter& file, const Box& box) {
   return file << box.low.x << ' ' << box.low.y << " 0 " << box.high.x << ' ' << box.high.y << " 0";
 }
 
-// The curves that bound each surface: a line does where another surface lies beyond it.
+// The curves that bound each surface; a line does if there is another surface across it.
 std::vector<std::set<std::size_t>> curvesAlong(const Grid& grid, const Layout& layout) {
   std::vector<std::set<std::size_t>> along(layout.surfaces());
   if (layout.surfaces() == 1) {
@@ -171,13 +171,13 @@ void writeEntities(TextWriter& file, const Grid& grid, const Layout& layout) {
   file << "$EndEntities\n";
 }
 
-// The elements of an entity, or of what lies of it in one part.
+// The elements of an entity, or of its share in one part of a partitioned mesh.
 struct Block {
   int dimension = 0;
   std::size_t tag = 0;
-  std::size_t entity = 0;              // its tag: another than `tag` where the mesh is partitioned
-  std::uint32_t part = 0;              // then: the part, from 0
-  std::vector<std::uint32_t> members;  // places in `linesOf`, or triangles
+  std::size_t entity = 0;              // its tag; differs from `tag` if the mesh is partitioned
+  std::uint32_t part = 0;              // the part, from 0, if the mesh is partitioned
+  std::vector<std::uint32_t> members;  // indices into `linesOf`, or of triangles
 };
 
 // The edges of all curves, one curve after another.
@@ -187,7 +187,7 @@ std::vector<NodePair> linesOf(const Layout& layout) {
   return lines;
 }
 
-// The part of each line: that of the triangle to its left, or where there is none to its right.
+// The part of each line: that of the triangle to its left, or to its right if there is none.
 std::vector<std::uint32_t> partsOfLines(const Grid& grid, const std::vector<NodePair>& lines) {
   std::vector<std::pair<NodePair, std::size_t>> sides;
   std::vector<bool> on_line(grid.nodes.size(), false);
@@ -215,8 +215,8 @@ std::vector<std::uint32_t> partsOfLines(const Grid& grid, const std::vector<Node
   return parts;
 }
 
-// All elements, entity by entity, those of a partitioned mesh part by part within each; there tags go on after those of
-// the entities.
+// All elements, entity by entity; in a partitioned mesh part by part within each entity, with tags after those of the
+// entities.
 std::vector<Block> blocksOf(const Grid& grid, const Layout& layout) {
   std::vector<Block> blocks;
   const bool partitioned = !grid.part_of.empty();
@@ -243,7 +243,7 @@ std::vector<Block> blocksOf(const Grid& grid, const Layout& layout) {
   return blocks;
 }
 
-// Which part of which entity each block is, in Gmsh's words a partitioned entity; parts count from 1.
+// Writes which part of which entity each block is, which Gmsh calls a partitioned entity; parts count from 1.
 void writePartitionedEntities(TextWriter& file, const Grid& grid, const Layout& layout,
                               const std::vector<NodePair>& lines, const std::vector<Block>& blocks) {
   if (grid.part_of.empty()) return;
@@ -278,7 +278,8 @@ void writePartitionedEntities(TextWriter& file, const Grid& grid, const Layout& 
   file << "$EndPartitionedEntities\n";
 }
 
-// Every node in the first block that it lies on, curves before surfaces; returns their order.
+// Writes every node in its first block, curves before surfaces, and unused nodes in the first surface's block. Returns
+// their order.
 std::vector<std::uint32_t> writeNodes(TextWriter& file, const Grid& grid, const std::vector<NodePair>& lines,
                                       const std::vector<Block>& blocks, const ItemLoop& loop) {
   std::vector<std::vector<std::uint32_t>> nodes_of(blocks.size());
@@ -342,10 +343,11 @@ void writeElements(TextWriter& file, const Grid& grid, const std::vector<NodePai
   file << "$EndElements\n";
 }
 
-// Gmsh .msh 4.1 or 2.2, ASCII, with the CRS in a .prj. Each boundary is a curve with a physical group ("land 1",
-// "island 2", "open 3") of line elements, each feature a surface with its own ("feature 17"; "domain" where there is
-// none). Tags of nodes and triangles follow the grid's order. The mesh lies in the plane: z is node data, since solvers
-// take a third coordinate for a curved surface. Throws OutputError.
+// Writes Gmsh .msh 4.1 (`writeGmsh22`: 2.2), ASCII, with the CRS in a .prj. Each boundary is a curve of line elements
+// with a physical group ("land 1", "island 2", "open 3"), as is each line ("weir North"); each feature is a surface
+// with its own ("feature 17"; "domain" if there are none). Tags of nodes and triangles follow the grid's order. The
+// mesh lies in the plane: z is node data, since solvers take a third coordinate for a curved surface. Throws
+// OutputError.
 void writeGmsh(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const Layout layout = layoutOf(grid);
   TextWriter file(path);

@@ -17,10 +17,10 @@
 namespace coastmesh {
 namespace {
 
-// The date that formats note inside: the same input has to give the same bytes.
+// A constant date in the files, so that the same input makes the same bytes.
 constexpr const char* kTableDate = "2000-01-01";
 
-constexpr std::size_t kLongestTableText = 254;  // bytes, of a .dbf
+constexpr std::size_t kLongestTableText = 254;  // bytes, in a .dbf
 
 bool createField(OGRLayer& target, const LayerColumn& column, const OgrWriter& writer) {
   OGRFieldDefn field(column.name.c_str(), OFTString);
@@ -182,8 +182,8 @@ void closeDataset(DatasetPtr dataset, const std::string& path, const OgrErrors& 
   if (errors.failed()) failToWrite(path, errors);
 }
 
-// A CRS without a code as drivers take it unchanged. Those of GeoPackage and FlatGeobuf look for the code of a UTM zone
-// by the projection alone, whatever its unit and datum shift, unless the CRS was read from the older WKT.
+// The CRS in a form that drivers keep unchanged. Without a code, those of GeoPackage and FlatGeobuf look up the code of
+// a UTM zone by the projection alone, whatever the unit and datum shift, unless the CRS was read from WKT 1.
 OGRSpatialReference srsForLayer(const Crs& crs) {
   OGRSpatialReference srs = toOgr(crs);
   OGRSpatialReference guess = srs, known, older;
@@ -238,7 +238,7 @@ namespace {
   throw OutputError("cannot write '" + path + "': the file came out incomplete; is the disk full?");
 }
 
-// Whether a .dbf holds so many rows: GDAL does not report when its header or the mark of its end cannot be written.
+// True if a .dbf has `rows` rows and its full length: GDAL does not report a failure to write its header or end mark.
 bool isWholeTable(const std::string& path, std::size_t rows) {
   std::array<unsigned char, 12> head{};
   std::ifstream file(path, std::ios::binary);
@@ -254,7 +254,7 @@ bool isWholeTable(const std::string& path, std::size_t rows) {
          std::filesystem::file_size(path) >= header + rows * row + 1;
 }
 
-// Reads the file through.
+// Throws OutputError unless the whole file can be read and has `rows` features.
 void requireComplete(const std::string& path, std::size_t rows, const OgrErrors& errors) {
   const DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   OGRLayer* const layer = dataset && dataset->GetLayerCount() == 1 ? dataset->GetLayer(0) : nullptr;
@@ -304,7 +304,7 @@ void writeFlatGeobuf(const Grid& grid, const std::string& path, const ItemLoop&)
 void requireShapefileSize(const std::string& path, std::uint64_t rows, std::uint64_t shape_bytes,
                           std::uint64_t table_bytes) {
   constexpr std::uint64_t kLimit = 2'147'483'647;
-  constexpr std::uint64_t kHeader = 1000;  // at least the larger of the two files' own
+  constexpr std::uint64_t kHeader = 1000;  // at least the larger of the two files' headers
   if (rows * std::max(shape_bytes, table_bytes) + kHeader <= kLimit) return;
   throw OutputError("cannot write '" + path + "': " + std::to_string(rows) +
                     " triangles are more than the 2 GB of a shapefile hold; choose .gpkg or .fgb");

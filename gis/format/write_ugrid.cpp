@@ -51,7 +51,7 @@ int defineCrs(NetcdfWriter& file, const Crs& crs) {
   return variable;
 }
 
-// As UDUNITS, which CF conventions require, reads it: names of other standards mean something else there, or nothing.
+// The unit as UDUNITS, which CF requires, reads it: names of other standards mean something else there, or nothing.
 std::string lengthUnit(const Crs& crs) {
   const double metres = metresPerUnit(crs);
   if (metres == 1.0) return "m";
@@ -62,8 +62,7 @@ std::string lengthUnit(const Crs& crs) {
   return text;
 }
 
-// The file while it is written: a variable is defined together with what will stand in it, which NetCDF takes only once
-// all are defined.
+// Keeps the values of each variable from its definition until all are defined, since NetCDF accepts values only then.
 class UgridFile {
  public:
   UgridFile(const Grid& grid, const std::string& path, bool large)
@@ -72,7 +71,7 @@ class UgridFile {
   NetcdfWriter& file() { return file_; }
   int dimension(const std::string& name, std::size_t length) { return file_.dimension(name, length); }
 
-  // What is small, or text: `values` is called when its turn comes.
+  // For short arrays and text: `close` calls `values`.
   template <typename Values>
   void put(int variable, Values&& values) {
     puts_.push_back([this, variable, values = std::forward<Values>(values)] {
@@ -80,13 +79,13 @@ class UgridFile {
       file_.put(variable, made.data());
     });
   }
-  // What is as long as the mesh is large: one by one, never as an array of their own.
+  // For arrays as long as the mesh: values are made one by one, never as an array of their own.
   template <typename ValueOf>
   void putEach(int variable, std::size_t count, ValueOf&& valueOf) {
     file_.putLater(variable, count, std::forward<ValueOf>(valueOf));
   }
 
-  // A variable of the mesh.
+  // Defines a variable of the mesh and its values.
   template <typename Values>
   int data(const std::string& name, int type, int dimension, const std::string& location, const std::string& long_name,
            const std::string& units, Values&& values) {
@@ -129,7 +128,7 @@ class UgridFile {
     });
   }
 
-  // Names as rows of characters.
+  // Writes names as rows of characters.
   void names(const std::string& name, int dimension, const std::string& long_name,
              const std::vector<std::string>& texts) {
     std::size_t longest = 1;
@@ -144,7 +143,7 @@ class UgridFile {
     });
   }
 
-  // The numbers 1, 2, … of a variable and what they mean, which CF wants without blanks.
+  // Gives the values 1, 2, … of a variable their meanings, in which CF allows no blanks.
   void flags(int variable, const std::vector<std::string>& meanings) {
     std::vector<int> values;
     std::string words;
@@ -197,7 +196,7 @@ void defineNodes(UgridFile& ugrid, const Grid& grid, int nodes) {
   defineCoordinate(ugrid, grid, nodes, true);
   defineCoordinate(ugrid, grid, nodes, false);
   if (!grid.z.empty()) {
-    // An elevation that happens to be the fill value would be none when read: its neighbour is as good.
+    // An elevation equal to the fill value would be read as missing; its neighbouring double is used instead.
     const auto zOf = [&grid](std::size_t n) {
       if (std::isnan(grid.z[n])) return kFillZ;
       return grid.z[n] == kFillZ ? std::nextafter(kFillZ, 0.0) : grid.z[n];
@@ -212,7 +211,7 @@ void defineNodes(UgridFile& ugrid, const Grid& grid, int nodes) {
                      [&grid](std::size_t n) { return grid.size_m[n]; });
 }
 
-// One a boundary's edge, of what `value` says of the boundary.
+// `value(b)` for each edge of each boundary b.
 template <typename T, typename Value>
 std::vector<T> ofBoundaryEdges(const Grid& grid, Value&& value) {
   std::vector<T> values;
@@ -239,7 +238,7 @@ void defineBoundaries(UgridFile& ugrid, const Grid& grid, int two, const std::ve
   ugrid.file().attribute(type, "_FillValue", kNoIbtype);
 }
 
-// Then as int, for programs that read no wider whole numbers, else as double.
+// True if fids are written as int, for programs that read no wider integers; else they are written as double.
 bool fidsFitInt(const Grid& grid) {
   return std::ranges::all_of(grid.features, [](const GridFeature& feature) {
     return feature.fid > std::numeric_limits<int>::min() && feature.fid <= std::numeric_limits<int>::max();
@@ -333,16 +332,16 @@ void defineTopology(UgridFile& ugrid, bool with_boundaries) {
   ugrid.put(mesh, [] { return std::array{0}; });
 }
 
-// UGRID-1.0 NetCDF (64-bit offset; CDF-5 past its 4 GiB an array) as MDAL, xugrid and D-FlowFM read it: mesh topology
-// `mesh2d` with face_nodes, edge_nodes and the boundary's edges, the CRS in `projected_coordinate_system` or `wgs84`,
-// elevation, smallest angle, area and source fid as data. A node without z holds the fill value -999. Throws
-// OutputError.
+// Writes UGRID-1.0 NetCDF (64-bit offset; CDF-5 above its limit of 4 GiB per array) as MDAL, xugrid and D-FlowFM read
+// it: mesh topology `mesh2d` with face_nodes, edge_nodes and the boundary's edges, the CRS in
+// `projected_coordinate_system` or `wgs84`, elevation, smallest angle, area and source fid as data. A node without z
+// has the fill value -999. Throws OutputError.
 void writeUgrid(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles, loop);
   std::vector<NodePair> boundary_edges;
   for (const Boundary& boundary : grid.boundaries)
     for (const NodePair& edge : edgesOf(boundary)) boundary_edges.push_back(edge);
-  constexpr std::size_t kLargest = 4'000'000'000;  // bytes of an array in a 64-bit offset file, some to spare
+  constexpr std::size_t kLargest = 4'000'000'000;  // bytes of an array in a 64-bit offset file, with some to spare
   const std::size_t bytes = std::max({grid.triangles.size() * 12, grid.nodes.size() * 8, edges.size() * 8});
   UgridFile ugrid(grid, path, bytes > kLargest);
   NetcdfWriter& file = ugrid.file();

@@ -19,12 +19,12 @@ static_assert(std::endian::native == std::endian::little, "the file says LittleE
 
 constexpr std::uint8_t kVtkTriangle = 5;
 
-// The blocks of the appended section: each is its length in bytes, then its bytes.
+// The blocks of the appended section: for each array its length in bytes, then its bytes.
 class Appendix {
  public:
   explicit Appendix(TextWriter& file) : file_(file) {}
 
-  // `tuples`: of an array that belongs to neither nodes nor cells.
+  // `tuples`: the number of values of an array that belongs to neither nodes nor cells; else 0.
   void declare(const char* type, const std::string& name, int components, std::uint64_t bytes,
                std::uint64_t tuples = 0) {
     file_ << R"(<DataArray type=")" << type << R"(" Name=")" << name << '"';
@@ -41,7 +41,7 @@ class Appendix {
     file_.raw(values.data(), bytes);
   }
 
-  // An array of `value(i)` for every i below `count`: numbers or arrays of these, made by the threads of `loop`.
+  // Writes `value(i)` for every i below `count`: numbers or arrays of numbers, made by the threads of `loop`.
   template <typename Value>
   void write(const ItemLoop& loop, std::size_t count, const Value& value) {
     const std::uint64_t bytes = count * sizeof(value(std::size_t{0}));
@@ -57,7 +57,7 @@ class Appendix {
   std::uint64_t offset_ = 0;
 };
 
-// The nodes of boundaries or lines one after another, where each ends among them, and its role or kind as in the enum.
+// The nodes of boundaries or lines one after another, the end of each among them, and its role or kind as in the enum.
 struct ChainArrays {
   std::vector<std::int64_t> nodes, ends;
   std::vector<std::uint8_t> kinds, closed;
@@ -86,8 +86,8 @@ struct ChainArrays {
   }
 };
 
-// What belongs to neither nodes nor cells. Texts are bytes, each ended by a zero: readers of numbers alone, of which
-// there are many, refuse arrays of texts.
+// Arrays that belong to neither nodes nor cells. Texts are bytes, each ended by a zero, since many readers support only
+// numbers and reject arrays of texts.
 struct FieldArrays {
   ChainArrays boundaries, lines;
   std::vector<std::int64_t> ibtypes;
@@ -131,10 +131,10 @@ struct FieldArrays {
   }
 };
 
-// Where nodes lie in space, and longitudes and latitudes besides where these are not the first two coordinates.
+// Where nodes lie in space, and their longitudes and latitudes if these are not the first two coordinates.
 struct VtuPlaces {
   std::function<std::array<double, 3>(std::size_t node)> place;
-  std::function<LonLat(std::size_t node)> geographic;  // null: it is what the place says
+  std::function<LonLat(std::size_t node)> geographic;  // null: as in `place`
 };
 
 void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& path, const ItemLoop& loop) {
@@ -195,15 +195,16 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
   file.close();
 }
 
-// VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z as node data, smallest
-// angle, area and source fid as cell data. VTK has no word for a CRS. Throws OutputError.
+// Writes VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z as node data,
+// smallest angle, area, source fid and region as cell data, boundaries, lines and names as field data. VTK cannot hold
+// a CRS: it is written to a .prj. Throws OutputError.
 void writeVtu(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const auto place = [&grid](std::size_t i) { return std::array<double, 3>{grid.nodes[i].x, grid.nodes[i].y, 0.0}; };
   writeFile(grid, {place, nullptr}, path, loop);
   writePrjBeside(path, grid.crs);
 }
 
-// The same on a globe: nodes in metres from the middle of a sphere, latitudes as they are, and longitudes and latitudes
+// The same on a globe: nodes in metres from the centre of a sphere, latitudes unchanged, with longitudes and latitudes
 // as node data. Throws OutputError, also for a mesh in a plane.
 void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   constexpr double kRadiusM = 6371220.0;

@@ -26,9 +26,9 @@ void needLine(TextReader& file, std::string_view wanted) {
   if (file.line() != wanted) file.fail(std::string(wanted) + " is expected");
 }
 
-// Gmsh 2 ASCII as WAVEWATCH III has it: z is the depth, positive down; nodes of open boundaries come first as elements
-// of type 15, then the triangles with three tags. The CRS goes into a .prj. Throws OutputError, also where a depth is
-// unknown.
+// Writes Gmsh 2 ASCII for WAVEWATCH III: z is the depth, positive down; nodes of open boundaries come first, as
+// elements of type 15, then the triangles with three tags. The CRS is written to a .prj. Throws OutputError, also if a
+// depth is unknown.
 void writeWw3(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   TextWriter file(path);

@@ -10,7 +10,7 @@ namespace {
 
 struct Unit {
   double metres;
-  std::string_view names;  // between bars, in small letters, with single blanks
+  std::string_view names;  // between bars, in lower case, with single blanks
 };
 
 // Names of UDUNITS, EPSG, GDAL's drivers and GMT.
@@ -49,7 +49,7 @@ std::optional<double> metresIn(std::string_view plain) {
   return std::nullopt;
 }
 
-// Whether it says from where, or which way, lengths are measured, after their unit; as against "m s-1".
+// True if `rest`, the text after a unit, names a datum or a direction, unlike the "s-1" of "m s-1".
 bool saysFromWhere(std::string_view rest) {
   constexpr std::string_view kBeginnings[] = {"above", "below",  "over", "under", "relative", "positive", "depth",
                                               "deep",  "height", "down", "up",    "asl",      "bsl",      "msl",

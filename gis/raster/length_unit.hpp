@@ -5,8 +5,8 @@
 
 namespace coastmesh {
 
-// Metres in a unit of length as rasters name it: "km", "US survey foot", "metres above mean sea level". 1 where the
-// name is empty or a placeholder ("1", "unknown"); nothing where it is no length: "m/s", "degrees".
+// Metres in a unit of length as rasters name it: "km", "US survey foot", "metres above mean sea level". 1 if the name
+// is empty or a placeholder ("1", "unknown"); nullopt if it is not a length: "m/s", "degrees".
 std::optional<double> metresInUnit(std::string_view name);
 
 }  // namespace coastmesh

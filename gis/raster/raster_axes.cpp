@@ -13,9 +13,9 @@ namespace coastmesh {
 
 namespace {
 
-// So far from its even place a pixel still counts as evenly spaced: numbers are rounded, to four decimals for instance.
+// Pixels: deviation up to which spacing counts as even, since numbers are rounded, to four decimals for instance.
 constexpr double kEvenPixels = 0.05;
-// Coordinates in single precision are rounded by so much of the largest.
+// Rounding of coordinates in single precision, relative to the largest.
 constexpr double kRounding = 1.2e-7;
 
 struct CloseDataset {
@@ -90,7 +90,7 @@ std::shared_ptr<const UnevenAxis> UnevenAxis::from(const RasterAxis& axis, doubl
   std::vector<double> centres = axis.places;
   const std::size_t count = centres.size();
   if (count < 3) return nullptr;
-  // Longitudes that jump at the antimeridian go on past it.
+  // Unwraps longitudes that jump at the antimeridian.
   if (axis.isLongitude())
     for (std::size_t i = 1; i < count; ++i)
       if (std::abs(centres[i] - centres[i - 1]) > 180.0)
@@ -98,7 +98,7 @@ std::shared_ptr<const UnevenAxis> UnevenAxis::from(const RasterAxis& axis, doubl
   if ((centres.back() - centres.front()) * step < 0.0) std::ranges::reverse(centres);
   const double first = centres.front(), spacing = (centres.back() - first) / static_cast<double>(count - 1);
   const double rounding = kRounding * std::max(std::abs(first), std::abs(centres.back())) / std::abs(spacing);
-  bool is_even = true, rises = true;  // neither where there are no numbers
+  bool is_even = true, rises = true;  // both become false at a NaN
   for (std::size_t i = 0; i < count; ++i) {
     centres[i] = 0.5 + (centres[i] - first) / spacing;
     const double off = std::abs(centres[i] - 0.5 - static_cast<double>(i));
@@ -113,7 +113,7 @@ std::shared_ptr<const UnevenAxis> UnevenAxis::from(const RasterAxis& axis, doubl
 }
 
 double UnevenAxis::pixelOf(double even) const {
-  // Beyond the ends the outermost spacing goes on. What is no number stays none.
+  // Extrapolates by the outermost spacing. NaN stays NaN.
   const auto next = std::clamp<std::ptrdiff_t>(std::ranges::upper_bound(centres_, even) - centres_.begin(), 1,
                                                static_cast<std::ptrdiff_t>(centres_.size()) - 1);
   const auto after = static_cast<std::size_t>(next);
@@ -130,7 +130,7 @@ double UnevenAxis::evenOf(double pixel) const {
 }
 
 std::vector<int> UnevenAxis::cuts(int longest) const {
-  constexpr int kBlock = 16;  // pixels: what is uneven in fewer of them evens out
+  constexpr int kBlock = 16;  // pixels: unevenness within a block averages out
   constexpr double kAlike = 1.1;
   const auto end = static_cast<int>(centres_.size());
   std::vector<int> cuts{0};

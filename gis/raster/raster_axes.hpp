@@ -24,28 +24,29 @@ struct RasterAxes {
   RasterAxis columns, rows;
 };
 
-// Of the first band of a netCDF file; nothing where its dimensions have no coordinate variables, or it is another
-// format: those that GDAL reads give their pixels even spacing.
+// The axes of the first band of a netCDF file. Nullopt if its dimensions have no coordinate variables, and for other
+// formats, whose pixels GDAL reads as evenly spaced.
 std::optional<RasterAxes> axesOf(GDALDataset& dataset);
 
-// GDAL's geotransform spaces the pixels of an axis evenly between its ends. This is where they really are: pixels as
-// even spacing would have them ↔ pixels.
+// GDAL's geotransform spaces the pixels of an axis evenly between its ends. This class maps such even pixel coordinates
+// to true ones, along an axis that is not evenly spaced, and back.
 class UnevenAxis {
  public:
-  // Null where the axis is even, up to the rounding of its numbers. `step` is the geotransform's: the raster may have
-  // the axis in reverse order. Throws InputError where it does not rise or fall all along; `file` is for the message.
+  // Null if the axis is even, up to the rounding of its numbers, or has fewer than three pixels. `step` is the
+  // geotransform's: the raster may have the axis in reverse order. Throws InputError if the axis is not strictly
+  // monotonic; `file` is for the message.
   static std::shared_ptr<const UnevenAxis> from(const RasterAxis& axis, double step, const std::string& file);
 
   double pixelOf(double even) const;
   double evenOf(double pixel) const;
-  // Where to cut the pixels, from 0 to their number, so that between cuts their spacing is about the same. Multiples of
-  // `longest` are among them.
+  // Where to cut the pixels, from 0 to their number, so that their spacing is about the same between cuts. Multiples of
+  // `longest` are among the cuts. REQUIRES: `longest` is a multiple of 16.
   std::vector<int> cuts(int longest) const;
 
  private:
   explicit UnevenAxis(std::vector<double> centres) : centres_(std::move(centres)) {}
 
-  std::vector<double> centres_;  // of pixels, rising from 0.5 to their number less 0.5
+  std::vector<double> centres_;  // of pixels, in even coordinates: rise from 0.5 to their number less 0.5
 };
 
 }  // namespace coastmesh

@@ -22,9 +22,9 @@
 namespace coastmesh {
 namespace {
 
-// GDAL keeps what it read; by default a share of the memory that grows with the machine.
+// GDAL's block cache; by default it is a share of the machine's memory.
 constexpr GIntBig kCacheBytes = 128 << 20;
-// Pixels of a tile, about: small beside the cache, large beside the cost of a call.
+// Approximate pixels of a tile: few compared with the cache, many compared with the overhead of a call.
 constexpr std::int64_t kTilePixels = 1 << 20;
 
 bool isText(GDALDataset& dataset) {
@@ -51,7 +51,7 @@ std::string placelessText(GDALDataset& dataset, const std::optional<RasterAxes>&
   return " does not say where its pixels lie (no geotransform); warp it with gdalwarp";
 }
 
-// Of the band, else of heights in the CRS; with its length in metres.
+// The unit of the band, else of heights in the CRS, and its length in metres; nullopt if it is not a length.
 std::pair<std::string, std::optional<double>> unitOf(GDALDataset& dataset, GDALRasterBand& band) {
   std::string unit = oneLine(band.GetUnitType(), 60);
   const OGRSpatialReference* const crs = dataset.GetSpatialRef();
@@ -73,23 +73,24 @@ struct RasterBand::Dataset {
   GDALDataset* dataset = nullptr;
   GDALRasterBand* band = nullptr;
   std::vector<GDALRasterBand*> masks;  // 0 where a pixel has no value
-  std::optional<double> no_data;       // where the mask does not say it
+  std::optional<double> no_data;       // if the mask does not cover it
   bool is_single = false;              // values are in single precision
   double scale = 1.0;
   double offset = 0.0;
-  // Where a row of a text begins GDAL knows once the one before was read, which it sees to itself; but where the text
-  // ends too early it tries the rows before once for each row after them, and these likewise: that takes for ever.
+  // For text formats: GDAL finds the start of a row by reading the row before, on its own. But if the text ends too
+  // early, it retries all rows before each missing row, recursively, which practically never ends. So we read rows in
+  // order.
   bool rows_in_order = false;
-  int rows_begun = 0;  // so many rows from the first one were read, one after another
+  int rows_begun = 0;  // rows from the first on that were read, one after another
   std::uint64_t bytes_read = 0;
-  std::vector<char> is_read;  // of the mosaic's files; else of the raster
+  std::vector<char> is_read;  // one for each file of the mosaic, else one for the raster
 
   ~Dataset() {
     if (dataset != nullptr) GDALClose(dataset);
   }
 
   bool isNoData(double value) const {
-    // A value of no data that single precision cannot say comes back rounded.
+    // A no-data value that single precision cannot represent is rounded when read.
     return no_data && (value == *no_data || (is_single && static_cast<float>(value) == static_cast<float>(*no_data)));
   }
 };
@@ -115,12 +116,12 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
     throw InputError("'" + name + "': its first band holds complex numbers; give one of plain numbers");
   const int mask = raster.band->GetMaskFlags();
   if ((mask & GMF_ALL_VALID) == 0) raster.masks.push_back(raster.band->GetMaskBand());
-  // GDAL takes alpha bands of whole numbers only for masks.
+  // GDAL uses alpha bands as masks only if they are of integers.
   for (int b = 2; b <= raster.dataset->GetRasterCount() && (mask & GMF_ALPHA) == 0; ++b) {
     GDALRasterBand* const band = raster.dataset->GetRasterBand(b);
     if (band->GetColorInterpretation() == GCI_AlphaBand) raster.masks.push_back(band);
   }
-  // GDAL has one mask a band: where that is another, it says nothing of the value of no data.
+  // GDAL has one mask per band; unless it is the no-data mask, it ignores no-data values.
   int has_no_data = 0;
   if ((mask & GMF_NODATA) == 0 && type != GDT_Int64 && type != GDT_UInt64) {
     const double no_data = raster.band->GetNoDataValue(&has_no_data);
@@ -160,7 +161,7 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   }
 }
 
-// Where the pixels lie. `told` is what GDAL told when it opened the file.
+// Determines where the pixels lie. `told` are GDAL's messages when it opened the file.
 void RasterBand::readPlaces(const std::string& told) {
   GDALDataset& dataset = *dataset_->dataset;
   const std::string& name = geometry_.path;

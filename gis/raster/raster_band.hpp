@@ -27,23 +27,23 @@ struct RasterWindow {
 struct RasterGeometry {
   std::string path;
   int columns = 0, rows = 0;
-  int block_columns = 1, block_rows = 1;       // of the file: what is read at once
-  bool in_order = false;                       // a message: what must be read first
-  std::shared_ptr<const RasterMosaic> mosaic;  // if it is composed of files side by side; otherwise null
-  bool is_exact = true;                        // a pixel is the same in any window
+  int block_columns = 1, block_rows = 1;       // of the file: read as a whole
+  bool in_order = false;                       // rows must be read in order, from the first (text formats)
+  std::shared_ptr<const RasterMosaic> mosaic;  // if composed of files side by side; else null
+  bool is_exact = true;                        // a pixel has the same value in any window
   std::array<double, 6> to_place{};            // GDAL's geotransform
   std::array<double, 6> to_pixel{};            // its inverse
   std::shared_ptr<const UnevenAxis> uneven_columns, uneven_rows;  // null: evenly spaced, as the geotransform says
   Crs crs;                                                        // a plane if the raster has none
   double period = 0.0;             // columns after which longitudes repeat: 360 degrees; 0 for other CRS
   bool wraps = false;              // the last column meets the first, to half a pixel
-  std::vector<std::string> notes;  // what was made of what the file says of its places and values
+  std::vector<std::string> notes;  // for the user: units that are converted, a CRS that is assumed
 
-  // A place of the raster's CRS in columns and rows, from the corner of the first pixel; longitudes in the raster's
-  // range.
+  // Converts a place in the raster's CRS to columns and rows, counted from the corner of the first pixel; longitudes
+  // are brought into the raster's range.
   Point pixelOf(const Point& place) const { return fromEven(evenPixelOf(place)); }
   Point placeOf(const Point& pixel) const;
-  // In two steps, the first of which is smooth: as if columns and rows were evenly spaced, and as they are.
+  // The two steps of `pixelOf`: as if columns and rows were evenly spaced, which is smooth, then along the true axes.
   Point evenPixelOf(const Point& place) const;
   Point fromEven(const Point& even) const {
     return {uneven_columns ? uneven_columns->pixelOf(even.x) : even.x,
@@ -51,8 +51,8 @@ struct RasterGeometry {
   }
 };
 
-// What was read of a raster: bytes of its pixels, unpacked, in their type, including repeated reads; and the files that
-// contain them, as far as the raster says.
+// What was read of a raster: bytes of its pixels, uncompressed, in their type, including repeated reads; and the files
+// that contain them, if the raster names its files.
 struct RasterUse {
   std::uint64_t bytes = 0;
   std::set<std::string> files;
@@ -63,8 +63,8 @@ struct RasterUse {
   }
 };
 
-// Throws InputError like `RasterBand`, and for a VRT of netCDF files whose pixels are not evenly spaced, as the VRT has
-// them: this is asked once, before a raster is read.
+// Throws InputError like `RasterBand`, and for a VRT of netCDF files with unevenly spaced pixels, which the VRT places
+// evenly. This is checked here, once, before a raster is read.
 RasterGeometry readRasterGeometry(const std::string& path);
 
 // The first band of a raster that GDAL reads, window by window. For one thread. Only this class reads rasters, so that
@@ -72,7 +72,7 @@ RasterGeometry readRasterGeometry(const std::string& path);
 // a mask (of the band, of the raster, an alpha band).
 class RasterBand {
  public:
-  // Throws InputError, also for a raster without georeference, for complex numbers, and for values whose unit is no
+  // Throws InputError, also for a raster without georeference, for complex numbers, and for values whose unit is not a
   // length.
   explicit RasterBand(std::string path);
   ~RasterBand();

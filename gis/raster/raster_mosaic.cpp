@@ -13,7 +13,7 @@ namespace coastmesh {
 
 namespace {
 
-// Files overlap, or there are far more cells than files: no mosaic of tiles.
+// With more cells per file, files overlap or are scattered: the raster is not a mosaic of tiles.
 constexpr std::size_t kMostCellsPerFile = 16;
 
 struct FreeXml {
@@ -35,7 +35,7 @@ std::optional<int> whole(const CPLXMLNode* node, const char* attribute) {
   return static_cast<int>(rounded);
 }
 
-// Nothing where the source is of another kind, scaled, or lies between pixels.
+// Nullopt if the source is of another kind, scaled, or not aligned with pixels.
 std::optional<Placed> placedBy(const CPLXMLNode* source) {
   const std::string_view kind = source->pszValue;
   const char* const file = CPLGetXMLValue(source, "SourceFilename", nullptr);
@@ -67,7 +67,7 @@ std::vector<int> cutsAlong(const std::vector<Placed>& placed, int end, int Pixel
   return cuts;
 }
 
-// There may be thousands of tiles, which may be far away: others are not looked at.
+// By extension only: there may be thousands of tiles, and they may be remote.
 bool isNamedAsNetcdf(const char* file) {
   return std::ranges::any_of(std::initializer_list<const char*>{"nc", "nc4", "cdf", "grd"},
                              [file](const char* extension) { return EQUAL(CPLGetExtension(file), extension); });
@@ -107,7 +107,7 @@ std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset) {
   if (text == nullptr || text[0] == nullptr) return nullptr;
   const Xml xml(CPLParseXMLString(text[0]));
   const CPLXMLNode* const root = CPLGetXMLNode(xml.get(), "=VRTDataset");
-  // One that warps has no sources, and one with a mask has more than one band in a file.
+  // A VRT that warps has no sources; one with a mask has more than one band per file.
   if (root == nullptr || CPLGetXMLNode(root, "MaskBand") != nullptr) return nullptr;
   const CPLXMLNode* const band = CPLGetXMLNode(root, "VRTRasterBand");
   if (band == nullptr || CPLGetXMLNode(band, "MaskBand") != nullptr) return nullptr;

@@ -25,7 +25,7 @@ struct PixelRect {
   PixelRect grownBy(int margin) const { return {x - margin, y - margin, width + 2 * margin, height + 2 * margin}; }
 };
 
-// The cells of a raster between straight cuts through all of it: from `columns[i]` to `columns[i + 1]`, and likewise.
+// Divides a raster into cells by straight cuts through all of it: `columns[i]` to `columns[i + 1]`, rows likewise.
 struct PixelCuts {
   std::vector<int> columns, rows;  // the first is 0, the last the raster's end
 
@@ -35,7 +35,7 @@ struct PixelCuts {
     const std::size_t i = c % across(), j = c / across();
     return {columns[i], rows[j], columns[i + 1] - columns[i], rows[j + 1] - rows[j]};
   }
-  // `visit(cell)` for those that hold pixels of the rectangle, row by row.
+  // Calls `visit(cell)` for each cell that has pixels of the rectangle, row by row.
   template <typename Visit>
   void forEachCell(const PixelRect& rect, const Visit& visit) const {
     const auto first = [](const std::vector<int>& cuts, int at) {
@@ -48,12 +48,11 @@ struct PixelCuts {
   }
 };
 
-// A raster whose pixels are those of files that lie side by side, as of a VRT of tiles: none covers a part of another,
-// none is scaled.
+// A raster composed of files side by side, such as a VRT of tiles: none overlaps another, none is scaled.
 struct RasterMosaic {
   std::vector<std::string> files;  // as the raster names them
   PixelCuts cuts;                  // along the files' edges
-  std::vector<int> file_of;        // one a cell; -1 where there is none
+  std::vector<int> file_of;        // index into `files` for each cell; -1 if it has none
 
   template <typename Visit>
   void forEachFile(const PixelRect& rect, const Visit& visit) const {
@@ -63,11 +62,11 @@ struct RasterMosaic {
   }
 };
 
-// Whether it is a VRT: a recipe for pixels of other files, which may be warped or scaled.
+// True for a VRT, which composes its pixels of other files and may warp or scale them.
 bool isVirtual(GDALDataset& dataset);
-// The netCDF files, by the ends of their names, and their parts that a VRT is made of; nothing of other rasters.
+// The netCDF files of a VRT, by extension, and the netCDF subdatasets that it names; empty for other rasters.
 std::vector<std::string> netcdfFilesOf(GDALDataset& dataset);
-// Of the first band; null where the raster is none, or does not say so.
+// The mosaic of the first band; null if the raster is not one, or does not describe it.
 std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset);
 
 }  // namespace coastmesh

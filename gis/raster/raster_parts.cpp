@@ -47,7 +47,7 @@ void requireSame(const RasterBand& band, int columns, int rows) {
 }
 
 PixelAnswer answerTask(const PixelTask& task) {
-  constexpr int kMostSide = 1024;  // of what is read at once
+  constexpr int kMostSide = 1024;  // pixels: the largest window read at once
   const RasterBand band(task.path);
   requireSame(band, task.columns, task.rows);
   PixelAnswer answer;

@@ -13,47 +13,47 @@
 
 namespace coastmesh {
 
-inline constexpr int kPartStep = 256;  // pixels: parts of a raster that is one file begin at multiples of it
+inline constexpr int kPartStep = 256;  // pixels: parts of a raster that is one file start at multiples of it
 
-// How a raster is shared out to several who read it: its files, where it is made of some, else parts that have no block
-// of it in common as far as blocks fit `kPartStep`.
+// Divides a raster among several readers: along the edges of its files if it is a mosaic, else into parts that share no
+// block. A raster whose rows must be read in order is one part.
 PixelCuts partsOf(const RasterGeometry& raster);
 
-// What is read by one alone.
+// A part of a raster that is read by one reader.
 struct RasterPart {
   std::string raster;
   std::size_t number = 0;    // see `ownedAs`
-  std::uint64_t pixels = 0;  // of it that are to be read
+  std::uint64_t pixels = 0;  // to be read
 };
-// The number under which a cell of `partsOf` has an owner: cells of one file have the same.
+// The number of the part that a cell of `partsOf` belongs to: the same for all cells of one file.
 std::size_t ownedAs(const RasterGeometry& raster, std::size_t cell);
 
-// Values of pixels, to be read by one reader.
+// Pixels whose values one reader is to read.
 struct PixelTask {
   std::string path;
-  int columns = 0, rows = 0;       // that the raster has
-  std::vector<PixelRect> windows;  // small ones, as near to one another in the list as in the raster
+  int columns = 0, rows = 0;       // of the raster
+  std::vector<PixelRect> windows;  // small; neighbours in the list should be close in the raster
 };
 struct PixelAnswer {
-  std::vector<double> values;  // of one window after another, in rows; NaN where there is none
+  std::vector<double> values;  // one window after another, row by row; NaN where missing
   RasterUse use;
 };
 // Throws InputError.
 PixelAnswer answerTask(const PixelTask& task);
 
-// Several who read rasters, numbered from 0, the caller: who they are, and how they are reached, is known to whoever
-// made this.
+// Several readers of rasters, numbered from 0, the caller. Their creator defines what they are and how they are
+// reached.
 struct PixelReaders {
-  // Who reads each of these parts: always the same one.
+  // Returns the reader of each part: always the same for the same part.
   std::function<std::vector<int>(std::span<const RasterPart>)> ownersOf;
-  // Has every task done, the i-th by reader `who[i]`, and gives the answers in the tasks' order. `loop` lends the
+  // Runs every task, the i-th by reader `who[i]`, and returns the answers in the tasks' order. `loop` provides the
   // caller's threads. Throws what a task throws.
   std::function<std::vector<PixelAnswer>(std::span<const PixelTask> tasks, std::span<const int> who,
                                          const ItemLoop& loop)>
       read;
 };
 
-// Throws InputError where a raster is not the one that a task was made for.
+// Throws InputError if the raster no longer has the size that a task was made for.
 void requireSame(const RasterBand& band, int columns, int rows);
 
 }  // namespace coastmesh
