@@ -30,9 +30,9 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kNoted = 0.005;  // of the area of the water: so near shores need not be moved for
+constexpr double kNoted = 0.005;  // of the water's area: smaller differences do not move shores
 
-// What the water gains where v goes to x, or straight on where x is none, is added.
+// Adds the area that the water gains if v moves to x, or is removed if x is null.
 void addGain(const ShoreChains& chains, VertexId v, const Point* x, const ScaleTable& scales, WaterAreas& gained) {
   const Point &a = chains.at[chains.prev[v]], &b = chains.at[chains.next[v]], &from = chains.at[v];
   const double scale = scales.at(from);
@@ -40,7 +40,7 @@ void addGain(const ShoreChains& chains, VertexId v, const Point* x, const ScaleT
   gained[chains.leaving[v].left] += 0.5 * twice / scale / scale;
 }
 
-// `thinShores`. `before` is what that was done for already, or none.
+// Calls `thinShores`. `before`: sizes of an earlier thinning, or null.
 void thin(ShoreChains& chains, const ShoreSizes& sizes, const BoxTree& lines, const FollowOptions& options,
           const SizeFunction* before, const EditLog& log, WaterAreas& gained, const ItemLoop& loop) {
   const auto dropped = [&](VertexId v, double area) {
@@ -52,14 +52,14 @@ void thin(ShoreChains& chains, const ShoreSizes& sizes, const BoxTree& lines, co
     log.add(EditKind::SimplifiedPoint, chains, v);
     addGain(chains, v, nullptr, sizes.scale, gained);
   };
-  // Where hardly more is wanted than before there is nothing to thin.
+  // Does nothing unless some sizes are clearly larger than before.
   const auto isMore = [&](VertexId v) { return chains.size[v] >= kMuchMore * before->at(chains.at[v]); };
   const auto vertices = std::views::iota(VertexId{0}, static_cast<VertexId>(chains.at.size()));
   if (before != nullptr && std::ranges::none_of(vertices, isMore)) return;
   thinShores(chains, {lines, options.channel_min < 1.0, dropped, before}, gone, loop);
 }
 
-// One length on the ground, as lengths in the plane.
+// A constant length on the ground, as lengths in the plane.
 class SameOnGround final : public SizeFunction {
  public:
   SameOnGround(double length_m, const ScaleTable& scales) : length_m_(length_m), scales_(scales) {}
@@ -77,7 +77,7 @@ class SameOnGround final : public SizeFunction {
 
 Domain thinToLeast(Domain&& domain, double least_m, const FollowOptions& options, const Coastline& coastline,
                    const ShoreGuides& guides, CleanReport& report, FollowStart& start, const ItemLoop& loop) {
-  constexpr double kMuchFiner = 0.45;  // shares of the size, in the mean of segments: else hardly any would go
+  constexpr double kMuchFiner = 0.45;  // mean length of segments in sizes; above it, hardly any would be removed
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
   const ScaleTable scales(domain.projection, box);
@@ -117,7 +117,8 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
     thin(chains, {given, scales}, lines, options, known.thinned_m > 0.0 ? &thinned : nullptr, log, start.gained, loop);
     graph = graphOf(std::move(chains));
   }
-  // What of lines cannot be followed keeps no land; the rest is set aside, as the width of water does not depend on it.
+  // Parts of lines that cannot be followed must not keep land. The rest is set aside, as the width of water does not
+  // depend on it.
   LostLines lost;
   returnLines(graph, takeLines(graph, domain.asked), {given, scales}, options.channel_min, lost);
   WaterLines in_water = takeLines(graph, domain.asked);

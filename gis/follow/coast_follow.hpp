@@ -48,8 +48,8 @@ struct SizeGrowth {
 SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunction& after,
                     const ItemLoop& loop = inOrder);
 
-// Coarsens the boundaries of a domain that follows sizes for larger ones in places. Nothing is opened or closed: for
-// domains that are not much narrower than these.
+// Coarsens the boundaries of a domain that follows sizes where the new ones are larger. Opens and closes nothing, so
+// nothing in the domain should be much narrower than these.
 Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report);
 
 }  // namespace coastmesh

@@ -15,9 +15,9 @@
 
 namespace coastmesh {
 
-// What leads from a domain to its shores, and back. Private to gis/follow.
+// Conversion of a domain to its shores, and back. Private to gis/follow.
 
-// Sizes as lengths of a domain's plane: that is where shores are measured.
+// Sizes as lengths in a domain's plane, where shores are measured.
 class SizesInPlane {
  public:
   SizesInPlane(const SizeFunction& size, const Domain& domain) : wanted_(&size) {
@@ -35,14 +35,14 @@ class SizesInPlane {
   std::optional<PlaneSizes> in_plane_;
 };
 
-// The graph goes from the domain.
+// Moves the graph out of the domain.
 inline ShoreGraph takeGraph(Domain& domain) {
   ShoreGraph graph{std::move(domain.pslg), std::vector<VertexId>(domain.input_points.size())};
   std::iota(graph.source.begin(), graph.source.end(), VertexId{0});
   return graph;
 }
 
-// The domain of a changed graph. `before`: what `takeGraph` left of that which it was made of.
+// The domain of a changed graph. `before`: what `takeGraph` left of the original domain.
 inline Domain domainOf(ShoreGraph&& graph, Domain&& before) {
   Domain made;
   made.projection = before.projection;
@@ -60,7 +60,7 @@ inline Domain domainOf(ShoreGraph&& graph, Domain&& before) {
   return made;
 }
 
-// Gives the report what was changed.
+// Adds changes to the report.
 struct EditLog {
   const Domain& domain;
   const Coastline& coastline;
@@ -69,7 +69,7 @@ struct EditLog {
   void add(EditKind kind, const Point& place, RegionId water) const {
     addInput(kind, domain.projection.inverse(place), water);
   }
-  // Of a vertex; of those that following had made there is no word.
+  // Skips vertices that following has made.
   void add(EditKind kind, const ShoreChains& chains, VertexId v) const {
     if (chains.source[v] != kNone) addInput(kind, domain.input_points[chains.source[v]], chains.leaving[v].left);
   }

@@ -126,7 +126,7 @@ void noteMetPoints(const MetPoints& met, const Projection& projection, CleanRepo
 }
 
 void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report) {
-  constexpr double kNoted = 0.5;  // elements: of less there is no word
+  constexpr double kNoted = 0.5;  // elements; shorter losses are not reported
   for (const auto& [tag, part] : lost.lines) {
     if (part.elements < kNoted) continue;
     std::string name = "a line in the water";

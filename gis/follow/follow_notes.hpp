@@ -29,11 +29,11 @@ struct FollowNotes {
   std::vector<OpenBarrier> open_barriers;
 };
 
-// Points and ends of lines in the water that the shore passes through, since they were almost on it.
+// Points and ends of lines in the water, almost on the shore, that it was led through.
 struct MetPoints {
   std::size_t count = 0;
-  Point farthest;        // from the shore as it was
-  double apart_m = 0.0;  // of that one
+  Point farthest;        // from the original shore
+  double apart_m = 0.0;  // of `farthest`
 
   void add(const Point& place, double metres) {
     if (count++ != 0 && metres <= apart_m) return;
@@ -42,14 +42,14 @@ struct MetPoints {
   }
 };
 
-// Adds a note on them to the report, if there are any.
+// Adds a note to the report if there are any.
 void noteMetPoints(const MetPoints& met, const Projection& projection, CleanReport& report);
 
 // Adds warnings on weirs, constraints and points that have no water left.
 void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report);
 
-// Adds sentences on the largest changes to the report, with their places in the input's CRS. Those on shares of the
-// water are left to `noteWaters`: these are of all groups of features.
+// Adds sentences on the largest changes to the report, with their places in the input's CRS. Shares of the water are
+// left to `noteWaters`, as they refer to all groups of features.
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
                    const Projection& projection, CleanReport& report);
 

@@ -7,14 +7,14 @@ namespace coastmesh {
 // the largest at an open boundary. If all of those are less than a tenth of the water, the largest part is kept.
 enum class KeepWater { All, Largest, Open, Modelled };
 
-// What is too narrow to be followed, as a multiple of the size there; 0: nothing.
+// The least width that is followed, as a multiple of the size there; 0: any width.
 struct FollowOptions {
   double channel_min = 1.0;  // water
   double land_min = 1.0;     // land
-  // Water that is the only connection of others, at least this wide, is widened to `channel_min` instead of closed.
+  // Water at least this wide that is the only connection of others is widened to `channel_min` instead of closed.
   double strait_min = 0.4;
   KeepWater keep = KeepWater::All;
-  bool of_land = false;  // land is meshed: notes speak of it, not of water
+  bool of_land = false;  // land is meshed, so notes refer to land instead of water
 };
 
 }  // namespace coastmesh

@@ -16,9 +16,10 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kNoted = 0.001;  // of the area of the water: so near shores need not be moved for
+constexpr double kNoted = 0.001;  // of the water's area: smaller differences do not move shores
 
-// Of each water, with the scale at the middle of each segment: good for differences where only shores have moved.
+// The area of each water, with the scale at the middle of each segment: accurate for differences if only shores have
+// moved.
 WaterAreas areasOf(const ShoreChains& chains, const ScaleTable& scales) {
   WaterAreas areas;
   if (chains.at.empty()) return areas;

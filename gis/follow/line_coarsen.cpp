@@ -41,7 +41,7 @@ class Coarsener {
   }
 
  private:
-  using Ends = std::pair<std::size_t, std::size_t>;  // numbers in the tree, the lower first
+  using Ends = std::pair<std::size_t, std::size_t>;  // items of `points_`, the lower first
 
   const Point& at(std::uint32_t node) const { return nodes_[node].at; }
   Ends endsOf(std::uint32_t a, std::uint32_t b) const {
@@ -51,7 +51,7 @@ class Coarsener {
     return {std::min(number(a), number(b)), std::max(number(a), number(b))};
   }
 
-  // Every second node at most, so that pieces grow evenly.
+  // Removes at most every second node, so that pieces grow evenly.
   bool coarsenOnce(LineChain& chain) {
     LineChain coarser;
     std::vector<std::vector<Point>> gone;
@@ -77,7 +77,7 @@ class Coarsener {
     return any;
   }
 
-  // A step and the next.
+  // True if steps i and i + 1 may become one.
   bool canJoin(const LineChain& chain, std::size_t i) const {
     const LineStep &one = chain[i], &other = chain[i + 1];
     const LineNode& between = nodes_[one.to];
@@ -93,7 +93,7 @@ class Coarsener {
            isEmpty(a, b, c);
   }
 
-  // Whether no point lies in the triangle or on its sides: then nothing crosses the side ac.
+  // True if no point lies in the triangle or on its sides, so that nothing crosses side ac.
   bool isEmpty(const Point& a, const Point& b, const Point& c) const {
     Box box = Box::of(a, b);
     box.add(c);
@@ -116,11 +116,11 @@ class Coarsener {
   const std::vector<char>& stays_;
   const SizeFunction& size_;
   const std::vector<Point>* shore_points_ = nullptr;
-  std::size_t first_node_ = 0;  // in the tree: before it are points of shores
+  std::size_t first_node_ = 0;  // in `points_`, after the points of shores
   BoxTree points_;
   std::vector<char> is_gone_;  // by node
   std::set<Ends> joined_;
-  std::vector<std::vector<Point>> gone_;  // of each step of a chain: what it replaces
+  std::vector<std::vector<Point>> gone_;  // for each step of the current chain: the points it replaces
 };
 
 }  // namespace

@@ -7,18 +7,19 @@
 
 namespace coastmesh {
 
-// Pieces of lines that follow one another.
+// A piece of a line as part of a chain.
 struct LineStep {
   std::uint32_t from, to;  // nodes, in the order of the chain
-  SegmentId of;            // of the line's segments
-  bool is_back;            // that runs the other way
+  SegmentId of;            // segment of the line
+  bool is_back;            // runs against it
 
   LinePiece piece() const { return is_back ? LinePiece{to, from, of} : LinePiece{from, to, of}; }
 };
 using LineChain = std::vector<LineStep>;
 
-// Takes nodes out of chains where pieces are shorter than half the size: those within a tenth of the size of the piece
-// that replaces theirs, if nothing else lies between. `lines`: what `cutter` cuts. `stays`: by point of these.
+// Removes nodes of chains where pieces are shorter than half the size, if they are within a tenth of the size of the
+// piece that replaces theirs, and nothing else lies between. `lines`: those that `cutter` cuts. `stays`: which of their
+// points must stay.
 void coarsenLines(std::vector<LineChain>& chains, const LineCutter& cutter, const Pslg& shores,
                   const std::vector<Segment>& lines, const std::vector<char>& stays, const SizeFunction& size);
 

@@ -15,8 +15,8 @@ namespace {
 
 // Shares of the size.
 constexpr double kAtVertex = 0.1;
-constexpr double kOnShore = 1e-6;      // what is no farther off lies on the shore
-constexpr double kNoDistance = 1e-12;  // crossings so near to one another are one
+constexpr double kOnShore = 1e-6;      // nearer points lie on the shore
+constexpr double kNoDistance = 1e-12;  // nearer crossings are the same
 
 std::vector<std::pair<VertexId, VertexId>> edgesOf(const std::vector<Segment>& segments) {
   std::vector<std::pair<VertexId, VertexId>> edges;
@@ -50,7 +50,7 @@ LineCutter::LineCutter(const Pslg& shores, const std::vector<Point>& at, const s
   for (std::uint32_t v = 0; v < at.size(); ++v) nodes_.push_back(nodeOf(v));
 }
 
-// A point of a line, which is made part of the shore where it lies on it but for rounding.
+// A point of a line; part of the shore if it lies on it, up to rounding.
 LineNode LineCutter::nodeOf(std::uint32_t point) {
   LineNode node{.at = points_[point], .of = point};
   const double near = kOnShore * size_.at(node.at);
@@ -119,7 +119,7 @@ bool LineCutter::areOnOneShore(std::uint32_t a, std::uint32_t b) const {
   return found;
 }
 
-// In the order of the line.
+// In order along the line.
 std::vector<LineCutter::Crossing> LineCutter::crossingsOf(SegmentId line) const {
   std::vector<Crossing> crossings;
   const VertexId from = lines_[line].a, to = lines_[line].b;
@@ -168,7 +168,7 @@ void LineCutter::cut(SegmentId line, std::vector<LinePiece>& pieces, std::vector
   }
 }
 
-// The node where a line, which goes on to a place that may be a node, ends at a shore.
+// The node where a line ends at a shore. The line comes from `inner`, the place of `inner_node` unless that is kNone.
 std::uint32_t LineCutter::nodeAt(Crossing& crossing, Point inner, std::uint32_t inner_node, SegmentId line,
                                  bool leads) {
   if (crossing.node != kNone) return crossing.node;
@@ -198,8 +198,8 @@ std::uint32_t LineCutter::nodeAt(Crossing& crossing, Point inner, std::uint32_t 
   return crossing.node = known;
 }
 
-// Whether a piece of that line from `start`, which is at x or no node yet, to `end` meets shores and other lines in
-// these alone. `leads`: it leads away from the line, which does not matter then.
+// True if a piece of the line from x to `end` meets shores and other lines only at its ends. `start` is the node at x,
+// or kNone. `leads`: the piece leads away from the line, whose own pieces are then ignored.
 bool LineCutter::fits(std::uint32_t start, const Point& x, std::uint32_t end, SegmentId line, bool leads) const {
   const Point& y = at(end);
   if (x == y) return false;

@@ -13,30 +13,30 @@
 
 namespace coastmesh {
 
-// An end of a piece of a line: a point of the line, or one where it meets the shore.
+// An end of a piece of a line: a point of the line, or where it meets the shore.
 struct LineNode {
   Point at;
-  VertexId vertex = kNone;   // of the shores, if it is one
-  SegmentId shore = kNone;   // that it lies on, if it is none
-  std::uint32_t of = kNone;  // the point of the lines that it is, or kNone
+  VertexId vertex = kNone;   // of the shores, or kNone
+  SegmentId shore = kNone;   // segment that contains it, if it is no vertex
+  std::uint32_t of = kNone;  // point of the lines, or kNone
 
   bool isAtShore() const { return vertex != kNone || shore != kNone; }
 };
 
 struct LinePiece {
   std::uint32_t a, b;  // nodes
-  SegmentId of;        // the line's
+  SegmentId of;        // of the line
 };
 
-// Cuts lines at shores that they were not made for.
+// Cuts lines at shores that have changed since the lines were made.
 class LineCutter {
  public:
-  // `shores`: labelled, without lines. `lines`: between points `at`. All are kept by reference.
+  // `shores`: labelled, without lines. `lines`: between points `at`. Keeps references to all.
   LineCutter(const Pslg& shores, const std::vector<Point>& at, const std::vector<Segment>& lines,
              const SizeFunction& size);
 
-  // Appends what of a line lies in its water, and the rest to `dry`. Ends at a shore are vertices of it within a tenth
-  // of the size, if nothing lies between.
+  // Appends the parts of a line segment in its own water to `pieces`, and the rest to `dry`. A piece ends in a vertex
+  // of the shore if one is within a tenth of the size and nothing lies between.
   void cut(SegmentId line, std::vector<LinePiece>& pieces, std::vector<std::pair<Point, Point>>& dry);
 
   const std::vector<LineNode>& nodes() const { return nodes_; }
@@ -45,26 +45,26 @@ class LineCutter {
   // The region of water at x, or kOutside.
   RegionId waterAt(const Point& x) const;
 
-  // Whether a shore is nearer to x than so much.
+  // True if a shore is nearer to x than that.
   bool isShoreWithin(const Point& x, double distance) const;
 
-  // Whether an end of a line, or of a piece of one, is at x.
+  // True if an end of a line segment, or of a piece of one, is at x.
   bool hasNodeAt(const Point& x) const;
 
-  // Whether both nodes lie on the same segment of the shore.
+  // True if both nodes lie on the same segment of the shore.
   bool areOnOneShore(std::uint32_t a, std::uint32_t b) const;
 
-  // A piece of a line from the node straight to the nearest shore, if there is one within `most` and nothing lies
+  // A piece of a line from the node straight to the nearest shore; nullopt if none is within `most` or something lies
   // between.
   std::optional<LinePiece> leadToShore(std::uint32_t node, SegmentId line, double most);
 
-  // For each shore, the nodes on it that are no vertices, in no order.
+  // For each segment of the shores, the nodes on it that are no vertices, unordered.
   const std::vector<std::vector<std::uint32_t>>& cuts() const { return cuts_; }
 
  private:
   struct Crossing {
     Point at;
-    double along = 0.0;  // the line
+    double along = 0.0;  // squared distance from the start of the line segment
     SegmentId shore;
     std::uint32_t node = kNone;
   };
@@ -85,10 +85,10 @@ class LineCutter {
   PlanarMap map_;
   FaceLocator faces_;
   BoxTree shore_boxes_, line_boxes_;
-  std::vector<LineNode> nodes_;  // first those that are points of lines
+  std::vector<LineNode> nodes_;  // points of lines first
   std::vector<std::vector<std::uint32_t>> cuts_;
-  // Of each line: its pieces that are no whole segments, from end to end; and how far any of them reaches beyond the
-  // box of its line.
+  // For each line segment, the ends of its pieces if it is cut, and how far any of these extends beyond the box of its
+  // segment.
   std::vector<std::vector<std::pair<Point, Point>>> cut_pieces_;
   double beyond_ = 0.0;
 };

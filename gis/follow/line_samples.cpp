@@ -13,10 +13,10 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kStep = 0.25;        // between samples of a line, as a share of the size wanted
-constexpr double kMostSamples = 1e6;  // of a line
+constexpr double kStep = 0.25;        // between samples of a line, in sizes wanted
+constexpr double kMostSamples = 1e6;  // of a segment of a line
 
-// Land that is reached across an open boundary is none.
+// Marks land that is reached across an open boundary.
 void markBeyond(std::vector<std::vector<LineSample>>& lines, const ShoreTriangles& t) {
   struct End {
     std::size_t line, wet, dry;

@@ -10,28 +10,28 @@
 
 namespace coastmesh {
 
-// A place on a line of the user's.
+// A point on a line given by the user.
 struct LineSample {
   Point at;
-  double size = 0.0, way = 0.0;  // wanted there; along the line
-  RegionId water = kUnlabelled;  // none on land
-  bool wanting = true;           // land, or water narrower than it should be
-  bool beyond = false;           // on no water, and across an open boundary from it: there is nothing to dig
+  double size = 0.0, way = 0.0;  // wanted there; distance along the line
+  RegionId water = kUnlabelled;  // kUnlabelled on land
+  bool wanting = true;           // on land, or in water narrower than wanted
+  bool beyond = false;           // on land across an open boundary: nothing is dug
 };
 
 inline bool isWet(const LineSample& sample) { return sample.water != kUnlabelled; }
 
-// Whether x lies in a triangle, or on its boundary. REQUIRES: it is counter-clockwise.
+// True if x is in a triangle or on its boundary. REQUIRES: it is counter-clockwise.
 bool isIn(const Point& x, const Point& a, const Point& b, const Point& c);
 
-// Samples of a line of these points, a quarter of the size apart.
+// Samples of the line through these points, a quarter of the size apart.
 std::vector<LineSample> samplesOf(const std::vector<Point>& line, const SizeFunction& size);
 
-// Sets what of the water the samples of all lines lie in, and whether it is as wide as so many elements for each line.
+// Sets `water`, `wanting` and `beyond` of all samples; `elements`: the width wanted for each line.
 void locateSamples(std::vector<std::vector<LineSample>>& lines, const std::vector<double>& elements,
                    const ShoreTriangles& triangles);
 
-// A row of samples on land, with water before or after it.
+// Consecutive samples on land, with water before or after them.
 struct LandOnLine {
   std::size_t first = 0, last = 0, middle = 0;  // samples
   double length = 0.0;                          // in the plane
@@ -39,7 +39,7 @@ struct LandOnLine {
 };
 std::vector<LandOnLine> landsOn(const std::vector<LineSample>& samples);
 
-// Tells at little cost that none of many boxes comes near: by the squares of a grid that they touch.
+// A fast test for proximity to any of many boxes, by the squares of a grid that they touch.
 class BoxGrid {
  public:
   explicit BoxGrid(const std::vector<Box>& boxes) {

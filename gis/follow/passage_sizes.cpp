@@ -11,7 +11,7 @@ namespace coastmesh {
 
 namespace {
 
-// Elements beside the passage that have its size; further off sizes grow as the distance.
+// Elements beside the passage that have its size; from there sizes grow by the distance.
 constexpr double kBeside = 1.0;
 
 }  // namespace

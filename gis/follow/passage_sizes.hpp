@@ -9,8 +9,8 @@
 
 namespace coastmesh {
 
-// Sizes, but no larger at land that passages run through than what its shores at both ends want: water will be there,
-// as wide as so many elements, and sizes of places far from a shore, as the inside of land is one, do not matter.
+// Sizes, limited where passages run through land by those at its shores on both ends. Land there becomes water, as wide
+// as `elements`, so sizes for places far from any shore do not apply.
 class PassageSizes final : public SizeFunction {
  public:
   // `size` has to outlive this.
@@ -21,7 +21,7 @@ class PassageSizes final : public SizeFunction {
   double least() const override { return size_.least(); }
   double most() const override { return size_.most(); }
 
-  // Gives triangles the sizes that are smaller here than those they were made with.
+  // Reduces sizes of triangles, and of their points, to those here.
   void measure(ShoreTriangles& triangles) const;
 
  private:
@@ -30,12 +30,12 @@ class PassageSizes final : public SizeFunction {
     double size_a, size_b, elements;
   };
 
-  // What pieces allow at x; infinite far from all.
+  // The largest size that pieces allow at x; infinite far from all.
   double mostAt(const Point& x) const;
 
   const SizeFunction& size_;
   std::vector<Piece> pieces_;
-  BoxTree tree_;  // of all that may be smaller for a piece
+  BoxTree tree_;  // of boxes in which pieces may reduce sizes
 };
 
 }  // namespace coastmesh

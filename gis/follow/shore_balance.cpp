@@ -11,11 +11,11 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kClose = 0.01;  // of the area of the water: so near the order need not be changed for
-// Of the narrowest land that stays.
+constexpr double kClose = 0.01;  // of the water's area: smaller errors are accepted
+// Shares of the narrowest land that stays.
 constexpr double kTried[] = {0.75, 0.5};
 constexpr int kBetween = 3;      // further attempts
-constexpr double kInside = 0.1;  // they keep so far from both ends, as a share of what lies between
+constexpr double kInside = 0.1;  // their distance from both ends, as a share of the interval
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace coastmesh {
 
 using ShoreEdits = std::vector<std::tuple<EditKind, Point, RegionId>>;
 
-// What shores are opened in, and what had become of the water before.
+// The triangulation to open shores in, and changes of the water so far.
 struct ShoreStart {
   ShoreTriangles triangles;
   WaterAreas gained;
@@ -21,30 +21,30 @@ struct ShoreStart {
 };
 
 struct OpenedShores {
-  ShoreTriangles before;  // as it was when land that goes first had gone, and what had been gained and edited by then
+  ShoreTriangles before;  // after the first opening of land, as are the next three
   WaterAreas gained_before;
   std::size_t edits_before = 0, spits_before = 0;
   ShoreTriangles after;  // not settled
   std::vector<WaterPart> waters;
-  std::vector<ClosedStrait> straits;  // by what was closed before the rest of the land went: see `allStraits`
+  std::vector<ClosedStrait> straits;  // closed before the second opening of land; see `allStraits`
   WaterAreas areas, gained;
   ShoreEdits edits;
   std::vector<DroppedSpit> spits;
-  double first = 1.0;  // how narrow land went before water, as a share of the narrowest that stays
-  double error = std::numeric_limits<double>::infinity();  // share of the water that there is too much
+  double first = 1.0;  // width of land removed before water is closed, as a share of the narrowest that stays
+  double error = std::numeric_limits<double>::infinity();  // excess of water, as a share of its area
 };
 
-// Opens land and water (`openLand`, `openWater`): land narrower than `first` times the narrowest that stays goes, then
-// narrow water, then the rest of the land, and again water.
+// Opens land and water (`openLand`, `openWater`): removes land narrower than `first` times the narrowest that stays,
+// closes narrow water and, if `first` < 1, removes the rest of the land and closes water again.
 OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const ShoreGuides& guides,
                         const FollowOptions& options, double first);
 
 // All straits that were closed. REQUIRES: `after` is not settled.
 std::vector<ClosedStrait> allStraits(const OpenedShores& opened, const ShoreSizes& sizes);
 
-// Where both are narrow, what goes first leaves room for the other: the less land goes before water is closed, the less
-// water there is in the end. As much goes first as brings the water's area near to what it was. `opened` was made with
-// all of the land first.
+// Chooses `first` so that the water's area stays near the original. If both are narrow, what is removed first makes
+// room for the other: the less land is removed before water is closed, the less water remains. REQUIRES: `opened` was
+// made with `first` = 1.
 OpenedShores balanceShores(OpenedShores&& opened, const ShoreStart& start, const ShoreSizes& sizes,
                            const ShoreGuides& guides, const FollowOptions& options);
 

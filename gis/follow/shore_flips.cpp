@@ -55,7 +55,7 @@ void ShoreFlips::remove(VertexId v) {
   fill(hole, region);
 }
 
-// Ears with empty circles are cut off first.
+// An ear; one with an empty circumcircle if possible.
 std::size_t ShoreFlips::earOf(const std::vector<Side>& hole) const {
   const std::size_t count = hole.size();
   const auto at = [&](std::size_t i) -> const Point& { return t_.mesh.point(hole[i % count].from); };
@@ -75,7 +75,7 @@ std::size_t ShoreFlips::earOf(const std::vector<Side>& hole) const {
   return count;
 }
 
-// A polygon whose corners all see one place inside has ears until it is a triangle.
+// The hole is star-shaped, so it has ears until it is a triangle.
 void ShoreFlips::fill(std::vector<Side>& hole, RegionId region) {
   while (hole.size() >= 3) {
     const std::size_t i = hole.size() == 3 ? 0 : earOf(hole), j = (i + 1) % hole.size(), k = (i + 2) % hole.size();

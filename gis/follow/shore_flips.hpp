@@ -7,30 +7,30 @@
 
 namespace coastmesh {
 
-// Changes of a triangulation of shores. Triangles that are made or changed wait for `finish`. Regions follow: what is
-// filled is all of one region.
+// Edits a triangulation of shores. New and changed triangles are made Delaunay and measured by `finish`. A filled hole
+// has a single region.
 class ShoreFlips {
  public:
   ShoreFlips(ShoreTriangles& triangles, const SizeFunction& size) : t_(triangles), size_(size) {}
 
-  // An edge of a hole: the hole lies to the left on the way from `from` to the next one's.
+  // An edge of a hole, from `from` to the next edge's `from`, with the hole to its left.
   struct Side {
     VertexId from;
     EdgeRef beyond;  // the same edge from outside
     SegmentId segment;
   };
 
-  // Edges of a triangle are to be looked at.
+  // Marks a triangle as changed.
   void touch(TriId t);
   TriId make(const std::array<VertexId, 3>& corners, RegionId region);
 
-  // Takes out a vertex that no segment ends in.
+  // Removes a vertex that no segment ends in.
   void remove(VertexId v);
 
-  // Puts a point with a number of its own into the triangle, or on its edge that is no segment.
+  // Inserts a point, already numbered v, in the triangle or on an edge of it that is not a segment.
   void insert(VertexId v, TriId in);
 
-  // Makes all Delaunay, measures what has changed, and closes gaps in the numbers of triangles.
+  // Makes the triangulation Delaunay, measures what has changed, renumbers triangles without gaps, sets `region_was`.
   void finish();
 
  private:

@@ -13,17 +13,17 @@ namespace coastmesh {
 namespace {
 
 // Shares of the size wanted.
-constexpr double kBarrier = 0.25;      // to either side
-constexpr double kTooNear = 0.02;      // helpers keep so far from what is there
-constexpr double kDug = 1.0;           // land that long on a passage is told of
-constexpr double kLittleMore = 1.001;  // of the reach: rounding of helpers at it
+constexpr double kBarrier = 0.25;      // on either side
+constexpr double kTooNear = 0.02;      // least distance of helpers from anything else
+constexpr double kDug = 1.0;           // land this long on a passage is reported
+constexpr double kLittleMore = 1.001;  // of the reach: rounding of helpers
 
-// Points that are added for a while, so that triangles end where they should.
+// Temporary points, so that triangles end at the sides of lines.
 class Helpers {
  public:
   explicit Helpers(ShoreTriangles& triangles) : triangles_(triangles) {}
 
-  // Whether no segment comes so near. Looks at the triangles round x that do.
+  // True if x is in the mesh and no segment comes within `least`. Searches the triangles that do.
   bool isFree(const Point& x, double least) {
     const TriMesh& mesh = triangles_.mesh;
     const TriId found = locateIn(triangles_, x, last_);
@@ -48,7 +48,7 @@ class Helpers {
     if (isFree(x, least)) wanted_.emplace_back(x, least);
   }
 
-  // Round all of the line, `reach` times the size away.
+  // Adds points all around the line, `reach` times the size away.
   void addAround(const std::vector<LineSample>& samples, double reach) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const Point along = samples[std::min(i + 1, samples.size() - 1)].at - samples[i == 0 ? 0 : i - 1].at;
@@ -65,7 +65,7 @@ class Helpers {
     }
   }
 
-  // Those that are not too near to one another: the first of them.
+  // Inserts the points; of points too near to one another, the first.
   void finish(const SizeFunction& size) {
     std::vector<Box> boxes;
     for (const auto& [x, least] : wanted_) boxes.push_back(Box::of(x, x));
@@ -207,7 +207,7 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
     const Point &a = triangles.mesh.point(v[0]), &b = triangles.mesh.point(v[1]), &c = triangles.mesh.point(v[2]);
     const Point centre = centroid(a, b, c);
     if (!grid.mayMeet(Box::of(centre, centre))) continue;
-    double nearest = kLittleMore * 0.5 * triangles.size[t];  // for an element across
+    double nearest = kLittleMore * 0.5 * triangles.size[t];  // per element across
     tree.visit(Box::of(centre, centre), [&](std::uint32_t i) {
       const double far = std::sqrt(squaredDistanceToSegment(centre, pieces[i].a, pieces[i].b)) / pieces[i].elements;
       if (far > nearest) return;
@@ -225,7 +225,7 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
 
 namespace {
 
-// The ends of barriers with so much water around them that it goes round.
+// Finds ends of barriers that water goes around.
 void findOpenEnds(const std::vector<ShoreLine>& barriers, const std::vector<std::vector<LineSample>>& sampled,
                   Helpers& helpers, std::vector<OpenBarrier>& open) {
   const auto isAtAnother = [&](std::size_t own, const LineSample& end) {
@@ -271,7 +271,7 @@ void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const Sho
       if (!any) edit(EditKind::Barrier, a, water);
       any = true;
     }
-    // Where it lies in what another has closed before it, it has met water.
+    // A barrier in water that another has just closed meets water too.
     if (!any && std::ranges::none_of(sampled[line], isWet)) open.push_back({line, std::nullopt});
   }
   settleShores(triangles, sizes.wanted);

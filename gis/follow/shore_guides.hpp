@@ -11,30 +11,30 @@
 
 namespace coastmesh {
 
-// A line of the plane along which the user decides what becomes of the water.
+// A line in the plane along which the user keeps water open or closes it.
 struct ShoreLine {
   std::vector<Point> points;
   std::string name;       // empty: none was given
   double elements = 1.0;  // across a passage
-  std::size_t file = 0;   // that it was read from: an index of those given
+  std::size_t file = 0;   // index of the file that it was read from
 };
 
-// Of each line.
+// `elements` of each line.
 std::vector<double> elementsOf(const std::vector<ShoreLine>& lines);
 
 struct ShoreGuides {
-  std::vector<ShoreLine> passages;  // kept open, and made as wide as their elements where they are narrower
+  std::vector<ShoreLine> passages;  // kept open, and widened to their elements where narrower
   std::vector<ShoreLine> barriers;  // closed
 
-  BoxTree tree() const;  // of the boxes of what the lines are made of
+  BoxTree tree() const;  // of the boxes of the lines' segments
 };
 
-// Finds what lies at lines.
+// Finds triangles at lines.
 class LineZone {
  public:
   explicit LineZone(const std::vector<ShoreLine>& lines);
 
-  // Whether a line comes as near to the triangle's centroid as `reach` for each of its elements, or meets the triangle.
+  // True if a line meets the triangle, or is within `reach` times its elements of the triangle's centroid.
   bool holds(const Point& a, const Point& b, const Point& c, double reach) const;
 
  private:
@@ -47,20 +47,20 @@ class LineZone {
   BoxTree tree_;
 };
 
-// A passage where land gave way.
+// A passage along which land was removed.
 struct WidenedPassage {
   std::size_t line = 0;  // of the guides' passages
   Point place{};
-  double length_m = 0.0;  // along which it did
-  double width_m = 0.0;   // what it has become, at most
-  double dug_m = 0.0;     // the longest way through land, if there is one of more than an element
-  Point dug_at{};         // the middle of it
+  double length_m = 0.0;  // of the parts that were widened
+  double width_m = 0.0;   // the largest width made
+  double dug_m = 0.0;     // the longest way through land, if at least an element
+  Point dug_at{};         // its middle
 };
 
-// Land beyond the last water on a passage, more than an element long: it stays.
+// Land on a passage before its first or after its last water, at least an element long: it stays.
 struct LandAhead {
   std::size_t line = 0;
-  Point place;  // where it begins
+  Point place;  // nearest to the water
   double length_m = 0.0;
 };
 
@@ -70,20 +70,20 @@ struct PassageEffects {
   std::vector<LandAhead> ends;
 };
 
-// Where a passage runs over land, or through water narrower than it has to be, land beside it becomes water: from the
-// first water on the line to the last, but not beyond open boundaries. What waters gain is added to `gained`, what else
-// there is to tell to `effects`. The triangles are settled.
+// Makes land water along passages, where these run over land or through water that is too narrow: from the first water
+// on the line to the last, but not beyond open boundaries. Gains of waters are added to `gained`, all else to report to
+// `effects`. Settles the triangles.
 void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
                    const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects);
 
-// A barrier that meets no water, or that water goes round: no shore and no other barrier within an element of its end.
+// A barrier that meets no water, or that water goes around: no shore or other barrier is within an element of its end.
 struct OpenBarrier {
   std::size_t line = 0;      // of the guides' barriers
-  std::optional<Point> end;  // none: it meets no water
+  std::optional<Point> end;  // nullopt: it meets no water
 };
 
-// Closes the water that barriers run through, half an element wide. The triangles are settled. `open` is given the
-// barriers that may not close what they are to close.
+// Closes the water that barriers run through, half an element wide, and settles the triangles. Barriers that may not
+// separate waters are added to `open`.
 void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
                    std::vector<OpenBarrier>& open);
 

@@ -7,7 +7,7 @@ namespace coastmesh {
 
 namespace {
 
-constexpr int kRounds = 3;  // what is widened may close something else
+constexpr int kRounds = 3;  // widening may close something else
 
 class Joiner {
  public:

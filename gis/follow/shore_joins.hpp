@@ -9,13 +9,12 @@ namespace coastmesh {
 
 struct JoinedShores {
   OpenedShores opened;
-  std::vector<WaterWay> ways;  // of each of `opened.waters`, however narrow
+  std::vector<WaterWay> ways;  // for each of `opened.waters`, of any width
   std::vector<JoinedWater> joined;
 };
 
-// Opens land and water (`openShores`). Where that would cut off a water whose way to the others is no narrower than
-// `options.strait_min`, and to widen it takes little beside the water's area, it is widened instead, as a passage that
-// the user names.
+// Opens land and water (`openShores`). If that would cut off a water, its connection is widened like a passage instead,
+// provided that it is at least `options.strait_min` wide and widening takes little compared with the water's area.
 JoinedShores openJoined(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options);
 
 }  // namespace coastmesh

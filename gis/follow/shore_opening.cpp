@@ -19,16 +19,16 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kLongestIsland = 3.0;  // in elements: what is longer stays
-constexpr double kLongSpit = 3.0;       // in elements: what is longer is told of
-constexpr double kShallow = 0.3;        // of the size: what reaches no deeper is left to simplifying
-constexpr double kBlunt = 0.6;          // of its gate, nor does what reaches no deeper: corners of 80 degrees and more
-constexpr double kWinding = 2.5;        // times as long as its gate: such a shore simplifying would not get straight
-constexpr double kPassage = 0.55;       // of its width: what is nearer to its line is part of a passage
-constexpr double kLeastOpening = 1.0;   // elements of open boundary: a shorter one may become shore
-constexpr double kLeastWater = 6.0;     // triangles of the size wanted
-constexpr double kGrazed = 0.1;         // less water at an open boundary is not what is meant
-constexpr std::size_t kPlaces = 8;      // given for each water
+constexpr double kLongestIsland = 3.0;  // in elements; longer ones stay
+constexpr double kLongSpit = 3.0;       // in elements; longer ones are reported
+constexpr double kShallow = 0.3;        // of the size; shallower patches are left to simplification
+constexpr double kBlunt = 0.6;     // of its gate; so are patches shallower than this: corners of 80 degrees and more
+constexpr double kWinding = 2.5;   // of its gate; simplification cannot straighten longer shores
+constexpr double kPassage = 0.55;  // of its width; nearer to its line is part of a passage
+constexpr double kLeastOpening = 1.0;            // elements of open boundary: a shorter one may become shore
+constexpr double kLeastWater = 6.0;              // triangles of the size wanted
+constexpr double kGrazed = 0.1;                  // of the water at open boundaries: the frame only grazes smaller parts
+constexpr std::size_t kPlaces = 8;               // per water
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
 class Opening {
@@ -59,7 +59,7 @@ class Opening {
   void openLand(double narrowest, std::vector<DroppedSpit>& long_spits) {
     narrowest_ = narrowest;
     dropIslands();
-    // Ends are taken off one after another, so that no land is cut in two.
+    // Removes triangles from the ends, one by one, so that no land is cut in two.
     std::vector<bool> thin(mesh().triangles.size()), off(mesh().triangles.size(), false);
     std::vector<TriId> ends;
     const auto isEnd = [&](TriId t) {
@@ -118,7 +118,7 @@ class Opening {
     closeSmall();
   }
 
-  // Of what `openWater` left. Parts of a region belong together.
+  // Applies to what `openWater` left, for each region separately.
   void keepWater(KeepWater keep, std::vector<WaterPart>& waters) {
     struct Whole {
       double area = 0.0, at_open = 0.0, largest_at_open = 0.0;
@@ -194,7 +194,7 @@ class Opening {
     const auto& v = mesh().triangles[t].v;
     return lines.holds(mesh().point(v[0]), mesh().point(v[1]), mesh().point(v[2]), reach);
   }
-  // How long its open boundary is, in elements.
+  // The length of the patch's open boundary, in elements.
   double openingOf(const std::vector<TriId>& patch) const {
     double opening = 0.0;
     for (const TriId t : patch) {
@@ -207,14 +207,15 @@ class Opening {
     }
     return opening;
   }
-  // In triangles of the size wanted.
+  // The area, in triangles of the size wanted.
   double elementsIn(const std::vector<TriId>& patch) const {
     double elements = 0.0;
     for (const TriId t : patch) elements += areaOf(t) / (kTriangle * t_.size[t] * t_.size[t]);
     return elements;
   }
 
-  // The region of all water beside the patch; none where there are several, or an open boundary, or something on it.
+  // The region of all water beside the patch; kNoRegion if there are several, or an open boundary, or a line or point
+  // on it.
   RegionId waterAround(const std::vector<TriId>& patch) const {
     RegionId water = kNoRegion;
     for (const TriId t : patch) {
@@ -247,7 +248,7 @@ class Opening {
     return first;
   }
 
-  // Edges between the patch and others of its kind.
+  // Edges between the patch and the rest of its kind.
   template <typename Same>
   std::vector<EdgeRef> gatesOf(const std::vector<TriId>& patch, const std::vector<std::uint32_t>& number,
                                Same&& same) const {
@@ -261,7 +262,7 @@ class Opening {
     return gates;
   }
 
-  // Whether the shore of a patch is much longer than its gates. REQUIRES: all of one kind, water or land.
+  // True if the shore of a patch is much longer than its gates. REQUIRES: all of one kind, water or land.
   bool isWinding(const std::vector<TriId>& patch, const std::vector<EdgeRef>& gates) const {
     double shore = 0.0, opening = 0.0;
     for (const TriId t : patch)
@@ -272,7 +273,7 @@ class Opening {
   }
   double lengthOf(EdgeRef e) const { return distance(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
 
-  // The vertex that lies furthest from the gate, and how far, as a share of the size there. Infinite where there is not
+  // The vertex farthest from the gate, and its distance as a share of the size there; infinite unless there is exactly
   // one gate.
   std::pair<VertexId, double> deepestOf(const std::vector<TriId>& patch, const std::vector<EdgeRef>& gates) const {
     if (gates.size() != 1) return {firstVertexOf(patch), std::numeric_limits<double>::infinity()};
@@ -287,8 +288,7 @@ class Opening {
     return deepest;
   }
 
-  // The triangle of the patch with the longest way to the gates, from middle to middle of the edges that are crossed,
-  // and that way.
+  // The triangle of the patch with the longest way to the gates, along the middles of crossed edges, and that way.
   std::pair<TriId, double> farthestAlong(const std::vector<TriId>& patch, const std::vector<std::uint32_t>& number,
                                          const std::vector<EdgeRef>& gates) const {
     const auto middleOf = [&](EdgeRef e) {
@@ -313,7 +313,7 @@ class Opening {
     return farthest;
   }
 
-  // Whether simplifying will do with the patch: it has one gate and reaches `depth` beyond it.
+  // True if the patch, `depth` deep, can be left to simplification.
   bool isShallow(const std::vector<TriId>& patch, const std::vector<EdgeRef>& gates, double depth) const {
     if (gates.size() != 1 || isWinding(patch, gates)) return false;
     return depth < std::max(kShallow, kBlunt * lengthOf(gates[0]) / t_.size[triOf(gates[0])]);
@@ -349,7 +349,7 @@ class Opening {
   WaterAreas& gained_;
   double narrowest_ = 0.0;
   std::vector<bool> keeps_all_;
-  std::vector<std::vector<TriId>> parts_;  // of the water, once it is opened
+  std::vector<std::vector<TriId>> parts_;  // of the opened water
 };
 
 }  // namespace

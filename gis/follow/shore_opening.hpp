@@ -17,20 +17,20 @@ struct DroppedSpit {
   double length_m = 0.0;
 };
 
-// A morphological opening of the land, with disks of `narrowest` times the size there as diameter: land that no disk
-// fits into and that ends in water is removed (spits, capes), and so are islands smaller than a triangle of that size.
-// Blunt corners stay, land that connects two lands, and an island longer than three elements, however thin. 0 keeps
-// everything. The gain of each region of water is added to `gained`, as below, and long spits to `spits`. The triangles
-// are settled.
+// A morphological opening of the land, with disks of `narrowest` times the size there as diameter: removes land that no
+// disk fits into and that ends in water (spits, capes), and islands smaller than a triangle of that size. Keeps blunt
+// corners, land that connects two lands, and islands longer than three elements, however thin. With 0, removes only
+// small islands. The gain of each region of water is added to `gained`, as below, and long spits to `spits`. Settles
+// the triangles.
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
               const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits);
 
-// A part of a region of water without a connection to the others, mostly because that was closed.
+// A part of a region of water without a connection to the others, mostly because this was closed.
 struct WaterPart {
   RegionId region = kUnlabelled;
   double area = 0.0;          // square metres
   bool at_open = false;       // its open boundary is at least one element long
-  bool kept = false;          // as `KeepWater` says, except that All does not count what Modelled would drop
+  bool kept = false;          // by `KeepWater`; for All as for Modelled
   std::vector<Point> inside;  // points in its largest triangles, the largest first
 };
 
@@ -39,10 +39,10 @@ struct OpenedWater {
   WaterAreas areas;
 };
 
-// The same for the water: narrower parts are closed (channels, heads of bays, corners), and so is water smaller than a
-// few triangles. Triangles at lines inside the water and at a corner of an open boundary stay. If nothing would be
-// left, all stays. Of the parts of each region of water, those that `keep` says stay. What is left out in this way is
-// not subtracted from `gained`. The triangles are not settled.
+// The same for water: closes narrower parts (channels, heads of bays, corners), and water smaller than a few triangles.
+// Triangles at lines inside the water, along passages and at a corner of an open boundary stay. If nothing would be
+// left, all stays. Then keeps the parts of each region of water by `keep`; those left out are not subtracted from
+// `gained`. Does not settle the triangles.
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ShoreEdit& edit, WaterAreas& gained);
 

@@ -6,9 +6,9 @@
 
 namespace coastmesh {
 
-// Triangles that hang together by edges.
+// Sets of triangles that are connected by edges.
 struct Patches {
-  std::vector<std::uint32_t> of;  // by triangle; kNone: in none
+  std::vector<std::uint32_t> of;  // patch of each triangle, or kNone
   std::vector<std::vector<TriId>> triangles;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kShiftOfCopies = 0.05;  // as a share of the size
 constexpr double kShiftOfHeight = 0.25;  // as a share of the least height of the triangles there
-constexpr int kHalvings = 40;            // of a shift that turns a triangle over
+constexpr int kHalvings = 40;            // of a shift that inverts a triangle
 
 class Settler {
  public:
@@ -29,7 +29,7 @@ class Settler {
     t_.is_new = false;
   }
 
-  // Without triangles that fit.
+  // Leaves the triangles unfinished.
   ShoreGraph graph() {
     settle();
     for (const VertexId v : loose_) t_.home[v] = kNone;
@@ -37,7 +37,7 @@ class Settler {
   }
 
  private:
-  // A part of the water that touches others in a vertex, which gets one of its own.
+  // A part of the water that touches others in a vertex; it gets a vertex of its own.
   struct Copy {
     VertexId of;
     std::vector<TriId> fan;  // counter-clockwise
@@ -148,7 +148,7 @@ class Settler {
 
   bool isTurned(const Point& a, const Point& b, const Point& c) const { return orient2d(a, b, c) <= 0; }
 
-  // Between the fan and what lies on both sides of it comes a triangle of land each.
+  // Adds a triangle of land on either side of the fan.
   void separate(const Copy& copy) {
     const VertexId v = copy.of, made = static_cast<VertexId>(mesh().points.size());
     const EdgeRef first = edgeRef(copy.fan.front(), prev3(mesh().cornerOf(copy.fan.front(), v)));  // from v
@@ -203,8 +203,8 @@ class Settler {
 
   ShoreTriangles& t_;
   ShoreFlips flips_;
-  std::vector<char> is_near_;    // vertices that changes matter to
-  std::vector<VertexId> loose_;  // that are to go
+  std::vector<char> is_near_;    // vertices near a change
+  std::vector<VertexId> loose_;  // to be removed
   std::vector<TriId> round_;
   std::vector<Copy> copies_;
 };

@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// Called with the kind of an edit, a place of the plane and the region of water beside it.
+// Called with the kind of an edit, a point in the plane and the region of water beside it.
 using ShoreEdit = std::function<void(EditKind, const Point&, RegionId)>;
 
 // Square metres on the ground, by region of water.

@@ -14,7 +14,7 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kLeast = 2.0;  // of the size wanted: shorter ones are not worth a name
+constexpr double kLeast = 2.0;  // of the size wanted; shorter ones are not reported
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class StraitFinder {
@@ -58,7 +58,7 @@ class StraitFinder {
     return centroid(mesh().point(v[0]), mesh().point(v[1]), mesh().point(v[2]));
   }
 
-  // Of the gates the one with the longest way from `start`, and the way there.
+  // The gate with the longest way from `start`. The ways are in `way_` and `from_`.
   TriId farthest(const std::vector<TriId>& patch, const std::vector<std::uint32_t>& number,
                  const std::vector<TriId>& gates, TriId start) {
     for (const TriId t : patch) way_[t] = kInfinity;
@@ -83,11 +83,11 @@ class StraitFinder {
     return *std::ranges::max_element(gates, {}, [&](TriId t) { return way_[t]; });
   }
 
-  // By the way that was found last.
+  // Along the way found last.
   ClosedStrait along(TriId start, TriId end) const {
     ClosedStrait strait;
     double narrowest = kInfinity, length = 0.0;
-    // Middles of the edges that are crossed: centres of triangles lie now at this shore, now at that.
+    // Middles of crossed edges: centroids alternate between the two shores.
     std::vector<Point> middles;
     for (TriId t = end; t != start; t = triOf(from_[t])) {
       const Point &a = mesh().point(mesh().origin(from_[t])), &b = mesh().point(mesh().target(from_[t]));
@@ -106,7 +106,7 @@ class StraitFinder {
   const ShoreTriangles& t_;
   const ScaleTable& scale_;
   std::vector<double> way_;
-  std::vector<EdgeRef> from_;  // the edge that was crossed
+  std::vector<EdgeRef> from_;  // the edge crossed into a triangle
 };
 
 }  // namespace

@@ -7,15 +7,15 @@
 
 namespace coastmesh {
 
-// Water that was closed, though what lies at its ends stays, joined some other way.
+// Closed water, whose ends remain and are connected some other way.
 struct ClosedStrait {
-  Point place;            // in the middle of it
+  Point place;            // in its middle
   double length_m = 0.0;  // from end to end
-  double width_m = 0.0;   // the narrowest, about
+  double width_m = 0.0;   // the least, approximately
 };
 
-// Of what was water and is land by now: of each patch the longest way through it between places of the same water,
-// where it is longer than an element or two.
+// For each patch of former water that is now land, the longest way through it between places of the same water, if at
+// least two elements long.
 std::vector<ClosedStrait> closedStraits(const ShoreTriangles& triangles, const ScaleTable& scales);
 
 }  // namespace coastmesh

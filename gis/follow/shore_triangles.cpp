@@ -13,14 +13,13 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kSampling = 3.0;       // samples to a length of the size wanted
-constexpr double kMostSamples = 256.0;  // to a segment
+constexpr double kSampling = 3.0;       // samples per size wanted
+constexpr double kMostSamples = 256.0;  // per segment
 constexpr std::size_t kFollowing = 8;   // segments before and after one
 
 std::uint8_t useOf(const Segment& s) { return !isBoundary(s) ? kInWater : s.tag == kOpenTag ? kOnOpen : kOnShore; }
 
-// Whether the segment from p to q comes as near as `reach` to places between a and b, straight across: what goes on
-// from one of the ends does not.
+// True if segment pq comes within `reach` of the inside of ab, across it: a segment that continues ab does not.
 bool isBeside(const Point& p, const Point& q, const Point& a, const Point& b, double reach) {
   constexpr double kHair = 1e-9;
   const double length = distance(a, b);
@@ -49,7 +48,7 @@ void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& li
     on_shore.push_back(isBoundary(s) && s.tag != kOpenTag ? 1 : 0);
   }
   const std::vector<double> sizes = sizesAt(middles, on_shore, size, even, loop);
-  // How many pieces become of a segment.
+  // The number of pieces of a segment.
   const auto countOf = [&](SegmentId s) {
     const Segment& segment = pslg.segments[s];
     const Point &a = pslg.points[segment.a], &b = pslg.points[segment.b];
@@ -62,7 +61,7 @@ void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& li
       const Segment& near = pslg.segments[other];
       cut = other != s && isBeside(pslg.points[near.a], pslg.points[near.b], a, b, wanted);
     };
-    // A shore that winds is beside itself: mostly what follows is enough.
+    // Checks following segments first: a winding shore is mostly beside itself.
     const std::size_t first = s - std::min<std::size_t>(s, kFollowing);
     for (std::size_t other = first; other <= s + kFollowing && other < boxes.size() && !cut; ++other)
       if (boxes[other].meets(around)) look(other);

@@ -17,13 +17,13 @@ namespace coastmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kMostWidened = 0.25;  // of the area of the water that is joined so
-constexpr int kRounds = 3;             // waters behind one another are joined one after another
-constexpr double kWide = 1e-3;         // what a way through wide water costs, for its length in elements
+constexpr double kMostWidened = 0.25;  // of the area of the joined water
+constexpr int kRounds = 3;             // waters behind one another are joined in turn
+constexpr double kWide = 1e-3;         // cost of a way through wide water, per element of length
 
 class WayFinder {
  public:
-  // No way is narrower than `least` times the size wanted.
+  // Ways are at least `least` sizes wide.
   WayFinder(const OpenedShores& opened, const ShoreSizes& sizes, double narrowest, double least)
       : t_(opened.before),
         scale_(sizes.scale),
@@ -33,7 +33,7 @@ class WayFinder {
         cost_(mesh().triangles.size(), kInfinity),
         from_(mesh().triangles.size(), kNone) {}
 
-  // From the waters that are sought to those that are joined. What was joined before has to stay so.
+  // Ways from the sought waters to joined ones. REQUIRES: waters joined before are still joined.
   std::vector<WaterWay> run(const std::vector<bool>& is_joined, const std::vector<bool>& is_sought) {
     for (std::size_t i = 0; i < is_joined.size(); ++i)
       if (is_joined[i]) start(places_[i]);
@@ -53,12 +53,12 @@ class WayFinder {
   Point centreOf(TriId t) const { return centroid(pointOf(t, 0), pointOf(t, 1), pointOf(t, 2)); }
   Point middleOf(EdgeRef e) const { return midpoint(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
   double lengthOf(EdgeRef e) const { return distance(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
-  // Of the nearer triangle to the shores: the other one may reach far into open water, where sizes are larger.
+  // The smaller of both triangles' sizes: one may reach far into open water, where sizes are larger.
   double sizeAt(EdgeRef e) const { return std::min(t_.size[triOf(e)], t_.size[triOf(mesh().twin(e))]); }
-  // Edges of triangles reach from shore to shore.
+  // The width of the water as a share of the size: edges reach from shore to shore.
   double shareOf(EdgeRef e) const { return lengthOf(e) / sizeAt(e); }
 
-  // The triangles of water that hold the places in each of the waters.
+  // For each water, the triangles that contain its places.
   std::vector<std::vector<TriId>> locate(const std::vector<WaterPart>& waters) const {
     std::vector<std::vector<TriId>> found(waters.size());
     TriId last = 0;
@@ -73,9 +73,9 @@ class WayFinder {
     return found;
   }
 
-  // From these, and from all that hangs together with them by water as wide as is wanted: that costs nothing.
+  // Starts, at cost 0, from these and from all that wide enough water connects to them.
   void start(const std::vector<TriId>& places) {
-    std::vector<TriId> reached;  // and not yet gone on from: the last first, which mostly is the nearest in memory
+    std::vector<TriId> reached;  // a stack: the last is mostly the nearest in memory
     const auto reach = [&](TriId t) {
       if (cost_[t] == 0.0) return;
       cost_[t] = 0.0;
@@ -99,7 +99,7 @@ class WayFinder {
     }
   }
 
-  // The cost of the way to each of these waters, of the one that it is most for.
+  // The largest cost of a way to one of the sought waters.
   double farthest(const std::vector<bool>& is_sought) const {
     double most = 0.0;
     for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -110,7 +110,8 @@ class WayFinder {
     return most;
   }
 
-  // On at the least cost, until all waters are reached: a way's length, where it is narrow the more the narrower it is.
+  // Dijkstra's algorithm, until all sought waters are reached. The cost is the length in elements, and more where the
+  // water is narrow.
   void spread(const std::vector<bool>& is_sought) {
     std::vector<char> is_place(mesh().triangles.size(), 0);
     for (const std::vector<TriId>& places : places_)
@@ -173,9 +174,9 @@ class WayFinder {
   const ShoreTriangles& t_;
   const ScaleTable& scale_;
   const double narrowest_, least_;
-  const std::vector<std::vector<TriId>> places_;  // in each of the waters
+  const std::vector<std::vector<TriId>> places_;  // triangles in each of the waters
   std::vector<double> cost_;
-  std::vector<EdgeRef> from_;  // the edge that was crossed
+  std::vector<EdgeRef> from_;  // the edge crossed into a triangle
   std::priority_queue<std::pair<double, TriId>, std::vector<std::pair<double, TriId>>, std::greater<>> queue_;
 };
 
@@ -231,7 +232,7 @@ std::vector<JoinedWater> waysToJoin(const OpenedShores& opened, const ShoreSizes
   std::vector<JoinedWater> found;
   if (!hasAny(butNot(every, joined))) return found;
   WayFinder finder(opened, sizes, options.channel_min, options.strait_min);
-  // Those of `candidates` that are not joined yet.
+  // Joins those of `candidates` that are not joined yet.
   const auto join = [&](const std::vector<bool>& candidates) {
     for (int round = 0; round < kRounds; ++round) {
       const std::vector<bool> sought = butNot(candidates, joined);
@@ -247,7 +248,7 @@ std::vector<JoinedWater> waysToJoin(const OpenedShores& opened, const ShoreSizes
       if (found.size() == before) return;
     }
   };
-  // First those that are kept to the largest: the others may be joined to any of them.
+  // First joins kept waters to the largest; the others may then be joined to any of them.
   join(kept);
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i]) joined[i] = true;

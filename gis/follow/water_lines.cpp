@@ -14,9 +14,9 @@ namespace coastmesh {
 namespace {
 
 // Shares of the size.
-constexpr double kOff = 0.4;       // from the shore: what is no farther off is part of it
-constexpr double kSlow = 1.0;      // a line that takes longer for the last `kOff` turns to the shore
-constexpr double kSampling = 0.1;  // how far apart places are at which that is measured
+constexpr double kOff = 0.4;       // from the shore; nearer parts of lines belong to it
+constexpr double kSlow = 1.0;      // a line that takes longer for its last `kOff` is led straight to the shore
+constexpr double kSampling = 0.1;  // between samples for this
 
 bool isPlain(const Segment& s) { return s.left == s.right && s.left >= 0; }
 
@@ -60,7 +60,7 @@ class Returner {
   }
   bool goesOn(std::uint32_t node) const { return !cutter_.nodes()[node].isAtShore() && at_node_[node].size() == 2; }
 
-  // All pieces that follow one another through nodes in the water where nothing else ends.
+  // The chain of pieces through nodes in the water where nothing else ends.
   LineChain chainThrough(std::uint32_t piece) {
     is_done_[piece] = 1;
     LineChain chain{{pieces_[piece].a, pieces_[piece].b, pieces_[piece].of, false}};
@@ -94,7 +94,7 @@ class Returner {
 
   bool isOff(const Point& x) const { return !cutter_.isShoreWithin(x, off_ * sizes_.wanted.at(x)); }
 
-  // The first place of a step that is off the shore, as a share of its way; none: 2.
+  // The first point of a step that is off the shore, as a share of its length; 2 if none is.
   double firstOff(const LineStep& step) const {
     constexpr double kMostSamples = 1000.0;
     const Point &a = at(step.from), &b = at(step.to);
@@ -122,8 +122,8 @@ class Returner {
     chains_.push_back(std::move(chain));
   }
 
-  // Where the chain leaves the shore slowly, replaces that part by one straight from the shore, and returns true. Not
-  // so that only the last steps are left that the other end got.
+  // If the chain leaves the shore slowly, replaces that part by a straight piece from the shore and returns true. Keeps
+  // more than the last `at_other_end` steps, which lead to the other shore.
   bool turnToShore(LineChain& chain, std::size_t at_other_end) {
     std::size_t i = 0;
     double way = 0.0, along = firstOff(chain[i]);
@@ -216,7 +216,7 @@ class Returner {
   LineCutter cutter_;
   std::vector<LinePiece> pieces_;
   std::vector<LineChain> chains_;
-  std::vector<std::vector<std::uint32_t>> at_node_;  // pieces that end there
+  std::vector<std::vector<std::uint32_t>> at_node_;  // pieces that end at each node
   std::vector<char> is_done_;                        // by piece
   std::vector<Point> added_;
 };
@@ -268,7 +268,7 @@ WaterLines takeLines(ShoreGraph& graph, const std::vector<VertexId>& asked) {
 
 std::vector<VertexId> bridgeLand(const ShoreGraph& shores, WaterLines& lines, const SizeFunction& size) {
   constexpr double kNarrow = 1.0;  // of the size
-  std::vector<VertexId> ends;      // of lines at shores, each once for each line
+  std::vector<VertexId> ends;      // of lines at shores, once per segment
   std::vector<std::int32_t> tags;
   std::vector<Box> boxes;
   std::vector<RegionId> waters;
@@ -284,7 +284,7 @@ std::vector<VertexId> bridgeLand(const ShoreGraph& shores, WaterLines& lines, co
   if (ends.empty()) return {};
   const LineCutter cutter(shores.pslg, lines.at, lines.segments, size);
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-  std::vector<std::uint32_t> across(ends.size(), kNone);  // the nearest end on the other side of land
+  std::vector<std::uint32_t> across(ends.size(), kNone);  // index of the nearest end across land
   for (std::uint32_t i = 0; i < ends.size(); ++i) {
     const Point& x = lines.at[ends[i]];
     double nearest = kNarrow * size.at(x);
@@ -297,7 +297,7 @@ std::vector<VertexId> bridgeLand(const ShoreGraph& shores, WaterLines& lines, co
       across[i] = j;
     });
   }
-  // Where it only touches the shore.
+  // True if the line only touches the shore there.
   const auto goesOn = [&](std::uint32_t i) {
     bool does = false;
     tree.visit(boxes[i], [&](std::uint32_t j) { does = does || (j != i && ends[j] == ends[i] && tags[j] == tags[i]); });

@@ -10,41 +10,41 @@
 
 namespace coastmesh {
 
-// Lines and points of a graph that lie in its water, set aside: how wide water is does not depend on them.
+// Lines and points in the water of a graph, set aside because the width of water does not depend on them.
 struct WaterLines {
   std::vector<Point> at;
   std::vector<VertexId> source;   // of each point, as in a graph
-  std::vector<char> stays;        // of each point: it is asked for, and not only as part of a line
+  std::vector<char> stays;        // of each point: requested by the user, not only as part of a line
   std::vector<Segment> segments;  // between these points
-  std::vector<VertexId> loose;    // points that are on none
-  std::vector<VertexId> shore;    // of each point: the vertex of the graph that it is too, or kNone
-  std::size_t bridges = 0;        // so many of the segments, the last, lie on land
+  std::vector<VertexId> loose;    // points on no segment
+  std::vector<VertexId> shore;    // of each point: its vertex of the graph, or kNone
+  std::size_t bridges = 0;        // number of segments on land, the last ones
 };
 
-// Takes out of the graph segments that have the same water on both sides, and points on no other. `asked`: the sources
-// of those that are asked for as vertices.
+// Moves segments with the same water on both sides, and points on no other segment, out of the graph. `asked`: sources
+// of points requested as vertices.
 WaterLines takeLines(ShoreGraph& graph, const std::vector<VertexId>& asked = {});
 
-// Joins ends of a line on both sides of land narrower than an element, in case that this goes: bridges. `shores`: as
-// `takeLines` left it. Other vertices of the shore where lines end are returned: land has to stay there.
+// Joins ends of a line across land narrower than an element by bridges, in case that land is removed. `shores`: as left
+// by `takeLines`. Returns the other vertices of the shore where lines end: land must stay there.
 std::vector<VertexId> bridgeLand(const ShoreGraph& shores, WaterLines& lines, const SizeFunction& size);
 
-// What is left out of lines and points.
+// Lines and points that are left out.
 struct LostLines {
   struct Part {
     double length_m = 0.0;  // on the ground
     double elements = 0.0;  // the same as a multiple of the sizes there
-    Point first;            // a place of it
+    Point first;            // middle of the first lost piece
   };
   std::map<std::int32_t, Part> lines;  // by their tag
   std::vector<Point> points;
 };
 
-// Puts them into a graph whose shores may have changed, as elements of these sizes can follow them. Lines end where
-// they meet a shore now, in a vertex that is made for them where none is near. What does not lie in water is left out,
-// and what is not off its shores by 0.4 of the size anywhere, or of `channel_min` times that. Where a line nears the
-// shore slowly it turns to it that far off. Pieces get about as long as the size (`coarsenLines`). What is left out is
-// added to `lost`.
+// Puts lines and points back into a graph whose shores may have changed, as elements of these sizes can follow them.
+// Lines end where they now meet a shore, in a new vertex unless one is near. Leaves out what is not in water, and lines
+// that are nowhere farther from shores than 0.4 of the size (times `channel_min` if below 1); adds it to `lost`. A line
+// that nears the shore slowly is led straight to it from that distance. Pieces become about as long as the size
+// (`coarsenLines`).
 void returnLines(ShoreGraph& graph, WaterLines&& lines, const ShoreSizes& sizes, double channel_min, LostLines& lost);
 
 }  // namespace coastmesh

@@ -11,9 +11,9 @@ namespace coastmesh {
 namespace {
 
 constexpr std::size_t kNamedWaters = 3, kNamedStraits = 10;
-// Of all the water.
-constexpr double kLargeWater = 0.005;  // is named, though not one of the largest
-constexpr double kWarned = 0.02;       // left out, parted by closing, or closed: more than models forgive
+// Shares of all water.
+constexpr double kLargeWater = 0.005;  // larger waters are named, even if not among the first
+constexpr double kWarned = 0.02;       // left out, separated or closed: more than models tolerate
 
 std::string formatted(const char* format, double value) {
   char text[80];
@@ -34,7 +34,7 @@ std::string nameOf(const NotedWater& water, const FollowedWaters& waters) {
   return water.before + shareText(water.area_m2, waters) + water.after;
 }
 
-// The largest of them, what is between them and the others, and which options change that.
+// The largest waters, what separates them from the others, and options that change that.
 std::string namesOf(const NotedWaters& some, bool by_way, const FollowedWaters& waters) {
   std::string names;
   std::size_t named = 0;

@@ -15,12 +15,13 @@ struct NotesAndWarnings {
   std::vector<std::string> notes, warnings;
 };
 
-// Sentences on waters that following sizes has left out, parted from the largest or joined by wider straits, with their
-// shares of all water: a warning if more of it is left out or parted than is acceptable for a model, otherwise notes.
+// Sentences on waters that following sizes has left out, separated from the largest, or joined by widening straits,
+// with their shares of all water: a warning if more is left out or separated than is acceptable for a model, otherwise
+// notes.
 NotesAndWarnings noteWaters(const FollowedWaters& waters, const FollowOptions& options);
 
-// A warning if what is meshed, `meshed_m2`, differs by more than a model forgives from what there was before, without
-// the waters that were left out: then sizes are larger than much of the water. Otherwise empty.
+// A warning if the meshed area, `meshed_m2`, differs from the original, without waters that were left out, by more than
+// is acceptable for a model: sizes are then larger than much of the water. Otherwise empty.
 std::string warningOfArea(const FollowedWaters& waters, const FollowOptions& options, double meshed_m2);
 
 }  // namespace coastmesh

@@ -24,7 +24,7 @@ std::string fileOfSet(const std::string& path, const char* which) {
   return base.append(which).append(".out");
 }
 
-// What a node is. FESOM2 works it out anew; AWI's other models read it.
+// Kind of a node. FESOM2 recomputes it; AWI's other models read it.
 enum NodeTag : std::int64_t { kInside = 0, kCoast = 1, kOpenWater = 2 };
 
 std::vector<NodeTag> tagsOf(const Grid& grid) {
@@ -37,8 +37,8 @@ std::vector<NodeTag> tagsOf(const Grid& grid) {
   return tags;
 }
 
-// Level depths in metres, positive up: 10 m thick from the second on down to 100 m, then each layer 1.15 times as thick
-// as the one above, to 5 m, and at most 250 m, until all but trenches are below.
+// Level depths in metres, positive up: layers of 5 m down to 10 m and of 10 m down to 100 m; then each is 1.15 times as
+// thick as the one above, rounded to 5 m and at most 250 m, until the levels are deeper than all but trenches.
 std::vector<int> levelDepths() {
   constexpr int kEvenDown = 100, kThickest = 250, kStep = 5, kDeepest = 6000;
   std::vector<int> depths{0, 5};
@@ -51,11 +51,11 @@ std::vector<int> levelDepths() {
   return depths;
 }
 
-// FESOM2's mesh: `nod2d.out` (longitudes and latitudes in degrees, and what each node is), `elem2d.out`, `aux3d.out`
-// (level depths, then the depth at each node, negative under water). FESOM2 takes what is positive for a depth too, and
-// makes no column of water shallower than its fifth level: what lies above the water is written as 0. `path` is the
-// first file; without "nod2d.out" at its end it gives the name of the set. Throws OutputError, also where a depth is
-// unknown and for a mesh in a plane.
+// FESOM2's mesh: `nod2d.out` (longitudes and latitudes in degrees, and the kind of each node), `elem2d.out`,
+// `aux3d.out` (level depths, then the depth at each node, negative under water). FESOM2 takes positive values for
+// depths too, and makes no water column shallower than its fifth level, so nodes above water are written with depth 0.
+// `path` is the first file; if it does not end in "nod2d.out", it gives the name of the set. Throws OutputError, also
+// if a depth is unknown and for a mesh in a plane.
 void writeFesom(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const std::vector<Point> places = requireGeographicNodes(grid, path, "FESOM2", loop);
@@ -97,7 +97,7 @@ std::vector<std::int64_t> readNodes(const std::string& path, Grid& grid) {
     grid.nodes.push_back({lon, lat});
     tags.push_back(file.integer());
   }
-  // FESOM2 goes by the order of the lines.
+  // FESOM2 numbers nodes by the order of the lines.
   if (misnumbered > 0)
     grid.notes.push_back(std::to_string(misnumbered) + forCount(misnumbered, " node has another number than its line",
                                                                 " nodes have another number than their line"));
@@ -117,13 +117,13 @@ void readElements(const std::string& path, Grid& grid) {
         file.fail("there is no node " + std::to_string(id));
       corner = static_cast<std::uint32_t>(id - 1);
     }
-    // A fourth corner that is the first again is how FESOM2 says triangle where quads are about.
+    // In meshes with quads, FESOM2 writes a triangle with its first corner again as the fourth.
     if (file.hasWord() && file.integer() != static_cast<std::int64_t>(triangle[0]) + 1)
       file.fail("an element of four nodes; only triangles can be read");
   }
 }
 
-// Numbers one after another, however many a line has.
+// The next number, on this line or a later one.
 double nextNumber(TextReader& file) {
   while (!file.hasWord()) file.needLine();
   return file.number();
@@ -139,8 +139,8 @@ void readDepths(const std::string& path, Grid& grid) {
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
 }
 
-// Reads the set, of which aux3d.out may be missing; its level depths are not kept. In WGS 84 where `unsaid` is no other
-// geographic CRS. Throws InputError.
+// Reads the set; aux3d.out is optional, and its level depths are ignored. The CRS is `unsaid` if that is geographic,
+// else WGS 84. Throws InputError.
 Grid readFesom(const std::string& path, const Crs& unsaid) {
   Grid grid;
   grid.crs = unsaid.geographic ? unsaid : wgs84();

@@ -22,10 +22,10 @@ using Corners = std::array<Index, 3>;
 
 constexpr std::string_view kMainFile = "rpart.out";
 constexpr Index kMostParts = 99'999;  // files are numbered with five digits
-// What FESOM2's arrays have room for: MAX_NEIGHBOR_PARTITIONS.
+// The size of FESOM2's arrays: MAX_NEIGHBOR_PARTITIONS.
 constexpr std::size_t kMostNeighbours = 32;
 
-// Items of a row each: those of `row` are items[begin[row]] to items[begin[row + 1]].
+// Rows of items: those of `row` are items[begin[row]] up to, not including, items[begin[row + 1]].
 struct Rows {
   std::vector<std::size_t> begin;
   std::vector<Index> items;
@@ -35,7 +35,7 @@ struct Rows {
   }
 };
 
-// The triangles round each node, ascending.
+// The triangles around each node, ascending.
 Rows trianglesRound(const std::vector<Corners>& triangles, std::size_t nodes) {
   Rows rows{std::vector<std::size_t>(nodes + 1, 0), std::vector<Index>(3 * triangles.size())};
   for (const Corners& corners : triangles)
@@ -49,13 +49,13 @@ Rows trianglesRound(const std::vector<Corners>& triangles, std::size_t nodes) {
 
 bool has(const Corners& corners, Index node) { return std::ranges::find(corners, node) != corners.end(); }
 
-// Whether the corners turn counter-clockwise, seen from above.
+// True if the corners are counter-clockwise, seen from above.
 bool turnsLeft(const Corners& corners, const std::vector<Point>& lonlat) {
   const auto at = [&](std::size_t i) { return onSphere(asLonLat(lonlat[corners[i]])); };
   return dot(at(0), cross(at(1), at(2))) > 0.0;
 }
 
-// As FESOM2 has them: it turns those that are counter-clockwise round, by their second and third corner.
+// FESOM2 has clockwise triangles: it swaps the second and third corners of counter-clockwise ones.
 std::vector<Corners> clockwise(const Grid& grid, const std::vector<Point>& lonlat) {
   std::vector<Corners> triangles = grid.triangles;
   for (Corners& corners : triangles)
@@ -63,11 +63,11 @@ std::vector<Corners> clockwise(const Grid& grid, const std::vector<Point>& lonla
   return triangles;
 }
 
-// Edges under the numbers that they have in FESOM2's edges.out: by their lesser node, then in the order in which the
-// triangles round that and their corners name the other one; those with two triangles before those with one.
+// Edges numbered as in FESOM2's edges.out: those with two triangles before those with one; within each group by lesser
+// node, then in the order in which the triangles around that node and their corners list the other node.
 struct Edges {
   std::vector<std::array<Index, 2>> ends;
-  std::vector<Corners> of_triangle;  // that from corner 1 to 2, from 2 to 3, from 3 to 1
+  std::vector<Corners> of_triangle;  // from corner 1 to 2, from 2 to 3, from 3 to 1
 };
 
 Edges numberEdges(const std::vector<Corners>& triangles, const Rows& round, std::size_t nodes) {
@@ -76,7 +76,7 @@ Edges numberEdges(const std::vector<Corners>& triangles, const Rows& round, std:
     bool inside = false;
   };
   std::vector<Named> named;
-  std::vector<std::size_t> begin(nodes + 1, 0);  // those that begin at a node
+  std::vector<std::size_t> begin(nodes + 1, 0);  // for each node: its first edge in `named`
   std::vector<char> seen(nodes, 0);
   std::vector<Index> others;
   for (Index n = 0; n < nodes; ++n) {
@@ -116,7 +116,7 @@ Edges numberEdges(const std::vector<Corners>& triangles, const Rows& round, std:
   return edges;
 }
 
-// What each process gets from which other one: pairs of that and an item, ascending.
+// For each process: pairs of another process and an item exchanged with it, ascending.
 using Peer = std::pair<Index, Index>;
 using Exchange = std::vector<std::vector<Peer>>;
 
@@ -127,7 +127,7 @@ void sortOut(Exchange& exchange) {
   }
 }
 
-// What each process gives to which other one.
+// What each process sends, given what each receives.
 Exchange sentFor(const Exchange& received) {
   Exchange sent(received.size());
   for (Index part = 0; part < received.size(); ++part)
@@ -136,7 +136,7 @@ Exchange sentFor(const Exchange& received) {
   return sent;
 }
 
-// A mesh dealt out: a process owns its nodes, and every triangle with one of them.
+// A partitioned mesh: a process owns its nodes, and every triangle with one of them.
 class Deal {
  public:
   Deal(const std::vector<Corners>& triangles, const std::vector<Index>& part_of, const Rows& round, Index parts)
@@ -146,7 +146,7 @@ class Deal {
     return std::ranges::any_of(triangles_[triangle], [&](Index node) { return part_of_[node] == part; });
   }
 
-  // Nodes that stand beside one that a process owns.
+  // Nodes to receive: neighbours of a process's own nodes that others own.
   Exchange nodes() const {
     Exchange received(parts_);
     for (const Corners& corners : triangles_)
@@ -157,8 +157,8 @@ class Deal {
     return received;
   }
 
-  // Triangles that share an edge, or but a node, with one that a process owns, and are not its own. The first corner's
-  // process is who sends them.
+  // Triangles to receive: not a process's own, but with at least `shared_nodes` corners (2: an edge) in common with one
+  // of its own. The process of the first corner sends them.
   Exchange triangles(std::ptrdiff_t shared_nodes) const {
     Exchange received(parts_);
     for (Index t = 0; t < triangles_.size(); ++t) {
@@ -186,7 +186,7 @@ class Deal {
   Index parts_;
 };
 
-// Numbers from 1, some on each line; a line without any where there are none, since each list is read as a record.
+// Writes numbers plus `first`, ten a line. An empty list is an empty line, since FESOM2 reads each list as a record.
 void writeList(TextWriter& file, const std::vector<Index>& numbers, Index first = 1) {
   constexpr std::size_t kOnALine = 10;
   for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -200,7 +200,7 @@ std::vector<Index> itemsOf(const std::vector<Peer>& peers) {
   return items;
 }
 
-// Whom, where each one's items begin, and how those are numbered here.
+// Writes the peers, where the items of each begin, and the local numbers of the items.
 void writePeers(TextWriter& file, const std::vector<Peer>& peers, const std::vector<Index>& local, Index part,
                 const std::string& path) {
   std::vector<Index> parts, begins;
@@ -222,7 +222,8 @@ void writePeers(TextWriter& file, const std::vector<Peer>& peers, const std::vec
   writeList(file, items);
 }
 
-// What stands before "rpart.out", or is the name of the set, stands before the other files' names.
+// The files of a set start with what precedes "rpart.out" in `path`; if it does not end in that, with `path` without
+// its extension and an underscore.
 std::string fileOf(const std::string& path, const char* kind, Index part) {
   std::string base = path;
   if (base.ends_with(kMainFile)) {
@@ -235,8 +236,7 @@ std::string fileOf(const std::string& path, const char* kind, Index part) {
   return base + name;
 }
 
-// rpart.out: how many nodes each process has, and what number each node has when they are numbered one process after
-// another.
+// rpart.out: the node count of each process, and the number of each node if nodes are numbered process after process.
 void writeCounts(const std::string& path, const std::vector<Index>& part_of, Index parts) {
   std::vector<Index> counts(parts, 0), next(parts, 1);
   for (const Index part : part_of) ++counts[part];
@@ -248,15 +248,15 @@ void writeCounts(const std::string& path, const std::vector<Index>& part_of, Ind
   file.close();
 }
 
-// A set of items of a process: its own, then those that it gets.
+// Items of a process: its own, then those that it receives.
 struct Owned {
-  std::vector<Index> own, beside, beyond;  // `beyond`: triangles that share but a node
+  std::vector<Index> own, beside, beyond;  // `beyond`: triangles that share only a node
 };
 
-// FESOM2's dist_N, for a mesh that its nod2d.out and elem2d.out hold: rpart.out, and for each process its nodes,
-// triangles and edges, my_list00000.out, and what it sends to and gets from which other one, com_info00000.out. Edges
-// have the numbers of the edges.out that FESOM2's partitioner writes once for a mesh. `path` is rpart.out. Throws
-// OutputError, also for a mesh in a plane, and where a process has more neighbours than FESOM2 takes.
+// FESOM2's dist_N for the mesh in its nod2d.out and elem2d.out: rpart.out, and for each process my_list00000.out (its
+// nodes, triangles and edges) and com_info00000.out (its exchange with each other process). Edge numbers are those of
+// the edges.out that FESOM2's partitioner writes once for a mesh. `path` is rpart.out. Throws OutputError, also for a
+// mesh in a plane, and if a process has more neighbours than FESOM2 supports.
 void writeFesomPartition(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const std::vector<Index>& part_of = grid.node_part_of;
   if (part_of.empty())
@@ -329,7 +329,8 @@ void writeFesomPartition(const Grid& grid, const std::string& path, const ItemLo
   }
 }
 
-// How many processes the folder is for: FESOM2 looks for theirs in dist_N.
+// The number of processes N of the folder dist_N, where FESOM2 looks for the files. Throws OptionError for another
+// folder.
 Index partsOfFolder(const std::string& path) {
   const std::string folder = fs::absolute(path).parent_path().filename().string();
   constexpr std::string_view kBegin = "dist_";

@@ -16,7 +16,7 @@ namespace coastmesh {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr std::string_view kRadii = "RADII=6371;6371;6371\n";  // km, the sphere that latitudes are taken to be of
+constexpr std::string_view kRadii = "RADII=6371;6371;6371\n";  // km; latitudes are taken as those of this sphere
 constexpr char kComment = '#';
 constexpr std::string_view kBetween = " \t\r;=";
 
@@ -27,11 +27,11 @@ void writeEdges(const Grid& grid, TextWriter& file) {
   for (const auto& [nodes, marker] : edges) file << nodes[0] << ';' << nodes[1] << ';' << marker << '\n';
 }
 
-// JIGSAW's mesh: ELLIPSOID-MESH with longitudes and latitudes in radians and the radii of a sphere in kilometres, which
-// is what JIGSAW reads as geometry and as a mesh to start from, and EUCLIDEAN-MESH with the coordinates as they are for
-// all other CRS. Boundaries and lines are edges with markers (`markedEdges`) as their tags; z is the VALUE at
-// a point. The radii stand last: MPAS-Tools take what stands before the points for a part of them. The CRS goes into a
-// .prj. Throws OutputError, also where some z are unknown.
+// JIGSAW's mesh. For a geographic CRS an ELLIPSOID-MESH, which JIGSAW reads as geometry and as an initial mesh:
+// longitudes and latitudes in radians, the radii of a sphere in kilometres. For others a EUCLIDEAN-MESH with unchanged
+// coordinates. Boundaries and lines are edges with markers (`markedEdges`) as tags; z is the VALUE at a point. The
+// radii come last, because MPAS-Tools takes whatever precedes the points for part of them. The CRS goes into a .prj.
+// Throws OutputError, also if some z are unknown.
 void writeJigsaw(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const double unit = grid.crs.geographic ? kDegree : 1.0;
@@ -56,7 +56,7 @@ void writeJigsaw(const Grid& grid, const std::string& path, const ItemLoop& loop
   writePrjBeside(path, grid.crs);
 }
 
-// What a file holds, as it stands there.
+// The contents of a file, unconverted.
 struct Contents {
   bool ellipsoid = false;
   std::uint64_t dimensions = 0;
@@ -123,9 +123,9 @@ void readSection(TextReader& file, Contents& contents) {
   }
 }
 
-// Points of a sphere round the origin, as JIGSAW writes the meshes that it makes there.
+// True if the points lie on a sphere around the origin, as in meshes that JIGSAW makes on spheres.
 bool areOnSphere(const std::vector<std::array<double, 3>>& points) {
-  constexpr double kOff = 0.01;  // of the radius: as an ellipsoid of the Earth is
+  constexpr double kOff = 0.01;  // of the radius: includes ellipsoids of the Earth
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const auto& p : points) {
     const double radius = std::sqrt(dot(p, p));
@@ -153,8 +153,8 @@ void placeNodes(const Contents& contents, const std::string& path, const Crs& un
   if ((in_space || contents.ellipsoid) && !grid.crs.geographic) grid.crs = wgs84();
 }
 
-// Reads what `writeJigsaw` writes, and meshes that JIGSAW itself makes: in a plane, or in the three coordinates of a
-// sphere. Throws InputError with file and line.
+// Reads what `writeJigsaw` writes, and meshes made by JIGSAW itself: in a plane, or with three coordinates on a sphere.
+// Throws InputError with file and line.
 Grid readJigsaw(const std::string& path, const Crs& unsaid) {
   TextReader file(path, kComment, kBetween);
   Contents contents;
@@ -175,7 +175,7 @@ bool isJigsaw(const std::string& path) {
     TextReader file(path, kComment, kBetween);
     return file.nextLine() && file.word() == "MSHID";
   } catch (const InputError&) {
-    return false;  // whose ending it has says what is wrong
+    return false;  // the reader of the format with this ending reports the error
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double kEarthRadiusM = 6371220.0;  // the sphere of MPAS
 constexpr const char* kOpenCell = "openBoundaryCell";
 
-// The circumcentre of a triangle of a plane.
+// The circumcentre of a triangle in a plane.
 SphereVector circumcentreInPlane(const SphereVector& a, const SphereVector& b, const SphereVector& c) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
   const double twice = 2.0 * (bx * cy - by * cx), bb = bx * bx + by * by, cc = cx * cx + cy * cy;
@@ -53,7 +53,7 @@ std::vector<SphereVector> verticesOf(const Grid& grid, const std::vector<SphereV
   return vertices;
 }
 
-// Relative to where edges are shortest, as MPAS has it: the fourth power of the shortest over the length there.
+// MPAS' mesh density, relative to the shortest edges: the fourth power of the shortest length over the local length.
 std::vector<double> densitiesOf(const Grid& grid) {
   std::vector<double> densities(grid.nodes.size(), 1.0);
   double shortest = std::numeric_limits<double>::infinity();
@@ -70,10 +70,10 @@ void define(NetcdfWriter& file, const std::string& name, int type, const std::ve
   file.putLater(file.variable(name, type, dimensions), count, value_of);
 }
 
-// Triangles as MPAS' mesh converter takes them: MPAS' cells are the nodes, its vertices the triangles' circumcentres,
-// `cellsOnVertex` the corners, counted from 1. On a sphere of 6371.22 km, latitudes as they are; a plane stays one.
-// Beside that `bottomDepth` (positive down) where there are depths, and `openBoundaryCell` where boundaries are open,
-// which the converter leaves out. Throws OutputError, also where some depths are unknown.
+// Triangles as input of MPAS' mesh converter: MPAS' cells are the nodes, its vertices the circumcentres of triangles,
+// `cellsOnVertex` the corners, counted from 1. On a sphere of 6371.22 km with unchanged latitudes, or in the plane. In
+// addition, `bottomDepth` (positive down) if there are depths and `openBoundaryCell` if boundaries are open; the
+// converter leaves these out. Throws OutputError, also if some depths are unknown.
 void writeMpas(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const bool sphere = !grid.crs.isPlane();
@@ -83,7 +83,7 @@ void writeMpas(const Grid& grid, const std::string& path, const ItemLoop& loop) 
   for (const Boundary& boundary : grid.boundaries)
     if (boundary.role == BoundaryRole::Open)
       for (const std::uint32_t node : boundary.nodes) open[node] = 1;
-  constexpr std::size_t kLargest = 4'000'000'000;  // bytes of an array in a 64-bit offset file, some to spare
+  constexpr std::size_t kLargest = 4'000'000'000;  // bytes of an array in a 64-bit offset file, with a margin
   NetcdfWriter file(path, std::max(cells.size() * 8, vertices.size() * 12) > kLargest);
   file.attribute(NC_GLOBAL, "on_a_sphere", sphere ? "YES" : "NO");
   file.attribute(NC_GLOBAL, "sphere_radius", sphere ? kEarthRadiusM : 0.0);
@@ -120,7 +120,8 @@ void readPlaces(const NetcdfReader& file, bool sphere, Grid& grid) {
   }
 }
 
-// Meshes of MPAS itself too: vertices at their ends, of fewer than three cells, are no triangles. Throws InputError.
+// Reads meshes of MPAS itself too: vertices on their boundary, with fewer than three cells, are no triangles. Throws
+// InputError.
 Grid readMpas(const std::string& path, const Crs& unsaid) {
   const NetcdfReader file(path);
   Grid grid;
@@ -160,7 +161,7 @@ bool isMpas(const std::string& path) {
     const NetcdfReader file(path);
     return file.hasVariable("cellsOnVertex") && file.hasVariable("xCell");
   } catch (const InputError&) {
-    return false;  // whose ending it has says what is wrong
+    return false;  // the reader of the format with this ending reports the error
   }
 }
 

@@ -7,9 +7,9 @@ namespace {
 
 constexpr double kRadiusM = 6371220.0;
 
-// PLY as text, for viewers of shapes: a geographic mesh on a sphere, in metres from its middle, latitudes as they are;
-// other meshes with z as the third coordinate, 0 where there is none. Nothing else has room in it. Throws OutputError,
-// also where some z are unknown.
+// PLY as text, for viewers of shapes: a geographic mesh on a sphere, in metres from its centre, with unchanged
+// latitudes; other meshes with z as the third coordinate, 0 if there is none. The format holds nothing else. Throws
+// OutputError, also if some z are unknown.
 void writePly(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   TextWriter file(path);

@@ -9,14 +9,15 @@
 
 namespace coastmesh {
 
-// Sizes that grow evenly with the distance from the shore and that nothing else decides on: how fast, and those on the
-// shore itself, which need not be looked for.
+// Sizes that depend on the distance from the shore alone: their growth with it, and those at the shore, which are known
+// without a search.
 struct EvenSizes {
   double rate;
   const SizeFunction& on_shore;
 };
 
-// Sizes at places, by all threads. `on_shore`: which of them lie there, where sizes are `even`.
+// Sizes at places, with the threads of `loop`. `on_shore`: flags of the places at the shore; read only if `even` is
+// given.
 std::vector<double> sizesAt(std::span<const Point> places, std::span<const char> on_shore, const SizeFunction& size,
                             const EvenSizes* even, const ItemLoop& loop);
 

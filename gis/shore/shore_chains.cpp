@@ -11,7 +11,7 @@ namespace coastmesh {
 
 namespace {
 
-// Where an open boundary turns by more than this it has a corner, which stays.
+// An open boundary that turns by more than this has a corner, which stays.
 constexpr double kCosineOfCorner = 0.985;  // of 10 degrees
 
 bool isCorner(const Point& from, const Point& at, const Point& to) {
@@ -42,7 +42,7 @@ ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size, const ItemLoo
     const VertexId from = s.left >= 0 ? s.a : s.b, to = s.left >= 0 ? s.b : s.a;
     for (const VertexId v : {from, to})
       if (degree[v] < 3) ++degree[v];
-    if (chains.next[from] != kNone || chains.prev[to] != kNone) {  // the graph touches itself there
+    if (chains.next[from] != kNone || chains.prev[to] != kNone) {  // the graph touches itself here
       chains.lines.push_back(s);
       chains.stays[from] = chains.stays[to] = 1;
       continue;
@@ -109,7 +109,7 @@ bool canTakeOut(const ShoreChains& chains, VertexId v) {
 }
 
 void dropSamples(ShoreChains& chains) {
-  constexpr double kNothing = 1e-9;  // of the size: what rounding takes a place off a straight line
+  constexpr double kNothing = 1e-9;  // of the size: rounding of points on a straight line
   for (VertexId v = 0; v < chains.at.size(); ++v) {
     if (!chains.alive[v] || chains.source[v] != kNone || !canTakeOut(chains, v)) continue;
     const Point &a = chains.at[chains.prev[v]], &b = chains.at[chains.next[v]];

@@ -15,15 +15,15 @@ namespace {
 
 // Lengths are shares of the size wanted.
 constexpr double kMoved = 0.25;       // how far a shore may be moved
-constexpr double kMovedShort = 0.45;  // where segments are shorter than kShort
+constexpr double kMovedShort = 0.45;  // if segments are shorter than kShort
 constexpr double kShort = 0.55;
-constexpr double kLong = 1.1;            // longer segments are made only where the shore is straight:
-constexpr double kStraight = 0.03;       // so much out of it
-constexpr double kAlmostStraight = 0.1;  // or so much where segments are shorter than kShort: else corners would go
-constexpr double kNothing = 1e-9;        // what rounding takes a place off a straight line
+constexpr double kLong = 1.1;            // longer segments are made only if the shore is straight:
+constexpr double kStraight = 0.03;       // at most this far off them,
+constexpr double kAlmostStraight = 0.1;  // or this, if segments are shorter than kShort: more would remove corners
+constexpr double kNothing = 1e-9;        // rounding of points on a straight line
 constexpr double kOpenMoved = 0.01;      // open boundaries
-constexpr double kApart = 0.5;           // shores keep so far from one another
-constexpr double kNearAlong = 1.6;       // along the shore: nearer vertices are the same piece of it
+constexpr double kApart = 0.5;           // shores do not come nearer to one another
+constexpr double kNearAlong = 1.6;       // along the shore: nearer vertices count as the same piece
 constexpr double kLeastAngle = std::numbers::pi / 4;
 
 class Coarsener {
@@ -38,7 +38,7 @@ class Coarsener {
 
   void run() {
     for (VertexId v = 0; v < c_.at.size(); ++v) enqueue(v);
-    // Every entry that is not stale takes a vertex out, or is not renewed but by one that is.
+    // Terminates: only removing a vertex adds entries.
     while (!queue_.empty()) {
       const Entry entry = queue_.top();
       queue_.pop();
@@ -60,7 +60,7 @@ class Coarsener {
   }
 
  private:
-  // The tree of what is left: planted anew whenever half has gone, or most of what is found would be gone.
+  // Builds the tree of remaining vertices: again whenever half are gone, as searches would find mostly removed ones.
   void plant() {
     std::erase_if(held_, [&](VertexId v) { return !c_.alive[v]; });
     std::vector<Box> boxes;
@@ -76,7 +76,8 @@ class Coarsener {
     bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : vertex > other.vertex; }
   };
 
-  // As a share of the size at v: how far v, and what went beside it, lies from the segment that would replace it.
+  // The distance from v, and from vertices removed beside it, to the segment that would replace it, as a share of the
+  // size at v.
   double costOf(VertexId v) const {
     const Point &a = c_.at[c_.prev[v]], &b = c_.at[c_.next[v]];
     double cost = squaredDistanceToSegment(c_.at[v], a, b);
@@ -104,7 +105,7 @@ class Coarsener {
     Box box = Box::of(a, b);
     box.add(x);
     bool found = false;
-    // On a straight shore nothing comes nearer.
+    // On a straight shore, nothing comes nearer.
     const double reach = costOf(v) < kNothing ? 0.0 : kApart * c_.size[v];
     if (reach > 0.0) findNear(v);
     const Box around = box.grownBy(reach);
@@ -124,12 +125,13 @@ class Coarsener {
     return found;
   }
 
-  // At `at`, whose neighbours are `beyond` and `from`, if `to` takes the place of `from`.
+  // True if the water's angle at `at`, between its neighbours `beyond` and `from`, becomes small, and smaller than it
+  // is, if `to` replaces `from`.
   bool makesSmallAngle(VertexId beyond, VertexId at, VertexId from, VertexId to) const {
     if (beyond == kNone) return false;
     const bool forwards = c_.next[at] == from;
     const Point aside = c_.at[to] - c_.at[at], away = c_.at[beyond] - c_.at[at];
-    if (dot(aside, away) < (1.0 - kNothing) * std::abs(cross(aside, away))) return false;  // clearly larger
+    if (dot(aside, away) < (1.0 - kNothing) * std::abs(cross(aside, away))) return false;  // clearly above 45 degrees
     const auto angle = [&](VertexId w) {
       return forwards ? waterAngle(c_.at[beyond], c_.at[at], c_.at[w]) : waterAngle(c_.at[w], c_.at[at], c_.at[beyond]);
     };
@@ -137,7 +139,7 @@ class Coarsener {
     return then < kLeastAngle && then < angle(from);
   }
 
-  // Vertices of the same piece of shore.
+  // Collects vertices of the same piece of shore as v.
   void findNear(VertexId v) {
     near_.clear();
     const double reach = kNearAlong * c_.size[v];
@@ -156,9 +158,9 @@ class Coarsener {
   ShoreChains& c_;
   const ShoreLoss& gone_;
   std::vector<std::uint32_t> version_;
-  std::vector<std::vector<VertexId>> dropped_;  // beside the segment that leaves a vertex
+  std::vector<std::vector<VertexId>> dropped_;  // for each vertex: those removed along the segment to the next
   std::vector<VertexId> near_;
-  std::vector<VertexId> held_;  // by the tree
+  std::vector<VertexId> held_;  // vertices in the tree
   std::size_t gone_since_ = 0;
   BoxTree tree_;
   std::priority_queue<Entry> queue_;

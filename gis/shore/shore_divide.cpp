@@ -13,9 +13,9 @@ namespace {
 
 // Shares of the size wanted.
 constexpr double kLong = 2.0;
-constexpr double kNear = 0.5;        // as near as mending lets shores come
-constexpr double kShortest = 0.5;    // pieces
-constexpr double kMostPieces = 1e4;  // of a segment
+constexpr double kNear = 0.5;        // the least distance that mending leaves between shores
+constexpr double kShortest = 0.5;    // of pieces
+constexpr double kMostPieces = 1e4;  // per segment
 
 bool isLongShore(const ShoreChains& c, VertexId v, double size) {
   return c.alive[v] && c.next[v] != kNone && c.leaving[v].tag != kOpenTag &&
@@ -65,7 +65,7 @@ class Divider {
       for (double x = low + step; x < high; x += step) others.push_back(x);
     });
     if (first.empty()) return;
-    // What lies beside the line itself comes first.
+    // The ends of the stretches beside lines take precedence.
     std::vector<double> cuts{0.0, length};
     for (std::vector<double>* places : {&first, &others}) {
       std::ranges::sort(*places);
@@ -79,7 +79,7 @@ class Divider {
     for (std::size_t i = 1; i + 1 < cuts.size(); ++i) last = cutAfter(c_, last, a + cuts[i] / length * (b - a), size);
   }
 
-  // What of the segment lies in the rectangle, or false.
+  // Clips a segment to the rectangle; false if nothing is left.
   static bool clip(Point& p, Point& q, const Point& low, const Point& high) {
     const Point along = q - p, from = p;
     double first = 0.0, last = 1.0;
@@ -101,7 +101,7 @@ class Divider {
   }
 
   ShoreChains& c_;
-  std::vector<std::pair<VertexId, VertexId>> given_;  // ends of pieces of lines, and points, twice
+  std::vector<std::pair<VertexId, VertexId>> given_;  // ends of line segments; a point twice
   BoxTree tree_;
 };
 

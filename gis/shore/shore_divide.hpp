@@ -4,13 +4,13 @@
 
 namespace coastmesh {
 
-// Long straight shores get vertices, so that what is done to one place of them changes nothing farther than an element
-// from it. `dropSamples` takes those out again that are not needed.
+// Adds vertices to long straight shores, so that a change in one place has no effect more than an element away.
+// `dropSamples` removes those that turn out not to be needed.
 
-// A size away from v on either side, where the segment there is longer than two.
+// Adds a vertex one size from v on either side, if the segment there is longer than two.
 void divideBeside(ShoreChains& chains, VertexId v);
 
-// Where lines or points in the water come nearer than half the size, and a size to either side.
+// Adds vertices where lines or points in the water come within half the size, and one size further on either side.
 void divideAtLines(ShoreChains& chains);
 
 }  // namespace coastmesh

@@ -12,12 +12,12 @@ namespace coastmesh {
 namespace {
 
 constexpr double kShort = 0.5;  // of the size wanted
-constexpr double kReach = 1.0;  // how far land reaches in that goes
+constexpr double kReach = 1.0;  // how far a piece reaches from its start
 constexpr double kStraight = 0.02;
 
 bool isOpen(const ShoreChains& c, VertexId v) { return c.leaving[v].tag == kOpenTag; }
 
-// A place where the boundary turns from shore to open, or back, and nothing else happens.
+// True if the boundary changes between shore and open at v, and its water does not.
 bool isEnd(const ShoreChains& c, VertexId v) {
   return c.next[v] != kNone && c.prev[v] != kNone && isOpen(c, v) != isOpen(c, c.prev[v]) &&
          c.leaving[v].left == c.leaving[c.prev[v]].left;
@@ -40,7 +40,7 @@ class EndMender {
   }
 
  private:
-  // Along the piece that begins at v, to its other end; false where that is far or something is in the way.
+  // Follows the piece that begins at v to its other end; false if that is far away or something is in between.
   bool walk(VertexId v) {
     way_.assign(1, v);
     for (VertexId w = c_.next[v]; w != kNone && w != v; w = c_.next[w]) {

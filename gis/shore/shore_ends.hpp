@@ -4,8 +4,8 @@
 
 namespace coastmesh {
 
-// Where shores meet an open boundary: a piece of that shorter than half the size wanted becomes shore, and so short a
-// piece of shore, of land that hardly reaches in, becomes open. Corners of the open boundary stay.
+// Mends the ends of open boundaries: a piece of open boundary shorter than half the size wanted becomes shore; a piece
+// of shore as short, with land that hardly reaches in, becomes open. Corners of open boundaries stay.
 void mendEnds(ShoreChains& chains, const ShoreLoss& gone);
 
 }  // namespace coastmesh

@@ -6,10 +6,10 @@
 
 namespace coastmesh {
 
-// A domain's graph while its coast is made to follow sizes.
+// A domain's graph while its coast is being fitted to sizes.
 struct ShoreGraph {
   Pslg pslg;                     // labelled
-  std::vector<VertexId> source;  // of each point: the domain's that it is, or kNone
+  std::vector<VertexId> source;  // of each point: index of the domain's point, or kNone
 };
 
 inline bool isBoundary(const Segment& s) { return (s.left >= 0) != (s.right >= 0); }

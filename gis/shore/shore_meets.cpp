@@ -17,8 +17,8 @@ namespace coastmesh {
 namespace {
 
 // Lengths are shares of the size wanted.
-constexpr double kMet = 0.25;                    // what is farther off is left to mending, which lets the shore recede
-constexpr double kAtVertex = 0.25;               // a foot so near to a vertex needs no vertex of its own
+constexpr double kMet = 0.25;                    // farther points are left to mending, which lets the shore recede
+constexpr double kAtVertex = 0.25;               // a foot this near to a vertex uses that
 constexpr double kLeastAngle = toRadians(30.0);  // between a line and the shore
 constexpr int kRounds = 12;
 
@@ -159,7 +159,7 @@ class Meeter {
   ShoreChains& c_;
   const ShoreMeet& met_;
   ShorePieces near_;
-  std::vector<VertexId> beyond_;  // of an end of a line: its other end
+  std::vector<VertexId> beyond_;  // of the end of a segment of a line: its other end
   std::vector<Meeting> planned_;
 };
 

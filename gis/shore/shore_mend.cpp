@@ -15,7 +15,7 @@ namespace {
 
 // Lengths are shares of the size wanted.
 constexpr double kMoved = 0.5;
-constexpr double kClosed = 1.2;  // how far a sharp corner may end from where it was
+constexpr double kClosed = 1.2;  // how far removing a sharp corner may move the shore
 constexpr double kBetter = 0.03;
 constexpr int kRounds = 12;
 constexpr int kDirections = 8;
@@ -33,13 +33,13 @@ class Mender {
   }
 
  private:
-  // A vertex's piece of shore as it would be: p, x, q; or p, q where x is none.
+  // A candidate for a vertex's piece of shore: p, x, q, or p, q if x is nullopt.
   struct Change {
     std::optional<Point> x;
     double quality = 0.0;
   };
 
-  // Moving a vertex moves all of the two segments that it joins.
+  // Divides long segments, because moving a vertex moves all of both its segments.
   void divide() {
     divideAtLines(c_);
     near_.buildTrees();
@@ -94,7 +94,7 @@ class Mender {
 
   bool mend(VertexId v, double quality) {
     const double size = c_.size[v];
-    // What is nearly as wanted need not become much better.
+    // Close to the wanted quality, a smaller improvement is enough.
     Change best{std::nullopt, std::min(quality + kBetter, 1.0)};
     bool found = false;
     if (canTakeOut(c_, v) && canGo(v)) {
@@ -123,7 +123,7 @@ class Mender {
     return true;
   }
 
-  // Without v, within what it may be moved by.
+  // True if removing v moves the shore little enough, with nothing in between.
   bool canGo(VertexId v) const {
     const Point &a = c_.at[c_.prev[v]], &x = c_.at[v], &b = c_.at[c_.next[v]];
     const double most = (waterAngle(a, x, b) < kSmallShoreAngle ? kClosed : kMoved) * c_.size[v];
@@ -137,7 +137,7 @@ class Mender {
   std::vector<Point> from_;
   ShorePieces near_;
   std::vector<char> locked_;
-  std::vector<char> is_new_;  // something near it has changed since it was looked at
+  std::vector<char> is_new_;  // something near has changed since the last check
 };
 
 }  // namespace

@@ -5,10 +5,9 @@
 
 namespace coastmesh {
 
-// Takes vertices of shores out or moves them, by at most half the size wanted, where a segment is short, an angle of
-// the water small, or the water narrow between two shores: in rounds, each change to the better where it is worst,
-// until nothing gets better.
-// `loop` lends threads.
+// Repairs shores with short segments, small angles of the water, or narrow water between them, by removing vertices or
+// moving them by at most half the size wanted; sharp corners may recede further. In up to 12 rounds, the worst places
+// first, until nothing improves; a change improves the worst of these at its place. `loop` provides threads.
 void mendShores(ShoreChains& chains, const ShoreLoss& gone, const ShoreMove& moved, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

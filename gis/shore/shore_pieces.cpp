@@ -15,11 +15,11 @@ namespace {
 // Lengths are shares of the size wanted.
 constexpr double kShort = 0.5;
 constexpr double kNarrow = 0.5;
-constexpr double kWide = 1.4;  // of the least length: in narrower water triangles with such edges are hard to find
-// Two corners of the water between these angles, so near to each other, make the end of it square: triangles without
-// obtuse angles take a vertex in its middle, and with it much shorter edges.
+constexpr double kWide = 1.4;  // of the least length: narrower water hardly has room for triangles with such edges
+// Two corners of the water with angles in this range, and this near to each other, make a square end: triangles without
+// obtuse angles need a vertex in its middle, and so much shorter edges.
 constexpr double kSquareLow = toRadians(62.0), kSquareHigh = toRadians(140.0), kSquareSide = 1.5;
-constexpr double kClearlySquare = toRadians(10.0);  // so far between them, for the quality of a square end:
+constexpr double kClearlySquare = toRadians(10.0);  // this far inside the range, the quality is that of a square end:
 constexpr double kSquareEnd = 0.7;
 constexpr double kLittleMore = 1.0 + 1e-9;  // rounding
 const double kSharp = std::pow(std::cos(kSmallShoreAngle), 2) * (1.0 - 1e-9);
@@ -36,7 +36,7 @@ bool holds(const Point& a, const Point& b, const Point& c, const Point& x) {
   return orient2d(a, b, x) * turn >= 0 && orient2d(b, c, x) * turn >= 0 && orient2d(c, a, x) * turn >= 0;
 }
 
-// The distance of y from ab, with the water to its left; large where y lies on the land's side.
+// The distance of y from ab, with the water to its left; 1e300 if y is on the land's side.
 double apartInWater(const Point& y, const Point& a, const Point& b) {
   return orient2d(a, b, y) <= 0 ? 1e300 : std::sqrt(squaredDistanceToSegment(y, a, b));
 }
@@ -130,7 +130,7 @@ double ShorePieces::qualityOf(VertexId v, const std::optional<Point>& x) const {
   if (!x) return quality;
   for (const auto& [s, e] : segments_) {
     if (s == v || e == v || s == p || e == p || s == q || e == q || !c_.alive[s] || !c_.alive[e]) continue;
-    // With the segment's own water to its left, or a line with water on both sides.
+    // Only on the segment's water side (left); a line has water on both.
     take(std::sqrt(squaredDistanceToSegment(*x, c_.at[s], c_.at[e])) *
          (c_.next[s] == e && orient2d(c_.at[s], c_.at[e], *x) <= 0 ? 1e9 : 1.0) / least);
   }
@@ -194,7 +194,7 @@ bool ShorePieces::isFine(VertexId v) const {
     fine = fine && isAway(s) && isAway(e);
     if (!fine || isOwn(s) || isOwn(e)) return;
     const double apart = squaredDistanceToSegment(x, c_.at[s], c_.at[e]);
-    // A shore with its land on this side does not matter, unless x lies on it.
+    // A shore with its land towards x does not matter, unless x lies on it.
     const bool is_beyond = c_.next[s] == e && orient2d(c_.at[s], c_.at[e], x) < 0;
     fine = apart >= (is_beyond ? 1e-16 : 1.0) * least * least;
   });

@@ -11,54 +11,52 @@
 
 namespace coastmesh {
 
-inline constexpr double kSmallShoreAngle = toRadians(50.0);  // on the water's side: smaller ones make bad triangles
+inline constexpr double kSmallShoreAngle = toRadians(50.0);  // on the water's side; smaller ones make bad triangles
 
-// What lies near a vertex's piece of shore (the vertex and its two neighbours), to judge a place that it may be moved
-// to.
-// Copies share what was built, so that each thread may gather on its own.
+// Finds what lies near a vertex's piece of shore (the vertex and its two neighbours), to judge where the vertex may be
+// moved. Copies share the trees, so that each thread can gather with its own copy.
 class ShorePieces {
  public:
   explicit ShorePieces(const ShoreChains& chains) : c_(chains) {}
 
-  // After many vertices were moved.
+  // Builds the trees of the present shore: again after many vertices have moved.
   void buildTrees();
 
-  // Finds what is near enough to v's piece to matter, if v goes no further than `reach` times the size. What follows
-  // looks at that. REQUIRES: v has both neighbours; `buildTrees`, since when no vertex has moved further than what
-  // `reach` leaves.
+  // Collects what may affect v's piece if v moves by at most `reach` times the size; the methods below use it.
+  // REQUIRES: v has both neighbours; `buildTrees`, and `reach` includes any movement of vertices since.
   void gather(VertexId v, double reach);
   const std::vector<VertexId>& points() const { return points_; }
 
-  // The worst of what v's piece takes part in, 1 where all is as wanted, with v at x or taken out: lengths, angles of
-  // the water, widths of the water.
+  // The quality of v's piece with v at x, or removed if x is nullopt: the worst of its lengths, and of the water's
+  // angles and widths, each as a share of what is wanted, at most 1. REQUIRES: `gather`.
   double qualityOf(VertexId v, const std::optional<Point>& x) const;
 
-  // True only where `qualityOf` v's place is 1: found for most such vertices without `gather`, at a share of its cost.
-  // REQUIRES: `buildTrees`, since when nothing was moved.
+  // True only if `qualityOf` v's present place is 1; false for a few such vertices. Costs a fraction of `gather` and
+  // `qualityOf`. REQUIRES: `buildTrees`, and no moves since.
   bool isFine(VertexId v) const;
 
-  // Whether nothing crosses then, nor lies between the piece as it is and as it would be; `but` and what ends there do
-  // not matter.
+  // True if moving v to x makes nothing cross, and nothing lies between the old and the new piece. Ignores `but` and
+  // what ends there.
   bool canMove(VertexId v, const Point& x, VertexId but = kNone) const;
 
-  // Whether nothing lies between v and the segment that would replace it.
+  // True if nothing lies between v and the segment that would replace it.
   bool canCut(VertexId v) const;
 
-  // How near the rest of the shore then is, by land or by water: what is gathered of it, save the two pieces beside v's
-  // own. Infinite where there is none.
+  // The distance of v's piece, with v at x, from the rest of the shore that was gathered, across land or water, not
+  // counting the two segments next to it. Infinite if there is none.
   double apart(VertexId v, const Point& x) const;
 
  private:
-  // What a segment at v is to be no shorter than, and water no narrower.
+  // The least length of segments at v, and the least width of water.
   double shortestAt(VertexId v) const;
   double narrowestAt(VertexId v) const;
-  // v's piece with v at x or taken out, and its neighbours beyond: up to five places in a row.
+  // The quality of square ends of water: of v's piece as in `qualityOf`, with its next neighbours, up to five points.
   double qualityOfEnds(VertexId v, const std::optional<Point>& x) const;
 
   struct Trees {
     std::vector<std::pair<VertexId, VertexId>> ends;
-    std::vector<VertexId> loose;  // ends of nothing
-    BoxTree points, segments;     // of `loose` and of what leads from end to end
+    std::vector<VertexId> loose;  // vertices of no segment
+    BoxTree points, segments;     // of `loose`, and of the segments between `ends`
   };
 
   const ShoreChains& c_;

@@ -39,7 +39,7 @@ class Shifter {
  private:
   bool canShift(VertexId v) const { return c_.next[v] != kNone && c_.prev[v] != kNone && !c_.stays[v] && !c_.open[v]; }
 
-  // What all moved by `kMost` would bring.
+  // Square metres gained by each region if all its shores move by `kMost`.
   std::map<RegionId, double> reaches() const {
     std::map<RegionId, double> reach;
     for (VertexId v = 0; v < c_.at.size(); ++v) {
@@ -55,7 +55,7 @@ class Shifter {
     const Point &a = c_.at[c_.prev[v]], &b = c_.at[c_.next[v]];
     const double across = distance(a, b), size = c_.size[v];
     if (across == 0.0) return;
-    // The water lies to the left, so that land lies to the right.
+    // Land lies to the right.
     const Point out{(b - a).y / across, (a - b).x / across};
     const Point x = c_.at[v] + share * size * out;
     if (squaredDistance(x, from_[v]) > kMost * kMost * size * size * 1.0001) return;

@@ -16,11 +16,11 @@ namespace {
 // Shares of the size wanted.
 constexpr double kMoved = 0.1;
 constexpr double kLongest = 0.6;
-constexpr double kNearAlong = 1.6;  // along the shore: what is nearer is the same piece of it
+constexpr double kNearAlong = 1.6;  // along the shore: nearer vertices count as the same piece
 constexpr double kMovedOfWidth = 0.2;
 constexpr double kLongestIsland = 3.0;
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
-constexpr double kGrain = 1e-12;                 // of coordinates: what lies so near to a line may lie on it
+constexpr double kGrain = 1e-12;                 // of coordinates: a point this near to a line may lie on it
 
 class Thinner {
  public:
@@ -39,7 +39,7 @@ class Thinner {
       thinning_.dropped(order_[stretch.first], islandArea(stretch));
       for (std::uint32_t i = stretch.first; i < stretch.last; ++i) drop(c_, order_[i]);
     }
-    // Each is judged by the shore as it was.
+    // Each run is judged by the original shore.
     const std::vector<Run> leaving = joined(overStretches(
         loop_, runs.size(),
         [&](std::size_t first, std::size_t last) { return freeOf(std::span(runs).subspan(first, last - first)); },
@@ -53,7 +53,7 @@ class Thinner {
   }
 
  private:
-  // A row of vertices between two that stay, or a ring, whose first vertex is its last one too.
+  // Vertices between two that stay, or a ring, whose first vertex is also the last.
   struct Stretch {
     std::uint32_t first, last;  // places in `order_`
     bool is_ring;
@@ -62,9 +62,9 @@ class Thinner {
   struct Run {
     std::uint32_t first, last;
     std::uint32_t stretch;
-    double off = 0.0;  // how far it lies off its segment, once that is measured
+    double off = 0.0;  // distance from its segment, once measured
   };
-  static constexpr std::size_t kStretch = 2048;  // runs for a thread
+  static constexpr std::size_t kStretch = 2048;  // runs per task
 
   const Point& at(std::uint32_t place) const { return c_.at[order_[place]]; }
   double sizeAt(std::uint32_t place) const { return c_.size[order_[place]]; }
@@ -100,11 +100,12 @@ class Thinner {
       if (c_.alive[v] && !seen[v]) others_.push_back(v);
   }
 
-  // A run goes on while all of it lies near enough to the line from its first vertex to its last: within the angles
-  // that this leaves open.
+  // Extends each run while all of it lies near enough to the line from its first vertex to its last: within the range
+  // of directions that this allows.
   void cutIntoRuns(std::uint32_t s, std::vector<Run>& runs) const {
     const Stretch& stretch = stretches_[s];
-    // A ring keeps three vertices, and what joins two vertices stays apart from whatever else joins them.
+    // A third of the stretch: a ring keeps three vertices, and a stretch remains distinct from others with the same
+    // ends.
     const std::uint32_t most = std::max(1u, (stretch.last - stretch.first) / 3);
     for (std::uint32_t i = stretch.first; i < stretch.last;) {
       const Point& a = at(i);
@@ -112,8 +113,8 @@ class Thinner {
       const double longest = size >= kMuchMore * before ? kLongest * size : 0.0;
       std::uint32_t end = i + 1;
       double farthest = 0.0;
-      bool is_open = true;  // any direction will do
-      Point low, high;      // what else will do lies to the left of one and to the right of the other
+      bool is_open = true;  // all directions are allowed
+      Point low, high;      // else those to the left of `low` and to the right of `high`
       for (std::uint32_t j = i + 1; j <= std::min(stretch.last, i + most); ++j) {
         const Point d = at(j) - a;
         const double far = std::sqrt(squaredLength(d));
@@ -156,7 +157,7 @@ class Thinner {
     return -0.5 * twice;  // the water lies to the left
   }
 
-  // A ring of land with nothing in it.
+  // True for a small ring of land with nothing in it.
   bool isSmallIsland(const Stretch& stretch) const {
     if (!stretch.is_ring) return false;
     Box box;
@@ -185,7 +186,7 @@ class Thinner {
     return is_empty;
   }
 
-  // Of these and of their parts, those that may become segments.
+  // The runs that may become segments, and the largest such parts of the others.
   std::vector<Run> freeOf(std::span<const Run> runs) const {
     std::vector<Run> waiting, free;
     for (const Run& run : runs) {
@@ -207,7 +208,7 @@ class Thinner {
     return free;
   }
 
-  // Sets how far the run lies off its segment; returns where it does so most.
+  // Sets the run's distance from its segment; returns its farthest vertex.
   std::uint32_t measure(Run& run) const {
     const Point &a = at(run.first), &b = at(run.last);
     std::uint32_t farthest = run.first + 1;
@@ -222,7 +223,7 @@ class Thinner {
     return farthest;
   }
 
-  // After `measure`: whether the run may become its segment.
+  // True if the run may become its segment. REQUIRES: `measure`.
   bool isFree(const Run& run) const {
     const Point &a = at(run.first), &b = at(run.last);
     if (run.off > kMoved * (sizeAt(run.first) - sizeBefore(run.first))) return false;
@@ -244,7 +245,7 @@ class Thinner {
     return is_free;
   }
 
-  // Whether a vertex of the other lies between the run and its segment; `beside` holds all that may.
+  // True if a vertex of the other lies between the run and its segment; `beside` contains all that may.
   bool holdsAnyOf(const Run& other, const Run& run, const Box& beside) const {
     if (stretches_[other.stretch].is_gone) return false;
     const bool is_same = other.stretch == run.stretch;
@@ -256,7 +257,7 @@ class Thinner {
     return false;
   }
 
-  // Whether all of the other belongs to the same piece of shore.
+  // True if all of the other belongs to the same piece of shore.
   bool isAllNearAlong(const Run& run, const Run& other) const {
     if (other.stretch != run.stretch || (other.first < run.last && run.first < other.last)) return false;
     const double way =
@@ -264,7 +265,7 @@ class Thinner {
     return way <= kNearAlong * sizeAt(run.first);
   }
 
-  // `box` holds all within `reach` of the run's segment.
+  // `box` contains all within `reach` of the run's segment.
   bool isFreeOf(const Run& run, const Run& other, const Box& box, double reach) const {
     if (stretches_[other.stretch].is_gone) return true;
     const bool is_same = other.stretch == run.stretch;
@@ -277,7 +278,7 @@ class Thinner {
     return true;
   }
 
-  // All between a run and its segment is no further off than the run.
+  // True if x is no farther from the segment than the run, like any point between the two.
   bool isNear(const Point& x, const Run& run) const {
     const double off = run.off + kGrain * (std::abs(x.x) + std::abs(x.y));
     return squaredDistanceToSegment(x, at(run.first), at(run.last)) <= off * off;
@@ -293,7 +294,7 @@ class Thinner {
     return whole.is_ring && round - way <= near;
   }
 
-  // Whether what lies between is land: water to the left of both.
+  // True if land lies between (both have their water to the left), or if narrow water counts too.
   bool isAcrossLand(const Run& run, std::uint32_t i) const {
     if (thinning_.keeps_narrow_water) return true;
     const Point &a = at(run.first), &b = at(run.last), &c = at(i), &d = at(i + 1);
@@ -305,7 +306,7 @@ class Thinner {
                      squaredDistanceToSegment(c, a, b), squaredDistanceToSegment(d, a, b)}) <= reach * reach;
   }
 
-  // Whether x may lie between the run and its segment: across the segment these lie on both sides of it.
+  // True if x may lie between the run and its segment: across the segment, they lie on both sides of x.
   bool isBetween(const Point& x, const Run& run) const {
     const Point &a = at(run.first), &b = at(run.last);
     const Point along = order_[run.first] != order_[run.last] ? b - a : Point{1.0, 0.0};
@@ -337,13 +338,13 @@ class Thinner {
   const ShoreThinning& thinning_;
   const ShoreLoss& gone_;
   const ItemLoop& loop_;
-  std::vector<VertexId> order_;  // stretch after stretch
+  std::vector<VertexId> order_;  // vertices, by stretch
   std::vector<double> way_;      // along the stretch
   std::vector<Stretch> stretches_;
   std::vector<VertexId> others_;  // vertices on no shore
   std::vector<Run> runs_;
   std::vector<Box> boxes_;
-  BoxTree tree_;  // of `boxes_`: of `runs_`, then of `others_`
+  BoxTree tree_;  // of `boxes_`: those of `runs_`, then of `others_`
 };
 
 }  // namespace
