@@ -20,7 +20,7 @@ constexpr Parameter kFalseOrigin[] = {{SRS_PP_FALSE_EASTING, "false_easting"},
 struct Method {
   const char* ogr;
   const char* cf;
-  std::vector<Parameter> parameters;  // less the false origin
+  std::vector<Parameter> parameters;  // without the false origin
 };
 
 const std::vector<Method>& methods() {

@@ -10,7 +10,7 @@ namespace coastmesh {
 
 // The attributes of a CRS in the CF conventions besides its WKT (CF 1.8, Appendix F).
 struct CfGridMapping {
-  std::string name;  // grid_mapping_name; "Unknown projected" as D-FlowFM has it where CF knows no name
+  std::string name;  // grid_mapping_name; "Unknown projected", as D-FlowFM writes it, if CF has no name
   std::vector<std::pair<std::string, double>> parameters;
 };
 

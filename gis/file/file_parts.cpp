@@ -15,15 +15,15 @@
 namespace coastmesh {
 namespace {
 
-constexpr std::uint64_t kWindow = std::uint64_t{2} << 20;  // bytes that are made and written at once
-// What disks want offsets, lengths and addresses to be multiples of.
+constexpr std::uint64_t kWindow = std::uint64_t{2} << 20;  // bytes made and written at once
+// O_DIRECT requires offsets, lengths and addresses that are multiples of this.
 constexpr std::uint64_t kSector = 4096;
 
 [[noreturn]] void fail(const std::string& path, int error) {
   throw OutputError("cannot write '" + path + "': " + std::strerror(error));
 }
 
-// An open file, and past the system's cache where that is wanted and the file system can.
+// An open file, written past the page cache if requested and supported by the file system.
 class OpenFile {
  public:
   OpenFile(const std::string& path, bool past_cache) : path_(path) {
@@ -38,12 +38,12 @@ class OpenFile {
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
-  // Takes the disk space beforehand: in one piece, and a full disk shows before anything is made.
+  // Reserves the disk space beforehand: in one piece, and a full disk is reported before anything is made.
   void allocate(std::uint64_t size) const {
     while (::fallocate(cached_, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0) {
       if (errno == EINTR) continue;
       if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) fail(path_, errno);
-      return;  // not every file system can; writing says what else is wrong
+      return;  // not every file system can; writing reports other errors
     }
   }
 
@@ -53,7 +53,7 @@ class OpenFile {
       const ssize_t written = ::pwrite(direct ? direct_ : cached_, bytes.data(), bytes.size(), static_cast<off_t>(at));
       if (written < 0 && errno == EINTR) continue;
       if (direct && (written <= 0 || static_cast<std::size_t>(written) % kSector != 0)) {
-        direct = false;  // the disk wants it otherwise, or says by the usual way what is wrong
+        direct = false;  // other alignment needed, or an error that the cached write reports
         continue;
       }
       if (written <= 0) fail(path_, written < 0 ? errno : EIO);
@@ -62,7 +62,7 @@ class OpenFile {
     }
   }
 
-  // Says what systems say at the end alone.
+  // Throws errors that systems report only on closing.
   void close() {
     const int file = cached_;
     cached_ = -1;
@@ -87,7 +87,7 @@ void writeParts(const std::string& path, std::vector<FilePart> parts, const Item
   if (all >= large_file) file.allocate(size);
   const auto writeWindow = [&](std::uint64_t begin, std::byte* const buffer) {
     const std::uint64_t end = std::min(begin + kWindow, size);
-    // Parts side by side are written at once.
+    // Adjacent parts are written together.
     std::uint64_t from = begin, to = begin;
     const auto flush = [&] { file.write(from, {buffer + (from - begin), to - from}); };
     const auto endOf = [](const FilePart& p) { return p.begin + p.size; };

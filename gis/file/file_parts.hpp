@@ -11,15 +11,15 @@
 
 namespace coastmesh {
 
-// A part of a file, made where it is needed: `fill(first, bytes)` sets the bytes starting at the part's byte `first`.
-// It is called for sections of the part in any order, from several threads at the same time.
+// A part of a file, made on demand: `fill(first, bytes)` sets the bytes starting at the part's byte `first`. It is
+// called for sections of the part in any order, from several threads at the same time.
 struct FilePart {
   std::uint64_t begin = 0, size = 0;  // bytes
   std::function<void(std::uint64_t first, std::span<std::byte> bytes)> fill;
 };
 
-// A file of at least this size is written without the page cache: filling that with hundreds of megabytes takes longer
-// than a fast disk does.
+// Parts of at least this size in total are written without the page cache: filling it with hundreds of megabytes takes
+// longer than writing to a fast disk.
 inline constexpr std::uint64_t kLargeFile = std::uint64_t{64} << 20;
 
 // Writes parts, which do not overlap, into an existing file; the rest of it is unchanged. Memory: a few megabytes per

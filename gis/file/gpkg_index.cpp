@@ -82,7 +82,7 @@ GeoPackageIndex::Cell GeoPackageIndex::cellOf(std::uint32_t row) const {
           {roundedDown(box.low.x), roundedUp(box.high.x), roundedDown(box.low.y), roundedUp(box.high.y)}};
 }
 
-// What the i-th node of a level holds.
+// The cells of the i-th node of a level.
 std::vector<GeoPackageIndex::Cell> GeoPackageIndex::cellsOf(std::size_t level, std::uint64_t i) const {
   std::vector<Cell> cells;
   cells.reserve(kCells);

@@ -12,24 +12,24 @@
 
 namespace coastmesh {
 
-// The spatial index of a GeoPackage's layer, made whole from all boxes at once, as the three tables behind SQLite's
-// R*Tree: entering rows one by one, as OGR before 3.7 does, takes five times as long as writing the features.
+// The spatial index of a GeoPackage's layer, built from all boxes at once, as the three tables behind SQLite's R*Tree:
+// inserting rows one by one, as OGR before 3.7 does, takes five times as long as writing the features.
 class GeoPackageIndex {
  public:
   // The first page of each table.
   struct Roots {
     std::uint64_t nodes = 0, rows = 0, parents = 0;
   };
-  // Bytes of a node of a tree in a file with pages of 4096.
+  // The size of a node, in bytes, in a file with pages of 4096 bytes.
   static constexpr std::size_t kNodeBytes = 1228;
 
-  // `box` of each row below `rows`, which has the fid row + 1; called from several threads at the same time.
+  // `box(row)`, for row < `rows`, is the box of fid row + 1; called from several threads at the same time.
   GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std::uint32_t row)> box, const ItemLoop& loop);
 
   // The box of all rows. REQUIRES: there is a row.
   const IndexBox& bounds() const { return bounds_; }
 
-  // REQUIRES: this outlives what is added, and stays where it is.
+  // REQUIRES: this object outlives the tables added, and is not moved.
   void addTables(const Roots& roots, std::vector<SqliteTable>& tables) const;
 
  private:
@@ -39,7 +39,7 @@ class GeoPackageIndex {
   };
   struct Level {
     std::uint64_t first = 0;  // the number of its first node; others follow it
-    std::vector<Cell> nodes;  // in the order of the level above
+    std::vector<Cell> nodes;  // children of one parent are consecutive
   };
 
   std::size_t levelOf(std::uint64_t node) const;
@@ -51,7 +51,7 @@ class GeoPackageIndex {
 
   std::function<IndexBox(std::uint32_t)> box_;
   IndexBox bounds_;
-  std::vector<std::uint32_t> order_, leaf_;  // rows as the leaves have them, and in which of these each row is
+  std::vector<std::uint32_t> order_, leaf_;  // rows in the order of the leaves; the leaf of each row
   std::vector<Level> levels_;                // from the leaves to the root
 };
 

@@ -178,7 +178,7 @@ std::optional<double> NetcdfReader::number(const std::string& variable, const st
 
 std::size_t NetcdfReader::sizeOf(const std::string& variable) const {
   std::size_t size = 1;
-  // A damaged header may claim any length; a byte of the file holds one value, deflated at most some thousand.
+  // A damaged header may claim any length. A byte of the file encodes at most one value, or some thousand if deflated.
   int format = 0;
   check(nc_inq_format(id_, &format));
   const bool deflated = format == NC_FORMAT_NETCDF4 || format == NC_FORMAT_NETCDF4_CLASSIC;

@@ -14,8 +14,7 @@
 
 namespace coastmesh {
 
-// An open NetCDF file. Writing throws OutputError with the path and the reason, reading
-// InputError.
+// An open NetCDF file. Writing throws OutputError with the path and the reason, reading InputError.
 class NetcdfWriter {
  public:
   // `large`: arrays of more than 4 GiB, in a format that fewer programs read.
@@ -37,8 +36,8 @@ class NetcdfWriter {
   void put(int variable, const double* values);
   void put(int variable, const signed char* values);
   void put(int variable, const char* values);
-  // `count` values of a variable of NC_INT or NC_DOUBLE, returned by `valueOf(i)`. They are made when the file is
-  // closed, by the threads of `close`, and written without the library, which is single-threaded.
+  // Sets a variable of NC_INT or NC_DOUBLE to the `count` values `valueOf(i)`. They are made when the file is closed,
+  // by the threads of `close`, and written without the library, which is single-threaded.
   template <typename ValueOf>
   void putLater(int variable, std::size_t count, ValueOf valueOf) {
     using Value = decltype(valueOf(count));
@@ -53,7 +52,7 @@ class NetcdfWriter {
  private:
   void check(int status) const;
 
-  // Values in the format's byte order, starting with byte `first` of all of them.
+  // Fills `bytes` with values in the format's byte order, starting at byte `first` of the variable.
   template <typename Value, typename ValueOf>
   static void fillWith(std::uint64_t first, std::span<std::byte> bytes, const ValueOf& valueOf) {
     using Bits = std::conditional_t<sizeof(Value) == 4, std::uint32_t, std::uint64_t>;
@@ -88,7 +87,7 @@ class NetcdfWriter {
 
   std::string path_;
   int id_ = -1;
-  std::vector<std::pair<int, FilePart>> later_;  // by variables' numbers
+  std::vector<std::pair<int, FilePart>> later_;  // variables' numbers and values
 };
 
 class NetcdfReader {
@@ -108,7 +107,7 @@ class NetcdfReader {
   std::optional<double> number(const std::string& variable, const std::string& attribute) const;
   std::vector<double> doubles(const std::string& variable) const;
   std::vector<std::int64_t> integers(const std::string& variable) const;
-  std::vector<std::string> texts(const std::string& variable) const;  // rows of characters, filled up with zeros
+  std::vector<std::string> texts(const std::string& variable) const;  // rows of characters, padded with zeros
 
   [[noreturn]] void fail(const std::string& what) const;
 

@@ -8,7 +8,7 @@
 namespace coastmesh {
 namespace {
 
-// Walks the header as "The NetCDF Classic Format Specification" lays it out. Once something does not fit, nothing does.
+// Walks the header as in "The NetCDF Classic Format Specification". After the first misfit nothing more is read.
 class HeaderWalk {
  public:
   explicit HeaderWalk(const std::string& path) : file_(path, std::ios::binary | std::ios::ate) {
@@ -54,7 +54,7 @@ class HeaderWalk {
     return value;
   }
 
-  // Values are filled up to four bytes.
+  // Values are padded to a multiple of four bytes.
   void skip(std::uint64_t values, std::uint64_t bytes_each) {
     sound_ = sound_ && values <= left_ / bytes_each;
     if (!sound_) return;
@@ -65,8 +65,8 @@ class HeaderWalk {
 
   void name() { skip(count(), 1); }
 
-  // Strings, the twelfth, have no size in these files: the library divides by it, and takes what follows for something
-  // else. 0 where it is none of the others.
+  // A type, or 0 if it is not valid. The twelfth, strings, has no size in these files: the library divides by that
+  // size, and misreads the rest of the header.
   std::uint64_t type() {
     constexpr std::uint64_t kTypes = 11;
     const std::uint64_t type = number(4);
@@ -86,7 +86,7 @@ class HeaderWalk {
   void list(auto&& item) {
     number(4);  // tag
     const std::uint64_t items = count();
-    for (std::uint64_t i = 0; sound_ && i < items; ++i) item();  // every item takes bytes of the file
+    for (std::uint64_t i = 0; sound_ && i < items; ++i) item();  // bounded: every item takes bytes of the file
   }
 
   std::ifstream file_;

@@ -6,7 +6,7 @@
 
 namespace coastmesh {
 
-// Whether no list or value in the header of a classic NetCDF file (CDF-1, 2 or 5) claims more bytes than the file has,
+// True if no list or value in the header of a classic NetCDF file (CDF-1, 2 or 5) claims more bytes than the file has,
 // and all variables and attributes have types of such files; true for every other file. The NetCDF library allocates
 // and reads whatever a damaged header claims.
 bool headerFitsFile(const std::string& path);

@@ -12,9 +12,9 @@
 namespace coastmesh {
 namespace {
 
-constexpr int kDepth = 4;  // folders within folders; there is one, of files that are replaced
+constexpr int kDepth = 4;  // levels of folders; there is one, for replaced files
 
-// A descriptor set aside, or -1; taken by one of several threads, or by a handler of a signal.
+// A spare descriptor, or -1. Several threads and signal handlers may compete for it.
 int g_spare = -1;
 
 int openFolder(const char* path) {
@@ -27,7 +27,7 @@ int openFolder(const char* path) {
   return open(path, kFlags);
 }
 
-// A path that grows without memory being asked for; empty once it is too long.
+// A path that grows without allocating memory. Text that would make it too long is not appended.
 class Path {
  public:
   explicit Path(const char* path) { append(path); }
@@ -48,8 +48,8 @@ class Path {
   char text_[PATH_MAX] = {};
 };
 
-// Removes what lies in a folder, but for folders that are not empty: `left` is the name of one of these, or empty.
-// Entries are read as the system gives them: the C library would ask for memory.
+// Removes the entries of a folder, except folders that are not empty: `left` is the name of one of these, or empty.
+// False if the folder exists but cannot be opened. Reads entries by a system call: the C library allocates memory.
 bool removeEntries(const char* path, char (&left)[NAME_MAX + 1]) {
   left[0] = '\0';
   const int folder = openFolder(path);
@@ -75,9 +75,9 @@ bool removeEntries(const char* path, char (&left)[NAME_MAX + 1]) {
   return true;
 }
 
-// One folder is open at a time: there may be no more descriptors.
+// Keeps only one folder open at a time, as there may be no more descriptors.
 bool removeIn(Path& path, int depth) {
-  constexpr int kMostFolders = 1000;  // others may be making them all the time
+  constexpr int kMostFolders = 1000;  // other processes may keep making them
   char left[NAME_MAX + 1] = {};
   bool goes_on = true;
   for (int i = 0; i < kMostFolders && goes_on; ++i) {

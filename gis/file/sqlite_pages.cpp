@@ -17,14 +17,14 @@ namespace {
 constexpr std::uint64_t kPage = 4096;
 constexpr std::byte kLeaf{0x0D}, kInner{0x05};
 constexpr std::size_t kLeafHeader = 8, kInnerHeader = 12, kPointer = 2, kChild = 4;
-// SQLite locks a byte here: no page of a table may hold it.
+// SQLite's lock byte is in this page, which no table may use.
 constexpr std::uint64_t kLockPage = 0x40000000 / kPage + 1;
 
 std::size_t varintSize(std::uint64_t value) {
   return std::min<std::size_t>(9, (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7);
 }
 
-// Groups of seven bits, the highest first, all but the last marked; nine bytes end with eight bits.
+// Groups of seven bits, the highest first, with the top bit set in all but the last; a ninth byte has eight bits.
 std::byte* putVarint(std::byte* to, std::uint64_t value) {
   if (value < 128) {
     *to = static_cast<std::byte>(value);
@@ -55,12 +55,12 @@ std::uint64_t bigEndianAt(std::span<const std::byte> bytes, std::size_t at, unsi
   return value;
 }
 
-// New pages behind those that a file has.
+// The numbers of new pages, after those of the file.
 class PageNumbers {
  public:
   explicit PageNumbers(std::uint64_t pages) : next_(pages + 1) {}
 
-  // The number of the first of so many pages, of which the one that may not be used is none.
+  // Takes `count` pages, skipping the lock page, and returns the number of the first; `numberOf` returns the others.
   std::uint64_t take(std::uint64_t count) {
     if (next_ == kLockPage) ++next_;
     const std::uint64_t first = next_;
@@ -76,7 +76,7 @@ class PageNumbers {
   std::uint64_t next_;
 };
 
-// Cells from a page's end downwards, and where each begins after the header.
+// Fills a page: cells from its end downwards, and their offsets after the header.
 class PageFiller {
  public:
   PageFiller(std::byte* page, std::byte kind, std::size_t header) : page_(page), header_(header) {
@@ -98,10 +98,10 @@ class PageFiller {
   std::size_t header_, end_ = kPage, cells_ = 0;
 };
 
-// Where rows lie: leaf k has those from `first_row[k]` on, and the last entry is the number of rows.
+// Rows by leaf: leaf k has those from `first_row[k]` on, and the last entry is the number of rows.
 struct Leaves {
   std::vector<std::uint64_t> first_row;
-  std::uint64_t first_page = 0;  // of several; a single leaf is the root
+  std::uint64_t first_page = 0;  // of several leaves; a single leaf is the root
 
   std::uint64_t count() const { return first_row.size() - 1; }
 };
@@ -149,13 +149,13 @@ void fillLeaf(const SqliteTable& table, const Leaves& leaves, std::uint64_t leaf
   filler.finish();
 }
 
-// A page, and the greatest number of a row below it.
+// A page, and the largest row number in its subtree.
 struct Child {
   std::uint64_t page = 0, greatest = 0;
 };
 using Page = std::array<std::byte, kPage>;
 
-// REQUIRES: they fit into a page.
+// REQUIRES: the children fit into a page.
 void fillInner(std::span<const Child> children, std::byte* page) {
   PageFiller filler(page, kInner, kInnerHeader);
   for (const Child& child : children.first(children.size() - 1)) {
@@ -178,14 +178,14 @@ class TableWriter {
     for (std::uint64_t k = 0; k < leaves_.count(); ++k)
       level.push_back({PageNumbers::numberOf(leaves_.first_page, k),
                        static_cast<std::uint64_t>(table.first) + leaves_.first_row[k + 1] - 1});
-    // As many a page as fit with numbers of any length.
+    // Children that fit into a page even if all row numbers have the full length.
     constexpr std::size_t kChildren = (kPage - kInnerHeader) / (kPointer + kChild + 9);
     while (level.size() > kChildren) {
       std::vector<Child> above;
       const std::uint64_t pages = (level.size() + kChildren - 1) / kChildren;
       const std::uint64_t first = numbers.take(pages);
       for (std::uint64_t k = 0; k < pages; ++k) {
-        // In equal shares: SQLite takes a page of a single child for damage.
+        // In equal shares, because SQLite treats a page with a single child as corrupt.
         const std::size_t from = level.size() * k / pages, to = level.size() * (k + 1) / pages;
         const std::span<const Child> children = std::span(level).subspan(from, to - from);
         above.push_back({PageNumbers::numberOf(first, k), children.back().greatest});
@@ -222,8 +222,8 @@ class TableWriter {
     if (before < count) parts.push_back(partOf(PageNumbers::numberOf(first, before), before, count - before));
   }
 
-  // So many leaves on pages one after another. Windows of a file are made of whole pages, since these begin at
-  // multiples of their size.
+  // `count` leaves, from `leaf` on, on consecutive pages. `fill` always gets whole pages: these begin at multiples of
+  // their size, of which a window of `writeParts` is a multiple too.
   FilePart partOf(std::uint64_t page, std::uint64_t leaf, std::uint64_t count) const {
     const auto fill = [this, leaf](std::uint64_t first, std::span<std::byte> bytes) {
       SqliteRow row(SqliteRow::Keeps::Values);
@@ -238,7 +238,7 @@ class TableWriter {
   std::vector<std::pair<std::uint64_t, std::unique_ptr<Page>>> inner_;
 };
 
-// What the file's first page says.
+// The header in the file's first page. Throws OutputError if it is not as expected.
 struct DatabaseHeader {
   static constexpr std::size_t kBytes = 100, kPages = 28;
   std::uint64_t pages = 0;
@@ -279,7 +279,7 @@ void SqliteRow::whole(std::int64_t value) {
   bigEndian(bits, *size);
 }
 
-// The length counts itself; headers of more than 127 bytes say so in two.
+// The header's length includes its own bytes: one, or two for headers of more than 127 bytes.
 std::size_t SqliteRow::size() const {
   const std::size_t own = varintSize(header_size_ + 1);
   return own + header_size_ + body_size_;

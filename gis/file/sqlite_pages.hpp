@@ -17,7 +17,7 @@
 
 namespace coastmesh {
 
-// Writes a number's last bytes, at most eight, and returns the position after them.
+// Writes the lowest `bytes` bytes of a number, 1 to 8, and returns the position after them.
 inline std::byte* putBigEndian(std::byte* to, std::uint64_t value, unsigned bytes) {
   static_assert(std::endian::native == std::endian::little);
   const std::uint64_t turned = __builtin_bswap64(value) >> (64 - 8 * bytes);
@@ -60,7 +60,7 @@ class SqliteRow {
     type(serial);
     return room(body_, body_size_, size);
   }
-  // The next bytes of a part; none if the row would be too large, or only the size is requested.
+  // The next bytes of a part; empty if the row would be too large, or only the size is requested.
   std::span<std::byte> room(std::array<std::byte, kLargestSqliteRow>& part, std::size_t& used, std::size_t size) const {
     const std::size_t at = std::exchange(used, used + size);
     return keeps_values_ && used <= part.size() ? std::span(part).subspan(at, size) : std::span<std::byte>();
@@ -71,7 +71,7 @@ class SqliteRow {
   std::array<std::byte, kLargestSqliteRow> header_, body_;  // set as far as used
 };
 
-// The rows of a table without other rows, numbered from `first`.
+// All rows of a table, numbered from `first`.
 struct SqliteTable {
   std::uint64_t root = 0;  // the table's first page, from sqlite_master
   std::uint64_t rows = 0;
@@ -81,8 +81,9 @@ struct SqliteTable {
 };
 
 // Replaces the rows of tables in a database that no program has open: their pages are made by all threads and written
-// without SQLite, which processes one row after another. Not for tables with indices other than the order of their
-// rows, or with triggers. Throws OutputError, also for a file that is not such a database.
+// without SQLite, which processes one row after another. REQUIRES: a table's present rows are on its first page; it has
+// no triggers, and no index other than the order of its rows. Throws OutputError, also for a file that is not such a
+// database.
 void writeSqliteTables(const std::string& path, const std::vector<SqliteTable>& tables, const ItemLoop& loop);
 
 }  // namespace coastmesh

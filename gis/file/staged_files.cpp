@@ -106,7 +106,7 @@ class Moves {
     if (isThere(target)) rename(target, backup, target);
   }
 
-  // Replaces the file at `target` by `from`, without a moment between if the file system has hard links.
+  // Replaces the file at `target` by `from`, atomically if the file system has hard links.
   void replace(const fs::path& from, const fs::path& target, const fs::path& backup) {
     if (isThere(target)) {
       requireReplaceable(target, true);
@@ -233,7 +233,7 @@ template <typename Moves>
 void StagedFiles::move(Moves& moves) const {
   const fs::path staging(staging_folder_), folder = folderOf(path_), backups = staging / kBackupFolder;
   std::error_code error;
-  const std::vector<fs::path> staged = filesIn(staging);  // sorted: a solver's partition has two files a process
+  const std::vector<fs::path> staged = filesIn(staging);  // sorted: a partition has two files per process
   fs::create_directory(backups, error);
   if (error) failToWrite(path_, error.message());
   std::vector<fs::path> old(files_.targets.begin(), files_.targets.end());

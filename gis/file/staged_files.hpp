@@ -22,8 +22,8 @@ class StagedFiles {
   StagedFiles(StagedFiles&&) noexcept;
   StagedFiles& operator=(StagedFiles&&) = delete;
 
-  // Calls `writer` to make the files, given the path of the main one, replacing any made before. Throws what it throws;
-  // an OutputError names the target instead of that path.
+  // Calls `writer` with the staged path of the main file to make the files, replacing any made before. Throws what it
+  // throws; an OutputError names the target instead of that path.
   void make(const std::function<void(const std::string& path)>& writer);
   void write(std::string_view content);  // throws OutputError
   // Drops the new `target` and keeps the existing one.

@@ -20,10 +20,10 @@ class TextReader {
   void needLine();  // the same, for a line that must exist
   std::string_view line() const { return line_; }
 
-  bool hasWord();           // whether there is another word in the line
+  bool hasWord();           // true if there is another word in the line
   std::string_view word();  // the next word of the line; empty at its end
   double number();          // the next word as a finite number
-  std::int64_t integer();   // one whose negative is an integer too
+  std::int64_t integer();   // not the smallest, which has no negative
   std::uint64_t count();    // an integer that is not negative
 
   [[noreturn]] void fail(const std::string& what) const;
@@ -46,7 +46,7 @@ class TextReader {
 // Maps numbers of nodes or elements in a file (any, in any order) to their indices.
 class IdMap {
  public:
-  // `ids` in the file's order; throws through `file.fail` if one repeats.
+  // `ids` in the file's order. Throws InputError, with `what` as the name of an id, if one repeats.
   IdMap(std::vector<std::int64_t> ids, const TextReader& file, std::string_view what);
 
   // kNone for an id that does not exist.
@@ -60,7 +60,7 @@ class IdMap {
 
   std::int64_t base_ = 0;
   std::size_t count_ = 0;
-  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // empty where the ids are base, base + 1, ...
+  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // empty if the ids are base, base + 1, ...
 };
 
 }  // namespace coastmesh

@@ -67,8 +67,8 @@ void TextWriter::put(const char* bytes, std::size_t size) {
   beginToFlush();
 }
 
-// The disk works while the rest is made. Left to itself the system begins when a tenth of the memory is full, and then
-// whoever waits for the file waits for all of it.
+// Lets the disk write while the rest is made. By default the system begins only when a tenth of the memory is dirty, so
+// that a later sync waits for all of it.
 void TextWriter::beginToFlush() {
 #ifdef SYNC_FILE_RANGE_WRITE
   if (put_ - flushed_ < kFlushedAtOnce) return;

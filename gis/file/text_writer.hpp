@@ -69,14 +69,14 @@ class TextWriter {
   // Bytes unchanged, for binary parts of a file.
   void raw(const void* bytes, std::size_t size) { *this << std::string_view(static_cast<const char*>(bytes), size); }
 
-  // `row(block, i)` for every i below `count`, in this order in the file, made block by block by the threads of `loop`.
+  // Writes `row(block, i)` for every i below `count`, in this order, made block by block by the threads of `loop`.
   template <typename Row>
   void rows(const ItemLoop& loop, std::size_t count, const Row& row) {
     constexpr std::size_t kRowsABlock = 1024, kBlocksAtOnce = 64;
     std::vector<TextBlock> made, next(std::min(kBlocksAtOnce, count / kRowsABlock + 1));
     made.resize(next.size());
     flush();
-    // While some are made, one thread writes the previous ones.
+    // While blocks are made, one thread writes the previous ones.
     for (std::size_t first = 0, written = 0; first < count || written > 0;) {
       const std::size_t blocks = std::min(next.size(), (count - first + kRowsABlock - 1) / kRowsABlock);
       loop(blocks + 1, [&](std::size_t b) {
@@ -112,7 +112,7 @@ class TextWriter {
 
   std::string path_;
   int file_ = -1;
-  std::int64_t put_ = 0, flushed_ = 0;  // bytes: in the system's hands, and on their way to the disk
+  std::int64_t put_ = 0, flushed_ = 0;  // bytes passed to the system; of these, sent to the disk
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };

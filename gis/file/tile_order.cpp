@@ -10,12 +10,12 @@
 namespace coastmesh {
 namespace {
 
-// A row, and the middle of its box in parts of the whole.
+// A row, and the middle of its box in units of 2^-32 of the bounds.
 struct Place {
   std::uint32_t x = 0, y = 0, row = 0;
 };
 
-// 32 bits are three digits.
+// Keys of 32 bits have three digits.
 constexpr unsigned kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 
@@ -36,7 +36,7 @@ IndexBox boundsOf(std::uint32_t rows, const std::function<IndexBox(std::uint32_t
   return all;
 }
 
-// A coordinate in parts of a range of coordinates; halves, so that no difference is too large.
+// Scales the middle of an interval to 32 bits of a range. Calculates with halves, so that no difference overflows.
 class Scale {
  public:
   Scale(double low, double high) : low_(low / 2), range_(high / 2 - low / 2) {}
@@ -51,8 +51,8 @@ class Scale {
   double low_, range_;
 };
 
-// Sorts by a key of which the digits from so many bits on count, digit by digit from the last one; equal ones keep
-// their order. The result is in one of the two spans, which are of one length: that one.
+// Sorts by the lowest `digits` digits of a key, from the last digit to the first; equal keys keep their order. Returns
+// the one of the two spans, which have the same length, that has the result.
 template <typename Key>
 std::span<Place> sortByDigits(std::span<Place> places, std::span<Place> spare, const Key& key, unsigned digits) {
   constexpr std::size_t kFew = 256;
@@ -72,8 +72,7 @@ std::span<Place> sortByDigits(std::span<Place> places, std::span<Place> spare, c
   return places;
 }
 
-// Deals places out by the first digit of x, those of one digit in their order; returns where each digit begins, and the
-// end. All places are in `to` then.
+// Sorts places by the first digit of x, stably, from `from` into `to`; returns where each digit begins, and the end.
 std::vector<std::size_t> dealByX(std::span<const Place> from, std::span<Place> to, const ItemLoop& loop) {
   constexpr std::size_t kStretches = 64;
   constexpr unsigned kFirstDigit = 32 - kDigitBits;
@@ -96,7 +95,8 @@ std::vector<std::size_t> dealByX(std::span<const Place> from, std::span<Place> t
   return first;
 }
 
-// The places by x, as far as slices of so many differ by it; they are in `to` then. `from` is used up.
+// Sorts places by x from `from` into `to`, as far as needed to divide them into slices of `slice` places; `from` is
+// overwritten.
 void dealToSlices(std::span<Place> from, std::span<Place> to, std::size_t slice, const ItemLoop& loop) {
   constexpr std::size_t kWorthDealing = 65536;
   const auto sortByX = [](std::span<Place> places, std::span<Place> spare, unsigned digits) {
@@ -111,7 +111,7 @@ void dealToSlices(std::span<Place> from, std::span<Place> to, std::size_t slice,
   const std::vector<std::size_t> first = dealByX(from, to, loop);
   loop(kDigits, [&](std::size_t digit) {
     const std::size_t begin = first[digit], count = first[digit + 1] - begin;
-    // What lies in one slice may stay as it is.
+    // The order within a slice does not matter.
     if (count == 0 || begin / slice == (begin + count - 1) / slice) return;
     const std::span<Place> places = to.subspan(begin, count);
     const std::span<Place> sorted = sortByX(places, from.subspan(begin, count), 2);

@@ -17,8 +17,8 @@ std::string wholeFile(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              [](std::FILE* f) { return f ? std::fclose(f) : 0; });
   if (!file) refuse(errno);
-  std::setvbuf(file.get(), nullptr, _IONBF, 0);  // straight to where the bytes stay
-  // The size is a hint alone: a pipe has none, and a file may grow. One byte more, and the first look tells the end.
+  std::setvbuf(file.get(), nullptr, _IONBF, 0);  // reads directly into `bytes`
+  // The size is only a hint: a pipe has none, and a file may grow. One extra byte lets the first read find the end.
   constexpr std::uintmax_t kLeast = 1 << 12;
   std::error_code unknown;
   const std::uintmax_t size = std::filesystem::file_size(path, unknown);

@@ -4,7 +4,7 @@
 
 namespace coastmesh {
 
-// All bytes of a file or of a pipe. Memory: little more than those. Throws InputError with the path and the system's
+// All bytes of a file or a pipe. Takes little more memory than these. Throws InputError with the path and the system's
 // reason.
 std::string wholeFile(const std::string& path);
 

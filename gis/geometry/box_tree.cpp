@@ -12,7 +12,7 @@ namespace {
 
 Point centreOf(const Box& box) { return {box.xmin / 2 + box.xmax / 2, box.ymin / 2 + box.ymax / 2}; }
 
-// Empty boxes, which have no centre, follow the box before them.
+// Empty boxes, which have no centre, take that of the box before them.
 std::vector<std::uint32_t> orderByCentre(const std::vector<Box>& boxes) {
   const auto first = std::ranges::find_if_not(boxes, &Box::empty);
   Point last = first != boxes.end() ? centreOf(*first) : Point{};

@@ -9,12 +9,12 @@
 
 namespace coastmesh {
 
-// A static tree over boxes, packed in one array: level 0 holds the boxes themselves, each box of a higher level
-// encloses kFanout neighbours of the level below. Neighbours are neighbours in the order given (a chain's edges, which
-// lie side by side by nature) or along a Hilbert curve. After Roussopoulos & Leifker, "Direct spatial search on
+// A static tree over boxes, packed in one array: level 0 has the boxes themselves, each box of a higher level encloses
+// kFanout neighbours of the level below. Neighbours are consecutive in the given order (for the edges of a chain, which
+// are close together anyway) or along a Hilbert curve. After Roussopoulos & Leifker, "Direct spatial search on
 // pictorial databases using packed R-trees" (1985), and Kamel & Faloutsos, "On packing R-trees" (1993).
-// Boost.Geometry's R-tree keeps its nodes to itself; chains need them: a node that lies wholly beside a point is done
-// with by the ends of its chain (see ChainIndex).
+// Boost.Geometry's R-tree does not expose its nodes. ChainIndex needs them: if a node lies entirely to one side of a
+// point, the ends of its part of the chain are enough.
 class BoxTree {
  public:
   enum class Order { Given, Hilbert };
@@ -25,7 +25,7 @@ class BoxTree {
   std::size_t size() const { return level_begin_.empty() ? 0 : level_begin_[1]; }
   Box bounds() const { return boxes_.empty() ? Box{} : boxes_.back(); }
 
-  // Items by blocks of neighbours, in Order::Hilbert.
+  // Items in blocks of neighbours. REQUIRES: Order::Hilbert.
   std::size_t blockCount() const { return (size() + kFanout - 1) / kFanout; }
   std::span<const std::uint32_t> block(std::size_t number) const {
     const std::size_t first = number * kFanout;
@@ -38,8 +38,9 @@ class BoxTree {
     descend([&](const Box& box, std::size_t, std::size_t) { return box.meets(query); }, found);
   }
 
-  // Calls `enter(box, first, last)` for nodes from the root down, where [first, last) are positions in the packing
-  // (items, in Order::Given), and goes below those for which it is true; `found(item)` for the items entered.
+  // Calls `enter(box, first, last)` for nodes from the root down, and visits the children of those for which it returns
+  // true; [first, last) are positions in the packed order (items, for Order::Given). Calls `found(item)` for the items
+  // entered.
   template <typename Enter, typename Found>
   void descend(Enter&& enter, Found&& found) const {
     if (boxes_.empty()) return;
@@ -65,7 +66,7 @@ class BoxTree {
 
   std::vector<Box> boxes_;                // level after level, the root last
   std::vector<std::size_t> level_begin_;  // where each level begins in `boxes_`, and the end
-  std::vector<std::uint32_t> items_;      // level 0's items, where they are not in the order given
+  std::vector<std::uint32_t> items_;      // level 0's items; empty for Order::Given
 };
 
 }  // namespace coastmesh

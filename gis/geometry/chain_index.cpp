@@ -32,14 +32,14 @@ void ChainIndex::build() {
 
 Location ChainIndex::locate(const Point& p) const {
   assert(kind_ == Kind::Rings);
-  // Counts the edges that a ray from p towards smaller x crosses; an edge holds its lower end, not its upper one.
+  // Counts the edges that a ray from p towards smaller x crosses; an edge includes its lower end, not its upper one.
   bool inside = false, boundary = false;
   const auto above = [&](const Point& q) { return q.y > p.y; };
   const auto enter = [&](const Box& box, std::size_t first, std::size_t last) {
     if (boundary || box.ymin > p.y || box.ymax < p.y || box.xmin > p.x) return false;
     if (box.xmax >= p.x) return true;
-    // The whole run of edges lies on the ray's side: whole rings in it are crossed an even number of times, and a piece
-    // of a ring as often, but for pairs, as the line between its ends.
+    // All edges of the node lie on the ray's side. The ray crosses a whole ring an even number of times, and a piece of
+    // a ring as often, modulo 2, as the line between its ends.
     const std::uint32_t ring_a = chain_of_[first], ring_b = chain_of_[last - 1];
     bool crossed = above(start(first)) != above(end(last - 1));
     if (ring_a != ring_b) crossed ^= above(chainStart(ring_a)) != above(chainStart(ring_b));
@@ -50,7 +50,7 @@ Location ChainIndex::locate(const Point& p) const {
     const Point &a = start(e), &b = end(e);
     const int side = above(a) ? orient2d(b, a, p) : orient2d(a, b, p);
     if (side == 0 && Box::of(a, b).meets({p.x, p.y, p.x, p.y})) boundary = true;
-    if (above(a) != above(b) && side < 0) inside = !inside;  // p lies right of the edge, which rises
+    if (above(a) != above(b) && side < 0) inside = !inside;  // p lies to the right of the edge, taken upwards
   };
   tree_.descend(enter, found);
   return boundary ? Location::Boundary : inside ? Location::Inside : Location::Outside;

@@ -11,7 +11,7 @@ namespace coastmesh {
 // The position of a point relative to rings, by the even-odd rule.
 enum class Location { Outside, Boundary, Inside };
 
-// Whether the closed segments ab and cd share a point; exact.
+// True if the closed segments ab and cd share a point; exact.
 bool segmentsMeet(const Point& a, const Point& b, const Point& c, const Point& d);
 
 // Closed rings or open chains, indexed by their edges.
@@ -32,7 +32,7 @@ class ChainIndex {
   std::uint32_t chainOf(std::size_t edge) const { return chain_of_[edge]; }
   const Point& chainStart(std::size_t chain) const { return points_[chain_begin_[chain]]; }
 
-  // Edges whose boxes meet `box`.
+  // Calls `found(edge)` for every edge whose box meets `box`.
   template <typename Found>
   void visit(const Box& box, Found&& found) const {
     tree_.visit(box, found);
@@ -44,7 +44,7 @@ class ChainIndex {
   Kind kind_;
   std::vector<Point> points_;             // chain after chain; a ring's first point is repeated at its end
   std::vector<std::size_t> chain_begin_;  // first point of each chain
-  std::vector<std::uint32_t> chain_of_;   // one an edge
+  std::vector<std::uint32_t> chain_of_;   // by edge
   BoxTree tree_;                          // over the edges
 };
 

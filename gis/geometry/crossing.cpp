@@ -7,13 +7,13 @@ namespace coastmesh {
 
 namespace {
 
-// The sum of two doubles, the low one no more than half a unit in the last place of the high one: 106 bits or more
-// (Dekker 1971).
+// The unevaluated sum of two doubles, the low one at most half a unit in the last place of the high one: 106 bits or
+// more (Dekker 1971).
 struct Wide {
   double high, low;
 };
 
-// Exact where |a| >= |b|.
+// Exact if |a| >= |b|.
 Wide quickSum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};

@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// A spatial index of edges that mostly follow one another, as those of rings do: a tree over runs of up to kLongest
-// edges whose boxes meet, so that there is an eighth of boxes to sort and to keep. `box_of(e)` is the box of edge e,
+// A spatial index of edges that are mostly connected in sequence, as in rings: a tree over runs of up to kLongest edges
+// whose consecutive boxes meet, so that it sorts and stores an eighth of the boxes. `box_of(e)` is the box of edge e,
 // the same at every call.
 class EdgeRuns {
  public:
@@ -46,13 +46,13 @@ class EdgeRuns {
     });
   }
 
-  // Blocks of runs that lie near to one another, and how many of them are worth a stretch of `visitPairs`.
+  // The number of blocks of nearby runs, and the least number worth a call of `visitPairs`.
   std::size_t blockCount() const { return tree_.blockCount(); }
   static constexpr std::size_t kWorthAStretch = 128;
 
-  // Calls `found(e, f)` once, e < f, for every two edges of which `active(e)` holds for one at least and whose boxes
-  // come nearer to one another than `margin`; for the runs of blocks [first, last) and what lies near them: each pair
-  // is found from one run.
+  // Calls `found(e, f)`, e < f, for pairs of edges of which at least one is `active` and whose boxes, one of them grown
+  // by `margin`, meet. Covers the runs of blocks [first, last) and the runs near them. Each pair is found from one run
+  // only, so that calls for all blocks together find it once.
   template <typename BoxOf, typename Active, typename Found>
   void visitPairs(std::size_t first, std::size_t last, double margin, BoxOf&& box_of, Active&& active,
                   Found&& found) const {

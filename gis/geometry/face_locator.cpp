@@ -14,19 +14,19 @@ FaceLocator::FaceLocator(const PlanarMap& map, const std::vector<Point>& points,
 }
 
 std::uint32_t FaceLocator::faceAt(const Point& place) const {
-  // The edge straight below: of those over whose half-open range of x the place lies, the highest. Upright edges have
-  // no such range, and none is needed: their neighbours have.
+  // Finds the edge straight below: the highest of those whose half-open range of x includes that of the place. The
+  // range of a vertical edge is empty; the edges next to it are found instead.
   std::uint32_t below = kNone;
   Box ray{place.x, tree_.bounds().ymin, place.x, place.y};
   const auto westToEast = [&](std::uint32_t e) {
     const auto [a, b] = edges_[e];
     return points_[a].x <= points_[b].x ? std::pair(a, b) : std::pair(b, a);
   };
-  // True iff edge f runs above edge e where both lie over the place.
+  // True iff edge f runs above edge e at the place's x.
   const auto higher = [&](std::uint32_t f, std::uint32_t e) {
     const auto [a, b] = westToEast(e);
     const auto [c, d] = westToEast(f);
-    // They do not cross: an end of one that lies over the other's range tells.
+    // They do not cross, so an end of one within the other's range of x decides.
     if (points_[c].x >= points_[a].x) {
       const int side = orient2d(points_[a], points_[b], points_[c]);
       if (side != 0) return side > 0;
@@ -44,7 +44,7 @@ std::uint32_t FaceLocator::faceAt(const Point& place) const {
   });
   if (below == kNone) return PlanarMap::kOuterFace;
   const bool along = westToEast(below).first == edges_[below].first;
-  return map_.faceOf(2 * below + (along ? 0u : 1u));  // to the left on the way east
+  return map_.faceOf(2 * below + (along ? 0u : 1u));  // to the left of the edge, taken eastwards
 }
 
 }  // namespace coastmesh

@@ -12,11 +12,11 @@ namespace coastmesh {
 // Finds the face of a plane graph in which a point lies.
 class FaceLocator {
  public:
-  // All are kept by reference.
+  // REQUIRES: the arguments outlive the locator, which keeps references.
   FaceLocator(const PlanarMap& map, const std::vector<Point>& points,
               const std::vector<std::pair<VertexId, VertexId>>& edges);
 
-  // The face with `place` in it; for a point on an edge, the one above it, and on an upright edge either. Exact.
+  // The face that contains `place`; for a point on an edge, the face above it; on a vertical edge, either face. Exact.
   std::uint32_t faceAt(const Point& place) const;
 
  private:

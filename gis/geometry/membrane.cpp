@@ -38,7 +38,7 @@ double farthest(const Membrane& m, const std::vector<double>& rest) {
 
 void settle(const Membrane& m, std::vector<double>& values, const ItemLoop& loop) {
   constexpr int kMostSteps = 1000;
-  constexpr double kClose = 1e-5, kRounding = 1e-12;  // to the mean, of the range of the values around, and of them
+  constexpr double kClose = 1e-5, kRounding = 1e-12;  // error bounds, relative to the fixed values' range and size
   const double close = kClose * (m.high - m.low) + kRounding * std::max(std::abs(m.low), std::abs(m.high));
   const std::size_t count = values.size();
   std::vector<double> rest(count), way(count), image(count);

@@ -48,7 +48,7 @@ struct PlanarMap::Builder {
     });
   }
 
-  // The half-edge after h around the face to its left: at its head, the first clockwise from the way back.
+  // The next half-edge around the face to the left of h: at its head, the first clockwise from h ^ 1.
   HalfEdge next(HalfEdge h) const {
     const auto star = map.leaving(head(h));
     if (star.size() == 2) return star[0] == (h ^ 1u) ? star[1] : star[0];
@@ -79,8 +79,8 @@ struct PlanarMap::Builder {
     return least;
   }
 
-  // The half-edge leaving the least vertex of a piece that has the piece's outside on its left: all leave between due
-  // south (not included) and due north, and it is the last of them.
+  // The half-edge from the least vertex of a piece with the piece's outside on its left. All half-edges from there
+  // point between due south (excluded) and due north; it is the last counter-clockwise.
   HalfEdge outerAt(VertexId least) const {
     const auto star = map.leaving(least);
     HalfEdge last = star.front();
@@ -92,7 +92,7 @@ struct PlanarMap::Builder {
 
   Box boxOf(std::size_t e) const { return Box::of(at(edges[e].first), at(edges[e].second)); }
 
-  // Makes faces of loops: the outer loop of a piece belongs to the face that the piece lies in.
+  // Joins loops to faces: the outer loop of a piece belongs to the face that contains the piece.
   void nestPieces() {
     const std::vector<VertexId> least = leastOfPieces();
     UnionFind faces(loops + 1);  // loop + 1; 0 is the unbounded face
@@ -115,10 +115,10 @@ struct PlanarMap::Builder {
     numberFaces(faces);
   }
 
-  // The half-edge that has on its left what a ray from p towards smaller x meets first, p's own piece lying wholly to
-  // the other side; kNone if it meets nothing. The ray runs just above p: an edge holds its lower end, not its upper.
+  // The half-edge that a ray from p towards smaller x hits first, with p on its left; kNone if it hits none. p's own
+  // piece lies entirely on the other side. The ray runs just above p: an edge includes its lower end, not its upper.
   HalfEdge firstToTheLeft(const Point& p, const EdgeRuns& runs, double first_reach, double span) const {
-    // Looks near first. 64 doublings reach from any window above a point's own grain across any span.
+    // Searches nearby first. 64 doublings extend any window wider than the rounding of coordinates across any span.
     double reach = first_reach;
     for (int doubling = 0; doubling < 64; ++doubling, reach *= 2) {
       const bool all = !(reach < span);
@@ -142,10 +142,10 @@ struct PlanarMap::Builder {
     return kNone;
   }
 
-  // Of two half-edges going up past one height, not crossing: whether g lies to the right of h there.
+  // True if g lies to the right of h at a height that both pass upwards. REQUIRES: they do not cross.
   bool isRightOf(HalfEdge g, HalfEdge h) const {
     const Point &a = at(tail(g)), &b = at(head(g)), &c = at(tail(h)), &d = at(head(h));
-    if (c.y >= a.y) {  // h begins beside g
+    if (c.y >= a.y) {  // h begins within g's range of y
       const int side = orient2d(a, b, c);
       return side != 0 ? side > 0 : orient2d(a, b, d) > 0;
     }

@@ -12,9 +12,9 @@
 
 namespace coastmesh {
 
-// The faces of a plane graph whose edges meet in common ends only. Edge e makes two half-edges: 2e from
-// its first end to its second, 2e + 1 back. A half-edge belongs to the face on its left; kOuterFace is the unbounded
-// one. Pieces that are not connected are nested: a face knows of the islands in it.
+// The faces of a plane graph whose edges meet only in common ends. Edge e has two half-edges: 2e from its first end to
+// its second, 2e + 1 back. A half-edge belongs to the face on its left; kOuterFace is the unbounded one. Pieces that
+// are not connected are nested: the outer loops of the islands in a face belong to it.
 //
 //              face of h
 //     tail ───────h───────▶ head
@@ -31,7 +31,7 @@ class PlanarMap {
 
   std::size_t faceCount() const { return face_begin_.size() - 1; }
   std::uint32_t faceOf(HalfEdge h) const { return face_of_[h]; }
-  // Half-edges that have the face on their left, of all its boundary loops together.
+  // Half-edges that have the face on their left, of all its boundary loops.
   std::span<const HalfEdge> around(std::uint32_t face) const {
     return {by_face_.data() + face_begin_[face], by_face_.data() + face_begin_[face + 1]};
   }

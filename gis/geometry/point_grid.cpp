@@ -9,10 +9,10 @@ namespace coastmesh {
 
 namespace {
 
-// Cells are so many tolerances wide: most often all that is near a point lies in its own cell.
+// The width of a cell in tolerances: mostly, all points near another one are in its cell.
 constexpr double kCellWidth = 16;
 
-// Rounded down; the library's is a call.
+// Like std::floor, but without a function call.
 std::int64_t roundedDown(double x) {
   const auto towards_zero = static_cast<std::int64_t>(x);
   return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);
@@ -32,7 +32,7 @@ PointGrid::Cell PointGrid::cellOf(double x, double y) const {
 }
 
 std::uint64_t PointGrid::hashOf(const Cell& cell) {
-  // Odd constants of Fibonacci hashing; the upper bits are the mixed ones.
+  // Odd constants of Fibonacci hashing; the upper bits are mixed best.
   const std::uint64_t h = (static_cast<std::uint64_t>(cell.x) * 0x9E3779B97F4A7C15u) ^
                           (static_cast<std::uint64_t>(cell.y) * 0xC2B2AE3D27D4EB4Fu);
   return (h ^ (h >> 32)) * 0x9E3779B97F4A7C15u;

@@ -8,25 +8,24 @@
 
 namespace coastmesh {
 
-// Points of a growing list, found again by place: a hash over square cells.
+// Finds points of a growing list by their place: a hash table of square cells.
 class PointGrid {
  public:
-  // `tolerance`: how near a point has to be in order to be found; 0 finds equal points only. `points` outlives the
+  // `tolerance`: the largest distance to a point found; 0 finds equal points only. REQUIRES: `points` outlives the
   // grid.
   PointGrid(const std::vector<Point>& points, double tolerance, std::size_t expected_size);
 
-  void add(VertexId v);  // REQUIRES: v is the next that was not added yet
-  // The nearest of the points added within the tolerance of `p`, of equally near ones the first; kNone if there is
-  // none.
+  void add(VertexId v);  // REQUIRES: v is the number of points added before
+  // The nearest point added within the tolerance of `p`, the first of equally near ones; kNone if there is none.
   VertexId find(const Point& p) const;
-  // Tells the processor that `p` will be asked for soon.
+  // Prefetches the memory for a later `find(p)`.
   void prefetch(const Point& p) const { __builtin_prefetch(&slots_[slotOf(hashOf(cellOf(p.x, p.y)))]); }
 
  private:
   struct Cell {
     std::int64_t x, y;
   };
-  // A place in an open-addressing table; the tag, of the cell's hash, spares most looks at points of other cells.
+  // An entry of an open-addressing table; the tag, from the cell's hash, avoids most accesses to points of other cells.
   struct Slot {
     std::uint32_t tag = 0;
     VertexId vertex = kNone;
@@ -41,7 +40,7 @@ class PointGrid {
   const std::vector<Point>* points_;
   double tolerance_;
   double per_unit_;          // cells in a unit of length
-  std::vector<Slot> slots_;  // a power of two of them
+  std::vector<Slot> slots_;  // their number is a power of two
   std::size_t size_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using GeographicLib::Math;
 
-// What GeographicLib projects about a central meridian, with the plane's origin moved to the centre.
+// A projection of GeographicLib about a central meridian, with the plane's origin moved to the centre.
 template <typename Library>
 class AboutMeridian final : public ConformalMap {
  public:
@@ -62,7 +62,7 @@ class PolarMap final : public ConformalMap {
     library_.Reverse(north_, plane.x, plane.y, lat, lon, convergence, scale);
     return scale;
   }
-  // A little beside the pole, where data that reach it have an edge.
+  // A little off the pole, where data that extend to the pole have an edge.
   std::optional<LonLat> infinity() const override { return LonLat{17.123, north_ ? -89.999 : 89.999}; }
 
  private:
@@ -71,9 +71,9 @@ class PolarMap final : public ConformalMap {
   double meridian_;
 };
 
-// The ellipsoid goes to a sphere by the conformal latitude chi, the sphere to the plane stereographically: Snyder, "Map
-// Projections: A Working Manual" (1987), p. 160, equations 21-24 to 21-27; here by unit vectors, so that no place but
-// the antipode is special.
+// Maps the ellipsoid to a sphere by the conformal latitude chi, and the sphere to the plane stereographically: Snyder,
+// "Map Projections: A Working Manual" (1987), p. 160, equations 21-24 to 21-27. We use unit vectors, so that only the
+// antipode is a special case.
 class ObliqueStereographic final : public ConformalMap {
  public:
   ObliqueStereographic(const Ellipsoid& ellipsoid, const LonLat& centre)
@@ -104,7 +104,7 @@ class ObliqueStereographic final : public ConformalMap {
     if (at.to_axis < kAtPole) return {at.place, {0, 0, at.place.lat > 0 ? polar : -polar}, scaleAt(plane)};
     const double cos_lat = 1 / std::sqrt(1 + at.tangent * at.tangent), sin_lat = cos_lat * at.tangent;
     const double flatter = std::sqrt(1 - e2_ * sin_lat * sin_lat);
-    // Radii over the sphere's distance to the axis: of the ellipsoid's parallel, and its north.
+    // The radius of the ellipsoid's parallel over the distance to the axis of the unit sphere.
     const double parallel = a_ * cos_lat / (flatter * at.to_axis);
     const double x = parallel * at.to_meridian, y = parallel * at.east;
     return {at.place,
@@ -121,8 +121,8 @@ class ObliqueStereographic final : public ConformalMap {
   std::optional<LonLat> infinity() const override { return inverse({1e18 * diameter_, 0}); }
 
  private:
-  // Radians a metre: by how much an angle of a flat triangle differs between the sphere and the ellipsoid of the Earth,
-  // for each metre of the longest edge. Measured: 1.7e-5 degrees a kilometre.
+  // Radians per metre of the longest edge: the difference of a flat triangle's angle between the sphere and the Earth's
+  // ellipsoid. Measured: 1.7e-5 degrees per kilometre.
   static constexpr double kAngleMargin = 3e-10;
 
   // Sine and cosine of the conformal latitude, and the scale of the map from the ellipsoid of semi-major axis 1 to the
@@ -131,9 +131,9 @@ class ObliqueStereographic final : public ConformalMap {
     double sin, cos, scale;
   };
 
-  // A place, with what finding it made known: the tangent of its latitude, its distance to the axis of the sphere of
-  // radius 1 in two directions and as a whole, and the squared distance to the plane's origin in diameters. At a pole
-  // the distance to the axis is 0 and the tangent is not given.
+  // A place with intermediate results: the tangent of its latitude, its distance to the axis of the unit sphere in two
+  // directions and in total, and the squared distance to the plane's origin in diameters. At a pole the distance to the
+  // axis is 0, and the tangent is meaningless.
   struct ByTangent {
     LonLat place;
     double tangent, to_meridian, east, to_axis, squared;

@@ -17,29 +17,29 @@ struct Ellipsoid {
   double f = 1.0 / 298.257223563;
 };
 
-// A conformal map of the ellipsoid onto a plane in metres. Thread-safe. `inverse` gives longitudes in
-// [-180, 180]; a latitude beyond the poles makes NaN.
+// A conformal map of the ellipsoid onto a plane in metres. Thread-safe. `inverse` returns longitudes in [-180, 180];
+// `forward` returns NaN for a latitude beyond the poles.
 class ConformalMap {
  public:
   virtual ~ConformalMap() = default;
   virtual Point forward(const LonLat& place) const = 0;
   virtual LonLat inverse(const Point& plane) const = 0;
   virtual double scaleAt(const Point& plane) const = 0;  // plane length over length on the ellipsoid
-  // The sphere of which it is a stereographic map; flat if there is none.
+  // The sphere that it maps stereographically; flat if there is none.
   virtual Surface sphere() const { return {}; }
-  // `inverse`, `scaleAt` and the point in space, in metres from the centre of the ellipsoid, in one call, little more
-  // expensive than the first; the latter two to a few units of the last place. REQUIRES: sphere().isCurved()
+  // `inverse`, `scaleAt` and the point in space, in metres from the centre of the ellipsoid, in one call that costs
+  // little more than the first; the latter two to a few units in the last place. REQUIRES: sphere().isCurved()
   struct OnGround {
     LonLat place;
     SpacePoint space;
     double scale = 1.0;
   };
   virtual OnGround onGround(const Point&) const { throw std::logic_error("a map of no sphere"); }
-  // The place at infinity of the plane, if the map shows all others, to a thousandth of a degree.
+  // The place that maps to infinity, to a thousandth of a degree, if the map shows all others.
   virtual std::optional<LonLat> infinity() const { return std::nullopt; }
 };
 
-// Each has its origin at the given centre, with scale 1 there; the conic on its two parallels.
+// Each has its origin, and scale 1, at the given centre or pole; the conic has scale 1 on its two parallels.
 std::unique_ptr<ConformalMap> transverseMercator(const Ellipsoid& ellipsoid, const LonLat& centre);
 std::unique_ptr<ConformalMap> lambertConic(const Ellipsoid& ellipsoid, const LonLat& centre, double parallel1,
                                            double parallel2);

@@ -19,12 +19,12 @@ namespace {
 class DistortionMeter {
  public:
   explicit DistortionMeter(const Crs& crs) : map_(crs), geodesic_(crs.semi_major_m, crs.flattening) {
-    constexpr double kStep = 50.0;  // metres: curvature does not matter over it, nor rounding
+    constexpr double kStep = 50.0;  // metres: neither curvature nor rounding matters
     step_ = kStep / metresPerUnit(crs);
   }
 
-  // At a place of the plane, whose image in the input's CRS is `place`; none where it has no image on Earth. The ratio
-  // of the axes of the ellipse that a small circle of the ground becomes (Tissot's indicatrix).
+  // At a point of the plane, whose image in the input's CRS is `place`: the ratio of the axes of the ellipse that a
+  // small circle on the ground becomes (Tissot's indicatrix). nullopt if the point has no image on Earth.
   std::optional<Distortion> at(const Point& plane, const Point& place) const {
     const Vector x = onGround({plane.x - step_, plane.y}, {plane.x + step_, plane.y});
     const Vector y = onGround({plane.x, plane.y - step_}, {plane.x, plane.y + step_});
@@ -44,7 +44,7 @@ class DistortionMeter {
     const LonLat from = map_.forward(p), to = map_.forward(q);
     double metres, azimuth, other_azimuth, sine, cosine;
     geodesic_.Inverse(from.lat, from.lon, to.lat, to.lon, metres, azimuth, other_azimuth);
-    // In the middle of the two, where both vectors are measured.
+    // The azimuth in the middle, where both vectors are measured.
     azimuth += GeographicLib::Math::AngDiff(azimuth, other_azimuth) / 2.0;
     GeographicLib::Math::sincosd(azimuth, sine, cosine);
     return {metres * sine, metres * cosine};
@@ -55,8 +55,8 @@ class DistortionMeter {
   double step_ = 0.0;
 };
 
-// Of what bounds the domain: the frame, where water lies between it and land, which may extend far beyond; otherwise
-// all rings and lines within the box of the frame.
+// The chains that bound the domain: only the frame, if water lies between it and land, which may extend far beyond;
+// otherwise all rings and lines within the box of the frame.
 class BoundingChains {
  public:
   explicit BoundingChains(const Coastline& coastline) : coastline_(coastline) {

@@ -7,15 +7,15 @@
 
 namespace coastmesh {
 
-// What a plane that is not conformal does to shapes at a place.
+// The distortion of shapes at a place by a plane that is not conformal.
 struct Distortion {
   double ratio = 1.0;    // the largest scale of a direction over the smallest, 1 or more
-  double degrees = 0.0;  // by which an angle can differ from that on the ground
+  double degrees = 0.0;  // the largest difference of an angle from that on the ground
   Point place{};         // in the input's CRS
 };
 
-// The largest at some thousand places on the shores, lines and frames of the domain, between the vertices of long edges
-// too. `to_crs` leads from the CRS of `coastline` to `crs`. REQUIRES: neither is a plane.
+// The largest distortion at some thousand places on the shores, lines and frames of the domain, also within long edges.
+// `to_crs` projects from the CRS of `coastline` to `crs`. REQUIRES: neither is a plane.
 Distortion largestDistortion(const Coastline& coastline, const Crs& crs, const Projection& to_crs);
 
 }  // namespace coastmesh

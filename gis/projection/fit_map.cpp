@@ -38,7 +38,7 @@ double degreesBetween(const Direction& u, const Direction& v) {
   return 2 * std::asin(std::min(1.0, chord / 2)) / Math::degree();
 }
 
-// As the library's, sooner for longitudes as they mostly come.
+// Like the library's, but faster for most longitudes.
 double angNormalize(double x) { return x > -180 && x < 180 ? x : Math::AngNormalize(x); }
 double angDiff(double x, double y) {
   const double d = y - x;
@@ -47,14 +47,14 @@ double angDiff(double x, double y) {
 
 constexpr std::size_t kLonCells = 360, kLatCells = 180;
 
-// Many points are thinned to the outermost ones in each cell of one degree: enough for radii and centres.
+// Reduces many points to the outermost ones in each cell of one degree, which is enough for radii and centres.
 std::vector<Direction> thinned(const std::vector<LonLat>& places) {
   std::vector<Direction> directions;
   if (places.size() < kLonCells * kLatCells) {
     for (const LonLat& p : places) directions.push_back(toDirection(p));
     return directions;
   }
-  std::vector<std::uint32_t> number(kLonCells * kLatCells, 0);  // of the cell among those used, from 1
+  std::vector<std::uint32_t> number(kLonCells * kLatCells, 0);  // of the cell among those used, from 1; 0: unused
   std::vector<std::array<LonLat, 4>> outermost;
   for (const LonLat& given : places) {
     const LonLat p{angNormalize(given.lon), given.lat};
@@ -78,7 +78,7 @@ std::vector<Direction> thinned(const std::vector<LonLat>& places) {
   return directions;
 }
 
-// The shortest arc of longitudes, and the latitudes.
+// The shortest arc of longitudes, and the range of latitudes.
 struct Extent {
   double mid_lon = 0, width = 0;
   double south = 90, north = -90;
@@ -96,7 +96,7 @@ Extent extentOf(const std::vector<LonLat>& places) {
     if (std::abs(p.lat) == 90) continue;  // a pole has no longitude
     used[static_cast<std::size_t>(std::clamp(angNormalize(p.lon) + 180, 0.0, 359.0))] = true;
   }
-  // The middle of the longest run of empty cells, round the globe, is where the arc is not.
+  // The arc is opposite the middle of the longest run of empty cells around the globe.
   std::size_t best_run = 0, best_end = 0, run = 0;
   for (std::size_t i = 0; i < 2 * kLonCells; ++i) {
     run = used[i % kLonCells] ? 0 : run + 1;
@@ -140,8 +140,8 @@ Cap capAround(const LonLat& centre, const std::vector<Direction>& directions) {
   return {centre, degreesBetween(middle, farthest)};
 }
 
-// The least of a few caps: about the middle of the extent, the mean direction, the poles. A pole is preferred where it
-// is nearly as good.
+// The smallest of a few caps: about the middle of the extent, the mean direction, the poles. A pole is preferred if the
+// smallest contains it and its own radius is less than a tenth larger.
 Cap leastCap(const Extent& extent, const std::vector<Direction>& directions) {
   Cap best = capAround({extent.mid_lon, extent.midLat()}, directions);
   Direction mean;
@@ -157,7 +157,7 @@ Cap leastCap(const Extent& extent, const std::vector<Direction>& directions) {
   return best;
 }
 
-// Where the globe is on land, or in no group.
+// The area left out of the domain: on land, or in no group.
 class LeftOut {
  public:
   explicit LeftOut(const std::vector<RingGroup>& groups) {
@@ -178,7 +178,7 @@ class LeftOut {
   std::vector<ChainIndex> land_, water_;
 };
 
-// Of places offered the one that is left out and lies furthest from all vertices.
+// Of the places offered, the one in the area left out that is furthest from all vertices.
 class Clearest {
  public:
   Clearest(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions)
@@ -208,7 +208,7 @@ class Clearest {
   double clearance_ = kLeastClearance;  // degrees
 };
 
-// Spiral from pole to pole, with both poles on it; its places lie some 3 degrees apart.
+// Offers places on a spiral from pole to pole, both included, some 3 degrees apart.
 void offerSpiral(Clearest& clearest) {
   constexpr int kTrials = 4000;
   for (int i = 0; i < kTrials; ++i) {
@@ -218,7 +218,7 @@ void offerSpiral(Clearest& clearest) {
   }
 }
 
-// Places in the boxes round the largest rings, for land or holes that lie between those of the spiral.
+// Offers places in the boxes of the largest rings, for land or holes between the places of the spiral.
 void offerInsides(const std::vector<RingGroup>& groups, Clearest& clearest) {
   constexpr std::size_t kMostRings = 200;
   constexpr int kAlong = 7;
@@ -250,8 +250,8 @@ void offerInsides(const std::vector<RingGroup>& groups, Clearest& clearest) {
   }
 }
 
-// The centre of a stereographic projection for what is larger than a hemisphere: its antipode, which has no image, lies
-// as far inside of what is left out as possible.
+// The centre of a stereographic projection of more than a hemisphere: its antipode, which has no image, is as far
+// inside the area left out as possible. Throws InputError if that area is too small.
 LonLat centreAwayFromLand(const std::vector<RingGroup>& groups, double west, const std::vector<Direction>& directions) {
   Clearest clearest(groups, west, directions);
   offerSpiral(clearest);
@@ -292,12 +292,12 @@ FittedMap because(FittedMap map, const std::string& reason) {
 
 constexpr double kLargeCap = 30;  // degrees
 
-// So small, and so far from the poles, that no cap around it reaches a pole or is large.
+// True if it is so small, and so far from the poles, that no cap around it reaches a pole or is large.
 bool isPlainlySmall(const Extent& extent) {
   return extent.height() < 10 && extent.width < 20 && extent.south > -60 && extent.north < 60;
 }
 
-// A stereographic map; the polar one by the oblique one's mathematics where its sphere is asked for.
+// A stereographic map. If its sphere is requested, a polar one uses the oblique implementation, which has a sphere.
 FittedMap stereographic(const LonLat& centre, const Ellipsoid& ellipsoid, bool is_surface) {
   const bool at_pole = std::abs(centre.lat) == 90;
   FittedMap fitted = at_pole ? polar(centre, ellipsoid) : oblique(centre, ellipsoid);
@@ -306,7 +306,7 @@ FittedMap stereographic(const LonLat& centre, const Ellipsoid& ellipsoid, bool i
   return fitted;
 }
 
-// The map for what is large or near a pole, or for what any surface is asked for.
+// The map for an extent that is large or near a pole, or if a surface is requested; nullopt for others.
 std::optional<FittedMap> mapAboutCentre(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups,
                                         const Extent& extent, const Ellipsoid& ellipsoid, SurfaceKind kind) {
   const std::vector<Direction> directions = thinned(places);

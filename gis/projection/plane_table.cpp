@@ -43,7 +43,7 @@ Point PlaneTable::at(const Point& x) const {
   if (values_.empty()) return map_(x);
   const double most = static_cast<double>(cells_) - 1.0;
   const double u = (x.x - box_.xmin) * per_x_, v = (x.y - box_.ymin) * per_y_;
-  // Beyond the box there is no table.
+  // There is no table outside the box.
   if (!(u >= 0.0 && v >= 0.0 && u <= most + 1.0 && v <= most + 1.0)) return map_(x);
   const double i = std::min(std::floor(u), most), j = std::min(std::floor(v), most);
   const double s = u - i, t = v - j;

@@ -8,12 +8,12 @@
 
 namespace coastmesh {
 
-// A smooth map of the plane, tabulated: projections cost more than everything else that is done with a place. Usable
-// from several threads.
+// A table of a smooth map of the plane: a projection takes longer than all other work on a place. Usable from several
+// threads.
 class PlaneTable {
  public:
-  // Interpolated values differ by at most `tolerance`, in either coordinate, as far as a test halfway between the
-  // table's points shows; if no table of moderate size is accurate enough, or the map is not finite everywhere, the map
+  // Interpolated values differ by at most `tolerance` in either coordinate, which is checked halfway between the
+  // table's points; if no table of moderate size is accurate enough, or the map is not finite everywhere, the map
   // itself is evaluated.
   PlaneTable(std::function<Point(const Point&)> map, const Box& box, double tolerance);
 

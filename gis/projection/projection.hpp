@@ -18,11 +18,11 @@ namespace coastmesh {
 
 struct ProjectionMap;  // implementation of a Projection: see projection_map.hpp
 
-// Points of a plane that represents the Earth, one item each.
+// The places on the ground of points of the plane, one item for each point.
 struct GroundPlaces {
   std::vector<Point> input;       // like `Projection::inverse`
   std::vector<SpacePoint> space;  // metres from the centre of the ellipsoid
-  std::vector<double> measure;    // like `Projection::measureAt`, to a few units of the last place
+  std::vector<double> measure;    // like `Projection::measureAt`, to a few units in the last place
 
   bool empty() const { return space.empty(); }
 };
@@ -34,10 +34,11 @@ class Projection {
   // The identity: coordinates are plane already (a CRS-less input, `--crs plane`).
   static Projection plane();
   // A conformal projection fitted to the extent of `features[members]`, on the ellipsoid of `crs`: transverse Mercator,
-  // Lambert conformal conic, polar or oblique stereographic. Handles the antimeridian and the poles. The plane for a
-  // plane. Throws InputError for a point outside the Earth and for a group that leaves no land out. If `kind` requires
-  // a surface the projection is stereographic, and `surface` is its sphere. The same holds for a whole globe, for any
-  // `kind`: projected from a place far from all features, and in none.
+  // Lambert conformal conic, polar or oblique stereographic. Handles the antimeridian and the poles. The identity if
+  // `crs` is a plane. Throws InputError for a point that is not on Earth, a group without points, and a group larger
+  // than a hemisphere that leaves no area out. If `kind` requires a surface the projection is stereographic, and
+  // `surface` is its sphere. The same holds for a whole globe and any `kind`: it is projected from a place that is far
+  // from all features, and in none.
   static Projection fitted(const Coastline& coastline, const std::vector<std::size_t>& members,
                            SurfaceKind kind = SurfaceKind::Plane);
   // The same for each of many groups; common work is done once.
@@ -61,7 +62,7 @@ class Projection {
   // Side of a square of the plane, in its units, over which a polynomial of degree five in either coordinate is as good
   // as the map for most places; 0 if unknown.
   double smoothOver() const;
-  // The place, in the input's CRS, at infinity of the plane, for maps that show all others.
+  // The place, in the input's CRS, that maps to infinity, if the map shows all others and that CRS is geographic.
   std::optional<Point> infinity() const;
   bool isIdentity() const;                 // of `plane()`
   bool mayTear() const;                    // of a user's CRS: places that touch may be far apart in the plane

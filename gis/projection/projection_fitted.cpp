@@ -18,22 +18,22 @@ namespace coastmesh {
 
 namespace {
 
-// A turn round the globe in coordinates of a projected CRS, such as Mercator's, that go on past its edge.
+// A turn around the globe in coordinates of a projected CRS, such as Mercator's, that continue past its edge.
 struct Turn {
-  double width = 0;   // 0: they do not
-  double middle = 0;  // of the coordinates of the input
+  double width = 0;   // 0: they do not continue
+  double middle = 0;  // of the input's x
 };
 
-// Of an input that extends from `west` to `east`, two of its points: beyond the edge they come back a turn away.
+// The turn of an input with the outermost points `west` and `east`: if beyond the edge, they come back a turn away.
 Turn turnOf(const Point& west, const Point& east, const GeographicMap& to_geographic) {
   Turn turn;
   for (const Point& p : {west, east}) {
     const Point back = to_geographic.inverse(to_geographic.forward(p));
     const double apart = std::abs(back.x - p.x);
-    constexpr double kRounding = 1e-9;  // and what ways there and back miss one another by, in a large CRS
+    constexpr double kRounding = 1e-9;  // and the error of a round trip, in a large CRS
     const double size = std::max(std::abs(p.x), std::abs(back.x));
     if (!(apart > size) || !(std::abs(back.y - p.y) <= kRounding * size)) continue;
-    if (std::abs(back.x + p.x) <= kRounding * size) continue;  // on the edge, which has two ends
+    if (std::abs(back.x + p.x) <= kRounding * size) continue;  // on the edge, which has two images
     if (turn.width == 0 || apart < turn.width) turn.width = apart;
   }
   turn.middle = west.x + (east.x - west.x) / 2;
@@ -53,7 +53,8 @@ class Fitted final : public ProjectionMap {
   Point inverse(const Point& plane) const override { return asInput(map_->inverse(plane)); }
   double scaleAt(const Point& plane) const override { return map_->scaleAt(plane); }
   Surface surface() const override { return surface_; }
-  // A two-hundredth of the Earth's radius: short, as seen from the poles, where longitudes are not smooth.
+  // A two-hundredth of the Earth's radius: for most places short against the distance to a pole, where longitudes are
+  // not smooth.
   double smoothOver() const override { return 32000.0; }
   GroundPlace groundAt(const Point& plane) const override {
     const auto [place, space, scale] = map_->onGround(plane);
@@ -66,7 +67,7 @@ class Fitted final : public ProjectionMap {
   }
 
  private:
-  // The same turn round the globe as the input.
+  // Coordinates in the same turn around the globe as the input.
   Point asInput(LonLat place) const {
     if (place.lon < middle_ - 180) place.lon += 360;
     if (place.lon > middle_ + 180) place.lon -= 360;
@@ -89,8 +90,8 @@ bool hasFramedWater(const Coastline& coastline, const std::vector<std::size_t>& 
   });
 }
 
-// Calls `act(feature, chain)` for every ring and line of the members that shape the domain; of a whole globe for all
-// that lies on it.
+// Calls `act(feature, chain, is_ring)` for every ring and line of the members that shape the domain; for a whole globe,
+// for those of all members and for their points.
 template <typename Act>
 void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& members, Act&& act) {
   const bool with_frame = hasFramedWater(coastline, members), globe = coastline.rest.has_value();
@@ -124,7 +125,7 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
                                            const GeographicMap& to_geographic, SurfaceKind kind) {
   std::vector<LonLat> places;
   std::deque<Ring> projected_rings;
-  std::vector<RingGroup> groups(1);  // the frame and lines of the coast; then one a feature
+  std::vector<RingGroup> groups(1);  // the frame and coasts; then one for each area or land
   const Feature* last = nullptr;
   double west = std::numeric_limits<double>::infinity(), east = -west;
   Point first_of_input{west, 0}, last_of_input{east, 0};  // by x

@@ -9,14 +9,14 @@
 
 namespace coastmesh {
 
-// A place of the plane as `GroundPlaces` has it.
+// One item of `GroundPlaces`.
 struct GroundPlace {
   Point input;
   SpacePoint space;
   double measure;
 };
 
-// What stands behind a Projection.
+// The implementation of a Projection.
 struct ProjectionMap {
   virtual ~ProjectionMap() = default;
   virtual Point forward(const Point& input) const = 0;

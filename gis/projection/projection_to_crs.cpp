@@ -18,7 +18,7 @@ class ToCrs final : public ProjectionMap {
       : map_(toOgr(input), toOgr(working)),
         to_geographic_(working),
         geodesic_(working.semi_major_m, working.flattening) {
-    // Some 50 m.
+    // About 50 m.
     step_ = working.geographic ? 5e-4 : 50 / toOgr(working).GetLinearUnits();
     description = nameOf(working);
   }

@@ -7,8 +7,8 @@
 
 namespace coastmesh {
 
-// `Projection::scaleAt` and `Projection::measureAt` to within 1e-5 (the scale of a sphere's plane: of itself), from a
-// table of the latter, which hardly changes. Usable from several threads.
+// `Projection::scaleAt` and `Projection::measureAt` to within 1e-5 (the scale of a sphere's plane: to 1e-5 of itself),
+// from a table of the latter, which varies little. Usable from several threads.
 class ScaleTable {
  public:
   // Fast within the box; outside it the projection is evaluated.

@@ -12,10 +12,10 @@ namespace coastmesh {
 namespace {
 
 constexpr std::size_t kTerms = SmoothTable::kTerms;
-// Of how much the map changes over a square, and of the values themselves: what rounding makes of them.
+// Relative to the map's change over a square, and, for rounding, to the values themselves.
 constexpr double kTolerance = 1e-12, kRounding = 4e-15;
 
-// Rows of it make the factor of x^i from values at the zeros of Chebyshev's polynomial of degree six.
+// Row i of `factors` makes the factor of x^i from values at the zeros of Chebyshev's polynomial of degree six.
 struct Chebyshev {
   std::array<double, kTerms> zeros;
   std::array<std::array<double, kTerms>, kTerms> factors{};
@@ -65,7 +65,7 @@ SmoothTable::Square SmoothTable::squareAt(std::size_t column, std::size_t row) c
   static const Chebyshev chebyshev;
   const Point middle = middleOf(column, row), centre = map_(middle);
   const auto mapAt = [&](double x, double y) { return map_({middle.x + x * half_x_, middle.y + y * half_y_}); };
-  // Values less that in the middle, so that rounding is in proportion to what they change: [j][k] at the zeros.
+  // Values at the zeros [j][k] minus that in the middle, so that rounding is in proportion to the map's change.
   std::array<std::array<Point, kTerms>, kTerms> values, along{};
   Point most{};
   Square square{isFinite(centre), {}};
@@ -85,7 +85,7 @@ SmoothTable::Square SmoothTable::squareAt(std::size_t column, std::size_t row) c
       for (std::size_t k = 0; k < kTerms; ++k)
         square.factors[j][i] = square.factors[j][i] + chebyshev.factors[j][k] * along[k][i];
   square.factors[0][0] = square.factors[0][0] + centre;
-  // Corners are the farthest from the zeros.
+  // Checks the corners too, which are farthest from the zeros.
   for (const double y : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
     for (const double x : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
       const Point value = mapAt(x, y), off = valueOf(square, x, y) - value;
@@ -127,7 +127,7 @@ namespace {
 
 SmoothTable tableFor(std::function<Point(const Point&)> map, double side, std::span<const Point> points,
                      const ItemLoop& loop) {
-  // To make a square takes as long as so many points.
+  // Evaluations of the map per square, and the factor by which points must outnumber these to be worth a table.
   constexpr double kOfASquare = 61.0, kWorth = 2.0;
   Box box;
   for (const Box& some : overStretches(loop, points.size(), [&](std::size_t first, std::size_t last) {

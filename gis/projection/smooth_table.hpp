@@ -13,19 +13,19 @@
 
 namespace coastmesh {
 
-// A smooth map of the plane for many points: polynomials of degree five in either coordinate, over squares, in place of
-// a projection that takes 0.3 µs a point. Usable from several threads.
+// A smooth map of the plane for many points: polynomials of degree five in either coordinate, over squares, replace a
+// projection that takes 0.3 µs per point. Usable from several threads.
 class SmoothTable {
  public:
   // Factors in either coordinate.
   static constexpr std::size_t kTerms = 6;
 
-  // Squares with sides of about `side` cover the box; without any if `side` is 0. A square is not tabulated where
-  // values at some points between those that its polynomials are made from differ by more than 1e-12 of how much the
-  // map changes over it, and rounding.
+  // Squares with sides of about `side` cover the box; there are none if `side` is 0. A square is tabulated if, at test
+  // points between those that define its polynomials, values differ from the map by at most 1e-12 of the map's change
+  // over the square, plus rounding.
   SmoothTable(std::function<Point(const Point&)> map, const Box& box, double side, const ItemLoop& loop);
 
-  // Where nothing is tabulated the map itself.
+  // Evaluates the map itself where nothing is tabulated.
   Point at(const Point& x) const;
   std::size_t squares() const { return squares_.size(); }  // tabulated or not
   std::size_t tabulated() const;
@@ -47,8 +47,8 @@ class SmoothTable {
   std::vector<Square> squares_;
 };
 
-// `Projection::inverse` and, as x, `Projection::measureAt` for these points, tabulated where they are many and the
-// projection is smooth.
+// `Projection::inverse` and, as x, `Projection::measureAt` for these points, tabulated if there are enough of them,
+// where the projection is smooth.
 SmoothTable inverseTable(const Projection& projection, std::span<const Point> points, const ItemLoop& loop);
 SmoothTable measureTable(const Projection& projection, std::span<const Point> points, const ItemLoop& loop);
 

@@ -16,12 +16,13 @@ namespace coastmesh {
 
 namespace {
 
-// Nested arrays of positions as they stream by. Level 1 is the outermost array, a MultiPolygon's positions are level 4.
+// Nested arrays of positions, built from a stream. Level 1 is the outermost array; a MultiPolygon's positions are at
+// level 4.
 class Coordinates {
  public:
   static constexpr std::size_t kDeepest = 4;
 
-  // Each is false for what no geometry looks like.
+  // `open` and `close` return false if no geometry has such arrays.
   bool open() { return position_.empty() && ++level_ <= kDeepest; }
   void add(double number) { position_.push_back(number); }
   bool close() {
@@ -40,7 +41,7 @@ class Coordinates {
 
   std::size_t positionLevel() const { return position_level_; }
   const std::vector<Point>& points() const { return points_; }
-  // Where the arrays of a level end, counted in those of the next.
+  // The ends of the arrays of a level, as numbers of arrays (or points) of the next.
   const std::vector<std::size_t>& ends(std::size_t level) const { return ends_[level]; }
 
  private:
@@ -50,7 +51,7 @@ class Coordinates {
   std::array<std::vector<std::size_t>, kDeepest + 2> ends_;
 };
 
-// Takes geometries from the events of a JSON parser; every method says whether to go on.
+// Builds geometries from the events of a JSON parser; a method returns false to stop the parser.
 class GeometryHandler final : public nlohmann::json_sax<nlohmann::json> {
  public:
   bool null() override { return scalar(); }
@@ -74,7 +75,7 @@ class GeometryHandler final : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& value) override {
     if (skipped_ > 0) return true;
     key_ = value;
-    // Marks of other kinds of JSON, and of a CRS of the file's own.
+    // Keys of other kinds of JSON, or of a CRS in the file.
     for (const std::string_view other :
          {"features", "geometry", "properties", "crs", "objects", "arcs", "rings", "paths"}) {
       if (key_ == other) return false;
@@ -135,7 +136,7 @@ class GeometryHandler final : public nlohmann::json_sax<nlohmann::json> {
   };
   static constexpr std::size_t kUnknown = 99;
 
-  // The level of the positions of a type of geometry.
+  // The level of positions in a geometry of this type.
   static std::size_t levelOf(std::string_view type) {
     if (type == "GeometryCollection") return 0;
     if (type == "Point") return 1;
@@ -178,7 +179,7 @@ class GeometryHandler final : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  // Rings `first` to `last` (not included) of those that end at `level`.
+  // Adds a polygon of the rings [first, last), which are arrays of `level`.
   void takePolygon(const Coordinates& coordinates, std::size_t first, std::size_t last, std::size_t level) {
     Polygon polygon;
     for (std::size_t r = first; r < last; ++r) {
@@ -200,9 +201,9 @@ class GeometryHandler final : public nlohmann::json_sax<nlohmann::json> {
             begin + static_cast<std::ptrdiff_t>(ends[i])};
   }
 
-  std::vector<Frame> frames_;  // open geometries: the file's own, and a member of its collection
+  std::vector<Frame> frames_;  // open geometries: the file's, then a member of its collection
   std::string key_;
-  std::size_t skipped_ = 0;  // depth within a value that is passed over
+  std::size_t skipped_ = 0;  // depth within a skipped value
   bool in_coordinates_ = false, in_geometries_ = false, complete_ = false;
   GeometryParts parts_;
 };
@@ -211,7 +212,7 @@ class GeometryHandler final : public nlohmann::json_sax<nlohmann::json> {
 
 std::optional<GeometryParts> readBareGeojson(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe can be read but once
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe can be read only once
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return std::nullopt;
   {

@@ -38,7 +38,7 @@ bool jumps(const Ring& ring) {
   return false;
 }
 
-// A vertex on the antimeridian has one place for the areas on both sides: it goes to the side of the ring's others.
+// Areas on both sides of the antimeridian share the vertices on it: moves these to the side of the ring's other ones.
 void putOnOneSide(Ring& ring) {
   bool west = false, east = false;
   for (const Point& p : ring) {
@@ -52,7 +52,7 @@ void putOnOneSide(Ring& ring) {
   }
 }
 
-// Gives the feature the areas whose boundary the lines are.
+// Adds the polygons bounded by the lines to the feature.
 void addAreas(const Lines& lines, bool geographic, Feature& feature) {
   JoinedLines joined = joinLines(lines);
   std::vector<Ring> rings;
@@ -68,21 +68,21 @@ void addAreas(const Lines& lines, bool geographic, Feature& feature) {
   }
 }
 
-using FeatureId = std::int64_t;  // of the layer of features
+using FeatureId = std::int64_t;  // `id` in the layer `features`
 
 struct Cleaned {
-  std::map<FeatureId, Feature> features;  // their numbers, sources and attributes
+  std::map<FeatureId, Feature> features;  // with fid, source and attributes only
   std::map<FeatureId, Lines> area_lines;
   std::map<FeatureId, std::int64_t> part_of;  // of areas: the part of the graph
   std::map<std::pair<FeatureUse, FeatureId>, Lines> lines;
-  std::map<std::string, Lines> boundaries;  // by what they are
+  std::map<std::string, Lines> boundaries;  // by type
   std::map<FeatureId, std::vector<Polygon>> regions;
   std::map<std::int64_t, std::map<std::int64_t, Point>> vertices;  // by part and number
-  std::vector<Point> alone;                                        // vertices that no edge has
+  std::vector<Point> alone;                                        // vertices without edges
   Box bounds;
 };
 
-// Calls `take(row)` for each row of a layer that is there.
+// Calls `take(row)` for each row; `layer` may be null.
 template <typename Take>
 void forEachRow(OGRLayer* layer, Take&& take) {
   if (layer == nullptr) return;
@@ -99,7 +99,7 @@ class ShapeReader {
  public:
   ShapeReader(std::string source, ReadReport& report) : source_(std::move(source)), report_(report) {}
 
-  // The row's shape; no parts where it is of another type, or there is none.
+  // The row's shape; no parts if it has none, or one of another type.
   GeometryParts shapeOf(const OGRFeature& row, OGRwkbGeometryType type) const {
     GeometryParts parts;
     const OGRGeometry* geometry = row.GetGeometryRef();

@@ -10,10 +10,10 @@
 
 namespace coastmesh {
 
-// Reads such a file back: what lies to the left and right of its edges makes areas, with the numbers of their features;
-// open edges, constraints, weirs and vertices come with their uses, and edits that were made before go to
-// `report.edits`. None where the file is no such file. `errors` must have begun before the source was opened. Throws
-// InputError: written by an older version, damaged, a shape with a vertex that is no place.
+// Reads back a file written by `coastmesh clean`. Areas are made from the features to the left and right of edges, with
+// their fids; open edges, constraints, weirs and vertices come with their uses, and edits recorded in the file go to
+// `report.edits`. Returns nullopt for any other source. REQUIRES: `errors` was constructed before the source was
+// opened. Throws InputError: written by an older version, damaged, a vertex that is not finite or out of range.
 std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, const OgrErrors& errors, ReadReport& report);
 
 }  // namespace coastmesh

@@ -11,11 +11,11 @@
 
 namespace coastmesh {
 
-// The bytes of a file, or of anything else that GDAL can open, one after another. By blocks of our own: a parser that
-// asks the library for each of them spends half of its time on that. A file that cannot be opened has no bytes.
+// The bytes of a file, or of anything else that GDAL can open, in sequence. Buffered here: a parser that calls the
+// library for each byte spends half of its time on that. A file that cannot be opened reads as empty.
 class FileBytes {
  public:
-  // A small file takes no more than its size, and no memory is cleared that is written next.
+  // `size`, in bytes, keeps the buffer of a small file small. The buffer is not zeroed: it is filled at once.
   FileBytes(const std::string& path, std::uintmax_t size)
       : file_(VSIFOpenL(path.c_str(), "rb")),
         block_size_(static_cast<std::size_t>(std::clamp<std::uintmax_t>(size, kLeastBlock, kBlock))),

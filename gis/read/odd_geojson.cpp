@@ -21,38 +21,38 @@ namespace {
 
 struct GeometryType {
   std::string_view name;
-  std::size_t level;  // how many arrays its positions lie in, each position itself counted
+  std::size_t level;  // nesting depth of its positions, the position's own array included
 };
 
 constexpr std::string_view kCollection = "GeometryCollection";
 constexpr std::array<GeometryType, 6> kTypes = {
     {{"Point", 1}, {"LineString", 2}, {"MultiPoint", 2}, {"Polygon", 3}, {"MultiLineString", 3}, {"MultiPolygon", 4}}};
 
-// OGR does not mind capital letters.
+// Ignores case, as OGR does.
 bool isSame(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
   });
 }
 
-// An array of coordinates that holds no arrays: a position, as a rule.
+// An array of coordinates that is empty or has values in it: usually a position.
 struct Innermost {
-  std::vector<std::size_t> path;  // its number, from 0 on, in each of the arrays round it
+  std::vector<std::size_t> path;  // its index, from 0, in each enclosing array
   std::string text;
   bool empty = false;
-  bool odd = false;  // fewer than two numbers, or something else among them
+  bool odd = false;  // fewer than two values, or something that is not a number
 
   std::size_t level() const { return path.size() + 1; }
 };
 
-// The arrays of one geometry's coordinates as they stream by, to say at its end what is wrong: the type may come last.
+// The arrays of one geometry's coordinates, from a stream. They are judged at its end, because the type may come last.
 class CoordinateArrays {
  public:
   void open() {
     if (!arrays_.empty()) ++arrays_.back().arrays;
     arrays_.emplace_back();
   }
-  // REQUIRES, as `add`: an array is open.
+  // REQUIRES, for `add` too: an array is open.
   void close() {
     const Array& array = arrays_.back();
     if (array.values > 0 || array.arrays == 0) note(array);
@@ -67,7 +67,7 @@ class CoordinateArrays {
   }
   bool isOpen() const { return !arrays_.empty(); }
 
-  // The first that is no position of `level`. What is empty above it is an empty ring, or an empty geometry.
+  // The first that is not a position at `level`, or null. Empty arrays further out are valid: empty rings, geometries.
   const Innermost* firstOdd(std::size_t level) const {
     const auto at = std::ranges::find_if(found_, [level](const Innermost& found) {
       return found.empty ? found.level() >= std::max<std::size_t>(level, 2) : found.odd || found.level() != level;
@@ -78,12 +78,12 @@ class CoordinateArrays {
  private:
   struct Array {
     std::size_t arrays = 0, values = 0;  // in it
-    bool odd = false;                    // a value is no number
+    bool odd = false;                    // a value is not a number
     std::string text;                    // of its values
   };
 
   void note(const Array& array) {
-    constexpr std::size_t kMost = 16;  // what is deeper than any geometry comes after something that is too deep
+    constexpr std::size_t kMost = 16;  // four valid levels have at most 12: when it is full, one too deep is in it
     const bool empty = array.values == 0, odd = array.odd || array.values < 2 || array.arrays > 0;
     const bool known = std::ranges::any_of(found_, [&](const Innermost& other) {
       return other.level() == arrays_.size() && other.empty == empty && other.odd == odd;
@@ -94,7 +94,7 @@ class CoordinateArrays {
   }
 
   std::vector<Array> arrays_;     // open ones
-  std::vector<Innermost> found_;  // the first of each level, odd or not, empty or not
+  std::vector<Innermost> found_;  // the first of each combination of level, odd and empty
 };
 
 std::string placeInArrays(std::string_view type, const std::vector<std::size_t>& path) {
@@ -108,7 +108,7 @@ std::string placeInArrays(std::string_view type, const std::vector<std::size_t>&
   return "its point";
 }
 
-// Looks at geometries from the events of a JSON parser, which end with the first feature that has an odd one.
+// Checks geometries from the events of a JSON parser, and stops it at the first feature that has an odd one.
 class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
  public:
   bool null() override { return value("null", false); }
@@ -202,7 +202,7 @@ class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  // Of the file that was parsed.
+  // Of the parsed file; nullopt if nothing is odd.
   std::optional<std::string> result() const {
     if (oddity_.empty()) return std::nullopt;
     return "feature " + std::to_string(id_.value_or(features_)) + ": " + oddity_;
@@ -213,7 +213,7 @@ class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
   struct Level {
     Kind kind;
     std::string key, type;
-    std::size_t members = 0;  // of a collection, begun by now
+    std::size_t members = 0;  // of a collection, so far
     bool has_coordinates = false, has_members = false;
     CoordinateArrays coordinates;
   };
@@ -222,7 +222,7 @@ class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
   CoordinateArrays& coordinates() { return levels_.back().coordinates; }
 
   bool push(Kind kind) {
-    constexpr std::size_t kDeepest = 64;  // collections of collections
+    constexpr std::size_t kDeepest = 64;  // nested collections
     if (levels_.size() == kDeepest) return false;
     levels_.emplace_back().kind = kind;
     return true;
@@ -248,7 +248,7 @@ class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
     }
   }
 
-  // Which member of which collection the geometry on top is.
+  // The collections around the geometry on top, with its number in each.
   std::string memberInWords() const {
     std::string text;
     for (const Level& level : levels_) {
@@ -280,8 +280,8 @@ class OddityFinder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   std::vector<Level> levels_;  // open ones
-  std::size_t skipped_ = 0;    // depth within a value that is passed over
-  std::int64_t features_ = 0;  // that ended by now
+  std::size_t skipped_ = 0;    // depth within a skipped value
+  std::int64_t features_ = 0;  // complete ones
   std::optional<std::int64_t> id_;
   std::string oddity_;
 };

@@ -16,7 +16,7 @@ std::string inWords(double value) {
   return text;
 }
 
-// `where` says which chain this is; it is asked for only where something is wrong.
+// `where` names the chain; it is called only for an error message.
 template <typename Where>
 std::vector<Point> takeChain(const OGRSimpleCurve& curve, GeometryParts& parts, Where&& where) {
   const auto n = static_cast<std::size_t>(curve.getNumPoints());

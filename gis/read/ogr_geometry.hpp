@@ -11,8 +11,8 @@
 
 namespace coastmesh {
 
-// What one geometry holds, taken out of OGR: Z and M dropped, curves made of straight pieces. A ring comes without its
-// repeated last point.
+// The parts of one OGR geometry: Z and M are dropped, curves divided into straight pieces. Rings do not repeat their
+// first point.
 struct GeometryParts {
   std::vector<Polygon> polygons;
   std::vector<std::vector<Point>> lines;  // as given: a closed one repeats its first point
@@ -25,12 +25,12 @@ struct GeometryParts {
   bool empty() const { return polygons.empty() && lines.empty() && points.empty(); }
 };
 
-// Drops the last point of a ring that repeats the first, counts the ring, and reports one that does not close.
-// REQUIRES: not empty.
+// Counts a ring and drops its last point if that repeats the first; otherwise counts it as unclosed too. REQUIRES: not
+// empty.
 void closeRing(Ring& ring, GeometryParts& parts);
 
-// Adds what `geometry` holds to `parts`. Throws InputError for a coordinate that is not finite; `what` names the
-// feature in its sentence.
+// Adds the parts of `geometry` to `parts`. Throws InputError, with `what` as the feature's name: a coordinate that is
+// not finite or out of range, a geometry other than points, lines and polygons, a curve that cannot be linearised.
 void takeApart(const OGRGeometry& geometry, const std::string& what, GeometryParts& parts);
 
 }  // namespace coastmesh

@@ -45,15 +45,15 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string stemOf(const std::string& entry) { return std::filesystem::path(entry).stem(); }
 
-// A folder of an archive as OGR reads it: its root only by a name in braces.
+// A folder of an archive as OGR opens it: the root needs the archive's path in braces.
 std::string folderInside(const std::string& archive, const std::string& folder) {
   if (!folder.empty()) return archive + "/" + folder;
   const std::size_t path = archive.find('/', 1) + 1;
   return archive.substr(0, path) + "{" + archive.substr(path) + "}";
 }
 
-// Of several files in an archive: the one that is called as the layer wanted, or the folder of shapefiles in which all
-// layers wanted are. `archive` begins with "/vsizip/" or the like.
+// Of several files in an archive: the one named like the wanted layer, or the folder that has all wanted layers as
+// shapefiles. `archive` begins with "/vsizip/" or a similar prefix. Throws InputError if there is neither.
 std::string chosenInside(const std::string& archive, const std::vector<std::string>& found,
                          const std::vector<std::string>& wanted) {
   namespace fs = std::filesystem;
@@ -81,8 +81,8 @@ std::string chosenInside(const std::string& archive, const std::vector<std::stri
                    (by_name && wanted.empty() ? ", or choose one of the input's with --layer" : ""));
 }
 
-// The one vector file in an archive, however deep. Where there are several, those with the layers wanted; where none is
-// known by its name, OGR is given the archive as a folder.
+// The vector file in an archive, at any depth. If there are several, the file or folder with the wanted layers; if none
+// has a known ending, the archive itself, which OGR opens as a folder.
 std::string insideOf(const std::string& archive, const std::vector<std::string>& wanted) {
   constexpr std::array<std::string_view, 8> kEndings = {".shp", ".gpkg", ".geojson", ".json",
                                                         ".fgb", ".gml",  ".kml",     ".osm"};
@@ -90,13 +90,13 @@ std::string insideOf(const std::string& archive, const std::vector<std::string>&
   std::vector<std::string> found;
   for (int i = 0; i < entries.size(); ++i) {
     const std::string entry = entries[i], name = std::filesystem::path(entry).filename();
-    // What macOS puts beside every file.
+    // Metadata that macOS adds for every file.
     if (name.starts_with("._") || entry.starts_with("__MACOSX/")) continue;
     if (std::ranges::any_of(kEndings, [&](std::string_view ending) { return endsWith(entry, ending); })) {
       found.push_back(entry);
     }
   }
-  // Beside a file of another kind a .json says something of it.
+  // A .json beside a file of another kind is metadata.
   const auto isJson = [](const std::string& entry) { return endsWith(entry, ".json"); };
   if (!std::ranges::all_of(found, isJson)) std::erase_if(found, isJson);
   if (found.size() > 1) return chosenInside(archive, found, wanted);
@@ -105,13 +105,13 @@ std::string insideOf(const std::string& archive, const std::vector<std::string>&
 
 bool isStandardInput(const std::string& path) { return path == "-" || path == "/dev/stdin"; }
 
-// Of a path that names no layer.
+// For a path without a layer.
 bool isStreamFile(const std::string& path) {
   std::error_code error;
   return isStandardInput(path) || std::filesystem::is_fifo(path, error);
 }
 
-// All of a stream, as a file in memory: what comes through a pipe can be read but once, and formats look twice.
+// Copies a stream to a file in memory and returns its path: a pipe can be read only once, but drivers read repeatedly.
 std::string inMemory(const std::string& given) {
   const std::string name = isStandardInput(given) ? "standard input" : given;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(
@@ -145,7 +145,7 @@ std::string inMemory(const std::string& given) {
   return path;
 }
 
-// The path as OGR wants it; in an archive of several files that of the layers wanted, if any are.
+// The path for OGR; in an archive of several files, that of the wanted layers, if any.
 std::string pathForOgr(const std::string& path, const std::vector<std::string>& wanted) {
   const std::string real = isStreamFile(path) ? inMemory(path) : path;
   if (real.starts_with("/vsi") && !real.starts_with("/vsimem/")) return real;
@@ -175,13 +175,13 @@ std::string pathForOgr(const std::string& path, const std::vector<std::string>& 
                      (path.starts_with("/vsi") || path.find("://") != std::string::npos ? why : ""));
   }
   if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(name + ": the file is empty");
-  // GDAL opens no file that is one odd geometry, and does not say where it is odd.
+  // GDAL does not open a file that is one odd geometry, and does not report where it is odd.
   if (const std::optional<std::string> odd = why.empty() ? std::nullopt : oddGeojson(path))
     throw InputError(name + ", " + *odd + ": repair or remove this feature");
   throw InputError(name + ": not a vector file that GDAL can read" + why);
 }
 
-// "file|layer" into file and layer, where there is no file of the whole name.
+// Splits "file|layer" into file and layer, unless a file has the whole name.
 std::pair<std::string, std::string> splitLayer(const std::string& path) {
   const std::size_t bar = path.rfind('|');
   if (bar == std::string::npos || exists(path)) return {path, {}};
@@ -204,7 +204,7 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   source.dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (!source.dataset) refuse(source.name, path, errors);
 
-  // A file in an archive stands for its only layer, whatever that is called inside.
+  // The name of a file in an archive also selects its only layer, whatever that layer's name is.
   const bool in_archive = path != file && (path.starts_with("/vsizip/") || path.starts_with("/vsitar/"));
   if (in_archive && names.size() == 1 && names.front() == stemOf(path) && source.dataset->GetLayerCount() == 1)
     names.clear();

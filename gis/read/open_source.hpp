@@ -12,31 +12,32 @@
 
 namespace coastmesh {
 
-// A vector source, opened, with the layers that are wanted of it.
+// An open vector source with the layers to read.
 struct OpenSource {
   std::string name;  // as errors name it
   std::unique_ptr<GDALDataset> dataset;
   std::vector<OGRLayer*> layers;
 };
 
-// Opens what OGR knows: files, folders, URLs and its own "/vsi…" paths; besides them "-" for standard input, other
-// pipes, archives (.zip, .tar, .tgz, .gz) by their plain names, where a file stands for the layer of its name, and
-// "file|layer" or "file|layername=layer" for one layer of a file. `layers` names those wanted; empty: all. Throws
+// Opens whatever OGR can open: files, folders, URLs and its own "/vsi…" paths. Also opens "-" (standard input), other
+// pipes, archives (.zip, .tar, .tgz, .gz) by their plain names, in which each file is a layer of its name, and
+// "file|layer" or "file|layername=layer" for one layer of a file. `layers`: names of layers to read; empty: all. Throws
 // InputError: no such file, empty, no vector file, no such layer, several files in an archive and none named.
 OpenSource openSource(const std::string& path, const std::vector<std::string>& layers, const OgrErrors& errors);
 
-// Whether such a path, with a layer or without, can be read but once: standard input or another pipe.
+// True if such a path, with or without a layer, can be read only once: standard input or another pipe.
 bool isStream(const std::string& path);
 
-// Throws InputError where OGR dropped a geometry of GeoJSON, or part of one: it does so silently, or reports the error,
-// but not the feature. To notice all of them, CPL_DEBUG has to be "GeoJSON".
+// Throws InputError if OGR dropped a geometry of GeoJSON, or part of one: OGR does so silently, or with an error that
+// does not name the feature. Silent cases are noticed only if CPL_DEBUG is "GeoJSON".
 void refuseOddGeojson(const OpenSource& source, const OgrErrors& errors);
 
-// Throws InputError where reading failed since `errors` began: OGR then gives what it has, as if that were all.
+// Throws InputError if reading failed since `errors` was constructed: OGR returns the features up to the failure as if
+// they were all. Includes `refuseOddGeojson`.
 void requireReadToEnd(const OpenSource& source, const OgrErrors& errors);
 
-// Leaves in each layer what `where` holds for, and gives how many features that leaves out. Layers that lack one of its
-// fields are left out whole. Throws InputError where that is all of them.
+// Filters each layer by the SQL condition `where` and returns the number of features excluded. Layers that lack one of
+// its fields are excluded whole. Throws InputError if that excludes all layers, or OGR cannot evaluate the condition.
 std::uint64_t keepWhere(const OpenSource& source, const std::string& where, OgrErrors& errors);
 
 }  // namespace coastmesh

@@ -12,13 +12,13 @@
 namespace coastmesh {
 
 enum class PlainJson {
-  Read,      // to its end
-  Refused,   // by the handler
-  NotPlain,  // no JSON, or strings with escapes or other letters than ASCII's: for a parser that knows all of JSON
+  Read,      // to the end
+  Refused,   // the handler returned false
+  NotPlain,  // not JSON, or with escapes, letters beyond ASCII or very long numbers: needs a complete parser
 };
 
-// JSON as it streams by, for files that are numbers nearly all: three times as fast as a parser that keeps each token
-// as text. Calls the methods of nlohmann's json_sax, all numbers as number_float, until one returns false.
+// Streaming parser for JSON that is mostly numbers: three times as fast as a parser that keeps each token as text.
+// Calls the methods of nlohmann's json_sax, with all numbers as number_float, until one returns false.
 template <typename Handler>
 class PlainJsonReader {
  public:
@@ -36,13 +36,13 @@ class PlainJsonReader {
 
  private:
   enum class Step { Done, Refused, Odd };
-  static constexpr char kEnd = '\0';  // stands in no JSON
+  static constexpr char kEnd = '\0';  // never occurs in JSON
   static constexpr std::size_t kUnknownSize = static_cast<std::size_t>(-1);
 
   static Step stepOf(bool taken) { return taken ? Step::Done : Step::Refused; }
   static bool isDigit(char c) { return c >= '0' && c <= '9'; }
   char byte() const { return bytes_.atEnd() ? kEnd : bytes_.byte(); }
-  // The next one that is no space.
+  // Skips white space and returns the byte after it, without taking it; kEnd at the end.
   char next() {
     while (!bytes_.atEnd()) {
       const char c = bytes_.byte();
@@ -52,7 +52,7 @@ class PlainJsonReader {
     return kEnd;
   }
 
-  // A value, or the beginning of one that holds others. `value_comes`: whether another value has to follow at once.
+  // Reads a value, or the start of an array or object. Sets `value_comes` if another value must follow at once.
   Step value(bool& value_comes) {
     const char c = next();
     value_comes = false;
@@ -109,7 +109,7 @@ class PlainJsonReader {
     return Step::Done;
   }
 
-  // Into `text_`; false where it is not plain.
+  // Reads a string into `text_`; false if it is not plain.
   bool text() {
     text_.clear();
     for (bytes_.step(); byte() != '"'; bytes_.step()) {
@@ -129,14 +129,14 @@ class PlainJsonReader {
     return true;
   }
 
-  // Takes the next byte as a part of a number. False where it has become too long.
+  // Appends the next byte to the number; false if it gets too long.
   bool take() {
     if (length_ == sizeof digits_) return false;
     digits_[length_++] = bytes_.byte();
     bytes_.step();
     return true;
   }
-  // One digit or more.
+  // Takes one or more digits.
   bool takeDigits() {
     if (!isDigit(byte())) return false;
     while (isDigit(byte()))
@@ -164,7 +164,7 @@ class PlainJsonReader {
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits_, digits_ + length_, value);
     if (error != std::errc() || end != digits_ + length_) return Step::Odd;
-    if (is_integer && value == 0.0) value = 0.0;  // of integers there is no negative zero
+    if (is_integer && value == 0.0) value = 0.0;  // integers have no negative zero
     return stepOf(handler_.number_float(value, no_text_));
   }
 

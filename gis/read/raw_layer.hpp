@@ -17,11 +17,11 @@ struct RawLayer {
   };
   std::string source;  // "file" or "file|layer"
   FeatureUse use = FeatureUse::Area;
-  std::optional<Crs> crs;              // none: the file does not say
-  std::vector<Feature> features;       // those with polygons
-  std::vector<Feature> line_features;  // those with lines or points: name and attributes
+  std::optional<Crs> crs;              // nullopt: the file has none
+  std::vector<Feature> features;       // features with polygons
+  std::vector<Feature> line_features;  // features with lines or points; the lines are in `lines`
   std::vector<Line> lines;
-  std::vector<std::string> columns;  // of its table, also those without a value anywhere
+  std::vector<std::string> columns;  // of its table, including those without values
   Box bounds;
 
   bool empty() const { return features.empty() && line_features.empty(); }

@@ -108,7 +108,7 @@ void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport&
   }
 }
 
-// A feature with the name and attributes of one that has a line.
+// The feature that a line came from.
 struct LineOrigin {
   const RawLayer* layer;
   std::size_t feature;
@@ -116,7 +116,7 @@ struct LineOrigin {
   Feature named() const { return layer->line_features[feature]; }
 };
 
-// Lines that stay as they are: constraints and weirs, each feature with its own.
+// Adds lines that are not joined, such as constraints and weirs, each to its own feature.
 void addPlainLines(RawLayer& layer, Coastline& coastline) {
   std::vector<Feature> features = std::move(layer.line_features);
   for (RawLayer::Line& line : layer.lines) features[line.feature].lines.push_back(std::move(line.points));

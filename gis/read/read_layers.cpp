@@ -20,15 +20,15 @@ namespace coastmesh {
 
 namespace {
 
-// OGR returns coordinates in the order of the layer's axis mapping: whether that is y, x.
+// True if OGR returns coordinates as y, x, according to the layer's axis mapping.
 bool axesSwapped(const OGRSpatialReference& srs) {
   OGRSpatialReference traditional(srs);
   traditional.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return srs.GetDataAxisToSRSAxisMapping() != traditional.GetDataAxisToSRSAxisMapping();
 }
 
-// As UTF-8. OGR gives the bytes of old tables that do not say their encoding (a .dbf without .cpg) as they are: these
-// are mostly of Windows.
+// Converts to UTF-8. OGR passes on the bytes of old tables without a stated encoding (a .dbf without .cpg), which is
+// mostly that of Windows.
 std::string inUtf8(const char* text, bool& guessed) {
   if (CPLIsUTF8(text, -1)) return text;
   guessed = true;
@@ -74,7 +74,7 @@ void forEachChain(GeometryParts& parts, Act&& act) {
 // One layer while it is read.
 class LayerReader {
  public:
-  // `of_texts`: of the driver CSV.
+  // `of_texts`: read by the driver CSV.
   LayerReader(OGRLayer& layer, std::string source, FeatureUse use, bool of_texts) : of_texts_(of_texts) {
     raw_.source = std::move(source);
     raw_.use = use;
@@ -83,7 +83,7 @@ class LayerReader {
       raw_.columns.push_back(inUtf8(table.GetFieldDefn(i)->GetNameRef(), guesses_));
     const OGRSpatialReference* srs = layer.GetSpatialRef();
     if (!srs || srs->IsEmpty()) return;
-    // So OGR names a GeoPackage's undefined one: whether they are degrees is seen by the coordinates, as elsewhere.
+    // OGR's name for a GeoPackage's undefined CRS: whether it is degrees is guessed from the coordinates, as elsewhere.
     if (srs->GetName() != nullptr && std::string_view(srs->GetName()) == kUndefinedGeographic) return;
     try {
       raw_.crs = fromOgr(srs);
@@ -122,7 +122,7 @@ class LayerReader {
 
   std::int64_t count() const { return count_; }  // of features with a geometry
 
-  // `feature` has its name and attributes.
+  // REQUIRES: `feature` has its source, fid and attributes.
   void add(GeometryParts parts, Feature feature, ReadReport& report) {
     ++count_;
     tally(parts, describe(feature), report);
@@ -185,7 +185,7 @@ class LayerReader {
   std::int64_t count_ = 0;  // features with a geometry
   bool swap_axes_ = false;
   bool of_texts_ = false;
-  bool guesses_ = false, told_guess_ = false;  // the encoding of texts
+  bool guesses_ = false, told_guess_ = false;  // that the encoding of a text was guessed, and reported
 };
 
 [[noreturn]] void refuseEmpty(const std::string& source, std::uint64_t points) {

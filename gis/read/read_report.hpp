@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// An edit that a file says was made when it was cleaned.
+// An edit made by an earlier `coastmesh clean`, as recorded in its output file.
 struct EarlierEdit {
   std::string kind;
   Point place;
@@ -18,8 +18,8 @@ struct EarlierEdit {
 
 struct ReadReport {
   std::uint64_t features = 0;        // in the coastline
-  std::uint64_t points = 0;          // coordinates, as the files count them
-  std::uint64_t rings = 0;           // of polygons, those made of lines included
+  std::uint64_t points = 0;          // coordinates in the files, repeated ones included
+  std::uint64_t rings = 0;           // of polygons, including those made of lines
   std::uint64_t skipped_empty = 0;   // features without a geometry, or with an empty one
   std::uint64_t skipped_points = 0;  // point geometries, which cannot be meshed
   std::uint64_t filtered = 0;        // features excluded by a user's filter

@@ -14,7 +14,7 @@ namespace coastmesh {
 
 namespace {
 
-// Whether looking at it takes nothing away, as from a pipe or a stream: a file, or what calls itself virtual.
+// True if opening the source consumes nothing, unlike a pipe or a stream: a file, or a name that is virtual itself.
 bool mayBeLookedAt(const std::string& name) {
   std::error_code error;
   const bool is_text = name.starts_with('<') || name.starts_with("vrt://");
@@ -33,7 +33,7 @@ bool isVirtual(const std::string& name) {
 
 std::vector<std::string> filesBehind(const std::string& name) {
   registerDrivers();
-  const OgrErrors caught;  // who reads it will report what is wrong
+  const OgrErrors caught;  // errors are reported when the source is read
   std::vector<std::string> names{name};
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!isVirtual(names[i])) continue;

@@ -15,7 +15,7 @@ namespace {
 
 using Pair = std::array<std::uint32_t, 2>;
 
-// `pairs` holds each edge once.
+// REQUIRES: `pairs` has each edge once.
 MeshGraph graphOf(std::size_t vertices, const std::vector<Pair>& pairs) {
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
   if (vertices >= kMost || 2 * pairs.size() >= kMost)
@@ -46,7 +46,7 @@ MeshGraph elementGraph(const Grid& grid, const ItemLoop& loop) {
     Pair edge;
     std::uint32_t triangle, number;
   };
-  // The sides of triangles by their lesser node.
+  // The sides of triangles, grouped by their lesser node.
   std::vector<std::size_t> first(grid.nodes.size() + 1, 0);
   const auto sideOf = [&grid](std::size_t t, unsigned i) {
     const std::uint32_t a = grid.triangles[t][i], b = grid.triangles[t][next3(i)];
@@ -68,14 +68,14 @@ MeshGraph elementGraph(const Grid& grid, const ItemLoop& loop) {
                      sides.begin() + static_cast<std::ptrdiff_t>(first[n + 1]),
                      [](const Side& a, const Side& b) { return a.edge[1] < b.edge[1]; });
   });
-  // Scotch matches neighbours as they come: in this order, by the later triangle and its sides, it cuts some three
-  // percent less than in ascending order.
+  // Scotch matches neighbours in the given order. In this one, by the later triangle and its sides, it cuts some three
+  // percent fewer edges than in ascending order.
   struct Join {
     std::uint32_t later, side, earlier;
     auto operator<=>(const Join&) const = default;
   };
   std::vector<Join> joins;
-  // A broken mesh may have a side of more than two triangles: one after another they are neighbours.
+  // In a broken mesh, more than two triangles may share a side: consecutive ones are neighbours.
   for (std::size_t s = 1; s < sides.size(); ++s) {
     const Side &a = sides[s - 1], &b = sides[s];
     if (a.edge != b.edge || a.triangle == b.triangle) continue;

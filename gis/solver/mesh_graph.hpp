@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// An undirected graph: what a solver works on, and its communication. The neighbours of `i` are those from `first[i]`
-// to `first[i + 1]`; each edge is listed at both of its ends.
+// An undirected graph: a solver's units of work, and their communication. The neighbours of `i` are at [`first[i]`,
+// `first[i + 1]`) in `neighbours`; each edge is listed at both of its ends.
 struct MeshGraph {
   std::vector<std::int32_t> first{0};
   std::vector<std::int32_t> neighbours;

@@ -20,8 +20,8 @@ namespace {
 
 static_assert(sizeof(SCOTCH_Num) == sizeof(std::int32_t), "MeshGraph has Scotch's integers");
 
-// In Scotch's words: parts are halved again and again, each time by the better of two multilevel bisections that are
-// mended along the cut, up to two percent from the mean; then vertices move between all parts, up to three.
+// Scotch's strategy: recursive bisection, each time by the better of two multilevel bisections that are refined along
+// the cut, within two percent of the mean; then vertices move between all parts, within three percent.
 #define COASTMESH_BISECTION                                                                                      \
   "m{asc=b{bnd=(d{pass=40,type=b}|)f{move=120,pass=-1,bal=0.02,type=b},org=f{move=120,pass=-1,bal=0.02,type=b}," \
   "width=3},low=h{pass=10}f{move=120,pass=-1,bal=0.02,type=b},vert=120,rat=0.8}"
@@ -29,14 +29,14 @@ constexpr const char* kStrategy =
     "r{job=t,bal=0.02,map=t,poli=S,sep=(" COASTMESH_BISECTION "|" COASTMESH_BISECTION ")}f{move=500,pass=-1,bal=0.03}";
 #undef COASTMESH_BISECTION
 
-// Its result depends on chance: the best of a few attempts is better by some percent. Nearby seeds give the same.
+// Scotch is randomised: the best of a few attempts is better by some percent. Nearby seeds have the same result.
 constexpr std::array<SCOTCH_Num, 8> kSeeds{1, 12345, 987654321, 31337, 777777777, 424242, 10000019, 271828183};
 
 void require(int failed) {
   if (failed != 0) throw std::bad_alloc();  // the arguments are valid: it can only fail for lack of memory
 }
 
-// Scotch's objects, each with the call that ends it.
+// Owns an object of Scotch.
 template <typename Object, int (*init)(Object*), void (*exit)(Object*)>
 class Owned {
  public:
@@ -77,7 +77,7 @@ std::vector<std::uint64_t> sizesOf(const std::vector<std::uint32_t>& part_of, st
   return sizes;
 }
 
-// With few vertices per part Scotch may leave some empty, which no solver accepts: each gets a vertex of the largest.
+// With few vertices per part Scotch may leave parts empty, which no solver accepts: each gets a vertex of the largest.
 void fillEmptyParts(std::vector<std::uint32_t>& part_of, std::uint32_t parts) {
   std::vector<std::uint64_t> sizes = sizesOf(part_of, parts);
   for (std::uint32_t empty = 0; empty < parts; ++empty) {
@@ -126,7 +126,7 @@ std::vector<std::uint32_t> partitionGraph(const MeshGraph& graph, std::uint32_t 
                             graph.weights.data(), nullptr, static_cast<SCOTCH_Num>(graph.neighbours.size()),
                             graph.neighbours.data(), nullptr));
   ScotchStrategy strategy;
-  require(SCOTCH_stratGraphMap(strategy.get(), kStrategy));  // its parser is for one thread
+  require(SCOTCH_stratGraphMap(strategy.get(), kStrategy));  // its parser is not thread-safe
   struct Found {
     std::vector<std::uint32_t> part_of;
     PartitionFigures figures;
@@ -137,7 +137,7 @@ std::vector<std::uint32_t> partitionGraph(const MeshGraph& graph, std::uint32_t 
     fillEmptyParts(found[i].part_of, parts);
     found[i].figures = figuresOf(graph, found[i].part_of, parts);
   });
-  // The smallest cut of those that are balanced; if none is, the best balanced.
+  // The smallest cut of the balanced ones; if there is none, the best balanced.
   const auto rank = [](const Found& one) {
     const double excess = std::max(one.figures.balance, kMostImbalance);
     return std::pair(excess, one.figures.edge_cut);

@@ -9,9 +9,9 @@
 
 namespace coastmesh {
 
-// What is partitioned: solvers differ in what they own.
+// Some solvers distribute elements, others nodes.
 struct PartitionOptions {
-  std::uint32_t parts = 0;  // 0: none
+  std::uint32_t parts = 0;  // 0: no partition
   bool elements = false;
   bool nodes = false;
 };
@@ -21,7 +21,7 @@ struct PartitionReport {
   std::optional<PartitionFigures> elements, nodes;
 };
 
-// Sets `part_of` and `node_part_of` of the grid. Throws InputError if it has fewer elements or nodes than
+// Sets `part_of` and `node_part_of` of the grid, as requested. Throws InputError if it has fewer elements or nodes than
 // parts.
 PartitionReport partitionGrid(Grid& grid, const PartitionOptions& options, const ItemLoop& loop = inOrder);
 
