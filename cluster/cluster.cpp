@@ -10,7 +10,7 @@ namespace coastmesh {
 
 namespace {
 
-// Beside one piece a thread, so that the next is there when one is done: one more a thread where there are few.
+// One piece per thread, and up to eight more, one per thread, so that the next is there when one is done.
 int roomsOf(std::uint64_t threads) { return static_cast<int>(threads + std::min<std::uint64_t>(threads, 8)); }
 
 std::shared_ptr<const std::string> shared(std::string&& bytes) {
@@ -73,7 +73,7 @@ Cluster::~Cluster() {
   post_.sendToOthers({Message::Kind::Stop, 0, 0, 0, {}});
   bool all_gone = false;
   {
-    // Answers that nobody waits for any more may still be on their way.
+    // Replies that are no longer awaited may still be on their way.
     const auto end = std::chrono::steady_clock::now() + kPatience;
     std::unique_lock lock(mutex_);
     const auto areGone = [this] { return gone_ + 1 >= post_.ranks(); };

@@ -15,14 +15,14 @@ namespace coastmesh {
 // Rank 0's side of a run on several ranks: the others process pieces.
 class Cluster {
  public:
-  // `stopped` says whether the run is being aborted, so that the others are not waited for.
+  // `stopped` returns true if the run is being aborted: then the others are not waited for.
   Cluster(Post& post, std::function<bool()> stopped);
-  // Tells the others to end.
+  // Stops the others.
   ~Cluster();
   Cluster(const Cluster&) = delete;
   Cluster& operator=(const Cluster&) = delete;
 
-  // Tells the others to begin, each with so many threads, or if 0 with as many as it has cores.
+  // Starts the others, each with `threads` threads; 0: as many as it has cores.
   void start(int threads);
   const Helpers& helpers() const { return helpers_; }
 
@@ -38,7 +38,7 @@ class Cluster {
   std::vector<int> rooms_;  // for each rank: requests that it has room for
   struct Awaited {
     std::function<void(Reply&&)> take;
-    bool has_room = false;  // whose room is free again once it has arrived
+    bool has_room = false;  // the request occupies room, which the reply frees
   };
   std::map<std::uint64_t, Awaited> awaited_;
   std::uint64_t requests_ = 0, pieces_ = 0;

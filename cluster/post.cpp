@@ -98,7 +98,7 @@ void Post::run(std::unique_ptr<Transport> (*join)(), int expected_ranks, std::ui
     return;
   }
   joined(nullptr);
-  // The run cannot make a mesh any more, and this thread has no caller to report to.
+  // After an error the run cannot make a mesh, and this thread has no caller to report to.
   try {
     carry(*transport);
   } catch (const std::bad_alloc&) {

@@ -31,12 +31,12 @@ class Post {
 
   // From now on `take(message, from)` is called for each message, on the post's thread; it must not throw.
   void listen(std::function<void(Message&&, int from)> take);
-  // From any thread.
+  // May be called from any thread.
   void send(int to, Message message);
   void sendToOthers(const Message& message);
-  // Both end the post. This one sends what is pending, and waits until all ranks have called it;
+  // Ends the post once all pending messages are sent and all ranks have called this.
   void finish();
-  // this one ends at once.
+  // Ends the post at once.
   void leave();
 
  private:

@@ -26,7 +26,7 @@ int numberIn(std::initializer_list<const char*> names, int otherwise) {
 
 }  // namespace
 
-// Open MPI's mpirun; MPICH's and its kin's, and Slurm where it speaks their protocol; Slurm where it speaks PMIx.
+// In this order: Open MPI's mpirun; MPICH and its derivatives, and Slurm with PMI; Slurm with PMIx.
 int ranksStarted() {
   const int ranks = numberIn({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1);
   if (ranks > 1 || std::getenv("PMIX_RANK") == nullptr) return ranks;
@@ -38,7 +38,7 @@ void tellLauncher(int exit_code) {
   if (wire < 0) return;
   const std::string message = "cmd=abort exitcode=" + std::to_string(exit_code) + "\n";
   [[maybe_unused]] const ssize_t written = write(wire, message.data(), message.size());
-  // The answer is the end of this process.
+  // The launcher responds by killing this process: waits for that.
   constexpr unsigned kPatience = 2;
   sleep(kPatience);
 }

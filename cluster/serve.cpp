@@ -21,7 +21,7 @@ namespace coastmesh {
 
 namespace {
 
-// What pieces of a region share; read by the first who needs it.
+// The shared context of a region's pieces, decoded by the first thread that needs it.
 class SharedContext {
  public:
   explicit SharedContext(std::shared_ptr<const std::string> bytes) : bytes_(std::move(bytes)) {}
@@ -91,7 +91,7 @@ class Server {
     changed_.notify_all();
   }
 
-  // Whether it is time to end; called under the lock.
+  // True if it is time to end. Called under the lock.
   bool isOver() const { return done_ || options_.stopped(); }
 
   template <typename Ready>

@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// This process cannot work with those it was started with; the message says why, and what to do.
+// This process cannot join those it was started with; the message says why, and what to do.
 struct CannotJoin : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -23,7 +23,7 @@ class Transport {
   virtual int ranks() const = 0;
   virtual std::string host() const = 0;
   virtual std::string library() const = 0;
-  // Whether all ranks pass the same value: every rank must call it.
+  // Returns whether all ranks pass the same value. Every rank must call it.
   virtual bool agree(std::uint64_t what) = 0;
 
   // Returns at once; messages from one rank to another arrive in the order sent.
@@ -41,8 +41,8 @@ class Transport {
   [[noreturn]] virtual void abort(int exit_code) = 0;
 };
 
-// Joins the other processes that were started with this one. The linked library does it: MPI (cluster/mpi), or none
-// (cluster/alone). Throws CannotJoin.
+// Joins the other processes that were started with this one. Implemented with MPI in cluster/mpi; a build without MPI
+// links cluster/alone, which always throws. Throws CannotJoin.
 std::unique_ptr<Transport> joinRanks();
 
 }  // namespace coastmesh

@@ -19,16 +19,16 @@
 namespace coastmesh {
 
 // Values as bytes, for one version of coastmesh on one kind of machine, read back bit for bit. A type that is neither
-// plain nor from the library has a function partsOf that lists its members.
+// plain nor from the standard library has a function partsOf that lists its members.
 
-// All except the list of missed bounds, which is made from the whole mesh at the end.
+// All members except the list of missed bounds, which is made from the whole mesh at the end.
 auto partsOf(auto& stats) requires std::is_same_v<std::remove_cvref_t<decltype(stats)>, RefineStats> {
   auto& [steiner_points, by_type, segment_splits, relocations, removals, merges, unmended, budget_reached, unresolved] =
       stats;
   return std::tie(steiner_points, by_type, segment_splits, relocations, removals, merges, unmended, budget_reached);
 }
 
-// Copied as it is in memory: there are no gaps between members.
+// Types without padding between members: copied as raw memory.
 template <typename T>
 struct HasNoGaps : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Point>> {};
 template <typename T, std::size_t N>
@@ -163,7 +163,7 @@ class BasicByteReader {
     flags.resize(count);
     for (std::size_t i = 0; i < count; ++i) flags[i] = (bytes[i / 8] >> (i % 8) & 1u) != 0;
   }
-  // That many bytes, which live as long as the whole.
+  // A view of the next `size` bytes, valid as long as the reader's input.
   std::string_view passView(std::uint64_t size) {
     need(size);
     const std::string_view view = bytes_.substr(at_, size);

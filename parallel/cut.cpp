@@ -14,7 +14,7 @@ CutSubmesh cutOut(const MeshState& whole, const Partition& partition, PieceId pi
 
   CutSubmesh cut;
   for (const EdgeRef e : sub.frozen) {
-    if (whole.mesh.twin(e) == kNone) continue;  // frozen in the whole: no side to be joined
+    if (whole.mesh.twin(e) == kNone) continue;  // frozen in the whole mesh: nothing to join
     const VertexId a = numbers[whole.mesh.origin(e)], b = numbers[whole.mesh.target(e)];
     const EdgeRef twin = whole.mesh.twin(e);
     const bool is_cut = partition.piece_of[triOf(twin)] != kNone;

@@ -14,7 +14,7 @@ namespace coastmesh {
 
 namespace {
 
-// Replies that have come. Shared with those who bring them, who may come after all is over.
+// Replies that have arrived. Shared with the callbacks that deliver them, which may run after the call has ended.
 class Inbox {
  public:
   void expect() {
@@ -28,12 +28,12 @@ class Inbox {
     }
     changed_.notify_all();
   }
-  // Gives one that has come.
+  // Takes a reply that has arrived; false if there is none.
   bool get(std::pair<std::size_t, Reply>& reply) {
     const std::lock_guard lock(mutex_);
     return pop(reply);
   }
-  // Waits for one; false where none is awaited any more.
+  // Waits for a reply; false if none is outstanding, or `stop` is set. Throws Cancelled.
   bool await(std::pair<std::size_t, Reply>& reply, const RunControl& control, const std::atomic<bool>& stop) {
     constexpr auto kLook = std::chrono::milliseconds(50);
     std::unique_lock lock(mutex_);

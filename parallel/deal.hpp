@@ -31,8 +31,8 @@ struct HelpersUse {
   std::vector<double> peak_mib;    // memory of each rank at its last reply; unset for this process
 };
 
-// Helpers that take work. Whoever creates this knows who they are and how they are reached. All functions may be called
-// from several threads.
+// Helpers that take work. The creator decides who they are and how they are reached. All functions may be called from
+// several threads.
 struct Helpers {
   // Sends all helpers the shared context of a region's pieces (see piece_context); returns the region's number.
   std::function<std::uint32_t(std::string&& context)> begin;
@@ -48,7 +48,7 @@ struct Helpers {
   std::function<HelpersUse()> use;
 };
 
-// A region known to helpers while this object lives.
+// Makes a region known to helpers for the lifetime of this object.
 class HelpedRegion {
  public:
   HelpedRegion(const Helpers& helpers, std::string&& context)
@@ -75,11 +75,12 @@ struct HelperOutOfMemory : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// How items of work are done here, and by helpers. The result for an item must not depend on where it is done.
+// How items of work are processed, here and by helpers. The result for an item must not depend on where it is
+// processed.
 struct DealtWork {
-  std::function<bool(std::size_t i)> may_go;          // whether it should be sent; called first, once
+  std::function<bool(std::size_t i)> may_go;          // true if the item may be sent; called first, once
   std::function<std::string(std::size_t i)> request;  // the request to send
-  std::function<void(std::size_t i)> here;            // does it on this thread
+  std::function<void(std::size_t i)> here;            // processes the item on this thread
   std::function<void(std::size_t i, Reply&&)> take;   // stores a reply; throws if it is not usable
 };
 
@@ -88,8 +89,8 @@ struct DealtWork {
 void dealItems(const HelpedRegion& helpers, std::size_t count, const RunControl& control, Recorder& recorder,
                std::string_view name, const DealtWork& work);
 
-// The same for items with an owner: 0, whose items are done here on the threads of `loop`, or a helper. `work.may_go`
-// is not called.
+// The same for items with an owner: 0 for items processed here, on the threads of `loop`, otherwise the rank of a
+// helper. Does not call `work.may_go`.
 void dealToOwners(const Helpers& helpers, std::span<const int> owners, const RunControl& control, const ItemLoop& loop,
                   const DealtWork& work);
 

@@ -2,13 +2,13 @@
 
 namespace coastmesh {
 
-// Gives what was freed back to the system, as far as the library of the C language can be asked to: it keeps pages for
-// who allocates next, which is not the same again after a large mesh. Does nothing where that is little: a page taken
-// anew costs as much as some hundred triangles copied.
+// Returns freed memory to the system, if the C library can (glibc). It keeps freed pages for later allocations, which
+// may not need them after a large mesh. Does nothing if little is free: faulting in a new page costs as much as copying
+// some hundred triangles.
 void giveBackFreeMemory();
 
-// Lets the library keep what was freed, large blocks too, for who allocates next, until `giveBackFreeMemory` is asked
-// for. For programs alone: it holds for the whole process.
+// Makes the C library keep freed memory, including large blocks, for later allocations until `giveBackFreeMemory` is
+// called. Only for programs: affects the whole process.
 void keepFreedMemory();
 
 }  // namespace coastmesh

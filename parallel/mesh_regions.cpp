@@ -30,7 +30,7 @@ namespace coastmesh {
 
 namespace {
 
-// Cutting pays from so many triangles on.
+// Expected triangles from which cutting pays.
 constexpr double kWorthCutting = 60000.0;
 
 class Stopwatch {
@@ -49,7 +49,7 @@ int optimiseSweeps(const MeshOptions& options) {
   return options.refine.size != nullptr && options.coarsen ? kOptimiseSweeps : 0;
 }
 
-// The box of a mesh.
+// The bounding box of a mesh.
 std::pair<Point, Point> extentOf(const TriMesh& mesh) {
   Point low = mesh.points.front(), high = low;
   for (const Point& p : mesh.points) {
@@ -59,8 +59,8 @@ std::pair<Point, Point> extentOf(const TriMesh& mesh) {
   return {low, high};
 }
 
-// A longest edge on the surface as one in the plane: right where the surface is longest, and a little shorter
-// elsewhere; none where it would be much shorter somewhere.
+// `size_max` as a length in the plane: exact where the scale factor is largest, at most 2 % too short elsewhere.
+// Infinite if the factor varies by more than that over the box.
 double longestInPlane(const RefineOptions& options, const Point& low, const Point& high) {
   constexpr double kAlike = 0.98;
   const auto farOf = [](double from, double to) { return std::max(std::abs(from), std::abs(to)); };
@@ -70,8 +70,8 @@ double longestInPlane(const RefineOptions& options, const Point& low, const Poin
   return least < kAlike * most ? std::numeric_limits<double>::infinity() : options.size_max / most;
 }
 
-// Where lengths rule, most vertices are known beforehand. Algorithms for comparison stay as they were published. The
-// memory that there is decides nothing here: the mesh would depend on it.
+// The lattices to begin with: where requested lengths determine the mesh, most vertices are known in advance.
+// Algorithms for comparison stay as published. `most_in_memory` must have no influence: the mesh would depend on it.
 std::vector<LatticePlaces> placesFor(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
   if (options.algorithm != Algorithm::Relocate) return {};
   const std::uint64_t most = std::min(options.max_vertices, kMostVertices);
@@ -95,7 +95,7 @@ std::vector<LatticePlaces> latticesFor(const TriMesh& mesh, const RefineOptions&
   return lattices;
 }
 
-// The PSLG of what is to be meshed: with the ring of a cap round it.
+// The PSLG with the ring of the cap around it.
 Pslg withRing(const Pslg& pslg, const MeshOptions& options) {
   Pslg all = pslg;
   const auto first = static_cast<VertexId>(pslg.points.size()),
@@ -116,15 +116,15 @@ TriMesh triangulateInRing(const Pslg& pslg, const MeshOptions& options, std::spa
   return mesh;
 }
 
-// What goes with a mesh that has the places of lattices for vertices.
+// Data on a mesh that begins with further vertices: lattice points or seeds.
 struct Seeds {
-  VertexNotes input;               // notes on the input alone; empty where there are no cores
-  VertexNotes notes;               // and on all; empty where the mesh is as it was, and not to be cut
-  std::vector<LatticeCore> cores;  // what is out of the mesh
+  VertexNotes input;               // notes on the input only; empty if there are no cores
+  VertexNotes notes;               // on all vertices; empty if none were added and the mesh is not to be cut
+  std::vector<LatticeCore> cores;  // kept out of the mesh
   std::uint64_t core_vertices = 0;
 };
 
-// The same of a mesh that is to be closed: with the vertices that it begins with.
+// For a mesh to be closed: inserts its initial vertices.
 Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options) {
   Recorder recorder;
   Seeds seeds;
@@ -137,7 +137,7 @@ Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opti
   return seeds;
 }
 
-// Triangulates once more where there are lattices to be laid.
+// Triangulates again if there are lattices to insert.
 Seeds seed(MeshedRegion& region, const Pslg& pslg, const MeshOptions& all_options, bool with_cores,
            const RunControl& control) {
   if (!all_options.cap.empty()) return seedInRing(region, pslg, all_options);
@@ -164,12 +164,12 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
   Seeds seeds = seed(region, pslg, options, false, control);
   region.seconds.triangulate += watch.lap();
   Recorder recorder;
-  // Without further vertices a small input may be refined in several ways.
+  // The overload without notes tries several variants on a small input, and needs a mesh without further vertices.
   region.stats = options.cap.empty() && region.mesh.points.size() == pslg.points.size()
                      ? refine(region.mesh, pslg, options.refine, control)
                      : refine(region.mesh, pslg, options.refine, std::move(seeds.notes), control);
   region.seconds.refine = watch.lap();
-  // Of the input's own vertices none goes.
+  // Input vertices are never removed.
   if (options.coarsen && region.mesh.points.size() > region.mesh.input_vertices) {
     RefineStats coarsened = coarsen(region.mesh, pslg, options.refine, control);
     region.seconds.coarsen = watch.lap();
@@ -185,8 +185,8 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
   region.log.append(recorder.finish("refine"));
 }
 
-// Mends, in the whole mesh, triangles that could not be mended while cores were out of it: by repairs near them first,
-// which leave the rest as it is, then by refining more and more of what lies round them.
+// Repairs, in the whole mesh, triangles that could not be repaired while cores were kept out of it: first by local
+// repairs, which leave the rest unchanged, then by refining ever larger surroundings of them.
 template <typename Add>
 void mendBesideCores(MeshedRegion& region, std::vector<TriId> bad, const Pslg& pslg, const RefineOptions& options,
                      const VertexNotes& notes, const HelpedRegion* helpers, const RunControl& control, const Add& add) {
@@ -204,7 +204,7 @@ void mendBesideCores(MeshedRegion& region, std::vector<TriId> bad, const Pslg& p
     workspace.helpers = helpers;
     TriMesh solved = patch.mesh;
     RoundsReport report = mendInRounds(solved, pslg, own, patch.notes, edges == kEdges.front(), control, workspace);
-    report.pieces = 0;  // of a part
+    report.pieces = 0;  // those of a patch do not count
     const bool is_full = report.stats.budget_reached;
     add(std::move(report));
     Recorder after;
@@ -216,8 +216,8 @@ void mendBesideCores(MeshedRegion& region, std::vector<TriId> bad, const Pslg& p
   }
 }
 
-// Stands for all that the mesh of a region depends on. The memory that there is does not count: it is not the same
-// tomorrow.
+// A hash of everything that the mesh of a region depends on. Excludes `most_in_memory`, which may differ in the next
+// run.
 std::uint64_t fingerprintOf(const TriMesh& seeded, const Pslg& pslg, const MeshOptions& options,
                             const VertexNotes& notes) {
   RefineOptions lasting = options.refine;
@@ -256,7 +256,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   RoundsWorkspace workspace;
   workspace.helpers = helpers;
   workspace.keeper = keeper ? &*keeper : nullptr;
-  // Whether there is anything of that stage to be done.
+  // Begins a stage, with the results of those before it; false if an earlier run has completed it.
   const auto begins = [&](RoundsStage stage) {
     if (!keeper) return true;
     if (keeper->isPast(stage)) return false;
@@ -300,7 +300,8 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   region.seconds.stitch = watch.lap();
 }
 
-// Makes the lattice the result, but for its regions; where it falls short of a bound, its vertices are seeds.
+// Makes the lattice the result, without regions, and returns true if it meets the bounds; otherwise its vertices become
+// seeds.
 bool takeLattice(MeshedRegion& region, MeshOptions& options, const ItemLoop& loop) {
   TriMesh& lattice = options.lattice;
   if (lattice.triangles.empty()) return false;

@@ -20,14 +20,14 @@ struct RegionCheckpoint;
 struct MeshOptions {
   RefineOptions refine{};
   bool coarsen = true;
-  bool smooth = false;       // optimise longer; without requested lengths, optimise at all
+  bool smooth = false;       // optimise longer; required to optimise without requested lengths
   bool one_piece = false;    // never cut a region, however large
   bool mark_pieces = false;  // set `MeshedRegion::piece_of`
   // Set `stats.unresolved` for regions that are cut or closed; not needed by callers that judge the finished mesh.
   bool list_violations = true;
   // Helpers that process pieces; must outlive the run. The mesh does not depend on it. Null: none.
   const Helpers* helpers = nullptr;
-  // Where the mesh of a cut region is saved after each round, and where this run finds what an earlier one saved; must
+  // Where the mesh of a cut region is saved after each round, and from where this run resumes an earlier one; must
   // outlive the run. The mesh does not depend on it. Null: nowhere.
   const RegionCheckpoint* checkpoint = nullptr;
   // For a mesh of a whole sphere (`refine.surface`): if not empty, the region is the inside of this ring, no input may
@@ -60,9 +60,10 @@ struct MeshedRegion {
   WorkLog log;
 };
 
-// Triangulates, refines and coarsens one region, cut into pieces if it is large. A closed mesh has the vertices of the
-// PSLG first, like any other, and no boundary. Throws BadPslg, Cancelled, BadCheckpoint if what was saved belongs to
-// something else, and std::invalid_argument for options out of range.
+// Triangulates, refines and coarsens one region, cut into pieces if it is large. The vertices of the PSLG come first,
+// also in a closed mesh, which has no boundary. Throws BadPslg, Cancelled, OutOfRoom, HelperFailed and
+// HelperOutOfMemory, BadCheckpoint if the saved state belongs to another input or other options, and
+// std::invalid_argument for options out of range.
 MeshedRegion meshRegion(const Pslg& pslg, MeshOptions options, const RunControl& control = {});
 
 }  // namespace coastmesh

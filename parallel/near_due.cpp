@@ -29,7 +29,7 @@ std::vector<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, cons
   };
   std::vector<TriId> front = stretchesOf([&](TriId t) { return (taken[t] = isDue(whole, t)) != 0; });
   for (unsigned edge = 0; edge < edges && !front.empty(); ++edge) {
-    // Which thread comes to a triangle first does not matter: the set is the same.
+    // The set does not depend on which thread reaches a triangle first.
     front = joined(overStretches(loop, front.size(), [&](std::size_t first, std::size_t last) {
       std::vector<TriId> next;
       for (std::size_t i = first; i < last; ++i)

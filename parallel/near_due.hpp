@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// The triangles that are due or have a due vertex, and those within so many edges of them; ascending.
+// The triangles that are due or have a due vertex, and those within `edges` edges of them; ascending.
 std::vector<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, const ItemLoop& loop);
 
 }  // namespace coastmesh

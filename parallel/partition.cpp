@@ -23,7 +23,8 @@ class CutTreeBuilder {
  public:
   explicit CutTreeBuilder(std::vector<CutTree::Node>& nodes) : nodes_(nodes) {}
 
-  // Node `node` and the 2 pieces - 2 behind it in the array make pieces `first`, `first` + 1, and so on.
+  // Builds the subtree that makes `pieces` pieces, numbered from `first`, in `node` and the 2 * pieces - 2 nodes behind
+  // it.
   void split(std::uint32_t node, std::span<Sample> samples, PieceId first, PieceId pieces) {
     nodes_[node].piece = first;
     if (pieces == 1 || samples.size() < 2) return;
@@ -57,7 +58,7 @@ Point centroidOf(const TriMesh& mesh, TriId t) {
   return centroid(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]));
 }
 
-// The triangles in the order of their pieces. `triangle(i)` is the i-th of `count`.
+// Sorts triangles by piece. `triangle(i)` is the i-th of `count`.
 template <typename Triangle>
 void sortByPiece(Partition& partition, std::size_t count, const Triangle& triangle, Recorder& recorder) {
   constexpr std::size_t kStretches = 64;
@@ -103,7 +104,7 @@ void partition(const TriMesh& mesh, std::span<const TriId> some, PieceId pieces,
                const std::function<double(TriId)>& weight, Recorder& recorder, Partition& parts) {
   CutTree tree{std::cos(angle), std::sin(angle), std::vector<CutTree::Node>(2 * pieces - 1)};
   const auto centre = [&](TriId t) { return tree.turn(centroidOf(mesh, t)); };
-  // Enough samples a piece that their weights differ little; all triangles would take longer to sort than to mesh.
+  // Enough samples per piece that weights differ little; sorting all triangles would take longer than meshing them.
   constexpr std::size_t kSamples = 128;
   const std::size_t count = some.empty() ? mesh.triangles.size() : some.size();
   const auto triangle = [&](std::size_t i) { return some.empty() ? static_cast<TriId>(i) : some[i]; };

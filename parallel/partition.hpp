@@ -43,12 +43,12 @@ struct Partition {
   std::span<const TriId> of(PieceId p) const { return std::span(triangles).subspan(first[p], first[p + 1] - first[p]); }
 };
 
-// Cuts a mesh into pieces of like weight by straight lines, along one of two directions at right angles each: halves,
-// halves of these, and so on (Bentley's k-d tree). Depends on nothing but its arguments.
-//   some       which triangles, ascending; the others stay where they are. Empty stands for all.
-//   weight(t)  what a triangle counts, above 0
-//   angle      radians: the directions are turned by so much; cuts under other angles meet these at single points
-//   parts      what is written; what it holds is lost but for its memory, which serves again
+// Cuts a mesh into pieces of similar weight by straight lines along two perpendicular directions: halves, halves of
+// these, and so on (Bentley's k-d tree). Depends only on its arguments.
+//   some       the triangles to partition, ascending; the others are in no piece. Empty: all triangles
+//   weight(t)  the weight of a triangle, above 0
+//   angle      radians, by which the directions are turned; cuts at other angles meet these only in single points
+//   parts      the result; its previous contents are lost, but their memory is reused
 void partition(const TriMesh& mesh, std::span<const TriId> some, PieceId pieces, double angle,
                const std::function<double(TriId)>& weight, Recorder& recorder, Partition& parts);
 

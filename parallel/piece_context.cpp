@@ -15,7 +15,7 @@ template <>
 struct HasNoGaps<InputCorner> : std::true_type {};
 static_assert(sizeof(Segment) == 5 * sizeof(std::uint32_t) && sizeof(InputCorner) == 7 * sizeof(double));
 
-// Found by the calls of `pass`.
+// Found by argument-dependent lookup from `pass`.
 auto partsOf(auto& pslg) requires std::is_same_v<std::remove_cvref_t<decltype(pslg)>, Pslg> {
   auto& [points, segments, holes] = pslg;
   return std::tie(points, segments, holes);
@@ -28,7 +28,7 @@ auto partsOf(auto& cell) requires std::is_same_v<std::remove_cvref_t<decltype(ce
   auto& [below, is_leaf] = cell;
   return std::tie(below, is_leaf);
 }
-// All but the wanted lengths.
+// All members except the requested lengths: see `passSize`.
 auto partsOf(auto& options) requires std::is_same_v<std::remove_cvref_t<decltype(options)>, RefineOptions> {
   auto& [min_angle_deg, max_angle_deg, size_max, algorithm, max_vertices, most_in_memory, size, resolution, goal,
          surface, least_edge, size_scale] = options;

@@ -12,7 +12,7 @@
 
 namespace coastmesh {
 
-// The shared data of all pieces of a region, for whoever processes some of them elsewhere.
+// The shared data of all pieces of a region, for processes that work on some of them.
 struct PieceContext {
   Pslg pslg;
   RefineOptions options;                        // except what a PieceTask contains
@@ -20,7 +20,7 @@ struct PieceContext {
   std::shared_ptr<const InputCorners> corners;  // null if there are none
 };
 
-// The same as bytes. REQUIRES: requested lengths, if any, are a SizeTree or a ConstantSize.
+// The context as bytes. REQUIRES: requested lengths, if any, are a SizeTree or a ConstantSize.
 std::string contextBytes(const Pslg& pslg, const RefineOptions& options, const InputCorners* corners);
 // Throws std::runtime_error if the bytes are not a context.
 PieceContext contextFrom(std::string_view bytes);

@@ -11,7 +11,7 @@
 
 namespace coastmesh {
 
-// Found by the calls of `pass`.
+// Found by argument-dependent lookup from `pass`.
 auto partsOf(auto& task) requires std::is_same_v<std::remove_cvref_t<decltype(task)>, PieceTask> {
   auto& [work, sweeps, min_angle_deg, max_angle_deg, size_max, size_scale, max_vertices] = task;
   return std::tie(work, sweeps, min_angle_deg, max_angle_deg, size_max, size_scale, max_vertices);
@@ -48,7 +48,7 @@ void passTriangles(ByteWriter& writer, const TriMesh& mesh) {
   writer.pass(bare);
 }
 
-// Links triangles by their corners; returns how many edges have no other side.
+// Links triangles by their corners; returns the number of edges without a twin.
 std::uint64_t linkByCorners(TriMesh& mesh) {
   // The edges that begin at vertex v: from[first[v]] to from[first[v + 1]].
   std::vector<std::uint32_t> first(mesh.points.size() + 2, 0);
@@ -186,7 +186,7 @@ std::string answerPiece(std::string_view request, const PieceContext& context, c
   }
   writer.pass(kDone);
   writer.pass(stats);
-  // Who asked has the fixed ones.
+  // The fixed vertices are unchanged, and the sender has them.
   writer.pass(std::vector<Point>(state.mesh.points.begin() + state.mesh.input_vertices, state.mesh.points.end()));
   passTriangles(writer, state.mesh);
   writer.pass(state.notes.spacing);

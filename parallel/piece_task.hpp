@@ -29,8 +29,8 @@ struct PieceTask {
 RefineStats workOn(const PieceTask& task, MeshState& state, const Pslg& pslg, const RefineOptions& options,
                    const RunControl& control);
 
-// A piece as bytes. Links between triangles follow from their corners, and are left out. So is the shared context of a
-// region's pieces.
+// A task and its piece as bytes; without links between triangles, which follow from their corners, and without the
+// shared context of the region's pieces.
 std::string requestFor(const PieceTask& task, const MeshState& state);
 // Reads the reply to a request into the piece that was sent. Throws OutOfRoom if that was the reply, HelperFailed and
 // HelperOutOfMemory.

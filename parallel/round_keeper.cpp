@@ -11,7 +11,7 @@ template <>
 struct HasNoGaps<Triangle> : std::true_type {};
 static_assert(sizeof(Triangle) == 9 * sizeof(std::uint32_t));
 
-// Found by the calls of `pass`.
+// Found by argument-dependent lookup from `pass`.
 auto partsOf(auto& node) requires std::is_same_v<std::remove_cvref_t<decltype(node)>, CutTree::Node> {
   auto& [axis, cut, below, piece, leaf] = node;
   return std::tie(axis, cut, below, piece, leaf);
@@ -28,7 +28,7 @@ auto partsOf(auto& place) requires std::is_same_v<std::remove_cvref_t<decltype(p
   auto& [step, round] = place;
   return std::tie(step, round);
 }
-// All but the surface and the corners.
+// All members except the surface and the corners, which are not saved, and flags: see `passFlags`.
 auto partsOf(auto& state) requires std::is_same_v<std::remove_cvref_t<decltype(state)>, MeshState> {
   auto& [mesh, notes, due_triangles, due_vertices] = state;
   return std::tie(mesh.input_vertices, mesh.points, mesh.triangles, mesh.regions, notes.spacing, notes.shell_unit,

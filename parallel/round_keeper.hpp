@@ -18,7 +18,7 @@ struct RoundsTally {
   RefineStats stats;            // without `steiner_points` and `unresolved`
   std::uint64_t pieces = 0;     // of the round with the most pieces
   CutTree cuts;                 // of that round
-  std::int32_t cut_rounds = 0;  // of this run; it determines the angle of the next cuts
+  std::int32_t cut_rounds = 0;  // of this stage; determines the angle of the next cuts
 };
 
 // The next round.
@@ -31,15 +31,16 @@ struct RoundPlace {
 class RoundKeeper {
  public:
   // `fingerprint` represents everything that the mesh depends on; `notes` has the surface and the corners, which are
-  // not saved. Throws BadCheckpoint if what was saved has another fingerprint.
+  // not saved. Throws BadCheckpoint if the saved state is damaged or has another fingerprint.
   RoundKeeper(const RegionCheckpoint& checkpoint, std::uint64_t fingerprint, const VertexNotes& notes);
 
-  // Whether an earlier run has completed that stage.
+  // True if an earlier run has completed that stage.
   bool isPast(RoundsStage stage) const { return kept_ && kept_->stage > stage; }
-  // Results of the stages before that one: `tally` is this run's; an earlier run may have done more.
+  // Begins a stage. Returns the results of the stages before it: `tally`, which is this run's, or those of an earlier
+  // run that has reached this stage.
   const RoundsTally& begin(RoundsStage stage, RoundsTally tally);
-  // The state of an earlier run in this stage, with the mesh and the tally at that time; none if it did not reach the
-  // stage. Must be called once for each stage, after `begin`.
+  // Restores the mesh and the tally that an earlier run saved in this stage, and returns its next round; nullopt if it
+  // did not reach the stage. Must be called once for each stage, after `begin`.
   std::optional<RoundPlace> goOn(MeshState& whole, RoundsTally& tally);
   // Saves the state of this stage, with the next round. Throws what the checkpoint throws.
   void keep(const RoundPlace& next, const MeshState& whole, const RoundsTally& tally) const;
@@ -56,7 +57,7 @@ class RoundKeeper {
   std::uint64_t fingerprint_;
   std::optional<Kept> kept_;
   RoundsStage stage_ = RoundsStage::Refine;
-  RoundsTally before_;  // this stage
+  RoundsTally before_;  // before `stage_`
 };
 
 }  // namespace coastmesh

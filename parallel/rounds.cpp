@@ -23,71 +23,70 @@ namespace coastmesh {
 
 namespace {
 
-// Numbers found by trial on the sea of the README's tables, with and without `--size-max`, at 30°, 33° and 40°. To find
-// them anew change one, and compare what it is said to trade with what it was: vertices beside those of `--no-cut`, the
-// critical path in `--report`, the processor's seconds on one thread. All change meshes, so `tests/golden` changes with
-// them.
+// Tuned on the sea of the README's tables, with and without `--size-max`, at 30°, 33° and 40°. To tune a constant
+// again, compare the quantities that its comment mentions: vertices relative to `--no-cut`, the critical path in
+// `--report`, processor seconds on one thread. Each of them changes meshes, and `tests/golden` with them.
 
-// A piece is worth so many triangles of the end, as many as make so many pieces within these limits. Smaller ones share
-// out better and shorten the critical path; larger ones have fewer triangles beside a cut, which wait for a later round
-// and cost vertices.
+// Triangles that a piece is expected to become: as many as make `kWantedPieces` pieces, within these limits. Smaller
+// pieces balance better and shorten the critical path; larger ones have fewer triangles at cuts, which wait for a later
+// round and cost vertices.
 constexpr double kLeastGrain = 6000.0, kMostGrain = 40000.0;
 constexpr double kWantedPieces = 512.0;
-// Edges come to the length asked by steps of this factor: a piece begins with a ninth of its triangles. Larger steps
-// leave strips of long triangles along cuts, smaller ones are more rounds.
+// Factor between the edge lengths of successive steps: a piece begins with a ninth of its triangles. A larger factor
+// leaves strips of long triangles along cuts, a smaller one takes more rounds.
 constexpr double kSizeStep = 3.0;
-// Where lengths are wanted, the last step before they are asked for has edges so many times as long. Its points stay
-// where they are, and rows of equal triangles grow from each: of 1.6 million triangles of one size 84 % of the vertices
-// have six neighbours with 3, 92 % with 9, 93 % with 16, 96 % without a step. Pieces of longer edges are few large
-// triangles, most of them beside a cut: with 16 the critical path is twice as long.
+// With a size function, the step before the last makes edges this many times as long as requested. Its points stay, and
+// rows of equal triangles grow from each: in a mesh of 1.6 million triangles of one size, 84 % of the vertices have six
+// neighbours with 3, 92 % with 9, 93 % with 16, 96 % without a step. Pieces with longer edges are few large triangles,
+// most of them at a cut: with 16 the critical path is twice as long.
 constexpr double kLastStep = 9.0;
-// Triangles with a smaller angle than this, in degrees, are refined before anything is cut: those that reach from shore
-// to shore. Larger values cost vertices and time on one thread; smaller ones leave triangles that lie across several
-// pieces.
+// Degrees. Triangles with a smaller angle, which reach from shore to shore, are refined before the first cut. A larger
+// value costs vertices and single-threaded time; a smaller one leaves triangles that cross several pieces.
 constexpr double kFirstAngleDeg = 0.5;
-// Rounds of a step, the uncut one at the end not counted. A bound on the run: most steps end sooner, by the next
-// number.
+// Most rounds of a step, not counting the uncut one at the end. A safeguard: most steps end earlier, by `kFewDue`.
 constexpr int kMostRounds = 8;
-// Bad triangles that a step may leave to the next. More are work for one thread, fewer are rounds for next to nothing.
+// Bad triangles that a step may leave to the next. A larger number leaves single-threaded work, a smaller one takes
+// rounds that do hardly anything.
 constexpr double kFewDue = 200.0;
-// In a mesh of so few triangles what the pieces of the last rounds could not mend is tried again uncut.
+// In a mesh of fewer triangles, what pieces of the last rounds could not repair is tried again uncut.
 constexpr std::size_t kSmallMesh = 1'000'000;
-// A round after the first works on what lies so many edges round what is due: fewer leave more at the edge of that to
-// the next round, more are copied for nothing. The rest of the mesh stays where it is.
+// Rounds after the first work within this many edges of due triangles and vertices, and leave the rest of the mesh in
+// place. A smaller number leaves more work at the border to the next round, a larger one copies triangles for nothing.
 constexpr unsigned kEdgesRoundDue = 6;
-// Where more than this share of the triangles is near what is due, all are cut.
+// If more than this share of the triangles is near due ones, all are cut.
 constexpr double kWorthAll = 0.4;
-// Work, in triangles, that is not worth a cut: the first step makes about so many. Fewer are more steps, more are work
-// for one thread.
+// Work, in triangles, that is not worth a cut: the first step makes about this many. A smaller number takes more steps,
+// a larger one is more single-threaded work.
 constexpr double kLittleWork = 5000.0;
 
-// Of a mesh of fewer triangles than this, such as a patch beside cores, the memory that pieces took is kept for the
-// next round: to give it back takes longer than the round.
+// In a mesh of fewer triangles, such as a patch beside cores, the pieces' memory is kept for the next round: returning
+// it takes longer than the round.
 constexpr std::size_t kWorthGivingBack = 1'000'000;
 
-// The others estimate work, in triangles, so that pieces are of like weight: compare with counts of what refinement
-// made.
+// The constants below estimate work, in triangles, so that pieces have similar weights. To tune them, compare with the
+// number of triangles that refinement makes.
 
-// Triangles that refinement makes of an area, over the equilateral ones with the longest edge asked that would fill it.
+// Triangles that refinement makes of an area, relative to the equilateral ones of the longest allowed edge that fill
+// it.
 constexpr double kExcess = 1.5;
 constexpr double kEquilateral = 0.43301270189221932;  // area for edges of length 1
-// What comes of a bad triangle on a coast.
+// Triangles that a bad triangle at a coast becomes.
 constexpr double kOfABadOne = 3.0;
-// Halvings of a triangle's sides in adding up what wanted lengths make of it: four to this power of places. A bound on
-// the time.
+// Levels by which a triangle is subdivided, into four each, to integrate the requested lengths over it. Bounds the
+// time.
 constexpr int kMostDepth = 9;
-// The work of solving patches round a triangle anew.
+// The work of repairing patches around a triangle.
 constexpr double kOfARepair = 500.0;
-// The work of copying a triangle, beside refining one.
+// The work of copying a triangle, relative to refining one.
 constexpr double kOfACopy = 0.1;
 
-// The angle that round r cuts under: far from those of the rounds before it.
+// The angle of a round's cuts, radians: far from those of the rounds before it.
 double cutAngle(int round) {
   constexpr double kRightAngle = std::numbers::pi / 2.0, kGoldenShare = 0.61803398874989485;
   return kRightAngle * std::fmod(kGoldenShare * round, 1.0);
 }
 
-// How many triangles of the lengths wanted a triangle is worth.
+// The number of triangles of the requested lengths that fill a triangle.
 double wantedIn(const Point& a, const Point& b, const Point& c, const TriangleBound& bound, int depth) {
   constexpr double kFine = 16.0;
   const double size = bound.longest_share / kLongestShare * bound.size->at(centroid(a, b, c));
@@ -112,19 +111,19 @@ PieceId piecesFor(double weight) {
   return static_cast<PieceId>(std::max(1.0, std::round(weight / grain)));
 }
 
-// What a round works on.
+// The part of the mesh that a round works on.
 enum class Extent {
-  Uncut,    // all, as one
-  All,      // pieces of all
-  NearDue,  // pieces of what is due and lies round it
+  Uncut,    // the whole mesh, as one piece
+  All,      // pieces of the whole mesh
+  NearDue,  // pieces of the due triangles and vertices and their surroundings
 };
 
 bool anyOf(const std::vector<std::uint8_t>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
 
-// Whether anything of a piece is to be worked on: triangles for refinement, vertices for what comes after.
+// True if anything in a piece is due: triangles for refinement, vertices for coarsening and optimisation.
 bool isDue(const MeshState& state) { return anyOf(state.due_triangles) || anyOf(state.due_vertices); }
 
-// A piece that has grown waits for the others with room for as much again.
+// Until all pieces are done, a piece that has grown may hold memory for twice its size.
 void dropSpareRoom(MeshState& state) {
   const auto drop = [](auto& items) {
     if (items.capacity() - items.size() > items.size() / 8) items.shrink_to_fit();
@@ -133,7 +132,7 @@ void dropSpareRoom(MeshState& state) {
   drop(state.mesh.triangles);
 }
 
-// The mesh from round to round.
+// The state of a mesh across rounds.
 class Rounds {
  public:
   Rounds(TriMesh&& mesh, const RunControl& control, RoundsWorkspace& workspace)
@@ -145,17 +144,17 @@ class Rounds {
   Recorder& recorder() { return recorder_; }
   RefineStats& stats() { return tally_.stats; }
 
-  // Where an earlier run was, with all as it was then.
+  // Restores the state that an earlier run saved, and returns its next round; nullopt if there is none.
   std::optional<RoundPlace> goOn() {
     return workspace_.keeper != nullptr ? workspace_.keeper->goOn(whole_, tally_) : std::nullopt;
   }
-  // Keeps all as it is, for another run to go on from.
+  // Saves the state, so that another run can resume from it.
   void keep(const RoundPlace& next) const {
     if (workspace_.keeper != nullptr) workspace_.keeper->keep(next, whole_, tally_);
   }
 
-  // Cuts, works, stitches. `weigh(t)` is what a triangle counts, `taskOf(state, share)` what is done to a piece with
-  // that share of the whole weight where any of it is due.
+  // Cuts, processes the pieces, stitches. `weigh(t)` is a triangle's weight. `taskOf(state, share)` is the task for a
+  // piece with this share of the total weight; it is executed if anything in the piece is due.
   template <typename Weigh, typename TaskOf>
   void round(std::string_view name, const Weigh& weigh, Extent extent, const Pslg& pslg, const RefineOptions& options,
              const TaskOf& taskOf) {
@@ -226,7 +225,7 @@ class Rounds {
     }
     if (some.empty()) {
       stitch(std::move(pieces), recorder_, whole_);
-      // What the pieces took is not wanted again before all is cut once more.
+      // The pieces' memory is not needed before the whole mesh is cut again.
       if (parts.pieces > 1 && count >= kWorthGivingBack) giveBackFreeMemory();
     } else {
       stitchInPlace(std::move(pieces), parts, recorder_, whole_);
@@ -234,7 +233,7 @@ class Rounds {
     for (const RefineStats& of_piece : stats) tally_.stats.add(of_piece);
   }
 
-  // The weights of so many triangles, summed in a fixed order.
+  // The sum of the weights of `count` triangles, in a fixed order.
   template <typename Weigh>
   double total(std::size_t count, const Weigh& weigh) {
     constexpr std::size_t kStretches = 256;
@@ -259,10 +258,11 @@ class Rounds {
   RoundsTally tally_;
 };
 
-// What is asked, step after step. At first small angles, of the whole: long thin triangles from shore to shore, as a
-// triangulation without Steiner points has them, leave no way to cut it. And edges as short as little work makes them:
-// then each step asks for shorter ones, so that pieces never consist of few large triangles. Where lengths are wanted
-// and few triangles come of them, the first step makes them all: coarser steps would spoil the rows.
+// The options of each step; those of the last are `options`. The first step works on the uncut mesh: it removes very
+// small angles, because the long thin triangles of a triangulation without Steiner points, from shore to shore, leave
+// no place for cuts, and makes edges as short as little work allows. Each further step requests shorter edges, so that
+// pieces never consist of few large triangles. If requested lengths need few triangles, the first step makes them all:
+// coarser steps would disturb the rows.
 std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& mesh) {
   std::vector<RefineOptions> steps{options};
   double area = 0.0, longest = 0.0;
@@ -301,7 +301,7 @@ void markBad(Rounds& run, const TriangleBound& bound) {
   });
 }
 
-// What the whole may still hold is shared out to its pieces by the work expected.
+// Distributes the vertices that the whole mesh may still take to its pieces, by expected work.
 RefineOptions optionsOfPiece(const RefineOptions& options, std::uint64_t vertices, const MeshState& state,
                              double share) {
   RefineOptions own = options;
@@ -334,19 +334,20 @@ double expectedTriangles(const TriMesh& mesh, const RefineOptions& options) {
 
 namespace {
 
-// Rounds of one step from `first` on, of which the last is not cut. `mends` where nothing may be left;
-// `checkpoint(share)` reports how far it is, `keep(round)` keeps what there is before that round.
+// The rounds of one step, from round `first` on. `whole_first`: the step is a single uncut round. `mends`: the step
+// must leave nothing due, and its last round is uncut. `checkpoint(share)` reports progress, `keep(round)` saves the
+// state before that round.
 template <typename Checkpoint, typename Keep>
 void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int first, bool whole_first, bool mends,
                 const Checkpoint& checkpoint, const Keep& keep) {
   MeshState& whole = run.whole();
   const TriangleBound bound = boundOf(options);
-  // Later rounds are left what is due by those before them.
+  // Later rounds continue with the triangles that earlier ones left due.
   if (first == 0) markBad(run, bound);
   for (int round = first; round <= kMostRounds; ++round) {
     const double left =
         run.total(whole.mesh.triangles.size(), [&](TriId t) { return static_cast<double>(whole.due_triangles[t]); });
-    // Only the last step has to leave nothing: its last round is not cut. The first step is not cut at all.
+    // Steps other than the last may leave some triangles due.
     if (left == 0.0 || (whole_first && round > 0)) break;
     if (!mends && (left < kFewDue || round == kMostRounds)) break;
     checkpoint(static_cast<double>(round) / (kMostRounds + 1));
@@ -355,7 +356,7 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int
     const Extent extent = uncut ? Extent::Uncut : round == 0 ? Extent::All : Extent::NearDue;
     const std::uint64_t unmended = run.stats().unmended;
     refineRound(run, pslg, options, bound, extent, mends);
-    // What a piece could not mend the whole may.
+    // The whole mesh may allow repairs that a piece did not.
     if (soon_done && !uncut && run.stats().unmended != unmended) {
       markBad(run, bound);
       refineRound(run, pslg, options, bound, Extent::Uncut, mends);
@@ -395,7 +396,7 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
   MeshState& whole = run.whole();
   whole.notes = std::move(notes);
   if (repairs_alone) {
-    // What lies at a cut waits for the next round, which cuts elsewhere.
+    // Triangles at a cut wait for the next round, which cuts elsewhere.
     constexpr int kRepairRounds = 5;
     for (int round = 0; round < kRepairRounds; ++round) {
       markBad(run, strictBoundOf(options));
@@ -417,7 +418,7 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
 
 namespace {
 
-// Gives every Steiner point its turn in some round.
+// Processes Steiner points in up to three rounds: those at a cut wait for the next one.
 RoundsReport sweepInRounds(std::string_view name, const PieceTask& task, TriMesh& mesh, const Pslg& pslg,
                            const RefineOptions& options, const RunControl& control, RoundsWorkspace& workspace) {
   constexpr int kRounds = 3;

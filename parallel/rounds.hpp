@@ -16,7 +16,7 @@ class RoundKeeper;
 // The approximate number of triangles that refinement will make of a mesh.
 double expectedTriangles(const TriMesh& mesh, const RefineOptions& options);
 
-// What rounds share with one another, and refinement with coarsening.
+// State shared by rounds, and by refinement, coarsening and optimisation.
 struct RoundsWorkspace {
   Partition parts;                        // reused for its memory: fresh memory costs more than writing to it
   const HelpedRegion* helpers = nullptr;  // helpers that process pieces
@@ -36,12 +36,12 @@ struct RoundsReport {
 // pieces are refined in parallel, each away from its cuts, and stitched; the next round cuts at another angle, so that
 // the remaining work is inside its pieces. If an edge length is requested, rounds approach it in steps, so that pieces
 // never consist of few large triangles. The result does not depend on the number of threads. `notes` are those on the
-// mesh, with the free vertices that it already has. Throws Cancelled.
+// mesh, including its free vertices. Throws Cancelled, OutOfRoom.
 RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                             const RunControl& control, RoundsWorkspace& workspace);
 
-// Refines what misses the bounds in a mesh that meets them almost everywhere, in rounds of the same kind; or only
-// repairs it, in one round that changes no more than patches.
+// Refines the triangles that miss the bounds, in a mesh that meets them almost everywhere, in rounds of the same kind.
+// With `repairs_alone` only repairs them, in up to five rounds that change only patches around them.
 RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                           bool repairs_alone, const RunControl& control, RoundsWorkspace& workspace);
 

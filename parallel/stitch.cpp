@@ -26,11 +26,11 @@ struct CutSide {
   SegmentId seg;
 };
 
-// Where in the stitched mesh the pieces begin.
+// Where each piece begins in the stitched mesh.
 struct Layout {
   std::vector<VertexId> on_cuts;  // Steiner points on cuts: the whole's numbers, ascending
-  std::vector<VertexId> vertex;   // one a piece, and the end
-  std::vector<TriId> triangle;    // one a piece, and the end
+  std::vector<VertexId> vertex;   // of each piece, and the end
+  std::vector<TriId> triangle;    // of each piece, and the end
 };
 
 Layout layOut(const std::vector<CutSubmesh>& pieces, VertexId input_vertices) {
@@ -50,8 +50,8 @@ Layout layOut(const std::vector<CutSubmesh>& pieces, VertexId input_vertices) {
   return layout;
 }
 
-// Writes one piece to its place; lists its sides of cut edges. `vertex` has the new number of each vertex,
-// `triangle(t)` gives that of a triangle. What is fixed stays as the whole has it.
+// Writes a piece to its place; returns its sides of cut edges. `vertex` has the new number of each vertex,
+// `triangle(t)` returns that of a triangle. Fixed vertices keep the values of the whole mesh.
 template <typename TriangleNumber>
 std::vector<CutSide> place(const CutSubmesh& cut, std::span<const VertexId> vertex, const TriangleNumber& triangle,
                            MeshState& whole) {
@@ -71,7 +71,7 @@ std::vector<CutSide> place(const CutSubmesh& cut, std::span<const VertexId> vert
       const std::pair ends(mesh.origin(edgeRef(t, i)), mesh.target(edgeRef(t, i)));
       const auto endsOf = [](const CutEdge& e) { return std::pair(e.a, e.b); };
       const auto edge = std::ranges::lower_bound(cut.edges, ends, {}, endsOf);
-      // Otherwise there is nothing beyond it in the whole mesh: it stays frozen.
+      // Otherwise the whole mesh has nothing beyond it: it stays frozen.
       if (edge != cut.edges.end() && endsOf(*edge) == ends)
         sides.push_back({edge->name, edgeRef(at, i), edge->beyond, edge->seg});
     }
@@ -107,7 +107,7 @@ std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of
   return edges;
 }
 
-// Flips what is not Delaunay from these edges on.
+// Restores the Delaunay property by flips, starting from these edges.
 void restoreAcross(std::vector<EdgeRef>&& edges, MeshState& whole) {
   std::erase_if(edges, [&](EdgeRef e) {
     if (whole.mesh.segment(e) != kNone) return true;
@@ -119,10 +119,11 @@ void restoreAcross(std::vector<EdgeRef>&& edges, MeshState& whole) {
     if (!whole.due_triangles.empty()) whole.due_triangles[t] = 1;
 }
 
-// The numbers, of vertices or of triangles, that the pieces of a partition give up and take.
+// Exchanges numbers, of vertices or of triangles, between the pieces of a partition: pieces that shrank free some,
+// pieces that grew take them, then new ones.
 class Exchange {
  public:
-  // `old(p)` has the numbers that piece p had, `count(p)` says how many it has now; there are numbers up to `end`.
+  // `old(p)`: the numbers that piece p had; `count(p)`: how many it has now. All numbers are below `end`.
   template <typename Old, typename Count>
   Exchange(std::size_t pieces, std::uint32_t end, const Old& old, const Count& count) : end_(end) {
     std::size_t further = 0;
@@ -140,8 +141,8 @@ class Exchange {
     last_ = end + static_cast<std::uint32_t>(further - taken_);
   }
 
-  std::uint32_t end() const { return last_; }  // of the numbers taken
-  // The number of item i of piece p, which had these.
+  std::uint32_t end() const { return last_; }  // one past the largest number
+  // The number of item i of piece p, which had the numbers `had`.
   std::uint32_t operator()(std::size_t p, std::span<const std::uint32_t> had, std::size_t i) const {
     if (i < had.size()) return had[i];
     const std::size_t place = further_[p] + i - had.size();
@@ -161,7 +162,7 @@ class Exchange {
   std::size_t taken_ = 0;
 };
 
-// Makes room for `count` items, of which the first `kept` stay and all others are to be written anew, and some more.
+// Resizes to `count` items, with some spare room: the first `kept` are preserved, all others will be overwritten.
 template <typename Item>
 void resizeBehind(const ItemLoop& loop, std::vector<Item>& items, std::size_t kept, std::size_t count) {
   if (count > items.capacity()) {
@@ -171,7 +172,7 @@ void resizeBehind(const ItemLoop& loop, std::vector<Item>& items, std::size_t ke
   items.resize(count);
 }
 
-// The same where there are any, and all that there are stay.
+// The same, preserving all items; does nothing for an unused list.
 template <typename Item>
 void growWhereKept(const ItemLoop& loop, std::vector<Item>& items, std::size_t count) {
   if (!items.empty()) resizeBehind(loop, items, items.size(), count);

@@ -9,10 +9,9 @@
 
 namespace coastmesh {
 
-// Both combine all pieces of one partition, in order, whether worked on or not, in the mesh that they were cut
-// from. Its memory is reused: fresh memory costs more than writing to it, and a second large mesh beside the pieces
-// would not fit. They restore the Delaunay property across the cuts and mark the triangles that this changes as
-// due.
+// Both combine all pieces of one partition, in order, whether processed or not, in the mesh that they were cut from.
+// Its memory is reused: fresh memory costs more than writing to it, and a second large mesh beside the pieces would not
+// fit. They restore the Delaunay property across the cuts, and mark the triangles that this changes as due.
 
 // For a partition of all triangles. Vertices are renumbered: input vertices as before, then those on cuts, then each
 // piece's own.

@@ -26,7 +26,7 @@ struct WorkLog {
   double work() const;
   // The lower limit for any number of threads.
   double criticalPath() const;
-  // The time of the run with so many threads, each taking the next item when it has finished one.
+  // The time of the run on `threads` threads, each taking the next item when it has finished one.
   double timeOn(std::size_t threads) const;
 };
 

@@ -13,7 +13,7 @@ namespace coastmesh {
 
 namespace {
 
-// The first error by index, whatever order the items ran in.
+// The error with the smallest index, in whatever order the items ran.
 class FirstError {
  public:
   void keep(std::size_t index, std::exception_ptr error) {
@@ -36,7 +36,7 @@ class FirstError {
 
 void withThreads(const ParallelOptions& options, const std::function<void()>& work) {
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-  // More threads than cores are given when asked for: what they change can then be seen on any machine.
+  // More threads than cores are allowed, so that their effect can be tested on any machine.
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   arena.execute(work);
@@ -51,8 +51,7 @@ void forEachItem(std::size_t count, const RunControl& control, const std::functi
   std::mutex progress_mutex;
   std::size_t done = 0;
 
-  // Workers take the items in order, one at a time: the large ones come first and no worker waits behind another's
-  // share.
+  // Workers take items in order, one at a time: large items come first, and none waits in a busy worker's share.
   const auto worker = [&] {
     while (!stop) {
       const std::size_t i = next.fetch_add(1);
@@ -70,13 +69,13 @@ void forEachItem(std::size_t count, const RunControl& control, const std::functi
       if (control.progress) control.progress(static_cast<double>(done) / static_cast<double>(count));
     }
   };
-  // Small regions make many loops of one item.
+  // Small regions run many loops of one item.
   if (count == 1) {
     worker();
     failure.rethrow();
     return;
   }
-  // Isolated: who waits here for the last item must not start on one of the items that this call is a part of.
+  // Isolated: a thread that waits here for the last item must not start another item of an enclosing loop.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(
         0, threadCount(), [&](int) { worker(); }, tbb::simple_partitioner());

@@ -11,7 +11,7 @@ struct ParallelOptions {
   int threads = 0;  // 0: all cores; does not change results
 };
 
-// Runs `work` with so many threads available to the following calls.
+// Runs `work` with this number of threads available to the functions below.
 void withThreads(const ParallelOptions& options, const std::function<void()>& work);
 
 // The number of threads that share the work.

@@ -14,19 +14,19 @@ namespace coastmesh {
 
 namespace {
 
-// A message goes as a header, and its bytes in parts that MPI's counts can hold.
+// A message is sent as a header, then its bytes in parts that fit MPI's counts.
 constexpr int kHeaderTag = 1, kBytesTag = 2;
 constexpr std::size_t kPart = std::size_t{1} << 30;
-using Header = std::array<std::uint64_t, 5>;  // kind, region, number, outcome, how many bytes
+using Header = std::array<std::uint64_t, 5>;  // kind, region, number, outcome, number of bytes
 
-// What has not left yet.
+// A message whose transfer is pending.
 struct Sending {
   Header header;
   std::shared_ptr<const std::string> bytes;
   std::vector<MPI_Request> requests;
 };
 
-// Errors of MPI end all ranks, as is its default.
+// MPI errors abort all ranks, as is MPI's default.
 class MpiTransport final : public Transport {
  public:
   MpiTransport() {

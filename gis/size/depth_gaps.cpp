@@ -16,13 +16,13 @@ namespace coastmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMostNodes = 1'000'000;  // past that squares are kept as large as they are
-constexpr double kFineShare = 0.5;             // of the size at an edge: squares there are no larger
-// Of the whole: squares across a shore are no larger than this, so that waters beside land stay apart; and how
-// much of a square has to be water so that no shore crosses it.
+constexpr std::size_t kMostNodes = 1'000'000;  // beyond this squares are not divided
+constexpr double kFineShare = 0.5;             // largest side of squares at an edge, relative to the size there
+// Squares crossed by a shore are divided to this share of the root, so that waters on both sides of land stay separate.
+// A shore crosses a square if less than `kAllWater` of it is water.
 constexpr double kFinestShore = 1.0 / 512.0, kAllWater = 0.97;
-constexpr int kMoreLevels = 2;  // squares without a depth are divided so often again
-constexpr int kProbes = 4;      // along the sides of a square in part of which depths are known
+constexpr int kMoreLevels = 2;  // further divisions of squares without a depth
+constexpr int kProbes = 4;      // along each side of a square with partly known depths
 
 SizeBox childOf(const SizeBox& box, unsigned i) {
   const double half = 0.5 * box.half;
@@ -36,11 +36,11 @@ double DepthGaps::Leaf::at(const Point& place) const {
   return std::clamp(depth_m + dot(gradient, place - box.centre), least_m, most_m);
 }
 
-// What a gap's square meets across one of its sides: another, or a depth.
+// What a gap's square meets across one of its sides: another square, or a known depth.
 struct DepthGaps::Side {
-  std::uint32_t leaf = kNone, other = kNone;  // `other`: none where a depth is known
-  double weight = 0.0;                        // how far they meet, over how far their middles are apart
-  Point step;                                 // from the leaf's middle to the other's, or to the depth
+  std::uint32_t leaf = kNone, other = kNone;  // `other`: kNone if a depth is known
+  double weight = 0.0;                        // length of contact over the distance of the centres
+  Point step;                                 // from the leaf's centre to the other's, or to the depth
   Point place;                                // of the depth
   double depth_m = std::numeric_limits<double>::quiet_NaN();
 };
@@ -55,7 +55,7 @@ void DepthGaps::build(const SizeField& known, const DomainMask& mask, double lea
   struct Work {
     std::uint32_t node;
     SizeBox box;
-    int gap_levels;  // how often a square without a depth was divided; 0: it may have one
+    int gap_levels;  // divisions of a square without a depth; 0: it may have one
   };
   nodes_.assign(1, {});
   std::vector<Work> level{{0, root_, 0}};
@@ -88,7 +88,7 @@ void DepthGaps::build(const SizeField& known, const DomainMask& mask, double lea
       }
       const double scale = scale_(box.centre);
       const double finest = scale * kFineShare * std::max(is_gap ? 0.0 : range.low, least_m);
-      // The mask's squares may be much larger than land is wide; shares are exact.
+      // The mask's cells may be much wider than the land; shares are exact.
       const double share = is_gap ? mask.share(box) : 1.0;
       const bool on_shore = share < kAllWater && box.half > kFinestShore * root_.half;
       const bool divide = 2.0 * box.half > finest && (!is_gap || gap_levels < kMoreLevels || on_shore);
@@ -194,7 +194,7 @@ std::vector<DepthGaps::Side> DepthGaps::sides() const {
           met.weight = (end - begin) / (half + beyond);
           met.step = (half + beyond) * out + (upright ? Point{0.0, across} : Point{across, 0.0});
           met.place = c + met.step;
-          // Where a part of it is a gap too, its mean.
+          // The mean of a partly known square, unless `fixSides` finds a depth.
           if (node.kind == Kind::Part) met.depth_m = leaves_[node.next].depth_m;
         }
         found.push_back(met);
@@ -222,7 +222,7 @@ void DepthGaps::fixSides(const SizeField& known, const std::function<double(doub
   std::erase_if(sides, [](const Side& side) { return side.other == kNone && std::isnan(side.depth_m); });
 }
 
-// Where the sides of each leaf begin, and the end.
+// The first side of each leaf, and the end.
 std::vector<std::size_t> DepthGaps::beginsOf(const std::vector<Side>& sides) const {
   std::vector<std::size_t> begin(leaves_.size() + 1, 0);
   for (const Side& side : sides) ++begin[side.leaf + 1];
@@ -230,7 +230,7 @@ std::vector<std::size_t> DepthGaps::beginsOf(const std::vector<Side>& sides) con
   return begin;
 }
 
-// The weighted mean of what is known across these sides; not a number where nothing is.
+// The weighted mean of the depths across these sides; NaN if none is known.
 double DepthGaps::meanAcross(std::span<const Side> sides) const {
   double sum = 0.0, weights = 0.0;
   for (const Side& side : sides) {
@@ -244,7 +244,7 @@ double DepthGaps::meanAcross(std::span<const Side> sides) const {
 
 void DepthGaps::fillByMean(const std::vector<Side>& sides, const ItemLoop& loop) {
   const std::vector<std::size_t> begin = beginsOf(sides);
-  // From the edges of a gap inwards: a first guess, and what is reached at all.
+  // From the edges of a gap inwards: an initial guess, and the leaves that can be reached.
   std::vector<std::uint32_t> ring, all;
   std::vector<bool> waiting(leaves_.size(), false);
   for (const Side& side : sides) {
@@ -300,7 +300,7 @@ void DepthGaps::fillByMean(const std::vector<Side>& sides, const ItemLoop& loop)
 
 void DepthGaps::fillFromNearest(const std::vector<Side>& sides) {
   const std::vector<std::size_t> begin = beginsOf(sides);
-  using Entry = std::tuple<double, std::uint32_t, double>;  // how far, leaf, depth
+  using Entry = std::tuple<double, std::uint32_t, double>;  // distance, leaf, depth
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto length = [](const Side& side) { return std::sqrt(squaredLength(side.step)); };
   for (const Side& side : sides)
@@ -316,7 +316,7 @@ void DepthGaps::fillFromNearest(const std::vector<Side>& sides) {
   }
 }
 
-// The plane that fits the depths across a square's sides best, and goes through its own.
+// The plane through a square's own depth that best fits the depths across its sides.
 void DepthGaps::setGradients(const std::vector<Side>& sides) {
   for (std::size_t first = 0; first < sides.size();) {
     Leaf& leaf = leaves_[sides[first].leaf];
@@ -336,7 +336,7 @@ void DepthGaps::setGradients(const std::vector<Side>& sides) {
       xd += weight * x * change;
       yd += weight * y * change;
     }
-    // Across land nothing is known: there it is even.
+    // Nothing is known across land: if all steps are in one direction, depths are constant across it.
     const double trace = xx + yy, determinant = xx * yy - xy * xy;
     if (trace > 0.0 && determinant > 1e-3 * trace * trace)
       leaf.gradient = {(yy * xd - xy * yd) / determinant, (xx * yd - xy * xd) / determinant};
@@ -346,7 +346,7 @@ void DepthGaps::setGradients(const std::vector<Side>& sides) {
   }
 }
 
-// Squares at a shore with a corner in the water.
+// Squares at a shore with little water take the mean of their neighbours.
 void DepthGaps::fillDry(const std::vector<Side>& sides) {
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
@@ -407,7 +407,7 @@ DepthGaps::Range DepthGaps::within(const SizeBox& box) const {
       range.all = false;
       return;
     }
-    // Of what they have in common.
+    // Depths are linear: the corners of the intersection bound them.
     const auto overlap = [](double a, double a_half, double b, double b_half) {
       return std::pair{std::max(a - a_half, b - b_half), std::min(a + a_half, b + b_half)};
     };

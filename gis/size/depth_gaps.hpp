@@ -14,37 +14,38 @@
 
 namespace coastmesh {
 
-// Depths of water for which no raster has any. A quadtree finds it: squares without a depth, the largest of which lie
-// in the middle of a gap and the smallest at its edge, and which are neighbours through water alone: land parts them
-// (if wider than about a five-hundredth of the domain), and gaps over land are none. Each square gets a depth from its
-// neighbours; within it, that changes evenly. A square in part of which depths are known gets their mean. It depends on
-// places alone, not on threads nor on who read the rasters.
+// Depths for water where no raster has any. A gap is covered by squares of a quadtree, the largest in its middle and
+// the smallest at its edge. Squares are neighbours only through water: land separates them if it is wider than about a
+// five-hundredth of the domain, and land has no gaps. Each square gets a depth from its neighbours, and a linear
+// variation within it. A square in which depths are partly known gets their mean. The result depends neither on threads
+// nor on which process reads the rasters.
 class DepthGaps {
  public:
-  // Finds gaps of `known`, which is infinite where there is no depth, otherwise a size in metres: squares at the edge
-  // are not much smaller than that, or than `least_m`. `scale`: plane length over metres at a place.
+  // Finds the gaps of `known`, which is infinite where there is no depth, otherwise a size in metres: squares at an
+  // edge are not much smaller than that, or than `least_m`. `scale`: plane length over metres at a place.
   DepthGaps(const SizeField& known, const DomainMask& mask, const SizeBox& root, double least_m,
             std::function<double(const Point&)> scale, const ItemLoop& loop);
 
-  // Whether there are squares without a depth.
+  // True if there are gaps.
   bool any() const { return gap_leaves_ > 0; }
-  // Fills them: `depth_of` makes depths in metres, above 0, of sizes of `known`, which knows what that of the
-  // constructor did. `fill` is not None.
+  // Fills the gaps. `depth_of` converts sizes of `known` to depths, metres, above 0. `known` has values at the same
+  // places as the constructor's field. REQUIRES: `fill` is not None.
   void fill(const SizeField& known, const std::function<double(double)>& depth_of, GapFill fill, const ItemLoop& loop);
 
-  // About how much water they cover, square metres, with half of the squares at edges; the middle of the largest.
+  // The approximate area of the gaps' water, square metres; squares at edges count half. And the centre of the largest
+  // square.
   double area() const { return area_m2_; }
   Point place() const { return place_; }
 
-  // Metres, where `known` is infinite; not a number where there is no gap, or nothing around it is known either.
+  // The depth at a place where `known` is infinite, metres. NaN if there is no gap, or if no depth is known around it.
   double at(const Point& place) const;
 
-  // The least of them.
+  // The smallest depth, metres; infinite if there is none.
   double least() const { return least_m_; }
 
   struct Range {
     double least_m = std::numeric_limits<double>::infinity(), most_m = 0.0;  // none: infinite
-    bool all = true;                                                         // nothing else is water in the box
+    bool all = true;                                                         // gaps with depths cover all its water
   };
   Range within(const SizeBox& box) const;
 
@@ -56,8 +57,8 @@ class DepthGaps {
   };
   struct Leaf {
     SizeBox box;
-    bool gap = false;  // otherwise known in part
-    bool dry = false;  // hardly any water: it has the depth of its neighbours, and joins none
+    bool gap = false;  // false: depths are partly known
+    bool dry = false;  // hardly any water: takes its neighbours' depth, and does not connect them
     double depth_m = std::numeric_limits<double>::quiet_NaN();
     Point gradient;  // metres per plane length
     double least_m = 0.0, most_m = 0.0;
@@ -84,10 +85,10 @@ class DepthGaps {
 
   SizeBox root_;
   std::function<double(const Point&)> scale_;
-  std::vector<Node> nodes_;   // level after level
+  std::vector<Node> nodes_;   // level by level
   std::vector<Leaf> leaves_;  // of kinds Part and Gap
   std::size_t gap_leaves_ = 0;
-  double least_half_ = 0.0;  // of all leaves
+  double least_half_ = 0.0;  // half side of the smallest square
   double area_m2_ = 0.0;
   double least_m_ = std::numeric_limits<double>::infinity();
   Point place_;

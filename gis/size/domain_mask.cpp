@@ -17,7 +17,7 @@ constexpr int kLeastShareLevels = 7, kMostShareLevels = 10;
 constexpr double kHair = 1e-6;
 constexpr double kCellsPerSegment = 16.0;
 
-// The boundary of what is meshed, labelled, of a graph that says with its holes alone what is inside.
+// The labelled boundary of the meshed area of a graph without labels, whose holes alone define the inside.
 Pslg labelledBoundary(const Pslg& pslg) {
   const TriMesh mesh = constrainedDelaunay(pslg);
   Pslg boundary;
@@ -65,7 +65,7 @@ DomainMask::DomainMask(const Pslg& pslg, const SizeBox& square, const Surface& s
   }
 }
 
-// Where segments cross the lines through the middles of rows, from the left.
+// Crossings of segments with the centre lines of rows, from the left.
 std::vector<std::vector<DomainMask::Crossing>> DomainMask::crossRows(const Pslg& pslg, int level) const {
   const auto n = std::int64_t{1} << level;
   const double per_unit = static_cast<double>(n) / side_;
@@ -80,7 +80,7 @@ std::vector<std::vector<DomainMask::Crossing>> DomainMask::crossRows(const Pslg&
       std::swap(a, b);
       inside = s.left >= 0;
     }
-    // Upwards now, with `inside` to the right.
+    // The segment runs upwards now, and `inside` is to its right.
     for (std::int64_t row = rowOf(a.y); row <= rowOf(b.y); ++row) {
       const double middle = static_cast<double>(row) + 0.5;
       if (!(a.y <= middle && middle < b.y)) continue;
@@ -125,7 +125,7 @@ void DomainMask::measureShares(const Pslg& pslg) {
   }
 }
 
-// Of a cell (i, j) of `cells` in a row, from its four quarters.
+// The share of cell (i, j), in a level with `cells` cells per row, from those of its four quarters.
 float DomainMask::shareOf(const std::array<float, 4>& below, std::size_t i, std::size_t j, std::size_t cells) const {
   if (!surface_.isCurved()) return 0.25F * (below[0] + below[1] + below[2] + below[3]);
   const double half = 0.25 * side_ / static_cast<double>(cells);
@@ -175,8 +175,8 @@ void DomainMask::listBoundary(const Pslg& pslg) {
   for (const Entry& entry : entries) boundary_[next[entry.cell]++] = edges[entry.segment];
 }
 
-// How many places above one another in a cell lie inside, in units of the cells: from the middle of the row at that
-// place, straight up or down.
+// The number of places (x, y) of a cell that are inside, for each of `ys`, in units of cells: counts crossings of the
+// boundary on the way up or down from the row's centre line.
 int DomainMask::holdsOf(double x, const std::array<double, kProbes>& ys, std::size_t cell) const {
   const std::size_t row = cell >> (shares_.size() - 1);
   const double middle = static_cast<double>(row) + 0.5;
@@ -215,7 +215,7 @@ double DomainMask::share(const SizeBox& box) const {
   return static_cast<double>(inside) / (kProbes * kProbes);
 }
 
-// Cells that a segment passes, and cells whose middle lies inside.
+// Cells that a segment passes, and cells inside on their row's centre line.
 std::vector<bool> DomainMask::rasterize(const Pslg& pslg, int level) const {
   const auto n = std::int64_t{1} << level;
   const double per_unit = static_cast<double>(n) / side_;
@@ -253,7 +253,7 @@ std::vector<bool> DomainMask::rasterize(const Pslg& pslg, int level) const {
 
 bool DomainMask::meets(const SizeBox& box) const {
   if (levels_.empty()) return true;
-  // At the level whose cells are as large as the box, or the finest.
+  // At the finest level whose cells are at least as large as the box.
   const int level = std::clamp(static_cast<int>(std::floor(std::log2(side_ / (2.0 * box.half)) + 1e-9)), 0,
                                static_cast<int>(levels_.size()) - 1);
   const auto n = std::int64_t{1} << level;
@@ -261,7 +261,7 @@ bool DomainMask::meets(const SizeBox& box) const {
   const auto cellOf = [&](double x) {
     return std::clamp(static_cast<std::int64_t>(std::floor(x)), std::int64_t{0}, n - 1);
   };
-  // A box that is a cell meets its neighbours in nothing but its boundary.
+  // Slightly smaller, because a box that is a cell shares its boundary with its neighbours.
   const double half = box.half * (1.0 - 1e-9);
   const Point low = per_unit * (box.centre - Point{half, half} - origin_);
   const Point high = per_unit * (box.centre + Point{half, half} - origin_);

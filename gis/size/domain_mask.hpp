@@ -10,16 +10,17 @@
 
 namespace coastmesh {
 
-// Which squares of the plane have anything of a domain in them, to the cells of a grid that is about as fine as the
-// domain's segments are many: what lies outside by less may be taken for inside, never the other way round.
+// The squares of the plane that intersect a domain, at the resolution of a grid whose number of cells is proportional
+// to that of the domain's segments, up to 4096 by 4096. A square that is outside by less than a cell may count as
+// inside, never the reverse.
 class DomainMask {
  public:
-  // Over a square that holds the domain; areas are those on `surface`. Where no segment is labelled nothing lies
-  // outside for `meets`. Throws BadPslg.
+  // `square` contains the domain; areas are measured on `surface`. If no segment is labelled, `meets` is always true.
+  // Throws BadPslg.
   DomainMask(const Pslg& pslg, const SizeBox& square, const Surface& surface = {});
 
   bool meets(const SizeBox& box) const;
-  // How much of a box lies inside, 0 to 1, within a few hundredths. REQUIRES: the box is a cell of a quadtree over the
+  // The share of a box that is inside, 0 to 1, to a few hundredths. REQUIRES: the box is a cell of a quadtree over the
   // square.
   double share(const SizeBox& box) const;
 
@@ -40,11 +41,11 @@ class DomainMask {
   Point origin_;
   double side_ = 1.0;
   Surface surface_;
-  std::vector<std::vector<bool>> levels_;  // of 2^level rows of 2^level cells; empty where all is inside
-  // Of such cells, to a level of their own: how much lies inside.
+  std::vector<std::vector<bool>> levels_;  // 2^level rows of 2^level cells; empty if all is inside
+  // Shares of such cells that are inside, down to a level of their own.
   std::vector<std::vector<float>> shares_;
-  std::vector<std::vector<Crossing>>
-      rows_;  // of the finest of these: where what is inside begins and ends on their middles
+  // For each row of the finest of these: where its centre line enters or leaves the domain.
+  std::vector<std::vector<Crossing>> rows_;
   struct BoundaryPiece {
     Point a, b;
   };

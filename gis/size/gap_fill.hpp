@@ -2,11 +2,11 @@
 
 namespace coastmesh {
 
-// What stands for depths where no raster has one: as nodes get them, see `DepthFill`.
+// Depths where no raster has one, as nodes get them: see `DepthFill`.
 enum class GapFill {
-  Mean,     // a membrane between the depths around
+  Mean,     // a membrane between the depths around the gap
   Nearest,  // the depth that is nearest through water
-  None,     // nothing: only what is around counts, as far as it is graded
+  None,     // none: sizes there follow from those around by gradation
 };
 
 }  // namespace coastmesh

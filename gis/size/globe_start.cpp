@@ -17,20 +17,20 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Distances as shares of the radius.
-constexpr double kFewPlaces = 0.5;    // between places of a lattice that is there for a beginning alone
-constexpr double kLargestRing = 0.9;  // from the place beyond the plane to the corners round it
+// Distances, relative to the radius.
+constexpr double kFewPlaces = 0.5;    // between points of a lattice that is only a beginning
+constexpr double kLargestRing = 0.9;  // from the point at infinity to the ring's corners
 constexpr double kRingForSizes = 0.003;
-// Of the way to the nearest point of the input: the ring and good triangles round it have room.
+// Share of the distance to the nearest input point: leaves room for the ring and good triangles around it.
 constexpr double kShareOfClearance = 0.35;
-// Places of a lattice keep this share of its edges from the input.
+// Lattice points keep this distance from the input, relative to the lattice's edges.
 constexpr double kClearance = 0.6;
-// Under a longest edge the lattice's own have to be shorter than that by what they differ.
+// The lattice's mean edge, relative to a requested longest edge: the lattice's edges differ.
 constexpr double kBelowLongest = 0.87;
-// Lengths down to this share of the longest get the lattice for that.
+// The lattice for the largest size is used where sizes are at least this share of it.
 constexpr double kSameLength = 0.87;
 
-// Along a chord, from the place beyond the plane to the nearest of the input.
+// The chord from the point at infinity to the nearest input point.
 double clearanceOf(const Domain& domain, const Surface& surface) {
   const Point apex = sphereCap(surface, std::vector<Point>{}).apex;
   double nearest = 2.0 * surface.radius();
@@ -51,7 +51,7 @@ void requireNumbers(double length, const Surface& surface) {
   throw InputError(text);
 }
 
-// A lattice without turns is all that there is, where its lengths are.
+// True if the lattice can be the whole mesh: it has no turns, and there is no input.
 bool isAll(const SphereLattice& lattice, const Domain& domain) {
   return lattice.k == 0 && lattice.h > 1 && domain.pslg.points.empty();
 }
@@ -107,7 +107,7 @@ GlobeStart globeStart(const Domain& domain, const SizeOptions& options, const Si
   }
   const std::vector<SpacePoint> places = placesOf(lattice, loop);
   SphereCap of_lattice = sphereCap(surface, ringOf(places, surface));
-  // The ring of the lattice has the best triangles round it, where it is no larger or smaller than wanted.
+  // The lattice's own ring has the best triangles around it. Used if it is not too large, and one size is requested.
   if ((uniform || size == nullptr) && surface.chord(of_lattice.apex, of_lattice.ring.front()) <= largest) {
     start.cap = std::move(of_lattice);
   } else {

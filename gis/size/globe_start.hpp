@@ -12,24 +12,24 @@
 
 namespace coastmesh {
 
-// What the mesh of a whole globe begins with.
+// The beginning of the mesh of a whole globe.
 struct GlobeStart {
-  SphereCap cap;             // round the place that lies beyond all of the plane
+  SphereCap cap;             // around the plane's point at infinity
   std::vector<Point> seeds;  // vertices clear of the input
-  TriMesh lattice;           // in place of seeds, where it is all that there is: see MeshOptions
+  TriMesh lattice;           // instead of seeds, if it is the whole mesh: see MeshOptions
 };
 
-// Whether one length is asked for, everywhere.
+// True if one size is requested everywhere, and nothing else but bounds.
 bool isUniform(const SizeOptions& options);
 
-// A domain that is a whole globe, with a small ring round the place beyond the plane, for maps of sizes to cover. What
-// features hold lies outside, so that borders with the rest are shores. REQUIRES: domain.closed().
+// A domain of a whole globe with a small ring around the plane's point at infinity, which maps of sizes then cover. The
+// areas of features count as outside, so that their borders with the rest are shores. REQUIRES: domain.closed().
 Domain withRing(const Domain& domain, const SizeOptions& options);
 
-// Vertices of a lattice where one length is wanted over many triangles: everywhere, or where the greatest rules. Else
-// few, so that no triangle is as large as a continent and refinement begins with good ones. `size` is null where a
-// longest edge alone, or nothing, is asked for. Throws InputError where lengths ask for more vertices than can be
-// numbered. REQUIRES: domain.closed().
+// Lattice points where one length is requested for many triangles: everywhere, or where the largest size applies.
+// Otherwise a few points, so that no triangle is as large as a continent and refinement begins with good ones. `size`
+// is null if only a longest edge, or nothing, is requested. Throws InputError if the lengths require more vertices than
+// can be numbered. REQUIRES: domain.closed().
 GlobeStart globeStart(const Domain& domain, const SizeOptions& options, const SizeFunction* size,
                       const ItemLoop& loop = inOrder);
 

@@ -9,12 +9,12 @@
 
 namespace coastmesh {
 
-// Reads the lines of all vector layers of `source`, each with its attribute `name`, where there is one, and brings them
-// to `crs`; a source without a CRS is taken to be in it. Throws InputError: unreadable, no lines, no way between the
-// CRS.
+// Reads the lines of all vector layers of `source`, with their attribute `name` if present, and transforms them to
+// `crs`; a source without a CRS is assumed to be in it. Throws InputError: unreadable, no lines, no transformation
+// between the CRS, a place that `crs` does not reach.
 std::vector<ShoreLine> readGuideLines(const std::string& source, const Crs& crs);
 
-// In the plane; without lines that leave what the projection reaches.
+// Projects lines to the plane; drops those that leave the area of the projection.
 std::vector<ShoreLine> projected(const std::vector<ShoreLine>& lines, const Projection& projection);
 
 }  // namespace coastmesh

@@ -27,7 +27,7 @@ Neighbours neighboursIn(const TriMesh& mesh) {
 std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, double gradation,
                               const std::function<double(VertexId)>& measure, const Surface& surface,
                               const ItemLoop& loop) {
-  // Slightly less, since others round the lengths that they measure otherwise.
+  // Slightly less than allowed, because other programs round lengths differently.
   constexpr double kHair = 1.0 - 1e-6;
   std::vector<double> sizes(mesh.points.size()), measures(mesh.points.size());
   forEachByStretches(loop, sizes.size(), [&](std::size_t i) {
@@ -47,7 +47,7 @@ std::vector<double> nodeSizes(const TriMesh& mesh, const SizeFunction& size, dou
         for (std::size_t t = first; t < last; ++t) {
           for (unsigned i = 0; i < 3; ++i) {
             const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
-            if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;  // once of both sides
+            if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;  // each edge once
             VertexId from = mesh.origin(e), to = mesh.target(e);
             if (sizes[to] < sizes[from]) std::swap(from, to);
             if (sizes[from] < sizes[to] && allowed(from, to) < sizes[to]) some.push_back({sizes[from], from});

@@ -20,8 +20,8 @@ std::vector<int> startsBetween(const std::vector<int>& cuts) {
   return starts;
 }
 
-// Along the edges of the files that the raster is put together of: each tile is of one of them; and where pixels become
-// larger or smaller: those of a tile have one size.
+// Cuts along the edges of a mosaic's files, so that each tile is in one file; or where the spacing of pixels changes,
+// so that the pixels of a tile have about one size.
 std::vector<int> cutsOf(const RasterGeometry& raster, std::vector<int> PixelCuts::*of_files,
                         const std::shared_ptr<const UnevenAxis>& uneven) {
   if (raster.mosaic) return (*raster.mosaic).cuts.*of_files;
@@ -44,7 +44,7 @@ RasterFrame::RasterFrame(const RasterGeometry& of, const Crs& input, const Proje
     : raster(of),
       columns(of.columns, cutsOf(of, &PixelCuts::columns, of.uneven_columns)),
       rows(of.rows, cutsOf(of, &PixelCuts::rows, of.uneven_rows)) {
-  // From the working plane to the raster's own coordinates: both CRS, where there are two.
+  // Between the input's CRS and the raster's, if they differ.
   std::optional<CrsMap> map;
   if (!raster.crs.isPlane() && !input.isPlane() && !sameCrs(raster.crs, input))
     map.emplace(toOgr(input), toOgr(raster.crs));
@@ -73,7 +73,7 @@ RasterFrame::RasterFrame(const RasterGeometry& of, const Crs& input, const Proje
       const PixelRect pixels{x, y, columns.start(column + 1) - x, rows.start(row + 1) - y};
       const Point middle{x + 0.5 * pixels.width, y + 0.5 * pixels.height};
       std::array<double, 2> pixel_m{pixelSize(middle, {1.0, 0.0}), pixelSize(middle, {0.0, 1.0})};
-      // Where the working plane does not reach, the domain does not either.
+      // Beyond the working plane there is no domain, so no size is needed.
       if (!(pixel_m[0] > 0.0) || !(pixel_m[1] > 0.0) || !std::isfinite(pixel_m[0] + pixel_m[1])) pixel_m = {};
       places[t] = {pixels, pixel_m};
     }
@@ -81,7 +81,7 @@ RasterFrame::RasterFrame(const RasterGeometry& of, const Crs& input, const Proje
   forStretches(loop, places.size(), place, kWorthAStretch);
 }
 
-// From places all over the box, with some around.
+// From probes all over the box, with a margin.
 Box RasterFrame::pixelsIn(const Box& box) const {
   constexpr int kProbes = 64;
   Box pixels;
@@ -96,7 +96,7 @@ Box RasterFrame::pixelsIn(const Box& box) const {
   return pixels.grownBy(2.0 + std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) / kProbes);
 }
 
-// The tiles that hold these pixels; none where none do.
+// Sets the window to the tiles with these pixels; leaves it empty if there are none.
 void RasterFrame::findWindow(const Box& pixels) {
   if (pixels.empty() || pixels.xmax < 0.0 || pixels.ymax < 0.0) return;
   const auto tileOf = [](const TileAxis& axis, double pixel, int most) {

@@ -16,20 +16,21 @@
 
 namespace coastmesh {
 
-// How the columns of a raster, or its rows, are shared out to tiles.
+// The division of a raster's columns, or of its rows, into tiles.
 class TileAxis {
  public:
-  // Between `cuts`, from 0 to the end, tiles begin anew; empty: there are none.
+  // A new tile begins at each of `cuts`, which run from 0 to the end; empty: there are no cuts.
   TileAxis(int pixels, const std::vector<int>& cuts);
 
   int pixels() const { return pixels_; }
-  // REQUIRES: pixel >= 0. What lies beyond the last pixel is in the last tile, as far as that would go.
+  // REQUIRES: pixel >= 0. Pixels beyond the end belong to the last tile, up to its full length, then to the tile after
+  // it.
   int tileOf(int pixel) const {
     if (starts_.empty()) return pixel / kTile;
     if (pixel < pixels_) return tile_of_[static_cast<std::size_t>(pixel)];
     return static_cast<int>(starts_.size()) - (pixel - starts_.back() < kTile ? 1 : 0);
   }
-  // Its first pixel; of the tile past the last, the end.
+  // The first pixel of a tile; the end for the tile after the last.
   int start(int tile) const {
     if (starts_.empty()) return std::min(tile * kTile, pixels_);
     return tile < static_cast<int>(starts_.size()) ? starts_[static_cast<std::size_t>(tile)] : pixels_;
@@ -38,21 +39,21 @@ class TileAxis {
  private:
   int pixels_;
   std::vector<int> starts_;
-  std::vector<int> tile_of_;  // one a pixel
+  std::vector<int> tile_of_;  // of each pixel
 };
 
-// The part of a raster that sizes are made of, in tiles.
+// The tiles of a raster from which sizes are computed.
 struct RasterFrame {
-  // What `box` of the working plane lies in. `input` is the CRS that `projection` starts from.
+  // The tiles that cover `box` of the working plane. `input` is the CRS that `projection` starts from.
   RasterFrame(const RasterGeometry& of, const Crs& input, const Projection& projection, const Box& box,
               const ItemLoop& loop);
 
   RasterGeometry raster;
   TileAxis columns, rows;
-  std::array<int, 4> window{};    // of the tiles: first column and row, and the ends
-  std::vector<TilePlace> places;  // in rows; pixels without a size lie where the working plane does not reach
+  std::array<int, 4> window{};    // in tiles: first column and row, and the ends
+  std::vector<TilePlace> places;  // row by row; `pixel_m` is 0 beyond the reach of the working plane
 
-  // A place of the working plane.
+  // The pixel at a place of the working plane.
   Point pixelOf(const Point& place) const { return raster.fromEven(to_even_pixel_->at(place)); }
   bool has(int column, int row) const {
     return column >= window[0] && row >= window[1] && column < window[2] && row < window[3];
@@ -63,7 +64,7 @@ struct RasterFrame {
   }
 
  private:
-  // The pixels that a box of the working plane lies in; empty where the raster does not reach.
+  // The pixels that cover a box of the working plane; empty if no place of it has a pixel position.
   Box pixelsIn(const Box& box) const;
   void findWindow(const Box& pixels);
 

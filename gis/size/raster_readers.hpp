@@ -10,10 +10,10 @@
 
 namespace coastmesh {
 
-// Several who read rasters, numbered from 0, the caller. What is made of a raster does not depend on who reads it.
+// Several readers of rasters, numbered from 0, the caller. Results do not depend on which one reads a raster.
 struct RasterReaders {
   PixelReaders pixels;
-  // As `pixels.read` does.
+  // Like `pixels.read`.
   std::function<std::vector<TileAnswer>(std::span<const TileTask> tasks, std::span<const int> who,
                                         const ItemLoop& loop)>
       read;

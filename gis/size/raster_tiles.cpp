@@ -15,14 +15,15 @@ namespace coastmesh {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-// Sizes in a cell of the quadtree are as alike as this, or the cell is no larger than this share of the least.
+// A cell of the quadtree is a leaf if its largest size is at most `kAlike` times the smallest, or its side at most
+// `kFineShare` times that.
 constexpr float kAlike = 1.04F;
 constexpr double kFineShare = 0.5;
-// More surroundings than this, in pixels, are not looked at.
+// Widest margin, pixels; a wider one is an error.
 constexpr int kMostMargin = 200;
 
-// `visit(rect, shift)` for the part of `window` in `within`, whose columns are those of the raster; `shift` is how many
-// columns further the window has them, where the raster goes round the Earth.
+// Calls `visit(rect, shift)` for the parts of `window` in `within`, in columns of the raster. If the raster wraps
+// around the Earth, these columns are `shift` further right in the window.
 template <typename Visit>
 void forEachPart(const PixelRect& window, const PixelRect& within, const RasterGeometry& raster, const Visit& visit) {
   for (int turn = raster.wraps ? -1 : 0; turn <= (raster.wraps ? 1 : 0); ++turn) {
@@ -32,7 +33,7 @@ void forEachPart(const PixelRect& window, const PixelRect& within, const RasterG
   }
 }
 
-// Fills a tile's values with those of pixels, `at(column, row)`.
+// Sets a tile's values to those of pixels, `at(column, row)`.
 template <typename At>
 void fill(RasterTile& tile, const PixelRect& tile_window, const PixelRect& part, const At& at) {
   for (int row = part.y; row < part.bottom(); ++row) {
@@ -50,7 +51,7 @@ void readInto(const RasterBand& band, const PixelRect& part, const PixelRect& ti
   });
 }
 
-// The tile's values with its margin: as far as the raster goes, which is round the Earth where it wraps.
+// Reads a tile's values with its margin, as far as the raster extends: around the Earth if it wraps.
 void readTile(const RasterBand& band, const TileTask& task, const PixelRect& pixels, RasterTile& tile) {
   const RasterGeometry& raster = band.geometry();
   const PixelRect window = pixels.grownBy(tile.margin);
@@ -75,7 +76,7 @@ void readTile(const RasterBand& band, const TileTask& task, const PixelRect& pix
 }
 
 SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
-  // Pyramids of the least, the most, and the mean of what is wanted.
+  // Pyramids of the minimum, the maximum and the mean of the requested sizes.
   struct Level {
     std::vector<float> low, high, sum, count;
   };
@@ -83,7 +84,7 @@ SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
   const auto cellsOf = [](int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); };
   for (auto* of : {&levels[0].high, &levels[0].sum, &levels[0].count}) of->assign(cellsOf(kTile), 0.0F);
   levels[0].low.assign(cellsOf(kTile), kNothing);
-  // Beyond the tile nothing is wanted, but that does not make its last pixels unlike one another.
+  // Beyond the tile nothing is requested, with `high` 0, so that cells at its end can still be uniform.
   for (int y = 0; y < tile.height; ++y) {
     for (int x = 0; x < tile.width; ++x) {
       const float size =

@@ -15,16 +15,16 @@ namespace coastmesh {
 
 inline constexpr int kTile = 256;  // pixels along a side of a tile, at most; a power of two
 
-// The sizes of a tile as a quadtree of `kTile` by `kTile` pixels, of which the tile is the first corner: its cells are
-// as large as sizes in them are alike, or as half of what they ask for. The first is the whole.
+// The sizes of a tile as a quadtree over `kTile` by `kTile` pixels, with the tile in its first corner. Its leaves have
+// nearly equal sizes, or sides of at most half the smallest. Node 0 is the root.
 struct SizeNode {
-  float low = 0.0F, high = 0.0F;  // within it; infinite where nothing is wanted
-  float value = 0.0F;             // where it is a leaf
-  std::uint32_t below = 0;        // the first of four in a row; 0 for a leaf
+  float low = 0.0F, high = 0.0F;  // in the cell; `high` is infinite if any part requests nothing, `low` if all does
+  float value = 0.0F;             // of a leaf
+  std::uint32_t below = 0;        // the first of four consecutive children; 0 for a leaf
 };
 using SizeTile = std::vector<SizeNode>;
 
-// Of a tile of which nothing is wanted.
+// A tile in which nothing is requested.
 SizeTile emptyTile();
 
 struct TilePlace {
@@ -32,36 +32,36 @@ struct TilePlace {
   std::array<double, 2> pixel_m{};  // ground size of a pixel along columns and rows, metres
 };
 
-// Values of pixels that someone else read.
+// Pixel values from another reader.
 struct PixelPatch {
   PixelRect at;
-  std::vector<float> values;  // in rows; NaN where there is none
+  std::vector<float> values;  // row by row; NaN if missing
 };
 
-// What is to be read of one raster, by one reader. It depends on nothing else, and gives the same wherever it is done.
+// A task for one reader of one raster. Its result depends on nothing else, wherever it is executed.
 struct TileTask {
   std::string path;
-  int columns = 0, rows = 0;        // that the raster has
-  std::vector<SizeRule> rules;      // one margin at most is above 0
-  std::vector<TilePlace> tiles;     // to be turned into sizes by each rule
-  std::vector<PixelRect> own;       // what may be read for that; empty: all of it
-  std::vector<PixelPatch> patches;  // the rest, as far as it is looked at
-  std::vector<PixelRect> strips;    // to be given as they are
+  int columns = 0, rows = 0;        // of the raster
+  std::vector<SizeRule> rules;      // at most one has a margin
+  std::vector<TilePlace> tiles;     // to be converted to sizes by each rule
+  std::vector<PixelRect> own;       // pixels that may be read for this; empty: all
+  std::vector<PixelPatch> patches;  // the other pixels that are needed
+  std::vector<PixelRect> strips;    // pixels to be returned unchanged
 };
 
 struct TileAnswer {
-  std::vector<std::vector<SizeTile>> tiles;  // of each rule, in the order of the task's tiles
+  std::vector<std::vector<SizeTile>> tiles;  // for each rule, in the order of the task's tiles
   std::vector<PixelPatch> strips;
   RasterUse use;
 };
 
-// Throws InputError.
+// Executes a task. Throws InputError.
 TileAnswer answerTask(const TileTask& task);
-// By rules of any kind, in place of the task's.
+// The same with these rules instead of the task's.
 TileAnswer answerTask(const TileTask& task, std::span<const TileRule> rules);
 
-// As many pixels round a tile as a rule with that margin looks at, and one; none where it looks at none: files have
-// blocks as large as tiles, and each margin has those round it unpacked once more. Throws InputError.
+// The pixels around a tile that a rule with this margin uses, and one more. 0 without a margin: files have blocks as
+// large as tiles, and any margin unpacks the blocks around it once more. Throws InputError if there are too many.
 int marginOf(const TilePlace& tile, double margin_m, const std::string& file);
 
 }  // namespace coastmesh

@@ -16,7 +16,7 @@ static_assert(kPartStep % kTile == 0, "a tile lies in one part");
 
 using Frames = std::span<const std::shared_ptr<const RasterFrame>>;
 
-// Below this number of pixels sending tasks to others takes as long as reading.
+// Below this number of pixels, sending tasks takes as long as reading.
 constexpr std::uint64_t kWorthReaders = 1 << 20;
 
 // Tiles of one part of a raster, by their numbers in the frame.
@@ -28,7 +28,7 @@ struct PartTiles {
   int margin = 0;  // the largest of its tiles
 };
 
-// What is read of a part at once: a reader's threads share its parts so.
+// Tiles of a part that are read at once: the unit of work of a reader's threads.
 struct Chunk {
   const PartTiles* part = nullptr;
   std::size_t first = 0, last = 0;  // of the part's tiles
@@ -74,12 +74,13 @@ class FrameReading {
   }
 
  private:
-  // For each part: its reader, what that may read of it and its surroundings, and what others have to send.
+  // Pixels that another reader has to send.
   struct Strip {
     int owner = 0;
     std::size_t cell = 0;
     PixelRect at;
   };
+  // For each part: its reader, the pixels of it and its surroundings that this may read, and the strips from others.
   struct Neighbours {
     std::vector<int> owner;
     std::vector<std::vector<PixelRect>> own;
@@ -166,13 +167,13 @@ class FrameReading {
         tiles[r][chunk.part->frame][chunk.part->tiles[k]] = std::move(answer.tiles[r][k - chunk.first]);
   }
 
-  // Calls `visit(cell, rectangle)` for what the tiles of a part look at: of the part, and of those round it.
+  // Calls `visit(cell, rectangle)` for the pixels that the tiles of a part use: in its own cell and in those around it.
   template <typename Visit>
   void forEachSeen(const PartTiles& part, const Visit& visit) const {
     const RasterGeometry& raster = frames_[part.frame]->raster;
     const PixelCuts& cuts = cuts_[part.frame];
     const PixelRect all{0, 0, raster.columns, raster.rows};
-    // Results that depend on how it is cut are read as a whole by each user.
+    // If values depend on the window, each reader reads its margin itself.
     const PixelRect seen = cuts.cell(part.cell).grownBy(raster.is_exact ? part.margin : 0);
     for (int turn = raster.wraps ? -1 : 0; turn <= (raster.wraps ? 1 : 0); ++turn) {
       const PixelRect inside = seen.shifted(turn * raster.columns).in(all);
@@ -186,7 +187,7 @@ class FrameReading {
   }
 
   Neighbours neighboursOf(const RasterReaders& readers) const {
-    std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> pixels;  // of what has an owner
+    std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> pixels;  // of everything with an owner
     for (const PartTiles& part : parts_) {
       pixels[{part.frame, ownedAs(part.frame, part.cell)}] += part.pixels;
       forEachSeen(part, [&](std::size_t cell, const PixelRect&) {
@@ -216,7 +217,7 @@ class FrameReading {
     return found;
   }
 
-  // Has what others need of each part read by its owner; gives the patches of each part.
+  // Has the owners read the strips that other parts need; returns the patches of each part.
   std::vector<std::vector<PixelPatch>> exchange(const Neighbours& neighbours, const RasterReaders& readers,
                                                 const ItemLoop& loop) const {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> task_of;  // frame and cell

@@ -12,13 +12,13 @@
 
 namespace coastmesh {
 
-// Sizes of all tiles of several rasters: by each rule, of each frame, of each of its places. What is read is read once
-// for all rules. Throws InputError.
+// Sizes of all tiles of several rasters, indexed by rule, frame and place. Pixels are read once for all rules. Throws
+// InputError.
 using FrameTiles = std::vector<std::vector<std::vector<SizeTile>>>;
 FrameTiles readFrames(std::span<const std::shared_ptr<const RasterFrame>> frames, std::span<const TileRule> rules,
                       const ItemLoop& loop);
-// The same by several readers, where that is worth it; none where null. No pixel is read by two of them, but for
-// rasters whose files overlap.
+// The same by several readers, if that pays; null: only the caller. No pixel is read by two of them, except in rasters
+// whose files overlap.
 FrameTiles readFrames(std::span<const std::shared_ptr<const RasterFrame>> frames, std::span<const SizeRule> rules,
                       const RasterReaders* readers, const ItemLoop& loop);
 

@@ -4,7 +4,7 @@
 
 namespace coastmesh {
 
-// What a rule says, for tiles.
+// A size rule as a function on tiles.
 TileRule tileRuleOf(const SizeRule& rule);
 
 }  // namespace coastmesh

@@ -14,17 +14,17 @@ namespace coastmesh {
 
 namespace {
 
-// Seen from the circle's centre the two touching places lie further apart than this.
+// The points of contact are further apart than this, seen from the circle's centre.
 const double kCosApart = std::cos(toRadians(110.0));
 constexpr int kMostSteps = 40;
-// From one place to the next along the shore, in radii of the circle there.
+// Spacing of circles along the shore, relative to their radius.
 constexpr double kStep = 0.5;
 constexpr double kMostPlaces = 1e6;  // on one segment
-// From one circle to the next round a cape's point: 1.5 percent wider than the strait at most. Where the shore turns by
-// less, the circles of its segments are as narrow.
+// Angle between circles around a cape's point: they are at most 1.5 percent wider than the strait. Capes that turn by
+// less than `kLeastFan` need none: the circles of their segments are as narrow.
 constexpr double kFanStep = toRadians(20.0);
 constexpr double kLeastFan = toRadians(10.0);
-// Vertices of equilateral triangles with edges of length 1, on an area of 1.
+// Vertices per unit of area, for equilateral triangles with edges of length 1.
 const double kVerticesPerArea = 2.0 / std::sqrt(3.0);
 
 class Shores {
@@ -39,7 +39,7 @@ class Shores {
     tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
   }
 
-  // The place on any segment nearest to x, less far away than `radius`.
+  // The place on the shore that is nearest to x and within `radius`; nullopt if there is none.
   std::optional<Point> nearest(const Point& x, double radius) const {
     double best = radius * radius;
     std::optional<Point> place;
@@ -68,15 +68,16 @@ class Shores {
 
 struct Circle {
   double radius = 0.0;
-  std::optional<Point> other;  // where it touches besides; none where it would be larger than asked
+  std::optional<Point> other;  // the other point of contact; nullopt if the circle would be larger than allowed
 };
 
-// The largest circle that touches the shore at `at` from the side of `normal` and holds nothing: shrunk until it does.
+// The largest empty circle, at most `radius`, that touches the shore at `at` from the side of `normal`: shrunk until no
+// shore is inside.
 Circle shrink(const Shores& shores, const Point& at, const Point& normal, double radius) {
   Circle circle{radius, std::nullopt};
   for (int step = 0; step < kMostSteps; ++step) {
     const Point centre = at + circle.radius * normal;
-    // Less than rounding: the first circle is as large as the domain, and the other shore may be near.
+    // Allows for rounding: the first circle is as large as the domain, and the other shore may be near.
     const double rounding =
         16.0 * std::numeric_limits<double>::epsilon() * (circle.radius + std::max(std::abs(at.x), std::abs(at.y)));
     const std::optional<Point> inside = shores.nearest(centre, circle.radius - rounding);
@@ -100,7 +101,7 @@ struct End {
   bool shore;
 };
 
-// The directions in which water lies before a cape's point: across the segments that meet there, and all between.
+// The directions into the water at a cape's point: the normals of the two segments that meet there, and all between.
 struct Fan {
   VertexId vertex;
   double from, span;  // radians, counter-clockwise
@@ -131,7 +132,7 @@ std::vector<Fan> capesOf(const Pslg& pslg, bool labelled) {
   return fans;
 }
 
-// Finds the circles of a domain's shores, until there are more than allowed.
+// Finds the circles of a domain's shores, up to the limits.
 class ChannelSearch {
  public:
   ChannelSearch(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
@@ -151,7 +152,7 @@ class ChannelSearch {
   ChannelLines run() {
     const bool labelled =
         std::ranges::any_of(pslg_.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
-    // The narrowest places first: they lie before capes.
+    // Capes first: the narrowest places are there.
     for (const Fan& fan : capesOf(pslg_, labelled)) {
       if (isTooMuch()) break;
       roundCape(fan);
@@ -164,7 +165,7 @@ class ChannelSearch {
       whole += distance(a, b) * (labelled ? (s.left >= 0) + (s.right >= 0) : 2);
       if (isTooMuch()) continue;
       const Point d = (1.0 / distance(a, b)) * (b - a);
-      // Water on the left, on the right; where nothing says, on both.
+      // Water on the left, on the right; without labels, on both sides.
       if (!labelled || s.left >= 0) alongSide(a, b, {-d.y, d.x});
       if (!labelled || s.right >= 0) alongSide(b, a, {d.y, -d.x});
     }
@@ -180,15 +181,15 @@ class ChannelSearch {
     return found_.vertices > room_.vertices || static_cast<double>(found_.lines.size()) > room_.lines;
   }
 
-  // What is wider is left out; where the scale changes over a circle only its own says how wide it is.
+  // Wider water is left out. On a sphere twice the radius is allowed, because the scale at the circle's centre decides.
   double largestAt(double local) const {
     return std::min(extent_, (curved_ ? 2.0 : 1.0) * 0.5 * elements_ * most_m_ * local);
   }
 
   double leastStep(double local) const { return kStep * 0.5 * elements_ * least_m_ * local; }
 
-  // The circle at a place of the shore, towards `normal`, where the scale is `local`; `step` says how far it is from
-  // the next one. Returns its radius.
+  // Adds the circle at a place of the shore, towards `normal`, where the scale is `local`; `step(radius)` is the
+  // distance to the next one. Returns its radius.
   template <typename Step>
   double across(const Point& at, const Point& normal, double local, Step&& step) {
     const Circle circle = shrink(shores_, at, normal, largestAt(local));
@@ -200,7 +201,7 @@ class ChannelSearch {
     const double size = std::max(least_m_, 2.0 * circle.radius / scale_there / elements_);
     if (!(cosine < kCosApart && size < most_m_)) return circle.radius;
     found_.lines.push_back({at, *circle.other, size, rate_});
-    // Half of the channel's width along the step to the next place; where that is less, the shore itself.
+    // Half of the channel's width along the step to the next place; at least half of the vertices on the shore itself.
     const double edge = size * scale_there, length = step(circle.radius);
     found_.vertices += std::max(kVerticesPerArea * length * circle.radius / edge / edge, 0.5 * length / edge);
     return circle.radius;
@@ -218,7 +219,7 @@ class ChannelSearch {
     walked_ += std::min(along, length);
   }
 
-  // As water of a sector counts: there is no shore between two circles.
+  // Counts the area of sectors: there is no shore between two circles.
   void roundCape(const Fan& fan) {
     const Point& at = pslg_.points[fan.vertex];
     const double local = scale_(at);

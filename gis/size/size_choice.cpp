@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kVertices = 30'000.0;
 constexpr double kElementsAcross = 20.0;
-// Estimates of vertices are right to half as much; between these bounds the mesh has 10^4 to 10^5.
+// Estimates of vertices are accurate to a factor of about two; between these bounds the mesh has 10^4 to 10^5.
 constexpr double kFewEnough = 50'000.0, kManyEnough = 18'000.0;
 constexpr int kRounds = 8;
-// From the shore to the middle: for a straight shore across the whole a fifth of it does.
+// Largest size over that at the shore; a fifth of this suffices for a straight shore across the domain.
 constexpr double kMostGrowth = 1000.0;
-// Smaller sizes that add no more than this share are of no use.
+// Smaller sizes are of no use if they raise the number of vertices by no more than this factor.
 constexpr double kHardlyMore = 1.05;
 
-// Two digits, as a person would choose.
+// Rounds to two digits, as a person would.
 double rounded(double size) {
   const double unit = std::pow(10.0, std::floor(std::log10(size)) - 1.0);
   return std::round(size / unit) * unit;
@@ -68,7 +68,7 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
       chosen.size_m = most;
     }
     if (vertices > kManyEnough && vertices < kFewEnough) break;
-    // Finer sizes were of no use: a time step, perhaps, allows none.
+    // Finer sizes had no effect, perhaps because the time step does not allow them.
     if (vertices_before < kManyEnough && vertices < kHardlyMore * vertices_before) {
       chosen = before;
       if (!shore_decides) break;
@@ -76,14 +76,14 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
     }
     before = chosen;
     vertices_before = vertices;
-    // They go with the size to the power of -1, along a shore, to -2.
+    // The number of vertices is proportional to a power of the size: between -1, along a shore, and -2.
     const double ratio = vertices / kVertices;
     double size = has_shore ? chosen.shore_m * std::pow(ratio, 0.65) : chosen.size_m * std::sqrt(ratio);
     if (has_shore && size < finest) {
       shore_decides = shore_decides && chosen.shore_m > finest;
       size = finest;
     }
-    // Seas where not the shore, but shallow water has most of them.
+    // Seas where most vertices are in shallow water, not at the shore.
     if (vertices > kFewEnough && size > most / 8.0)
       chosen.depth.wave_elements = std::round(0.6 * chosen.depth.wave_elements);
     if (!has_shore) {

@@ -6,11 +6,11 @@
 
 namespace coastmesh {
 
-// Sizes for users who give none: a size at the shore for which a mesh of 18,000 to 50,000 vertices is expected, 20
-// elements of the largest size across the domain; more across it where the shore is too short for so many, and one
-// size everywhere where there is none. They are rounded, to be written as options. Elements per wavelength become fewer
-// where the shore's size does not decide; the other `options` (time step, gradation) are unchanged. Throws like
-// `makeSizeFunction`.
+// Sizes for users who give none: a size at the shore for which 18,000 to 50,000 vertices are expected, and 20 elements
+// of the largest size across the domain. More across it if the shore is too short for so many vertices, and one size
+// everywhere if there is no shore. Sizes are rounded, to be written as options. Elements per wavelength are reduced if
+// the size at the shore does not determine the number of vertices; the other `options` (time step, gradation) are
+// unchanged. Throws like `makeSizeFunction`.
 SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
                         const ItemLoop& loop);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-// A function of the depth, from a table: there are as many calls as pixels.
+// A tabulated function of the depth: it is evaluated for each pixel.
 class DepthTable {
  public:
   template <typename F>
@@ -32,14 +32,14 @@ class DepthTable {
 
  private:
   static constexpr int kEntries = 2048;
-  static constexpr double kStep = 0.01;  // 2048 of them reach 8e8 times the least depth
+  static constexpr double kStep = 0.01;  // 2048 entries reach 8e8 times the least depth
 
   double least_;
   std::vector<double> values_;
 };
 
-// Depths with the margin, after a mean over rectangles three times, which is nearly a Gaussian's. NaN where nothing is
-// known. `radius`: half their width and height, pixels.
+// Smooths depths, including the margin, by three box filters, which is close to a Gaussian filter. NaN where no depth
+// is known. `radius`: half the box's width and height, pixels.
 void smooth(std::vector<double>& depth, std::size_t width, std::size_t height, std::array<int, 2> radius) {
   std::vector<double> sums, counts;
   const auto pass = [&](std::size_t first, std::size_t step, std::size_t count, int radius_there) {
@@ -92,7 +92,7 @@ void applySlope(const RasterTile& tile, const DepthRules& rules, std::span<float
   const std::size_t width = tile.stride();
   std::vector<double> depth(tile.values.begin(), tile.values.end());
   for (double& d : depth) d = depthOf(d, rules);
-  // Three squares of this half width even out what is shorter than the filter.
+  // Three box filters of this half width remove features shorter than the filter length.
   const auto radius = [&](int axis) {
     return static_cast<int>(std::lround(rules.slope_filter_m / (4.0 * tile.pixel_m[static_cast<std::size_t>(axis)])));
   };
@@ -113,7 +113,7 @@ void applySlope(const RasterTile& tile, const DepthRules& rules, std::span<float
 
 double wavelengthOf(double period_s, double depth_m) {
   const double deep = kGravity * period_s * period_s / (2.0 * std::numbers::pi);
-  // x tanh x = k0 d for x = k d: Newton's method from above both limits.
+  // Solves x tanh x = k0 d for x = k d by Newton's method, from the limit for shallow or for deep water.
   const double k0d = 2.0 * std::numbers::pi * depth_m / deep;
   double x = k0d < 1.0 ? std::sqrt(k0d) * (1.0 + k0d / 6.0) : k0d;
   for (int i = 0; i < 20; ++i) {
@@ -127,7 +127,7 @@ double wavelengthOf(double period_s, double depth_m) {
 
 TileRule depthRule(const DepthRules& rules) {
   TileRule rule;
-  // Three means over squares look one and a half squares far, and slopes one pixel further, without a filter too.
+  // Three box filters reach 1.5 times their width, and slopes one pixel further, also without a filter.
   constexpr double kNext = 1e-3;
   if (rules.slope_elements > 0.0) rule.margin_m = std::max(0.8 * rules.slope_filter_m, kNext);
   const DepthTable waves(rules.least_depth_m, [&](double depth) {
@@ -167,11 +167,11 @@ FilledField::FilledField(std::unique_ptr<SizeField> known, std::shared_ptr<const
     for (const DepthBand& band : rule_.depths.bands) least_ = std::min(least_, band.size_m);
 }
 
-// As the rules of tiles have it.
+// Must agree with `depthRule` and `courantRule`.
 double FilledField::sizeOf(double depth_m) const {
   const DepthRules& rules = rule_.depths;
   const double depth = std::max(depth_m, rules.least_depth_m);
-  // Nodes get their depths along the edges of the mesh: not quite the same.
+  // A margin, because nodes get their depths along the edges of the mesh, which differ slightly.
   constexpr double kMargin = 1.1;
   if (rule_.kind == SizeRule::Kind::Step) return kMargin * longWaveSpeed(depth) * rule_.time_step_s / rule_.courant;
   double size = std::numeric_limits<double>::infinity();
@@ -197,7 +197,7 @@ void FilledField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
     if (std::isfinite(range.high)) continue;
     const DepthGaps::Range depths = gaps_->within(boxes[i]);
     if (!std::isfinite(depths.least_m)) continue;
-    // Sizes grow with the depth, but for those of bands.
+    // Sizes grow with the depth, except those of bands.
     const bool is_gap = depths.all && range.low == std::numeric_limits<double>::infinity();
     range.low = std::min(range.low, sizeOf(depths.least_m));
     double high = sizeOf(depths.most_m);
@@ -205,7 +205,7 @@ void FilledField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
       if (rule_.kind == SizeRule::Kind::Step || band.to_m <= depths.least_m || band.from_m > depths.most_m) continue;
       range.low = std::min(range.low, band.size_m);
       if (band.from_m <= depths.least_m && band.to_m > depths.most_m) continue;
-      high = std::numeric_limits<double>::infinity();  // within it in a part of the box
+      high = std::numeric_limits<double>::infinity();  // the band applies in a part of the box
     }
     if (is_gap) range.high = high;
   }

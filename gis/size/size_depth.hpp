@@ -17,13 +17,13 @@ double wavelengthOf(double period_s, double depth_m);
 // The minimum of the sizes of several rules.
 TileRule depthRule(const DepthRules& rules);
 
-// For a time step: elements smaller than a long wave's travel in `time_step_s`, over `courant`, are too small.
+// The smallest size that a time step allows: the distance that a long wave travels in `time_step_s`, over `courant`.
 TileRule courantRule(double time_step_s, double courant, const DepthRules& rules);
 
-// The depth that a size of `courantRule` stands for, metres: no less than the rules' least.
+// The depth for which `courantRule` gives this size, metres: never less than its rules' `least_depth_m`.
 double depthOfStep(double size_m, double time_step_s, double courant);
 
-// Sizes from depths, those of gaps included, where slopes ask for nothing. `rule` is that of `known`: Depths or Step.
+// Sizes from depths, including those of gaps, where slopes request nothing. `rule` is that of `known`: Depths or Step.
 class FilledField final : public SizeField {
  public:
   FilledField(std::unique_ptr<SizeField> known, std::shared_ptr<const DepthGaps> gaps, const SizeRule& rule);

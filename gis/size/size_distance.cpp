@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Two numbers that are worked on at once: what compilers make of plain loops is one after another, with branches.
+// Two numbers processed at once: compilers turn plain loops into scalar code with branches.
 using Pair = double __attribute__((vector_size(16)));
 constexpr Pair kNoPair = {0.0, 0.0}, kOnePair = {1.0, 1.0};
 
@@ -31,12 +31,12 @@ Pair lessOf(const Pair& a, const Pair& b) { return a < b ? a : b; }
 
 }  // namespace
 
-// Lengths are those of the plane, on a sphere those of chords.
+// Lengths are those of the plane; on a sphere, of chords.
 struct DistanceField::Search {
   Point x;
   double shrink;     // at x
-  double per_metre;  // length on the surface for a metre there, inverted
-  double best;       // a size; where all lines are alike, the square of a length
+  double per_metre;  // metres per length on the surface at x
+  double best;       // a size; if all lines are alike, a squared length
   std::uint32_t nearest = kNone;
 };
 
@@ -108,9 +108,9 @@ void DistanceField::limitRate(double rate) {
     for (double& least : group.rate) least = std::min(least, rate);
 }
 
-// The square of the chord from x to the place on a line at the share t is n(t) / q(t) times the shrink at x. n is the
-// square of the plane's length, q the inverse of the shrink there, both quadratic in t. At one of its derivative's two
-// roots it is the least on the whole line; where that lies beyond the ends, at one of these.
+// The squared chord from x to the place at parameter t of a line is n(t) / q(t) times the shrink at x. n is the squared
+// length in the plane, q the inverse of the shrink at t; both are quadratic in t. The minimum on the whole line is at
+// one of the two roots of the derivative; if that is beyond the ends, the minimum is at one of them.
 double DistanceField::squaredChordTo(const Lines& lines, std::size_t i, const Search& search) const {
   const double k = surface_.curvature;
   const Point start{lines.x[i], lines.y[i]}, along{lines.along_x[i], lines.along_y[i]};
@@ -119,7 +119,7 @@ double DistanceField::squaredChordTo(const Lines& lines, std::size_t i, const Se
   const double q0 = 1.0 + k * squaredLength(start), q1 = k * dot(start, along), q2 = k * n2;
   const double a = n2 * q1 - n1 * q2, b = n2 * q0 - n0 * q2, c = n1 * q0 - n0 * q1;
   const double root = std::sqrt(std::max(b * b - 4.0 * a * c, 0.0));
-  // Where the derivative, a t² + b t + c, rises through 0.
+  // The root where the derivative, a t² + b t + c, changes from negative to positive.
   const double share = b > 0.0 ? -2.0 * c / (b + root) : (root - b) / (2.0 * a);
   const auto at = [&](double t) { return squaredLength(off + t * along) / (q0 + t * (2.0 * q1 + t * q2)); };
   double least = std::min(at(0.0), at(1.0));
@@ -157,7 +157,7 @@ void DistanceField::take(std::uint32_t i, double square, Search& search) const {
   }
 }
 
-// Of a node of the lowest level.
+// Measures the lines of a node of the lowest level.
 template <bool kAlike, bool kCurved>
 void DistanceField::measureAll(std::size_t node, Search& search) const {
   const std::size_t first = node * kFanout, count = std::min(count_ - first, kFanout);
@@ -165,7 +165,7 @@ void DistanceField::measureAll(std::size_t node, Search& search) const {
     for (std::size_t k = 0; k < count; ++k) measure<kAlike, kCurved>(static_cast<std::uint32_t>(first + k), search);
     return;
   }
-  // As `measure` does it.
+  // The same computation as in `measure`.
   const Lines& lines = lines_[node];
   const Pair x = pairOf(search.x.x), y = pairOf(search.x.y);
   std::array<double, kFanout> square;
@@ -197,7 +197,7 @@ void DistanceField::descend(std::size_t level, std::size_t number, Search& searc
   if constexpr (!kAlike)
     for (std::size_t k = 0; k < kFanout; ++k)
       off[k] = group.size_m[k] + group.rate[k] * std::sqrt(off[k]) * search.per_metre;
-  // The most promising first; mostly few are left.
+  // The most promising first; usually few are left.
   std::array<std::uint8_t, kFanout> order;
   std::size_t count = 0;
   for (std::size_t k = 0; k < kFanout; ++k) {
@@ -254,7 +254,7 @@ void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> r
   std::uint32_t nearest = kNone;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const double scale = scale_(boxes[i].centre);
-    // As far as the box reaches, in metres, times the rate.
+    // The largest change of the size within the box: its reach in metres times the rate.
     const double shrinks = shrinkIn(surface_, boxes[i]).high / surface_.shrinkAt(boxes[i].centre);
     const double reach = most_rate_ * std::sqrt(2.0) * boxes[i].half / scale * shrinks * 1.01;
     const double size = sizeAt(boxes[i].centre, scale, most_m_ + reach, nearest);

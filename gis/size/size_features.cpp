@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Sizes inside polygons, their boundaries included by halves: round them another field counts.
+// Sizes inside polygons, whose boundaries are half-open; outside them another field applies.
 class PolygonField final : public SizeField {
  public:
   struct SizedPolygon {
@@ -58,7 +58,7 @@ class PolygonField final : public SizeField {
     }
   }
 
-  // From the edges, which are lines of a `DistanceField` besides.
+  // Outside, sizes grow from the edges, which are also lines of a `DistanceField`.
   bool isGraded() const override { return true; }
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -76,7 +76,7 @@ class PolygonField final : public SizeField {
   }
 
  private:
-  // Even-odd, by the edges that a ray to the right meets.
+  // Even-odd rule: counts the edges that a ray to the right meets.
   bool contains(std::uint32_t p, const Point& x) const {
     bool inside = false;
     trees_[p].visit(Box{x.x, x.y, kInfinity, x.y}, [&](std::uint32_t e) {
@@ -103,12 +103,12 @@ void collectPoints(const OGRGeometry& geometry, std::vector<std::vector<Point>>&
   }
 }
 
-// The attribute's value; none where it is null. Throws where it is no number of at least `least`.
+// The attribute's value; nullopt if it is null. Throws InputError if it is not a number of at least `least`.
 std::optional<double> numberOf(const OGRFeature& feature, int field, double least, const std::string& what) {
   if (field < 0 || !feature.IsFieldSetAndNotNull(field)) return std::nullopt;
   double value = feature.GetFieldAsDouble(field);
   if (feature.GetFieldDefnRef(field)->GetType() == OFTString) {
-    // OGR takes the number that a text begins with: 1 of "1 km".
+    // OGR accepts a text that begins with a number: 1 for "1 km".
     const std::string text = feature.GetFieldAsString(field);
     char* end = nullptr;
     value = CPLStrtod(text.c_str(), &end);
@@ -203,7 +203,7 @@ std::vector<std::unique_ptr<SizeField>> featureFields(const SizedFeatures& featu
     std::vector<Point> plane;
     for (const Point& p : points) {
       plane.push_back(projection.forward(p));
-      // What lies too far from the domain for its projection does not matter to it.
+      // Lines beyond the reach of the domain's projection are too far away to matter.
       if (!std::isfinite(plane.back().x) || !std::isfinite(plane.back().y)) return std::vector<Point>();
     }
     return plane;

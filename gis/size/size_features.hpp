@@ -15,7 +15,7 @@ namespace coastmesh {
 struct SizedFeatures {
   struct Part {
     std::vector<Ring> rings;                // of a polygon, even-odd
-    std::vector<std::vector<Point>> lines;  // a point is a line of one
+    std::vector<std::vector<Point>> lines;  // a point is a line with one point
     double size_m = 0.0;
     double rate = 0.0;
   };

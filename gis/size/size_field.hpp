@@ -17,13 +17,13 @@ class SizeField {
 
   // Sets `sizes[i]` to the size at `places[i]`; consecutive places are usually close to each other.
   virtual void sample(std::span<const Point> places, std::span<double> sizes) const = 0;
-  // Bounds of the sizes within each box, from outside.
+  // Outer bounds of the sizes within each box.
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
-  // No size is smaller anywhere: if another field requests less, this one is not evaluated.
+  // A lower bound of all sizes: if another field requests less, this one is not evaluated.
   virtual double least() const { return 0.0; }
-  // Sizes that grow with a distance grow no faster: they are graded before they are interpolated.
+  // Limits the rate at which sizes grow with distance, so that they are graded before they are interpolated.
   virtual void limitRate(double) {}
-  // Whether all of it grows in this way.
+  // True if all sizes of the field grow in this way.
   virtual bool isGraded() const { return false; }
 };
 

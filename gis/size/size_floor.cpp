@@ -18,14 +18,14 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTolerance = 0.05;            // relative: a square whose sizes differ by less is not steep
-constexpr std::size_t kMostNodes = 4'000'000;  // past that squares are kept as large as they are
+constexpr std::size_t kMostNodes = 4'000'000;  // beyond this squares are not divided
 
 SizeBox childOf(const SizeBox& box, unsigned i) {
   const double half = 0.5 * box.half;
   return {box.centre + Point{(i & 1U) != 0U ? half : -half, (i & 2U) != 0U ? half : -half}, half};
 }
 
-// At least so much, on the surface.
+// A lower bound of the distance of two boxes on the surface.
 double distanceBetween(const Surface& surface, const SizeBox& a, const SizeBox& b) {
   if (surface.isCurved()) {
     const auto reach = [&](const SizeBox& box) { return std::numbers::sqrt2 * box.half * shrinkIn(surface, box).high; };
@@ -69,12 +69,12 @@ void SizeFloor::build(const DomainMask& mask, const ItemLoop& loop) {
     for (std::size_t i = 0; i < level.size(); ++i) {
       const auto& [node, box] = level[i];
       const double low = ranges[i].low, high = ranges[i].high;
-      // Where the field ends is a cliff as well, wherever it lies: what is beyond would be graded down into the domain.
+      // The end of the field is a cliff too, wherever it is: smaller sizes beyond it would be graded into the domain.
       if (high < kInfinity && !mask.meets(box)) continue;
       if (high <= least_m_) continue;
       if (low == kInfinity) continue;                                     // nothing is known
-      if (high < kInfinity && high - low <= kTolerance * high) continue;  // even
-      // The least that is known to lie within stands for what is not.
+      if (high < kInfinity && high - low <= kTolerance * high) continue;  // not steep
+      // In a partly known square, a lower bound of the maximum is used.
       const double most = high < kInfinity ? high : std::max(low, std::isfinite(middles[i]) ? middles[i] : 0.0);
       const double by_its_size = rate_ * 2.0 * box.half * shrinkIn(surface_, box).high / measureAt(box.centre);
       if (by_its_size > kTolerance * most && nodes_.size() + 4 <= kMostNodes) {

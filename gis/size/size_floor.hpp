@@ -12,21 +12,21 @@
 
 namespace coastmesh {
 
-// What no size may fall below, made so that it can be graded: at each place the most of `field` there and, for every
-// other place, of `field` there less `rate` times the distance. Sizes that are nowhere below it stay so when they are
-// graded by no less than that rate. 0 where the field knows nothing and nothing near is steep.
+// A lower bound of sizes, raised so that it can be graded: at each place the maximum, over all places, of `field` less
+// `rate` times the distance. Sizes that are nowhere below it stay so when they are graded by no less than that rate. 0
+// where the field has no value and nothing near is steep.
 //
-// Only where the field changes by more than the rate does this differ from the field: a quadtree keeps these squares,
-// each with the most in it, so that the result is too large by a few hundredths at most, never too small by more.
+// It differs from the field only where the field changes by more than the rate: a quadtree keeps these squares, each
+// with its maximum, so that the result is too large by a few hundredths at most, never too small by more.
 class SizeFloor final : public SizeField {
  public:
-  // Over the square `root`, where `mask` meets it. Values up to `least_m` are ignored: sizes are not smaller anyway.
+  // Covers the square `root` where `mask` meets it. Values up to `least_m` are ignored: sizes are not smaller anyway.
   // `scale` is plane length over metres at a place, `surface` is represented by the plane. `loop` provides threads.
   SizeFloor(std::unique_ptr<SizeField> field, double rate, double least_m, std::function<double(const Point&)> scale,
             const SizeBox& root, const DomainMask& mask, const ItemLoop& loop, const Surface& surface = {});
 
-  // Near the lines of `distances`, in metres times a rate, it is `factor` times as high, and falls to its value
-  // elsewhere with growing distance.
+  // Raises the floor to `factor` times its value on some lines; the increase falls to 0 with growing distance.
+  // `distances` is the distance from the lines, metres times a rate.
   void raiseNear(std::unique_ptr<SizeField> distances, double factor);
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
@@ -36,7 +36,7 @@ class SizeFloor final : public SizeField {
 
  private:
   struct Node {
-    float most = 0.0F;        // metres, of all steep squares in it
+    float most = 0.0F;        // largest of all steep squares in it, metres
     std::uint32_t below = 0;  // the first of four in a row; 0 for a leaf
   };
 
@@ -52,7 +52,7 @@ class SizeFloor final : public SizeField {
   std::function<double(const Point&)> scale_;
   Surface surface_;
   SizeBox root_;
-  std::vector<Node> nodes_;  // level after level
+  std::vector<Node> nodes_;  // level by level
   std::unique_ptr<SizeField> distances_;
   double factor_ = 1.0;
 };

@@ -34,7 +34,7 @@ void RasterField::findLeast() {
   for (const SizeTile& tile : tiles_) least_ = std::min(least_, static_cast<double>(tile.front().low));
 }
 
-// The size at a pixel; infinite beyond what was kept.
+// The size at a pixel; infinite outside the tiles.
 float RasterField::pixel(std::int64_t x, std::int64_t y) const {
   const RasterFrame& frame = *frame_;
   if (frame.raster.wraps) x = (x % frame.raster.columns + frame.raster.columns) % frame.raster.columns;
@@ -56,7 +56,7 @@ void RasterField::sample(std::span<const Point> places, std::span<double> sizes)
     if (tiles_.empty()) continue;
     const Point p = frame_->pixelOf(places[i]);
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    // Half a pixel beyond the last centres, the nearest counts.
+    // Up to half a pixel beyond the last centres, the nearest one is used.
     if (!frame_->raster.wraps && (p.x < 0.0 || p.x > frame_->raster.columns)) continue;
     if (p.y < 0.0 || p.y > frame_->raster.rows) continue;
     const double u = p.x - 0.5, v = p.y - 0.5;
@@ -70,16 +70,16 @@ void RasterField::sample(std::span<const Point> places, std::span<double> sizes)
       weight += share;
     }
     if (weight > 0.0) sizes[i] = sum / weight;
-    // A pixel much smaller than those round it holds as far as it reaches: between centres its own size would hardly be
-    // found.
+    // A size much smaller than those around it applies to its whole pixel: interpolation between centres would almost
+    // lose it.
     const float own = pixel(static_cast<std::int64_t>(std::floor(p.x)), static_cast<std::int64_t>(std::floor(p.y)));
     if (own < kSteepShare * sizes[i]) sizes[i] = own;
   }
 }
 
-// Of what `sample` returns in a box of a few pixels, given in pixels. Between the lines through pixels' centres and
-// along their edges sizes are bilinear or a pixel's own, so that corners tell; the bounds of all pixels near it would
-// be far off where one is much smaller than those round it.
+// Bounds of what `sample` returns in a box of a few pixels, given in pixels. Lines through pixel centres and along
+// pixel edges divide the box into cells where sizes are bilinear or a pixel's own, so that corners bound them. The
+// bounds of all pixels nearby would be much too wide if one size is much smaller than those around it.
 SizeRange RasterField::boundBetween(const Box& pixels) const {
   const RasterGeometry& raster = frame_->raster;
   if (pixels.ymax < 0.0 || pixels.ymin > raster.rows) return {kInfinity, kInfinity};
@@ -150,15 +150,15 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
     if (tiles_.empty()) continue;
     Box pixels;
     bool known = true;
-    // Corners, middles and the centre; what the sides bulge between them is small, and a share of the box is added for
-    // it.
+    // Corners, midpoints of sides and the centre. Between them sides bulge a little, for which a share of the box is
+    // added.
     for (int k = 0; k < 9; ++k) {
       const Point p = frame_->pixelOf(boxes[i].centre + boxes[i].half * Point{k % 3 - 1.0, k / 3 - 1.0});
       known &= std::isfinite(p.x) && std::isfinite(p.y);
       if (known) pixels.add(p);
     }
     const double extent = known ? std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) : 0.0;
-    // A box across the seam of a raster that wraps, or beyond what the projection reaches, may hold anything.
+    // A box across the seam of a raster that wraps, or beyond the reach of the projection, may contain any size.
     if (!known || (raster.wraps && extent > 0.5 * raster.columns)) {
       ranges[i] = {0.0, kInfinity};
       continue;
@@ -219,7 +219,7 @@ double FirstOfFields::least() const {
 void FirstOfFields::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
   std::ranges::fill(ranges, SizeRange{kInfinity, kInfinity});
   std::vector<SizeRange> own(boxes.size());
-  // Up to now nothing wanted; something in a part of the box; all of it known.
+  // The part of a box covered by the fields so far.
   enum class Seen : char { Nothing, Part, All };
   std::vector<Seen> seen(boxes.size(), Seen::Nothing);
   for (const auto& field : fields_) {

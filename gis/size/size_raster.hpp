@@ -18,16 +18,16 @@
 
 namespace coastmesh {
 
-// Sizes from a raster: each tile of pixels is read once, converted to sizes and kept as a quadtree whose cells are as
-// large as sizes in them are alike, or as half the size: memory is proportional to the sizes, not to the raster.
-// Between pixel centres sizes are bilinear, except beside pixels much smaller than their neighbours.
+// Sizes from a raster: each tile of pixels is read once, converted to sizes and kept as a quadtree whose leaves have
+// nearly equal sizes, or sides of at most half the smallest: memory is proportional to the sizes, not to the raster.
+// Between pixel centres sizes are bilinear, except in pixels with much smaller sizes than their neighbours.
 class RasterField final : public SizeField {
  public:
   // For the part of the raster that covers `box` of the working plane. `input` is the input CRS of `projection`. Throws
   // InputError.
   RasterField(const RasterGeometry& raster, const Crs& input, const Projection& projection, const Box& box,
               const TileRule& rule, const ItemLoop& loop);
-  // Of tiles that were read: one for each of the frame's places.
+  // From tiles already read: one for each of the frame's places.
   RasterField(std::shared_ptr<const RasterFrame> frame, std::vector<SizeTile>&& tiles);
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
@@ -42,7 +42,7 @@ class RasterField final : public SizeField {
                const std::array<std::int64_t, 4>& window, SizeRange& range) const;
 
   std::shared_ptr<const RasterFrame> frame_;
-  std::vector<SizeTile> tiles_;  // one a place of the frame
+  std::vector<SizeTile> tiles_;  // of each place of the frame
   double least_ = std::numeric_limits<double>::infinity();
 };
 

@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// A square of pixels to be evaluated, with some of its surroundings.
+// A rectangle of pixels to be evaluated, with some of its surroundings.
 struct RasterTile {
   int width = 0, height = 0;       // pixels, without the margin
   int margin = 0;                  // pixels on each side
@@ -24,7 +24,7 @@ struct RasterTile {
 
 // From values to sizes: `sizes` has one for each pixel, in rows without margin; infinite where nothing is requested.
 struct TileRule {
-  double margin_m = 0.0;  // pixels of surroundings that the rule uses; 0: none
+  double margin_m = 0.0;  // metres of surroundings that the rule uses; 0: none
   std::function<void(const RasterTile& tile, std::span<float> sizes)> sizes;
 };
 
@@ -49,7 +49,7 @@ struct DepthRules {
   bool any() const { return wave_elements > 0.0 || slope_elements > 0.0 || !bands.empty(); }
 };
 
-// A rule as plain values, to be sent to others.
+// A rule as plain values, to be sent to other processes.
 struct SizeRule {
   enum class Kind : unsigned char {
     Raw,     // values are sizes

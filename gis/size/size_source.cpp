@@ -28,7 +28,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// Several fields as one source, in lengths on the surface that the plane stands for.
+// Several fields as one source, in lengths on the surface that the plane represents.
 class ComposedSizes final : public SizeSource {
  public:
   // `measure` is length on the surface over metres.
@@ -36,7 +36,7 @@ class ComposedSizes final : public SizeSource {
                 const ItemLoop& loop)
       : options_(options), measure_(std::move(measure)), mask_(mask), loop_(loop) {}
 
-  // `option` asks for it.
+  // `option` is the one that requests the field.
   void add(std::string option, std::unique_ptr<SizeField> field) {
     fields_.push_back(std::move(field));
     asking_.push_back(std::move(option));
@@ -68,7 +68,7 @@ class ComposedSizes final : public SizeSource {
     });
   }
 
-  // Nothing asks for less, metres.
+  // A lower bound of all requested sizes, metres.
   double leastWanted() const {
     double least = options_.size_m;
     for (const auto& field : fields_) least = std::min(least, field->least());
@@ -78,7 +78,7 @@ class ComposedSizes final : public SizeSource {
   void limitSize(double most_m) { most_m_ = most_m; }
   double share(const SizeBox& box) const override { return mask_.share(box); }
 
-  // What decides on the size at a place.
+  // The option that determines the size at a place.
   std::string optionAt(const Point& place) const {
     double least = options_.size_m, own = 0.0;
     std::string option = "--size";
@@ -148,11 +148,11 @@ class ComposedSizes final : public SizeSource {
   const DomainMask& mask_;
   const ItemLoop& loop_;
   std::vector<std::unique_ptr<SizeField>> fields_;
-  std::vector<std::string> asking_;   // one a field
+  std::vector<std::string> asking_;   // of each field
   std::unique_ptr<SizeField> floor_;  // what the time step allows
 };
 
-// A field for each rule; of several rasters that cover a place the first counts.
+// A field for each rule; where several rasters overlap, the first is used.
 std::vector<std::unique_ptr<SizeField>> rasterFields(const std::vector<RasterGeometry>& rasters,
                                                      const SizeInputs& inputs, const Projection& projection,
                                                      const Box& box, const std::vector<SizeRule>& rules,
@@ -174,9 +174,9 @@ std::vector<std::unique_ptr<SizeField>> rasterFields(const std::vector<RasterGeo
   return by_rule;
 }
 
-// The tree grades lengths on the surface; what is asked for is that lengths on the ground are graded. The gradient of a
-// length h on the ground is that of the surface's length k h, less h times the gradient of the measure k: at most so
-// much. In a plane k is the scale; on a sphere it hardly changes. Infinite h counts as `most_m`.
+// The gradation to be reserved for changes of the measure k. The tree grades lengths k h on the surface, but lengths h
+// on the ground must be graded. k grad h is grad (k h) less h grad k: at most this value. In a plane k is the scale; on
+// a sphere it hardly changes. Infinite h counts as `most_m`.
 double gradationForMeasure(const ComposedSizes& source, const ScaleTable& scales, const SizeBox& square,
                            double most_m) {
   constexpr int kProbes = 64;
@@ -203,7 +203,7 @@ double gradationForMeasure(const ComposedSizes& source, const ScaleTable& scales
   return kBetweenProbes * most;
 }
 
-// How fast a scale changes within the square, at most, as far as probes tell.
+// The largest gradient of the measure within the square, estimated from probes.
 double steepestMeasure(const ScaleTable& scales, const SizeBox& square) {
   constexpr int kProbes = 32;
   const double step = 2.0 * square.half / kProbes;
@@ -217,19 +217,19 @@ double steepestMeasure(const ScaleTable& scales, const SizeBox& square) {
   return most;
 }
 
-// How far it is across a domain on the surface, at most, from what it is in the plane: never further than half round a
+// An upper bound of a domain's extent on the surface, from that in the plane: at most half the circumference of a
 // sphere.
 double reachOn(const Surface& surface, double extent, const SizeBox& square) {
   if (!surface.isCurved()) return extent;
   return std::min(extent * shrinkIn(surface, square).high, std::numbers::pi * surface.radius());
 }
 
-// Edges come out no shorter than this share of the size there, but for few.
+// Few edges are shorter than this share of the size there.
 constexpr double kShortestOfSize = 0.6;
-// Those of a shore that follows the sizes come shorter: beside it sizes are so many times larger.
+// Edges of a shore that follows the sizes are shorter: beside it, the time step requires sizes larger by this factor.
 constexpr double kShoreFloor = 1.4;
 
-// A map of sizes takes about a cell for two vertices; more, where something small lies on few of them.
+// Limits of a map of sizes, which takes about one cell for two vertices; more if few vertices resolve small details.
 constexpr double kCellsPerVertex = 2.0;
 constexpr double kLeastCells = 200'000.0;
 
@@ -242,7 +242,7 @@ std::string askingOfDepths(const DepthRules& rules) {
   return options;
 }
 
-// Sizes from depths; null where none are asked for.
+// Sizes from depths; null if none are requested.
 struct DepthSizes {
   std::unique_ptr<SizeField> asked, step;
   FilledWater filled;
@@ -254,13 +254,13 @@ DepthSizes sizesOfDepths(const SizeOptions& options, const SizeInputs& inputs, c
   DepthSizes sizes;
   const DepthRules& rules = options.depth;
   const bool has_step = options.time_step_s > 0.0;
-  // Slopes of depths that nobody measured ask for nothing. On a whole globe land is meshed as well, without depths of
-  // water.
+  // Slopes request nothing where depths were not measured. On a whole globe land is meshed as well, and has no depths.
   const bool fills = options.gaps != GapFill::None && !domain.closed() &&
                      (has_step || rules.wave_elements > 0.0 || !rules.bands.empty());
   const SizeRule asked{SizeRule::Kind::Depths, rules, 0.0, 0.0};
   const SizeRule step{SizeRule::Kind::Step, rules, options.time_step_s, kShortestOfSize * options.courant};
-  // Nothing asks for less at the edges of gaps; where nothing says how much that is, squares have to end somewhere.
+  // Squares at the edges of gaps need not be smaller than the smallest size; if that is unknown, this share of the root
+  // limits them.
   constexpr double kFinest = 1e-4;
   double least_m = others_least_m, deepest_m = rules.least_depth_m;
   for (const DepthBand& band : rules.bands) {
@@ -269,15 +269,16 @@ DepthSizes sizesOfDepths(const SizeOptions& options, const SizeInputs& inputs, c
   }
   least_m = std::max(
       {std::isfinite(least_m) ? least_m : 0.0, options.least_m, kFinest * 2.0 * root.half / scale(root.centre)});
-  // Whose sizes tell depths, about as fine as elements are: steps that are that long for the wave, or for the bands.
+  // The rule from whose sizes depths are computed. Without a time step, one whose sizes are about as large as elements:
+  // for the wave, or for the bands.
   const double long_step_s =
       rules.wave_elements > 0.0 ? rules.period_s / rules.wave_elements : least_m / longWaveSpeed(deepest_m);
   const SizeRule telling = has_step ? step : SizeRule{SizeRule::Kind::Step, rules, long_step_s, 1.0};
-  // Depths are read once for all that follows from them.
+  // Depths are read once for all rules.
   std::vector<SizeRule> of_depths;
   if (rules.any()) of_depths.push_back(asked);
   if (has_step) of_depths.push_back(step);
-  // Where bands ask for sizes, that there is none may mean a depth beside them.
+  // With bands alone, an infinite size may mean a depth outside them.
   const bool by_parts = fills && !has_step && !(rules.wave_elements > 0.0);
   if (by_parts) of_depths.push_back(telling);
   if (of_depths.empty()) return sizes;
@@ -303,7 +304,7 @@ DepthSizes sizesOfDepths(const SizeOptions& options, const SizeInputs& inputs, c
   return sizes;
 }
 
-// Where in the cell that asks for the most the size is the least.
+// The place with the smallest size in the cell that requires the most vertices.
 VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, const Projection& projection) {
   constexpr int kProbes = 8;
   const SizeBox& box = demand.most_in;
@@ -326,8 +327,8 @@ bool isByShoreAlone(const SizeOptions& options, const SizeInputs& inputs) {
          inputs.rasters.empty() && !options.depth.any() && !(options.time_step_s > 0.0);
 }
 
-// Nothing where the shore alone may ask for more vertices than there is room for, or where the change of scale counts
-// beside the gradation: a map tells.
+// Returns no function if there is no shore, if it alone may require more vertices than there is room for, or if changes
+// of the scale matter beside the gradation: these cases need a map.
 DomainSizes sizesByShore(const SizeOptions& options, const Pslg& shore, const std::shared_ptr<const ScaleTable>& scales,
                          const SizeBox& square, double most_vertices) {
   constexpr double kHardly = 0.05, kJustBelow = 0.99;
@@ -337,7 +338,7 @@ DomainSizes sizesByShore(const SizeOptions& options, const Pslg& shore, const st
   for (const SizedLine& line : lines) length_m += distance(line.a, line.b) / scales->at(midpoint(line.a, line.b));
   const double reach_m = 2.0 * square.half / scales->at(square.centre);
   const double most_m = std::min({options.most_m, options.size_m, options.shore_m + 2.0 * rate * reach_m});
-  // Beside the shore, on as much as it is long: the integral of 2 / (sqrt(3) h²) over the distance from it.
+  // Vertices beside the shore: its length times the integral of 2 / (sqrt(3) h²) over the distance from it.
   const double at_shore = std::clamp(options.shore_m, options.least_m, most_m);
   const double vertices = 2.0 / std::sqrt(3.0) * length_m / at_shore / std::max(rate, at_shore / reach_m);
   if (lines.empty() || !(vertices <= most_vertices) ||
@@ -357,7 +358,7 @@ DomainSizes sizesByShore(const SizeOptions& options, const Pslg& shore, const st
 RaisedShore raisedShore(const std::vector<SizedLine>& shore, const SizeField& floor, double least_m,
                         const std::function<double(const Point&)>& scale) {
   constexpr std::size_t kMostSamples = 2000;
-  constexpr double kMore = 1.1;  // of less there is no word
+  constexpr double kMore = 1.1;  // less is not reported
   const std::size_t step = std::max<std::size_t>(1, shore.size() / kMostSamples);
   std::vector<Point> places;
   for (std::size_t i = 0; i < shore.size(); i += step) places.push_back(midpoint(shore[i].a, shore[i].b));
@@ -453,7 +454,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     source.add("--size-shore", std::make_unique<DistanceField>(std::move(lines), scale, most_m, surface));
   }
   if (options.channel_elements > 0.0) {
-    // What the time step allows may be longer than what channels ask for: then their lines alone count.
+    // The time step may require larger sizes than channels request: then only the number of lines is limited.
     ChannelLines channels =
         channelLines(shore, options.channel_elements, options.gradation, options.least_m, std::min(most_m, reach_m),
                      scale, {options.time_step_s > 0.0 ? kInfinity : most_vertices, most_vertices}, surface);
@@ -485,7 +486,8 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   }
   source.limitRate(options.gradation);
   double for_scale = gradationForMeasure(source, *table, root, reach_m);
-  if (for_scale > 0.5 * options.gradation) {  // elements as large as seas: no larger than leaves half of the gradation
+  // Elements as large as seas: sizes are limited so that half of the gradation is left.
+  if (for_scale > 0.5 * options.gradation) {
     const double most = 0.5 * options.gradation / for_scale * reach_m;
     if (most < options.least_m) {
       throw InputError(
@@ -495,16 +497,17 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     for_scale = 0.5 * options.gradation;
   }
   SizeTreeOptions tree;
-  // What grows with a distance alone is hardly off by as much: its kinks lie where two lines are as near.
+  // Sizes that only grow with distance usually have smaller errors, because their kinks are only where two lines are
+  // equally near.
   constexpr double kRough = 0.1, kRoughOfLines = 0.2, kFineOfLines = 0.1;
   tree.tolerance_graded = accuracy == SizeAccuracy::Rough ? kRoughOfLines : kFineOfLines;
   if (accuracy == SizeAccuracy::Rough) tree.tolerance = kRough;
-  // In a cell so small what is graded differs by less than matters.
+  // Across a cell as small as `finest_graded`, graded sizes vary by about this share.
   constexpr double kNothing = 0.1;
   tree.finest_graded = std::clamp(kNothing / options.gradation, tree.finest, 1.0);
   tree.surface = surface;
   tree.gradation = options.gradation - for_scale;
-  // A little less: what is only just too steep everywhere would have to be flattened everywhere.
+  // Slightly less: sizes that are just too steep everywhere would have to be graded everywhere.
   constexpr double kJustBelow = 0.99;
   source.limitRate(kJustBelow * tree.gradation);
   tree.most_vertices = most_vertices;
@@ -514,8 +517,8 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   VertexDemand demand = demandOf(source, size->demand(), projection);
   demand.map_too_large = !size->isComplete() && !(demand.vertices > most_vertices);
   if (!size->isComplete()) throw TooManyVertices(std::move(demand));
-  // Of the extent: below it coordinates do not tell the corners of good triangles apart. Far out in the plane of a
-  // sphere their steps are larger, and so are the triangles.
+  // Relative to the extent: with smaller sizes, coordinates do not resolve good triangles. Far out in the plane of a
+  // sphere coordinates are coarser, but triangles are larger too.
   constexpr double kLeastSize = 1e-9;
   if (size->least() < kLeastSize * reach) {
     char text[200];

@@ -41,19 +41,19 @@ struct SizeOptions {
   std::vector<std::string> rasters{};     // of sizes, in metres; the first that covers a place is used
   std::vector<std::string> bathymetry{};  // the first that covers a place is used
   DepthRules depth{};
-  GapFill gaps = GapFill::Mean;  // what of them is used where `bathymetry` has none
+  GapFill gaps = GapFill::Mean;  // depths used where `bathymetry` has none
   double time_step_s = 0.0;      // 0: not used
   double courant = 1.0;          // above 0
 
   CoastDetail coast = CoastDetail::Keep;            // Follow: the shore is generalised to the elements beside it
-  FollowOptions follow{};                           // how
+  FollowOptions follow{};                           // options of Follow
   std::vector<std::string> passages{}, barriers{};  // vector files with lines: see `ShoreGuides`
   double passage_elements = 1.0;
-  bool keep_water_given = false;  // otherwise a model's grid keeps what is connected to an open boundary
+  bool keep_water_given = false;  // false: a model's grid keeps the water connected to an open boundary
 
   bool choose = false;  // sizes are chosen for each domain: `chooseSizes`
 
-  // Whether anything other than bounds is requested.
+  // True if anything other than bounds is requested.
   bool any() const {
     return choose || size_m < kNone || shore_m < kNone || channel_elements > 0.0 || !features.empty() ||
            !rasters.empty() || depth.any();
@@ -67,8 +67,8 @@ struct SizeInputs {
   std::vector<ShoreLine> passages, barriers;  // in the input's CRS
   Crs crs;                                    // of the input
   const RasterReaders* readers = nullptr;     // readers of rasters; null: only the caller
-  // The domain's graph without what is going to be open water although its tags do not say so; none if nothing is. May
-  // be empty.
+  // The domain's graph without the parts of its boundary that will be open although their tags do not say so; nullopt
+  // if there are none. The function may be empty.
   std::function<std::optional<Pslg>(const Domain& domain, const SizeOptions& options, const ItemLoop& loop)> shoreOf;
 };
 
@@ -90,7 +90,7 @@ struct FilledWater {
   Point place;           // in the input's CRS
 };
 
-// They require more than there is room for.
+// Sizes require more vertices than there is room for.
 struct TooManyVertices : std::runtime_error {
   explicit TooManyVertices(VertexDemand d);
   VertexDemand demand;
@@ -99,14 +99,14 @@ struct TooManyVertices : std::runtime_error {
 // The smallest size that the options can request, metres; 0 if unknown in advance.
 double leastWanted(const SizeOptions& options, const SizeInputs& inputs);
 
-// The error of sizes between the places where they are evaluated: a few hundredths, or a tenth, which takes half the
-// time and suffices for a coast that follows them. If they grow only with the distance from the shore there is no map
-// for that: each place is evaluated, and the demand is unknown.
+// The error of sizes between the places where they are evaluated: a few hundredths (Fine) or a tenth (Rough), which
+// takes half the time and suffices for a coast that follows the sizes. With Rough, sizes that grow only with the
+// distance from the shore are evaluated at each place, without a map, and the demand is unknown.
 enum class SizeAccuracy { Fine, Rough };
 
-// Of the shore, where `SizeOptions::shore_m` is asked for, what the time step makes larger; metres.
+// The part of the shore where the time step requires larger sizes than `SizeOptions::shore_m` requests; metres.
 struct RaisedShore {
-  double length_m = 0.0, raised_m = 0.0;  // of all of it, and of that; both by samples
+  double length_m = 0.0, raised_m = 0.0;  // of the whole shore, and of this part; both estimated from samples
   double most_m = 0.0;                    // the largest size there
 
   void add(const RaisedShore& other) {
@@ -123,7 +123,7 @@ struct DomainSizes {
   // the shore, in metres on the ground. Otherwise NaN.
   double rate = std::numeric_limits<double>::quiet_NaN(), shore_m = rate;
   FilledWater filled{};
-  bool has_shore = true;  // false: sizes at the shore are asked for in vain
+  bool has_shore = true;  // false: sizes at the shore are requested, but there is none
   RaisedShore raised{};
 };
 

@@ -8,12 +8,12 @@
 
 namespace coastmesh {
 
-// Sizes that only grow with the distance from lines, within bounds: computed for each place, if a map of them would
-// cost more than the places that are evaluated.
+// Sizes that only grow with the distance from lines, within bounds, computed for each place: for use where a map of
+// them would cost more.
 class SizesByDistance final : public SizeFunction {
  public:
-  // Bounds are metres on the ground, and so are the field's sizes; `scales` is that of the plane, which represents no
-  // sphere, within `box`. REQUIRES: least_m <= most_m, finite.
+  // Bounds and the field's sizes are metres on the ground; `scales` is that of the plane, which represents no sphere,
+  // within `box`. REQUIRES: least_m <= most_m, finite.
   SizesByDistance(std::unique_ptr<DistanceField> field, double least_m, double most_m,
                   std::shared_ptr<const ScaleTable> scales, const Box& box);
 
